@@ -1,0 +1,119 @@
+"""What was found while reading, and where: sources, warnings and the error that ends a reading.
+
+A `Diagnostics` is passed in by whoever asked for the reading; there is no global log.
+
+    TrundleError
+    ├── DescriptionError   a file says something nothing sensible can be made of
+    └── UsageError         the request itself is off (a taken port, an unknown name)
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias, TypedDict
+
+Severity: TypeAlias = Literal["error", "warning", "info"]
+_ORDER: dict[str, int] = {"error": 0, "warning": 1, "info": 2}
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A place in a text: the file as the user named it and the line, counted from 1."""
+
+    file: str
+    line: int | None = None
+
+    def __str__(self) -> str:
+        return self.file if self.line is None else f"{self.file}:{self.line}"
+
+
+class TrundleError(Exception):
+    """Everything Trundle raises for a reason a user can mend."""
+
+
+class UsageError(TrundleError):
+    """The request cannot be met as it was put."""
+
+
+class DescriptionError(TrundleError):
+    """A file, or a place in it, of which nothing sensible can be made."""
+
+    def __init__(self, at: Source, what: str) -> None:
+        super().__init__(f"{at}: error: {what}")
+        self.at = at
+        self.what = what
+
+
+class DiagnosticJson(TypedDict):
+    """One finding as `--json` prints it."""
+
+    severity: str
+    file: str
+    line: int | None
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding."""
+
+    severity: Severity
+    at: Source
+    what: str
+
+    def __str__(self) -> str:
+        return f"{self.at}: {self.severity}: {self.what}"
+
+    def as_json(self) -> DiagnosticJson:
+        return {"severity": self.severity, "file": self.at.file, "line": self.at.line, "message": self.what}
+
+
+@dataclass(slots=True)
+class Diagnostics:
+    """Collects findings in the order they were made, each once."""
+
+    strict: bool = False
+    """Make every warning an error: the reading ends at the first one."""
+    findings: list[Diagnostic] = field(default_factory=list[Diagnostic])
+    _seen: set[Diagnostic] = field(default_factory=set[Diagnostic], repr=False)
+
+    def warn(self, at: Source, what: str) -> None:
+        """Name something wrong or unsupported; the sentence states what is done instead.
+
+        Raises:
+            DescriptionError: in strict mode.
+        """
+        if self.strict:
+            raise DescriptionError(at, what)
+        self._add(Diagnostic("warning", at, what))
+
+    def info(self, at: Source, what: str) -> None:
+        """Name a rule that fired and that a reader of the file may not expect."""
+        self._add(Diagnostic("info", at, what))
+
+    def error(self, error: DescriptionError) -> None:
+        """Keep the error that ended a reading beside what led up to it."""
+        self._add(Diagnostic("error", error.at, error.what))
+
+    def extend(self, findings: Iterable[Diagnostic]) -> None:
+        """Take over another collection's findings."""
+        for finding in findings:
+            self._add(finding)
+
+    def _add(self, finding: Diagnostic) -> None:
+        if finding not in self._seen:
+            self._seen.add(finding)
+            self.findings.append(finding)
+
+    @property
+    def warnings(self) -> list[str]:
+        """The warnings as printed."""
+        return [str(f) for f in self.findings if f.severity == "warning"]
+
+    @property
+    def errors(self) -> list[str]:
+        """The errors as printed."""
+        return [str(f) for f in self.findings if f.severity == "error"]
+
+    def worst_first(self) -> list[Diagnostic]:
+        """Errors, then warnings, then notes; each group in the order found."""
+        return sorted(self.findings, key=lambda f: _ORDER[f.severity])

@@ -1,0 +1,63 @@
+"""Where the links of a model are for given joint positions: pure geometry, no engine."""
+
+import math
+from collections.abc import Mapping
+
+from trundle.spatial import Pose, Vector3
+
+from .joint import Joint, JointType
+from .world import Model
+
+
+def model_from_joint(model: Model, joint: Joint) -> Pose:
+    """The joint's frame in the model frame with every joint at zero."""
+    return model.link(joint.child).model_from_link @ joint.child_from_joint
+
+
+def joint_motion(joint: Joint, position: float) -> Pose:
+    """How far a single-axis joint at `position` [rad or m] moves its child, about the model's origin axes.
+
+    The pose is a motion in axes parallel to the model frame, with the joint's anchor as origin.
+    """
+    if joint.axis is None:
+        return Pose()
+    x, y, z = joint.axis.direction
+    if joint.type is JointType.PRISMATIC:
+        return Pose((x * position, y * position, z * position))
+    half = position / 2
+    s = math.sin(half)
+    return Pose(quaternion=(math.cos(half), x * s, y * s, z * s))
+
+
+def model_from_links(model: Model, positions: Mapping[str, float]) -> dict[str, Pose]:
+    """Link poses in the model frame for the joint positions given [rad or m]; joints not named are at zero.
+
+    The first link that is nobody's child stays where it was written.
+    """
+    at_zero = {link.name: link.model_from_link for link in model.links}
+    parent_joint = {joint.child: joint for joint in reversed(model.joints)}
+    found: dict[str, Pose] = {}
+
+    def place(name: str, above: frozenset[str]) -> Pose:
+        if name in found:
+            return found[name]
+        joint = parent_joint.get(name)
+        if joint is None or joint.parent not in at_zero or joint.parent in above:
+            found[name] = at_zero[name]
+            return found[name]
+        parent = place(joint.parent, above | {name})
+        anchor = model_from_joint(model, joint).position
+        motion = joint_motion(joint, positions.get(joint.name, 0.0))
+        moved = _about(anchor, motion) @ at_zero[name]
+        found[name] = parent @ at_zero[joint.parent].inverse() @ moved
+        return found[name]
+
+    for link in model.links:
+        place(link.name, frozenset())
+    return found
+
+
+def _about(anchor: Vector3, motion: Pose) -> Pose:
+    """The same motion, taken about `anchor` instead of the origin."""
+    x, y, z = anchor
+    return Pose(anchor) @ motion @ Pose((-x, -y, -z))

@@ -1,0 +1,57 @@
+"""A rigid body with what is seen, touched and mounted on it."""
+
+from dataclasses import dataclass
+
+from trundle.diagnostics import Source
+from trundle.spatial import Pose
+
+from .geometry import Geometry
+from .inertial import Inertial
+from .material import GREY, Material
+from .sensor import Sensor
+from .surface import Surface
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Visual:
+    """A shape that is seen."""
+
+    name: str
+    geometry: Geometry
+    at: Source
+    link_from_visual: Pose = Pose()
+    material: Material = GREY
+    transparency: float = 0.0
+    """0 opaque to 1 invisible."""
+    cast_shadows: bool = True
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Collision:
+    """A shape that is touched."""
+
+    name: str
+    geometry: Geometry
+    at: Source
+    link_from_collision: Pose = Pose()
+    surface: Surface = Surface()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Link:
+    """One rigid body of a model."""
+
+    name: str
+    at: Source
+    model_from_link: Pose = Pose()
+    """At rest, as written."""
+    inertial: Inertial = Inertial()
+    visuals: tuple[Visual, ...] = ()
+    collisions: tuple[Collision, ...] = ()
+    sensors: tuple[Sensor, ...] = ()
+    gravity: bool = True
+    self_collide: bool | None = None
+    """None: as the model says."""
+    kinematic: bool = False
+    linear_decay: float = 0.0
+    angular_decay: float = 0.0

@@ -1,0 +1,21 @@
+"""How a visual looks."""
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+Rgba: TypeAlias = tuple[float, float, float, float]
+"""Red, green, blue, opacity, each 0 to 1."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Material:
+    """Colours of the Phong model that Gazebo draws with."""
+
+    ambient: Rgba = (0.3, 0.3, 0.3, 1.0)
+    diffuse: Rgba = (0.7, 0.7, 0.7, 1.0)
+    specular: Rgba = (0.01, 0.01, 0.01, 1.0)
+    emissive: Rgba = (0.0, 0.0, 0.0, 1.0)
+
+
+GREY = Material()
+"""`Gazebo/Grey`, what Gazebo gives a visual without a material."""

@@ -1,0 +1,31 @@
+"""What a collision is like to touch."""
+
+from dataclasses import dataclass
+
+from trundle.spatial import ZERO, Vector3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Surface:
+    """Contact parameters of one collision, in SDF's terms; defaults are SDF 1.4's and later."""
+
+    mu: float = 1.0
+    """Coulomb friction along the first friction direction; < 0 stands for infinite."""
+    mu2: float = 1.0
+    """Along the second."""
+    fdir1: Vector3 = ZERO
+    """First friction direction in the collision's frame; zero: left to the engine."""
+    kp: float = 1e12
+    """Contact stiffness [N/m]."""
+    kd: float = 1.0
+    """Contact damping [N·s/m]."""
+    min_depth: float = 0.0
+    """Depth before a correcting impulse [m]."""
+    max_vel: float = 0.01
+    """Largest correcting velocity [m/s]."""
+    restitution: float = 0.0
+    """0 to 1; applied when the approach is faster than `bounce_threshold`."""
+    bounce_threshold: float = 100000.0
+    """[m/s]"""
+    collide_bitmask: int = 0xFFFF
+    collide_without_contact: bool = False

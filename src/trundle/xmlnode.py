@@ -1,0 +1,252 @@
+"""An XML tree that knows file and line, and which children and attributes nobody read.
+
+The only door to lxml. Entities are never fetched and never expanded without bound, so a hostile file costs
+no more than its own size.
+"""
+
+import math
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from lxml import etree
+
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.spatial import Pose, Vector3
+
+_MAX_BYTES = 64 * 1024 * 1024
+_INTEGER = re.compile(r"[+-]?\d+")
+_POSITION = re.compile(r", line \d+, column \d+$")
+"""libxml2 repeats the place, which every message of ours starts with."""
+
+
+def parse_xml(text: str | bytes, *, name: str) -> "XmlNode":
+    """Parse a document; `name` is how messages call it.
+
+    Raises:
+        DescriptionError: not XML, empty, or larger or deeper than any honest file.
+    """
+    data = text.encode() if isinstance(text, str) else text
+    if len(data) > _MAX_BYTES:
+        raise DescriptionError(Source(name), f"{len(data)} bytes; the largest file read is {_MAX_BYTES}")
+    if not data.strip():
+        raise DescriptionError(Source(name, 1), "the file is empty")
+    # Tutorials and xacro templates often carry blank lines before <?xml …?>, which Gazebo and ROS accept.
+    blank_lines = data[: len(data) - len(data.lstrip())].count(b"\n")
+    parser = etree.XMLParser(
+        resolve_entities="internal",  # pyright: ignore[reportArgumentType]  # lxml-stubs knows only bool
+        no_network=True,
+        load_dtd=False,
+        huge_tree=False,
+        remove_comments=True,
+        remove_pis=True,
+    )
+    try:
+        root = etree.fromstring(data.lstrip(), parser)
+    except etree.XMLSyntaxError as error:
+        line = (error.lineno or 1) + blank_lines
+        what = _POSITION.sub("", error.msg or "no element found")
+        raise DescriptionError(Source(name, line), f"not well-formed XML: {what}") from None
+    except ValueError as error:  # "Unicode strings with encoding declaration": only bytes come here
+        raise DescriptionError(Source(name, 1), f"not readable as XML: {error}") from None
+    return XmlNode(root, file=name, first_line=blank_lines)
+
+
+def read_xml(path: Path) -> "XmlNode":
+    """Parse a file.
+
+    Raises:
+        DescriptionError: as `parse_xml`, or the file cannot be read.
+    """
+    try:
+        if path.stat().st_size > _MAX_BYTES:
+            raise DescriptionError(Source(str(path)), f"larger than {_MAX_BYTES} bytes, the largest file read")
+        data = path.read_bytes()
+    except FileNotFoundError:
+        raise DescriptionError(Source(str(path)), "no such file") from None
+    except IsADirectoryError:
+        raise DescriptionError(Source(str(path)), "is a folder, not a file") from None
+    except OSError as error:
+        raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}") from None
+    return parse_xml(data, name=str(path))
+
+
+class XmlNode:
+    """One element. Whatever is asked for counts as read; `report_unread` names the rest."""
+
+    __slots__ = ("_children", "_element", "_file", "_first_line", "_read_attributes", "_read_tags")
+
+    def __init__(self, element: etree._Element, *, file: str, first_line: int = 0) -> None:  # pyright: ignore[reportPrivateUsage]
+        self._element = element
+        self._file = file
+        self._first_line = first_line
+        self._read_tags: set[str] = set()
+        self._read_attributes: set[str] = set()
+        self._children: list[XmlNode] | None = None
+
+    @property
+    def tag(self) -> str:
+        """The element's name as written, prefix included."""
+        tag = str(self._element.tag)
+        if not tag.startswith("{"):
+            return tag
+        local = tag.rpartition("}")[2]
+        return f"{self._element.prefix}:{local}" if self._element.prefix else local
+
+    @property
+    def at(self) -> Source:
+        """Where the element starts."""
+        line: int | None = self._element.sourceline
+        return Source(self._file, None if line is None else line + self._first_line)
+
+    @property
+    def text(self) -> str:
+        """The element's own text, stripped."""
+        return (self._element.text or "").strip()
+
+    @property
+    def children(self) -> list["XmlNode"]:
+        """All child elements, in file order; asking for them does not mark them as read."""
+        if self._children is None:
+            self._children = [XmlNode(e, file=self._file, first_line=self._first_line) for e in self._element]
+        return self._children
+
+    def all(self, tag: str) -> list["XmlNode"]:
+        """The children of that name."""
+        self._read_tags.add(tag)
+        return [child for child in self.children if child.tag == tag]
+
+    def find(self, tag: str) -> "XmlNode | None":
+        """The first child of that name, or None."""
+        self._read_tags.add(tag)
+        return next((child for child in self.children if child.tag == tag), None)
+
+    def attribute(self, name: str) -> str | None:
+        """An attribute's value as written, or None."""
+        self._read_attributes.add(name)
+        value = self._element.get(name)
+        return None if value is None else str(value)
+
+    def attributes(self) -> dict[str, str]:
+        """Every attribute as written; all count as read."""
+        items = {str(k): str(v) for k, v in self._element.attrib.items()}
+        self._read_attributes.update(items)
+        return items
+
+    def required_attribute(self, name: str) -> str:
+        """An attribute's value.
+
+        Raises:
+            DescriptionError: absent or empty.
+        """
+        value = self.attribute(name)
+        if not value:
+            raise DescriptionError(self.at, f"<{self.tag}> needs the attribute {name!r}")
+        return value
+
+    def string(self, tag: str, *, default: str = "") -> str:
+        """A child's text, or the default where the child is absent."""
+        child = self.find(tag)
+        return default if child is None else child.text
+
+    def number(self, tag: str, *, default: float, report: Diagnostics) -> float:
+        """A child's number; an unreadable one is named and the default taken."""
+        child = self.find(tag)
+        return default if child is None else child.as_number(default=default, report=report)
+
+    def flag(self, tag: str, *, default: bool, report: Diagnostics) -> bool:
+        """A child's truth: true, false, 1 or 0."""
+        child = self.find(tag)
+        return default if child is None else child.as_flag(default=default, report=report)
+
+    def integer(self, tag: str, *, default: int, report: Diagnostics) -> int:
+        """A child's whole number; an unreadable one is named and the default taken."""
+        child = self.find(tag)
+        if child is None:
+            return default
+        if _INTEGER.fullmatch(child.text):
+            return int(child.text)
+        value = child.as_number(default=float(default), report=report)
+        return int(value)
+
+    def vector(self, tag: str, *, default: Vector3, report: Diagnostics) -> Vector3:
+        """A child's three numbers."""
+        child = self.find(tag)
+        if child is None:
+            return default
+        values = child.as_numbers(3, report=report)
+        return default if values is None else (values[0], values[1], values[2])
+
+    def as_number(self, *, default: float, report: Diagnostics) -> float:
+        """This element's text as one finite number."""
+        values = self.as_numbers(1, report=report, fallback=f"{default:g} is used")
+        return default if values is None else values[0]
+
+    def as_flag(self, *, default: bool, report: Diagnostics) -> bool:
+        """This element's text as a truth value."""
+        text = self.text.lower()
+        if text in ("true", "1"):
+            return True
+        if text in ("false", "0"):
+            return False
+        # libsdformat before 15 takes every other text for false.
+        report.warn(self.at, f"<{self.tag}>: {self.text!r} is neither true nor false; read as {str(default).lower()}")
+        return default
+
+    def as_numbers(
+        self, count: int, *, report: Diagnostics, fallback: str = "the default is used"
+    ) -> list[float] | None:
+        """This element's text as exactly so many finite numbers, or None after a warning."""
+        values = parse_numbers(self.text)
+        if values is None or len(values) != count:
+            wanted = "one number" if count == 1 else f"{count} numbers"
+            report.warn(self.at, f"<{self.tag}> wants {wanted}, got {_shorten(self.text)}; {fallback}")
+            return None
+        if not all(map(math.isfinite, values)):
+            report.warn(self.at, f"<{self.tag}>: {_shorten(self.text)} is not finite; {fallback}")
+            return None
+        return values
+
+    def as_pose(self, *, report: Diagnostics) -> Pose:
+        """This element's text as x y z roll pitch yaw [m, rad]; empty text is the identity."""
+        if not self.text:
+            return Pose()
+        values = self.as_numbers(6, report=report, fallback="the identity is used")
+        return Pose() if values is None else Pose.from_rpy(*values)
+
+    def xml(self) -> str:
+        """The element written out again, children included."""
+        return etree.tostring(self._element, encoding="unicode", with_tail=False)
+
+    def mark_all_read(self) -> None:
+        """Count everything below as read: for what is kept verbatim, such as a plugin's parameters."""
+        self._read_tags.update(child.tag for child in self.children)
+        self.attributes()
+        for child in self.children:
+            child.mark_all_read()
+
+    def unread(self) -> Iterator["XmlNode"]:
+        """The children nobody asked for."""
+        return (child for child in self.children if child.tag not in self._read_tags)
+
+    def report_unread(self, report: Diagnostics) -> None:
+        """Name each child and attribute of this element that nobody read, once per tag."""
+        named: set[str] = set()
+        for child in self.unread():
+            if child.tag not in named:
+                named.add(child.tag)
+                report.warn(child.at, f"<{child.tag}> in <{self.tag}> is not supported; it is ignored")
+        for name in sorted(set(map(str, self._element.attrib)) - self._read_attributes):
+            report.warn(self.at, f"attribute {name!r} of <{self.tag}> is not supported; it is ignored")
+
+
+def parse_numbers(text: str) -> list[float] | None:
+    """Numbers separated by white space, or None where one of them is not a number."""
+    try:
+        return [float(word) for word in text.split()]
+    except ValueError:
+        return None
+
+
+def _shorten(text: str) -> str:
+    return repr(text if len(text) <= 40 else text[:37] + "...")
