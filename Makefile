@@ -1,0 +1,56 @@
+# The only interface for developers: every target makes its own .venv and needs python3 and make.
+
+PYTHON ?= python3
+VENV   := .venv
+BIN    := $(VENV)/bin
+READY  := $(VENV)/.ready
+
+.PHONY: demo test test-all check format bench wheel system clean help
+
+help:  ## this list
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /make \1\t/' | expand -t 18
+
+$(READY): pyproject.toml constraints.txt
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Trundle needs Python 3.11 or newer; PYTHON=python3.12 make … names another")'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
+	@touch $@
+
+demo: $(READY)  ## the RP2W telepresence robot, in the browser (HEADLESS=1: 10 s without)
+	$(BIN)/trundle run examples/rp2w $(if $(HEADLESS),--headless --duration 10 --speed max)
+
+test: $(READY)  ## the tests of every day, with what this machine has
+	$(BIN)/python -m pytest -n 2 -m "not slow"
+
+test-all: $(READY)  ## everything
+	$(BIN)/python -m pytest -n 2
+
+check: $(READY)  ## lint, types, layers
+	$(BIN)/ruff check src tests bench examples
+	$(BIN)/ruff format --check src tests bench examples
+	$(BIN)/pyright
+	$(BIN)/lint-imports
+
+format: $(READY)  ## rewrite the code in house style
+	$(BIN)/ruff check --fix src tests bench examples
+	$(BIN)/ruff format src tests bench examples
+
+bench: $(READY)  ## figures, as ratios against a peer in the same run
+	$(BIN)/python -m bench
+
+wheel: $(READY)  ## a wheel in dist/
+	$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir dist .
+
+# Debian's own ROS 1 and browser: what the fullest tests drive. They live in /usr, not in .venv.
+DEBIAN := chromium python3-rospy python3-rostopic python3-rosnode python3-rosparam python3-rosservice \
+          python3-rosmsg python3-rosgraph python3-rosmaster python3-std-msgs python3-geometry-msgs python3-nav-msgs \
+          python3-sensor-msgs python3-tf2-msgs python3-diagnostic-msgs python3-std-srvs rviz xvfb
+
+system:  ## what the fullest tests use, from Debian's packages
+	@if command -v apt-get >/dev/null; then \
+	  SUDO=$$([ "$$(id -u)" = 0 ] || echo sudo); \
+	  $$SUDO apt-get update -qq && $$SUDO env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends $(DEBIAN); \
+	else echo "make system knows Debian and Ubuntu only; make test skips what is not installed"; fi
+
+clean:  ## remove what make made
+	rm -rf $(VENV) dist build .pytest_cache .ruff_cache .import_linter_cache .hypothesis

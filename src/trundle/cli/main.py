@@ -1,0 +1,125 @@
+"""Finds the command, reads its arguments and turns what went wrong into one sentence and an exit code.
+
+A command is a module `trundle.cli.<name>`: the first line of its docstring is its help, `EXAMPLES` opens
+`--help`, `configure(parser)` declares the arguments and `main(args)` does the work and returns the exit code.
+"""
+
+import argparse
+import importlib
+import os
+import sys
+from collections.abc import Callable, Sequence
+from typing import Protocol, cast
+
+from trundle import __version__
+from trundle.diagnostics import TrundleError
+
+COMMANDS: dict[str, str] = {
+    "run": "simulate a robot or a world",
+    "launch": "start a ROS 1 launch file",
+    "view": "show a running ROS graph in the browser, as rviz does",
+    "check": "list what is wrong or not supported in a file",
+    "render": "make a picture of a robot or a world",
+    "xacro": "expand a xacro file",
+    "core": "run the ROS master, parameter server and rosout",
+    "topic": "list, print, measure and publish topics",
+    "node": "list, describe and ping nodes",
+    "param": "read and write parameters",
+}
+"""Name and one line of help; the order of `trundle --help`."""
+
+EXIT_OK, EXIT_INPUT, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
+
+
+class Command(Protocol):
+    """What a command's module holds."""
+
+    EXAMPLES: str
+    configure: Callable[[argparse.ArgumentParser], None]
+    main: Callable[[argparse.Namespace], int]
+
+
+class _Formatter(argparse.RawDescriptionHelpFormatter):
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog, max_help_position=30, width=100)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code: 0 success, 1 bad input, 2 wrong usage, 130 on Ctrl-C."""
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    if "_ARGCOMPLETE" in os.environ:
+        _complete()
+    if not arguments or arguments[0] in ("-h", "--help", "help"):
+        print(_overview())
+        return EXIT_OK if arguments else EXIT_USAGE
+    if arguments[0] == "--version":
+        print(f"trundle {__version__}")
+        return EXIT_OK
+    name = arguments[0]
+    if name not in COMMANDS:
+        print(f"trundle: no command {name!r}; commands: {', '.join(COMMANDS)}", file=sys.stderr)
+        return EXIT_USAGE
+    parser = _parser(name)
+    try:
+        parsed = parser.parse_args(arguments[1:])
+    except SystemExit as stop:  # argparse's own way to end: 0 after --help, 2 for wrong usage
+        return int(stop.code or 0)
+    try:
+        return _command(name).main(parsed)
+    except TrundleError as error:
+        print(error if _names_a_place(str(error)) else f"trundle {name}: error: {error}", file=sys.stderr)
+        return EXIT_INPUT
+    except BrokenPipeError:  # `trundle topic echo … | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return EXIT_OK
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
+
+
+def _names_a_place(message: str) -> bool:
+    return ": error: " in message
+
+
+def _command(name: str) -> Command:
+    return cast(Command, importlib.import_module(f"trundle.cli.{name}"))
+
+
+def _parser(name: str, parser: argparse.ArgumentParser | None = None) -> argparse.ArgumentParser:
+    command = _command(name)
+    summary = (command.__doc__ or "").partition("\n")[0]
+    parser = parser or argparse.ArgumentParser(prog=f"trundle {name}", formatter_class=_Formatter)
+    parser.description = f"examples:\n{command.EXAMPLES.strip(chr(10))}\n\n{summary}"
+    command.configure(parser)
+    return parser
+
+
+def _overview() -> str:
+    width = max(map(len, COMMANDS))
+    lines = [f"  {name:<{width}}  {summary}" for name, summary in COMMANDS.items()]
+    return "\n".join(
+        [
+            "examples:",
+            "  trundle run model://rp2w                    simulate a robot, shown in the browser",
+            "  trundle launch PACKAGE FILE.launch          start a ROS 1 launch file",
+            "  trundle COMMAND --help                      examples and options of a command",
+            "",
+            "commands:",
+            *lines,
+            "",
+            'tab completion: eval "$(register-python-argcomplete trundle)"',
+        ]
+    )
+
+
+def _complete() -> None:
+    """Answer the shell's request for completions; does not return."""
+    import argcomplete
+
+    parser = argparse.ArgumentParser(prog="trundle")
+    subparsers = parser.add_subparsers()
+    typed = os.environ.get("COMP_LINE", "").split()
+    for name, summary in COMMANDS.items():
+        subparser = subparsers.add_parser(name, help=summary, formatter_class=_Formatter)
+        if name in typed:
+            _parser(name, subparser)
+    argcomplete.autocomplete(parser)

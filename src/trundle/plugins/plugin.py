@@ -1,0 +1,53 @@
+"""What a model plugin is: the Python counterpart of a Gazebo ModelPlugin.
+
+Write a class like this in `rp2w.py` beside `model.sdf`, name `librp2w.so` (or `rp2w.py`) in the model's
+<plugin filename="…">, and `trundle run` loads it:
+
+    from trundle.plugins import Plugin
+
+    class Spinner(Plugin):
+        period_ns = 10_000_000  # called every 10 ms of simulation time
+
+        @classmethod
+        def load(cls, sim, model, node, tag):
+            spinner = cls()
+            spinner.joint = model.joint(tag.node.string("joint", default="wheel"))
+            return spinner
+
+        def before_step(self, sim):
+            self.joint.set_effort(0.5)
+"""
+
+from typing import Self
+
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation, Snapshot
+
+
+class Plugin:
+    """Drives a model and speaks for it on the ROS graph; all of it runs on the simulation's thread."""
+
+    period_ns: int = 0
+    """How often the two hooks run, in simulation time [ns]; 0: at every physics step, as in Gazebo."""
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """Make the plugin for one model.
+
+        Args:
+            sim: the running world.
+            model: the model that names the plugin.
+            node: where to advertise and subscribe; callbacks run between steps. None under `--no-ros`.
+            tag: the <plugin> element; read parameters with `tag.node.number(…)` and its siblings.
+        """
+        raise NotImplementedError(f"{cls.__name__} needs a load(cls, sim, model, node, tag)")
+
+    def before_step(self, sim: Simulation) -> None:
+        """Write efforts, speeds and wrenches; called when due, before the physics moves."""
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Read what came of it and publish; called when due, after the physics moved."""
+
+    def reset(self) -> None:
+        """Forget what was commanded and integrated; called when the simulation is reset."""
