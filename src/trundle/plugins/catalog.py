@@ -40,11 +40,9 @@ def find_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[Pl
         path = folder / python_name(filename)
         if path.is_file():
             return _load_file(path), str(path)
+    what = f"plugin {tag.name!r}: no {filename}; Trundle runs Python plugins"
     looked = ", ".join(map(str, folders))
-    raise DescriptionError(
-        tag.at,
-        f"plugin {tag.name!r}: no {filename}; Trundle runs Python plugins: looked for {python_name(filename)} in {looked}",
-    )
+    raise DescriptionError(tag.at, f"{what}: looked for {python_name(filename)} in {looked}")
 
 
 def python_name(filename: str) -> str:
@@ -70,7 +68,8 @@ def _imported(path: str) -> type[Plugin]:
 def _load_file(path: Path) -> type[Plugin]:
     name = f"trundle_plugin_{path.stem}_{abs(hash(path))}"
     spec = importlib.util.spec_from_file_location(name, path)
-    assert spec is not None and spec.loader is not None, path
+    assert spec is not None, path
+    assert spec.loader is not None, path
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module  # dataclasses and pickle look their module up
     try:
