@@ -1,0 +1,26 @@
+"""`make bench`: every benchmark of the house in one run, as ratios against a peer of the same run."""
+
+import importlib
+import sys
+
+from bench.table import Row, print_table
+
+BENCHES = ("step", "images", "startup")
+
+
+def main() -> int:
+    """Run the benchmarks named on the command line, or all, and print one table."""
+    chosen = sys.argv[1:] or BENCHES
+    rows: list[Row] = []
+    for name in chosen:
+        if name not in BENCHES:
+            print(f"bench: no benchmark {name!r}; there are: {', '.join(BENCHES)}", file=sys.stderr)
+            return 2
+        print(f"bench: {name} …", file=sys.stderr)
+        rows += importlib.import_module(f"bench.{name}").run()
+    print_table(rows)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
