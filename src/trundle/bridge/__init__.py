@@ -1,1 +1,16 @@
-"""Room."""
+"""Where the wings meet: snapshots and readings become messages on topics, /clock and tf."""
+
+from .clock import ClockTopic
+from .frames import SimulationFrames
+from .joint_states import JointStates
+from .naming import WORLD_FRAME, has_plain_frames, link_frame_name, link_frames
+
+__all__ = [
+    "WORLD_FRAME",
+    "ClockTopic",
+    "JointStates",
+    "SimulationFrames",
+    "has_plain_frames",
+    "link_frame_name",
+    "link_frames",
+]

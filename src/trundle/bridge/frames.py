@@ -1,0 +1,85 @@
+"""The true pose of every link on /tf and /tf_static."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import World
+from trundle.ros import Node, StaticTransformBroadcaster, Transform, TransformBroadcaster
+from trundle.simulation import Snapshot
+
+from .naming import LinkFrame, link_frames
+
+
+class SimulationFrames:
+    """Broadcasts each link relative to its parent; what cannot move goes out once, on /tf_static."""
+
+    period_ns = 20_000_000
+    """50 Hz, robot_state_publisher's default."""
+
+    def __init__(self, node: Node, still: StaticTransformBroadcaster, world: World, start: Snapshot) -> None:
+        """Send what cannot move, and get ready for the rest.
+
+        Args:
+            node: publishes.
+            still: the node's one broadcaster for /tf_static.
+            world: names the frames.
+            start: where everything is now.
+        """
+        frames = link_frames(world)
+        self._moving = [frame for frame in frames if frame.moves]
+        self._children = _children(self._moving)
+        self._parents = _parents(self._moving)
+        self._broadcaster = TransformBroadcaster(node)
+        fixed = [frame for frame in frames if not frame.moves]
+        poses = relative_poses(start.poses, _parents(fixed), _children(fixed))
+        still.send(*_transforms(fixed, poses, start.time_ns))
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Send every frame that moves."""
+        if self._moving and self._broadcaster.has_subscribers:
+            poses = relative_poses(snapshot.poses, self._parents, self._children)
+            self._broadcaster.send(*_transforms(self._moving, poses, snapshot.time_ns))
+
+
+def _children(frames: list[LinkFrame]) -> NDArray[np.intp]:
+    return np.array([f.link for f in frames], dtype=np.intp)
+
+
+def _parents(frames: list[LinkFrame]) -> NDArray[np.intp]:
+    return np.array([-1 if f.parent_link is None else f.parent_link for f in frames], dtype=np.intp)
+
+
+def _transforms(frames: list[LinkFrame], poses: NDArray[np.float64], stamp_ns: int) -> list[Transform]:
+    return [
+        Transform(frame.parent, frame.frame, stamp_ns, (x, y, z), (qw, qx, qy, qz))
+        for frame, (x, y, z, qw, qx, qy, qz) in zip(frames, poses.tolist(), strict=True)
+    ]
+
+
+def relative_poses(
+    world_poses: NDArray[np.float64], parents: NDArray[np.intp], children: NDArray[np.intp]
+) -> NDArray[np.float64]:
+    """Return parent_from_child for each pair, (n, 7) x y z qw qx qy qz; parent −1 is the world."""
+    child = world_poses[children]
+    parent = np.where((parents < 0)[:, None], _IDENTITY, world_poses[parents])
+    inverse = parent[:, 3:] * (1.0, -1.0, -1.0, -1.0)
+    result = np.empty_like(child)
+    result[:, :3] = _rotated(inverse, child[:, :3] - parent[:, :3])
+    result[:, 3:] = _product(inverse, child[:, 3:])
+    return result
+
+
+_IDENTITY = np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
+
+
+def _rotated(q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotate rows of v by the unit quaternions q: v + 2w(u × v) + 2u × (u × v)."""
+    t = 2.0 * np.cross(q[:, 1:], v)
+    return v + q[:, :1] * t + np.cross(q[:, 1:], t)
+
+
+def _product(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Hamilton products of rows."""
+    scalar = a[:, 0] * b[:, 0] - np.einsum("ij,ij->i", a[:, 1:], b[:, 1:])
+    vector = a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])
+    return np.concatenate([scalar[:, None], vector], axis=1)

@@ -1,0 +1,97 @@
+"""The ROS graph that a run takes part in: the one there is, or one started here."""
+
+from collections.abc import Mapping
+from types import TracebackType
+from typing import Self
+from urllib.parse import urlsplit
+
+from trundle.diagnostics import UsageError
+from trundle.ros import Core, GraphLoop, MasterProxy, MasterUnreachableError, PortTakenError
+
+DEFAULT_PORT = 11311
+_LOCAL = frozenset({"localhost", "127.0.0.1", "::1", "0.0.0.0"})
+
+
+class Graph:
+    """A loop for this process's nodes, the master they register with, and that master itself if it is ours."""
+
+    def __init__(self, loop: GraphLoop, master_uri: str, core: Core | None, host: str) -> None:
+        self.loop = loop
+        self.master_uri = master_uri
+        self.core = core
+        self.host = host
+
+    @classmethod
+    def open(cls, environment: Mapping[str, str], *, host: str, any_port: bool) -> Self:
+        """Join the master that ROS_MASTER_URI names, else the default one; start it where none answers.
+
+        Args:
+            environment: ROS_MASTER_URI is read from it.
+            host: address that a master started here binds.
+            any_port: with no ROS_MASTER_URI, prefer a new master on a free port to joining the default one, so
+                that ten runs side by side do not meet.
+
+        Raises:
+            UsageError: ROS_MASTER_URI names another machine, and nobody answers there.
+        """
+        named = environment.get("ROS_MASTER_URI")
+        uri = named or f"http://localhost:{DEFAULT_PORT}"
+        parts = urlsplit(uri)
+        port = parts.port or DEFAULT_PORT
+        loop = GraphLoop()
+        loop.start()
+        try:
+            if (named or not any_port) and _answers(uri):
+                return cls(loop, uri, None, host)
+            if parts.hostname not in _LOCAL:
+                raise UsageError(
+                    f"no ROS master answers at {uri} (ROS_MASTER_URI); start one there, or unset ROS_MASTER_URI"
+                )
+            core = _start_core(loop, port, host, or_any=any_port and not named)
+            return cls(loop, core.uri, core, host)
+        except BaseException:
+            loop.stop()
+            raise
+
+    @property
+    def story(self) -> str:
+        """One line that says which graph this is."""
+        how = "joined" if self.core is None else "started"
+        return f"ROS master {how}: {self.master_uri}"
+
+    def close(self) -> None:
+        """Shut down every node here, then the master if it is ours."""
+        try:
+            if self.core is not None:
+                self.loop.run(self.core.stop(), timeout_s=2.0)
+        finally:
+            self.loop.stop()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+def _answers(uri: str) -> bool:
+    try:
+        MasterProxy(uri, timeout_s=2.0).call("getPid")
+    except MasterUnreachableError:
+        return False
+    return True
+
+
+def _start_core(loop: GraphLoop, port: int, host: str, *, or_any: bool) -> Core:
+    for candidate in (port, 0) if or_any else (port,):
+        core = Core(port=candidate, host=host)
+        try:
+            loop.run(core.start())
+        except PortTakenError:
+            if candidate == 0 or not or_any:
+                raise
+            continue
+        return core
+    raise AssertionError("a free port is always found")

@@ -1,0 +1,75 @@
+"""Simulate a robot or a world: SDF, URDF or xacro."""
+
+import argparse
+import json
+import sys
+
+EXAMPLES = """
+  trundle run model://rp2w                            a robot that Gazebo would find, or that we ship
+  trundle run my_robot/model.sdf                      a file; a folder with model.config works too
+  trundle run robot.urdf.xacro --headless             no browser page
+  trundle run world.sdf --headless --speed max --duration 10 --json
+                                                      ten simulated seconds flat out, the result as JSON
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("file", metavar="FILE|DIR|model://NAME", help="what to simulate")
+    parser.add_argument("--headless", action="store_true", help="no browser page")
+    parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
+    parser.add_argument("--host", default="127.0.0.1", help="address that the page and the ROS graph bind (127.0.0.1)")
+    parser.add_argument("--duration", type=_positive, metavar="S", help="end after so many seconds of simulation time")
+    parser.add_argument(
+        "--speed", type=_speed, default=1.0, metavar="X|max", help="times real time; max: as fast as it goes (1)"
+    )
+    parser.add_argument("--pause", action="store_true", help="start paused")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of everything random (0)")
+    parser.add_argument("--no-ros", action="store_true", help="no ROS graph; nothing is bound")
+    parser.add_argument("--no-sensors", action="store_true", help="switch every sensor off")
+    parser.add_argument("--strict", action="store_true", help="a warning about the file is an error")
+    parser.add_argument("--json", action="store_true", help="print the final state as one JSON object")
+
+
+def main(args: argparse.Namespace) -> int:
+    """Simulate until the duration is over or Ctrl-C."""
+    from trundle.bringup import RunOptions, run
+
+    options = RunOptions(
+        headless=args.headless,
+        host=args.host,
+        port=args.port,
+        duration_s=args.duration,
+        speed=args.speed,
+        paused=args.pause,
+        seed=args.seed,
+        ros=not args.no_ros,
+        sensors=not args.no_sensors,
+        strict=args.strict,
+    )
+    outcome = run(args.file, options)
+    if args.json:
+        json.dump(outcome.as_json(), sys.stdout, allow_nan=False)
+        print()
+    else:
+        print(outcome.summary())
+    return 130 if outcome.interrupted else 0
+
+
+def _positive(text: str) -> float:
+    value = float(text)
+    if not value > 0:
+        raise argparse.ArgumentTypeError(f"{text} is not a duration; give seconds, such as 10")
+    return value
+
+
+def _speed(text: str) -> float | None:
+    if text == "max":
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text!r} is neither a factor, such as 0.5, nor max")
+    return value
