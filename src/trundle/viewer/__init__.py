@@ -1,1 +1,31 @@
-"""Room."""
+"""The browser page: a scene that moves, camera images, and controls that a person presses.
+
+    viewer = Viewer.start(ViewerScene(title="rp2w", scene=scene, playback=True))
+    while True:
+        viewer.show(ViewerState(time_ns=…, body_poses=…))
+        for request in viewer.requests(): …
+"""
+
+from .content import CameraView, FrameInfo, JointSlider, ViewerScene, ViewerState
+from .errors import ViewerError
+from .requests import Drive, Pause, Play, Request, Reset, SetFixedFrame, SetJoint, SetSpeed, Step
+from .viewer import Viewer
+
+__all__ = [
+    "CameraView",
+    "Drive",
+    "FrameInfo",
+    "JointSlider",
+    "Pause",
+    "Play",
+    "Request",
+    "Reset",
+    "SetFixedFrame",
+    "SetJoint",
+    "SetSpeed",
+    "Step",
+    "Viewer",
+    "ViewerError",
+    "ViewerScene",
+    "ViewerState",
+]

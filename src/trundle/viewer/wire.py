@@ -1,0 +1,45 @@
+"""What the simulation's process and the page's process say to each other, pickled through two pipes.
+
+States and images do not come this way but through mailboxes: they are many, and only the newest counts.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from .content import ViewerScene
+
+THUMBNAIL_WIDTH_PX = 640
+THUMBNAIL_HEIGHT_PX = 480
+"""The largest image that reaches the page; larger ones are thinned to fit."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Serve:
+    """Bind this address; a port of None is the first free one from 8080 on."""
+
+    host: str
+    port: int | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Show:
+    """Draw this scene from now on, reading its states and images from these mailboxes."""
+
+    scene: ViewerScene
+    state_box: Path
+    image_boxes: tuple[Path, ...]
+    """One per camera."""
+
+
+@dataclass(frozen=True, slots=True)
+class Served:
+    """The page answers at this address."""
+
+    url: str
+
+
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """The address cannot be served."""
+
+    why: str
