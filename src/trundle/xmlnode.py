@@ -105,6 +105,11 @@ class XmlNode:
         return (self._element.text or "").strip()
 
     @property
+    def raw_text(self) -> str:
+        """All text directly inside the element, white space and text between children included."""
+        return (self._element.text or "") + "".join(child.tail or "" for child in self._element)
+
+    @property
     def children(self) -> list["XmlNode"]:
         """All child elements, in file order; asking for them does not mark them as read."""
         if self._children is None:

@@ -1,0 +1,148 @@
+"""Runs the commands of `<param command>`; xacro is expanded in this process."""
+
+import os
+import shlex
+import signal
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path, PurePath
+from typing import Protocol
+
+from trundle.diagnostics import DescriptionError, Diagnostics
+
+from .plan import LaunchParam, LaunchPlan, ParamCommand
+from .values import convert_value
+
+_TIMEOUT_S = 60.0
+_XACRO = ("xacro", "xacro.py")
+
+
+class XacroExpander(Protocol):
+    """Expands a xacro file."""
+
+    def __call__(self, file: Path, arguments: Mapping[str, str], /) -> str:
+        """Return the expanded XML; `arguments` are the command's `name:=value`."""
+        ...
+
+
+class CommandRunner(Protocol):
+    """Runs a program to its end."""
+
+    def __call__(self, argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: float) -> str:
+        """Return what it wrote to standard output.
+
+        Raises:
+            ValueError: it could not be run, failed or took too long; the message says which.
+        """
+        ...
+
+
+def run_command(argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: float) -> str:
+    """Run a program without a shell, and everything it started when it takes too long; see `CommandRunner`."""
+    pipe = subprocess.PIPE
+    try:
+        process = subprocess.Popen(
+            argv, stdin=subprocess.DEVNULL, stdout=pipe, stderr=pipe, env=dict(env), start_new_session=True
+        )
+    except FileNotFoundError:
+        raise ValueError(f"no such command {argv[0]!r}") from None
+    except OSError as error:
+        raise ValueError(f"command {argv[0]!r} cannot be run: {error.strerror}") from None
+    with process:
+        try:
+            output, errors = process.communicate(timeout=timeout_s)
+        except subprocess.TimeoutExpired:
+            _kill(process)
+            raise ValueError(f"command {argv[0]!r} gave no answer within {timeout_s:g} s") from None
+    if process.returncode != 0:
+        last = errors.decode(errors="replace").strip().splitlines()[-10:]
+        said = ": " + "\n".join(last) if last else ""
+        raise ValueError(f"command {argv[0]!r} returned {process.returncode}{said}")
+    try:
+        return output.decode()
+    except UnicodeDecodeError:
+        raise ValueError(f"command {argv[0]!r} wrote something that is no text") from None
+
+
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    if os.name == "posix":
+        os.killpg(process.pid, signal.SIGKILL)
+    else:
+        process.kill()
+    process.communicate()
+
+
+def resolve_params(
+    plan: LaunchPlan,
+    report: Diagnostics,
+    *,
+    expand_xacro: XacroExpander,
+    env: Mapping[str, str],
+    run: CommandRunner = run_command,
+    timeout_s: float = _TIMEOUT_S,
+) -> tuple[LaunchParam, ...]:
+    """Run the plan's commands; afterwards every parameter has a value.
+
+    Values that the parameter server cannot hold are named, and left out.
+
+    Args:
+        expand_xacro: called in place of any command whose program is `xacro` or `xacro.py`, wherever it is meant to
+            live: ROS-less machines have none, and `xacro.py` is gone since Noetic.
+        env: for the commands that are run.
+        run: runs all other commands.
+        timeout_s: for each command [s].
+
+    Raises:
+        DescriptionError: at the `<param>` whose command failed; nothing is started then, as with roslaunch.
+    """
+    resolved: list[LaunchParam] = []
+    for param in plan.params:
+        value = param.value
+        if isinstance(value, ParamCommand):
+            try:
+                value = convert_value(_output(value, expand_xacro, env, run, timeout_s), value.type)
+            except ValueError as error:
+                raise DescriptionError(param.at, f"param {param.name!r}: {error}") from None
+        if value is None:
+            report.warn(param.at, f"parameter {param.name!r} is null, which ROS has no value for; it is not set")
+        else:
+            resolved.append(replace(param, value=value))
+    return tuple(resolved)
+
+
+def _output(
+    command: ParamCommand, expand_xacro: XacroExpander, env: Mapping[str, str], run: CommandRunner, timeout_s: float
+) -> str:
+    argv = _split(command.line)
+    if not argv:
+        raise ValueError("its command is empty")
+    rest = _xacro_arguments(argv)
+    if rest is None:
+        return run(argv, env=env, timeout_s=timeout_s)
+    words = [word for word in rest if not word.startswith("-")]
+    arguments = dict(word.split(":=", 1) for word in words if ":=" in word)
+    files = [word for word in words if ":=" not in word]
+    if len(files) != 1:
+        raise ValueError(f"xacro wants one file, got {len(files)}: {command.line!r}")
+    return expand_xacro(Path(files[0]), arguments)
+
+
+def _xacro_arguments(argv: Sequence[str]) -> Sequence[str] | None:
+    """Return what follows the program where that is xacro, else None."""
+    if argv[0] == "rosrun" and len(argv) >= 3 and argv[1] == "xacro":
+        return argv[3:]
+    return argv[1:] if PurePath(argv[0].replace("\\", "/")).name in _XACRO else None
+
+
+def _split(line: str) -> list[str]:
+    """Split as a shell would; on Windows backslashes stay and quotes go."""
+    try:
+        if os.name != "nt":
+            return shlex.split(line)
+        words = shlex.split(line, posix=False)
+    except ValueError as error:
+        raise ValueError(f"command {line!r} cannot be split into words: {error}") from None
+    bare = [w[1:-1] if len(w) > 1 and w[0] == w[-1] and w[0] in "'\"" else w for w in words]
+    return [sys.executable, *bare] if bare and bare[0].endswith(".py") and Path(bare[0]).is_file() else bare

@@ -1,0 +1,73 @@
+"""A launch plan while its files are read."""
+
+from pathlib import Path
+
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.names import canonical_name
+
+from .plan import LaunchArgument, LaunchNode, LaunchParam, LaunchPlan, ParamCommand, ParamStep, ParamValue
+
+_MAX_PARAMS = 200_000
+
+
+class Draft:
+    """Collects nodes and parameters; a parameter set twice keeps its place and takes the later value."""
+
+    def __init__(self, report: Diagnostics) -> None:
+        self._report = report
+        self.arguments: list[LaunchArgument] = []
+        self.machines = {"", "localhost"}
+        self._nodes: dict[str, LaunchNode] = {}
+        self._tests: list[LaunchNode] = []
+        self._params: dict[str, LaunchParam] = {}
+        self._clear: dict[str, None] = {}
+        self._steps: list[ParamStep] = []
+        self._files: dict[Path, None] = {}
+
+    def add_file(self, file: Path) -> None:
+        self._files[file] = None
+
+    def add_node(self, node: LaunchNode) -> None:
+        """Add a node.
+
+        Raises:
+            DescriptionError: another one has the same name.
+        """
+        if other := self._nodes.get(node.full_name):
+            raise DescriptionError(node.at, f"two nodes are named {node.full_name!r}; the other one is at {other.at}")
+        if node.machine not in self.machines:
+            self._report.warn(node.at, f"node {node.name!r}: no machine {node.machine!r}; it runs here")
+        self._nodes[node.full_name] = node
+
+    def add_test(self, test: LaunchNode) -> None:
+        self._tests.append(test)
+
+    def add_step(self, step: ParamStep) -> None:
+        self._steps.append(step)
+
+    def clear(self, namespace: str) -> None:
+        self._clear[namespace] = None
+
+    def set_param(self, name: str, value: ParamValue | ParamCommand, at: Source) -> None:
+        """Set a parameter; dictionaries that come from YAML arrive unrolled."""
+        name = canonical_name(name)
+        parent = name.rpartition("/")[0]
+        while parent:
+            if parent in self._params:
+                there = self._params[parent].at
+                self._report.warn(at, f"parameter {name!r} lies below the parameter {parent!r} of {there}")
+            parent = parent.rpartition("/")[0]
+        if len(self._params) >= _MAX_PARAMS:
+            raise DescriptionError(at, f"more than {_MAX_PARAMS} parameters; the launch cannot mean that")
+        self._params[name] = LaunchParam(name=name, value=value, at=at)
+
+    def plan(self) -> LaunchPlan:
+        return LaunchPlan(
+            nodes=tuple(self._nodes.values()),
+            params=tuple(self._params.values()),
+            clear_params=tuple(self._clear),
+            steps=tuple(self._steps),
+            arguments=tuple(self.arguments),
+            files=tuple(self._files),
+            tests=tuple(self._tests),
+        )

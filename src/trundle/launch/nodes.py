@@ -1,0 +1,140 @@
+"""Reads <node> and <test> with what stands inside them."""
+
+from typing import Literal
+
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.names import canonical_name, is_legal_name
+from trundle.xmlnode import XmlNode
+
+from .attributes import Attributes
+from .draft import Draft
+from .params import PARAM_ATTRIBUTES, read_param, read_rosparam
+from .plan import LaunchNode
+from .scope import PrivateParam, Scope
+from .settings import read_env, read_remap
+from .substitution import Substitution
+
+_NODE = (
+    "pkg",
+    "type",
+    "name",
+    "args",
+    "output",
+    "respawn",
+    "respawn_delay",
+    "required",
+    "ns",
+    "clear_params",
+    "machine",
+    "cwd",
+    "launch-prefix",
+)
+_TEST_ONLY = ("test-name", "time-limit", "retry")
+_NODE_ONLY = ("respawn", "respawn_delay", "output")
+
+
+def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: Draft, report: Diagnostics) -> None:
+    """Read a node or a test; its parameters are set, it goes into the draft.
+
+    Raises:
+        DescriptionError: where roslaunch refuses it.
+    """
+    is_test = node.tag == "test"
+    known = (*_NODE, *_TEST_ONLY) if is_test else _NODE
+    attributes = Attributes(node, scope, substitution, report, known)
+    if not attributes.apply:
+        return
+    if is_test:
+        for name in _NODE_ONLY:
+            if node.attribute(name) is not None:
+                raise DescriptionError(node.at, f"<test> takes no {name!r}")
+        name = attributes.text("name") or attributes.required("test-name")
+    else:
+        name = attributes.required("name")
+    if "/" in name:
+        raise DescriptionError(node.at, f"node name {name!r} holds a '/'; a namespace goes into 'ns'")
+    if not is_legal_name(name):
+        report.warn(node.at, f"node name {name!r} is not a legal ROS name; it is used as it is")
+
+    own = scope.child(attributes.namespace())
+    inside = own.child(name)
+    if attributes.flag("clear_params"):
+        draft.clear(inside.namespace)
+    private = _read_children(node, inside, own, substitution, draft, report)
+    # ~params of the scope first, so that the node's own win.
+    for key, (value, at) in [*scope.private_params.items(), *private.items()]:
+        draft.set_param(f"{inside.namespace}/{key}", value, at)
+
+    respawn, required = attributes.flag("respawn"), attributes.flag("required")
+    if respawn and required:
+        raise DescriptionError(node.at, f"node {name!r}: 'respawn' and 'required' cannot both be true")
+    read = LaunchNode(
+        name=name,
+        namespace=own.namespace,
+        package=attributes.required("pkg"),
+        type=attributes.required("type"),
+        arguments=attributes.text("args") or "",
+        remappings=tuple(own.remappings.items()),
+        env=tuple(own.env),
+        output=_output(attributes),
+        respawn=respawn,
+        respawn_delay_s=attributes.number("respawn_delay", default=0.0),
+        required=required,
+        cwd=_cwd(attributes),
+        launch_prefix=attributes.text("launch-prefix") or "",
+        machine=attributes.text("machine") or "",
+        at=node.at,
+    )
+    if is_test:
+        if attributes.number("time-limit", default=60.0) <= 0.0:
+            raise DescriptionError(node.at, "time-limit must be > 0 s")
+        attributes.number("retry", default=0.0)
+        draft.add_test(read)
+        report.info(node.at, f"test {name!r} is not run: only rostest runs tests")
+    else:
+        draft.add_node(read)
+
+
+def _read_children(
+    node: XmlNode, inside: Scope, own: Scope, substitution: Substitution, draft: Draft, report: Diagnostics
+) -> dict[str, PrivateParam]:
+    """Read what stands inside: remappings and environment go into `own`, ~params are handed back."""
+    private: dict[str, PrivateParam] = {}
+    for child in node.children:
+        match child.tag:
+            case "param":
+                attributes = Attributes(child, inside, substitution, report, PARAM_ATTRIBUTES)
+                if attributes.apply:
+                    key, value = read_param(attributes)
+                    key = canonical_name(key.removeprefix("~")).removeprefix("/")
+                    private.pop(key, None)
+                    private[key] = (value, child.at)
+            case "rosparam":
+                read_rosparam(child, inside, substitution, draft, report)
+            case "remap":
+                read_remap(child, inside, own, substitution, report)
+            case "env":
+                read_env(child, inside, own, substitution, report)
+            case tag:
+                report.warn(child.at, f"<{tag}> in <{node.tag}> is not known; it is ignored")
+    return private
+
+
+def _output(attributes: Attributes) -> Literal["log", "screen"]:
+    match attributes.text("output") or "log":
+        case "log":
+            return "log"
+        case "screen":
+            return "screen"
+        case other:
+            raise DescriptionError(attributes.at, f"output {other!r}; there are 'log', 'screen'")
+
+
+def _cwd(attributes: Attributes) -> Literal["ROS_HOME", "node"]:
+    match (attributes.text("cwd") or "ROS_HOME").lower():
+        case "ros_home" | "ros-root":
+            return "ROS_HOME"
+        case "node":
+            return "node"
+        case other:
+            raise DescriptionError(attributes.at, f"cwd {other!r}; there are 'ROS_HOME', 'node'")

@@ -1,0 +1,12 @@
+"""What reading a launch file needs to know about packages."""
+
+from pathlib import Path
+from typing import Protocol
+
+
+class PackageFinder(Protocol):
+    """Knows where packages live."""
+
+    def find_package(self, name: str, /) -> Path | None:
+        """Return the folder of a package, or None."""
+        ...

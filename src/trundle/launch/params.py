@@ -1,0 +1,130 @@
+"""Reads <param> and <rosparam>."""
+
+from pathlib import Path
+from typing import Literal
+
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.names import join_names
+from trundle.xmlnode import XmlNode
+
+from .attributes import Attributes
+from .draft import Draft
+from .plan import ParamCommand, ParamStep, ParamType, ParamValue
+from .scope import Scope
+from .substitution import Substitution
+from .values import convert_value, load_yaml
+
+_TYPES: dict[str, ParamType] = {
+    "auto": "auto",
+    "str": "str",
+    "string": "str",
+    "int": "int",
+    "double": "double",
+    "bool": "bool",
+    "boolean": "bool",
+    "yaml": "yaml",
+}
+_SOURCES = ("value", "textfile", "binfile", "command")
+PARAM_ATTRIBUTES = ("name", "type", *_SOURCES)
+
+
+def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
+    """Read a <param>: its name as written, and its value or the command that will give it.
+
+    Raises:
+        DescriptionError: no name, not exactly one source of the value, or a value that is not of its type.
+    """
+    at = attributes.at
+    given = {source: text for source in _SOURCES if (text := attributes.text(source)) is not None}
+    name = attributes.required("name").strip()
+    if len(given) != 1:
+        what = "none" if not given else " and ".join(map(repr, given))
+        raise DescriptionError(at, f"param {name!r} needs one of {', '.join(map(repr, _SOURCES))}; it has {what}")
+    ((source, text),) = given.items()
+    # The type is the one attribute that roslaunch does not substitute.
+    type_name = (attributes.node.attribute("type") or "auto").lower().strip()
+    if type_name not in _TYPES:
+        raise DescriptionError(at, f"param {name!r}: no type {type_name!r}; types are {', '.join(_TYPES)}")
+    kind = _TYPES[type_name]
+    try:
+        match source:
+            case "value":
+                return name, convert_value(text.strip(), kind)
+            case "textfile":
+                return name, convert_value(_read(text).decode(), kind)
+            case "binfile":
+                return name, _read(text)
+            case _:
+                return name, ParamCommand(line=text, type=kind, at=at)
+    except UnicodeDecodeError:
+        raise DescriptionError(at, f"param {name!r}: {text!r} is not a text file") from None
+    except ValueError as error:
+        raise DescriptionError(at, f"param {name!r}: {error}") from None
+
+
+def read_rosparam(node: XmlNode, scope: Scope, substitution: Substitution, draft: Draft, report: Diagnostics) -> None:
+    """Read a <rosparam>; YAML is loaded here, `dump` and `delete` become steps.
+
+    Raises:
+        DescriptionError: unreadable YAML, a missing file, or attributes that do not go together.
+    """
+    attributes = Attributes(node, scope, substitution, report, ("command", "ns", "file", "param", "subst_value"))
+    if not attributes.apply:
+        return
+    # `ns` is an old alias, joined before `param`.
+    below = join_names(attributes.text("ns") or "", attributes.text("param") or "")
+    name = scope.join(below) if below else scope.namespace
+    command = attributes.text("command") or "load"
+    file = attributes.text("file")
+    match command:
+        case "load":
+            _load(attributes, draft, name, file, needs_mapping=not below or name == "/")
+        case "dump" | "delete":
+            _step(attributes, draft, command, name, file)
+        case _:
+            raise DescriptionError(node.at, f"rosparam command {command!r}; there are 'load', 'dump', 'delete'")
+
+
+def _step(
+    attributes: Attributes, draft: Draft, command: Literal["dump", "delete"], name: str, file: str | None
+) -> None:
+    if command == "delete" and file is not None:
+        raise DescriptionError(attributes.at, "rosparam delete takes no 'file'")
+    if command == "dump" and not file:
+        raise DescriptionError(attributes.at, "rosparam dump needs the attribute 'file'")
+    draft.add_step(ParamStep(command=command, name=name, file=file or "", at=attributes.at))
+
+
+def _load(attributes: Attributes, draft: Draft, name: str, file: str | None, *, needs_mapping: bool) -> None:
+    at = attributes.at
+    try:
+        text = _read(file).decode() if file else attributes.node.raw_text
+        data = load_yaml(attributes.resolve(text) if attributes.flag("subst_value") else text)
+    except UnicodeDecodeError:
+        raise DescriptionError(at, f"rosparam: {file!r} is not a text file") from None
+    except ValueError as error:
+        raise DescriptionError(at, f"rosparam{f' {file!r}' if file else ''}: {error}") from None
+    if data is None:
+        data = {}
+    if needs_mapping and not isinstance(data, dict):
+        raise DescriptionError(at, "rosparam needs the attribute 'param' where its YAML is not a mapping")
+    _set(draft, name, data, attributes)
+
+
+def _set(draft: Draft, name: str, value: ParamValue, attributes: Attributes) -> None:
+    """Set a value; a mapping becomes one parameter for each of its leaves."""
+    if not isinstance(value, dict):
+        draft.set_param(name, value, attributes.at)
+        return
+    for key, item in value.items():
+        _set(draft, join_names(name, key), item, attributes)
+
+
+def _read(file: str) -> bytes:
+    path = Path(file)
+    if not path.is_file():
+        raise ValueError(f"no file {file!r}")
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise ValueError(f"{file!r} cannot be read: {error.strerror}") from None

@@ -1,0 +1,211 @@
+"""Reads launch files into a plan, by roslaunch's rules of scope and order."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.names import anonymous_name, canonical_name
+from trundle.xmlnode import XmlNode, parse_xml, read_xml
+
+from .attributes import Attributes
+from .draft import Draft
+from .nodes import read_node
+from .packages import PackageFinder
+from .params import read_param, read_rosparam
+from .plan import LaunchArgument, LaunchPlan
+from .scope import Scope
+from .settings import read_env, read_remap
+from .substitution import Substitution
+
+_MAX_INCLUDE_DEPTH = 64
+"""A file that includes itself ends here; no honest launch nests a tenth as deep."""
+
+
+def read_launch(
+    files: Path | Sequence[Path],
+    /,
+    *,
+    packages: PackageFinder,
+    report: Diagnostics,
+    arguments: Mapping[str, str] | None = None,
+    env: Mapping[str, str] | None = None,
+    namespace: str = "/",
+) -> LaunchPlan:
+    """Read launch files as one launch; nothing is started and no command is run.
+
+    Args:
+        files: one or several, read in order.
+        packages: answers `$(find …)`.
+        report: takes warnings: unknown tags and attributes, deprecations, what is read but not supported.
+        arguments: `name:=value` of the command line.
+        env: answers `$(env …)` and `$(optenv …)`; no other environment is looked at.
+        namespace: the one everything is put in.
+
+    Raises:
+        DescriptionError: with file and line, where roslaunch would refuse the file too.
+    """
+    reader = _Reader(packages=packages, report=report, env=env or {})
+    for file in [files] if isinstance(files, Path) else files:
+        reader.read_root(read_xml(file), file, arguments or {}, namespace)
+    return reader.draft.plan()
+
+
+def read_launch_text(
+    text: str,
+    /,
+    *,
+    name: str,
+    packages: PackageFinder,
+    report: Diagnostics,
+    arguments: Mapping[str, str] | None = None,
+    env: Mapping[str, str] | None = None,
+) -> LaunchPlan:
+    """Read a launch file's text, such as that of standard input; `name` is how messages call it.
+
+    Raises:
+        DescriptionError: as `read_launch`.
+    """
+    reader = _Reader(packages=packages, report=report, env=env or {})
+    reader.read_root(parse_xml(text, name=name), Path(name), arguments or {}, "/")
+    return reader.draft.plan()
+
+
+class _Reader:
+    """Walks launch files; what it finds goes into the draft."""
+
+    def __init__(self, *, packages: PackageFinder, report: Diagnostics, env: Mapping[str, str]) -> None:
+        self.draft = Draft(report)
+        self._report = report
+        self._substitution = Substitution(packages=packages, env=env, anonymous=anonymous_name)
+
+    def read_root(self, root: XmlNode, file: Path, arguments: Mapping[str, str], namespace: str) -> None:
+        """Read a file of the command line."""
+        scope = Scope(namespace=canonical_name(namespace) or "/", file=str(file), arguments=dict(arguments))
+        self._launch(root, scope, depth=0)
+        for name in sorted(set(arguments) - scope.declared):
+            known = ", ".join(map(repr, sorted(scope.declared))) or "none"
+            self._report.warn(root.at, f"no argument {name!r} to set; the file's arguments: {known}")
+
+    def _launch(self, root: XmlNode, scope: Scope, *, depth: int) -> None:
+        if root.tag != "launch":
+            raise DescriptionError(root.at, f"a launch file starts with <launch>, not <{root.tag}>")
+        self.draft.add_file(Path(scope.file))
+        for name in root.attributes():
+            if name != "deprecated":
+                self._report.warn(root.at, f"attribute {name!r} of <launch> is not known; it is ignored")
+        if deprecated := root.attribute("deprecated"):
+            self._report.warn(root.at, f"deprecated: {deprecated}")
+        self._children(root, scope, depth=depth)
+
+    def _attributes(self, node: XmlNode, scope: Scope, *known: str) -> Attributes:
+        return Attributes(node, scope, self._substitution, self._report, known)
+
+    def _children(self, parent: XmlNode, scope: Scope, *, depth: int) -> None:
+        for node in parent.children:
+            match node.tag:
+                case "arg":
+                    self._arg(node, scope, scope, top=depth == 0)
+                case "group":
+                    self._group(node, scope, depth=depth)
+                case "include":
+                    self._include(node, scope, depth=depth)
+                case "node" | "test":
+                    read_node(node, scope, self._substitution, self.draft, self._report)
+                case "param":
+                    attributes = self._attributes(
+                        node, scope, "name", "value", "type", "textfile", "binfile", "command"
+                    )
+                    if attributes.apply:
+                        name, value = read_param(attributes)
+                        if name.startswith("~"):
+                            scope.set_private_param(name[1:], (value, node.at))
+                        else:
+                            self.draft.set_param(scope.join(name), value, node.at)
+                case "rosparam":
+                    read_rosparam(node, scope, self._substitution, self.draft, self._report)
+                case "remap":
+                    read_remap(node, scope, scope, self._substitution, self._report)
+                case "env":
+                    read_env(node, scope, scope, self._substitution, self._report)
+                case "machine":
+                    self._machine(node, scope)
+                case "master":
+                    self._report.warn(node.at, "<master> has no effect since ROS 0.7; it is ignored")
+                case tag:
+                    self._report.warn(node.at, f"<{tag}> is no tag of launch files; it is ignored")
+
+    def _group(self, node: XmlNode, scope: Scope, *, depth: int) -> None:
+        attributes = self._attributes(node, scope, "ns", "clear_params")
+        if attributes.apply:
+            child = scope.child(attributes.namespace())
+            if attributes.flag("clear_params"):
+                self._clear(attributes, child)
+            self._children(node, child, depth=depth)
+
+    def _clear(self, attributes: Attributes, scope: Scope) -> None:
+        if attributes.text("ns") is None:
+            raise DescriptionError(attributes.at, "clear_params needs the attribute 'ns', which names what to clear")
+        self.draft.clear(scope.namespace)
+
+    def _arg(self, node: XmlNode, scope: Scope, target: Scope, *, top: bool = False) -> None:
+        """Declare an argument in `target`; its value is resolved in `scope`."""
+        attributes = self._attributes(node, scope, "name", "value", "default", "doc")
+        if not attributes.apply:
+            return
+        name = attributes.required("name")
+        value, default = attributes.text("value"), attributes.text("default")
+        if value is not None and default is not None:
+            raise DescriptionError(node.at, f"argument {name!r}: either 'value' or 'default', not both")
+        if name in target.declared and not target.lenient_arguments:
+            raise DescriptionError(node.at, f"argument {name!r} is declared twice")
+        target.declared.add(name)
+        if top:
+            required = value is None and default is None
+            doc = attributes.text("doc") or ""
+            self.draft.arguments.append(LaunchArgument(name=name, default=default, doc=doc, required=required))
+        if value is not None:
+            if name in target.arguments and not target.lenient_arguments:
+                raise DescriptionError(node.at, f"argument {name!r} has a fixed value, {value!r}; it cannot be set")
+            target.arguments[name] = value
+        elif default is not None:
+            target.arguments.setdefault(name, default)
+
+    def _include(self, node: XmlNode, scope: Scope, *, depth: int) -> None:
+        attributes = self._attributes(node, scope, "file", "ns", "clear_params", "pass_all_args")
+        if not attributes.apply:
+            return
+        file = attributes.required("file")
+        if depth >= _MAX_INCLUDE_DEPTH:
+            raise DescriptionError(node.at, f"{file!r} is included {depth} levels deep; it may include itself")
+        pass_all = attributes.flag("pass_all_args")
+        passed = scope.included(attributes.namespace(), file, scope.arguments.items() if pass_all else ())
+        passed.lenient_arguments = pass_all
+        if attributes.flag("clear_params"):
+            self._clear(attributes, passed)
+        for child in node.children:
+            match child.tag:
+                case "arg":
+                    self._arg(child, scope, passed)
+                case "env":
+                    read_env(child, scope, passed, self._substitution, self._report)
+                case tag:
+                    self._report.warn(child.at, f"<{tag}> in <include> is not known; it is ignored")
+        for name in sorted(passed.declared - set(passed.arguments)):
+            raise DescriptionError(node.at, f"argument {name!r} is passed to {file!r} without a value")
+        given = passed.declared
+        passed.declared = set()
+        path = Path(file)
+        if not path.is_file():
+            raise DescriptionError(node.at, f"no launch file {file!r} to include")
+        self._launch(read_xml(path), passed, depth=depth + 1)
+        if unused := sorted(given - passed.declared):
+            known = ", ".join(map(repr, sorted(passed.declared))) or "none"
+            raise DescriptionError(node.at, f"{file!r} has no argument {unused[0]!r}; its arguments: {known}")
+
+    def _machine(self, node: XmlNode, scope: Scope) -> None:
+        known = ("name", "address", "env-loader", "ssh-port", "user", "password", "default", "timeout")
+        attributes = self._attributes(node, scope, *known)
+        if attributes.apply:
+            name, address = attributes.required("name"), attributes.required("address")
+            self.draft.machines.add(name)
+            self._report.warn(node.at, f"machine {name!r} at {address!r}: nothing runs remotely; its nodes run here")

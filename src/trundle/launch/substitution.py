@@ -1,0 +1,149 @@
+"""Replaces `$(arg x)`, `$(find p)`, `$(env V)`, … in launch files, as roslaunch does."""
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from trundle.diagnostics import DescriptionError, Source
+
+from .expression import BASE_NAMES, ExpressionError, evaluate
+from .packages import PackageFinder
+from .scope import Scope
+from .values import convert_value
+
+_COMMAND = re.compile(r"\$+\(([^)]+)\)")
+_COMMANDS = ("find", "env", "optenv", "dirname", "anon", "arg")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Substitution:
+    """Knows everything that is the same at every place of a launch."""
+
+    packages: PackageFinder
+    env: Mapping[str, str]
+    anonymous: Callable[[str], str]
+    """Makes a name nobody else has."""
+
+    def resolve(self, text: str, scope: Scope, at: Source) -> str:
+        """Replace every `$(…)` of an attribute.
+
+        `find` comes last, as its path may hold the others and an argument's value may hold a `find`.
+
+        Raises:
+            DescriptionError: unknown argument, variable, package or command.
+        """
+        if "$" not in text:
+            return text
+        if text.startswith("$(eval ") and text.endswith(")"):
+            return self._eval(text[len("$(eval ") : -1], scope, at)
+        for commands in (("env", "optenv", "dirname", "anon", "arg"), ("find",)):
+            text = self._replace(text, commands, scope, at)
+        return text
+
+    def _replace(self, text: str, commands: tuple[str, ...], scope: Scope, at: Source) -> str:
+        def value(match: re.Match[str]) -> str:
+            body: str = match[1]
+            if "$" in body or "(" in body:
+                raise DescriptionError(at, f"{match[0]!r}: substitutions cannot hold one another outside $(eval …)")
+            words = body.split()
+            if not words or words[0] not in _COMMANDS:
+                known = ", ".join(_COMMANDS)
+                extra = "; eval must be the whole attribute" if words and words[0] == "eval" else ""
+                raise DescriptionError(at, f"unknown substitution $({body}); there are {known}{extra}")
+            if words[0] not in commands:
+                return match[0]
+            return match[0][: match[0].index("$(")] + self._command(words[0], words[1:], body, scope, at)
+
+        return _COMMAND.sub(value, text)
+
+    def _command(self, command: str, words: list[str], body: str, scope: Scope, at: Source) -> str:
+        if command == "dirname":
+            return _folder(scope)
+        if not words or (len(words) > 1 and command != "optenv"):
+            raise DescriptionError(at, f"$({body}): {command!r} takes one name, got {len(words)}")
+        name = words[0]
+        match command:
+            case "arg":
+                return self._arg(name, scope, at)
+            case "env":
+                return self._env(name, at)
+            case "optenv":
+                return self.env.get(name, " ".join(words[1:]))
+            case "anon":
+                return self._anon(name, scope)
+            case _:
+                return self._find(name, at)
+
+    def _arg(self, name: str, scope: Scope, at: Source) -> str:
+        if name in scope.arguments:
+            return scope.arguments[name]
+        if name in scope.declared:
+            raise DescriptionError(at, f"the argument {name!r} is required and was not given; write {name}:=VALUE")
+        declared = ", ".join(map(repr, sorted(scope.declared)))
+        there_is = f"; declared so far: {declared}" if declared else "; none is declared so far"
+        raise DescriptionError(at, f"no argument {name!r}{there_is}")
+
+    def _env(self, name: str, at: Source) -> str:
+        if name not in self.env:
+            raise DescriptionError(at, f"the environment variable {name!r} is not set")
+        return self.env[name]
+
+    def _anon(self, name: str, scope: Scope) -> str:
+        return scope.anonymous.setdefault(name, self.anonymous(name))
+
+    def _find(self, name: str, at: Source) -> str:
+        folder = self.packages.find_package(name)
+        if folder is not None:
+            return str(folder)
+        if name == "xacro":
+            # Trundle expands xacro itself; `$(find xacro)/xacro` only has to stay recognisable.
+            return "xacro"
+        raise DescriptionError(at, f"no package {name!r}; set ROS_PACKAGE_PATH to the folder that holds it")
+
+    def _eval(self, text: str, scope: Scope, at: Source) -> str:
+        def arg(name: str) -> Any:
+            return convert_value(self._arg(name, scope, at), "auto")
+
+        def env(name: str) -> str:
+            return self._env(name, at)
+
+        def optenv(name: str, default: str = "") -> str:
+            return self.env.get(name, default)
+
+        def find(name: str) -> str:
+            return self._find(name, at)
+
+        def anon(name: str) -> str:
+            return self._anon(name, scope)
+
+        def dirname() -> str:
+            return _folder(scope)
+
+        functions = {f.__name__: f for f in (arg, env, optenv, find, anon, dirname)}
+        try:
+            return str(evaluate(text, _Names(scope.arguments, functions)))
+        except ExpressionError as error:
+            raise DescriptionError(at, f"$(eval {text}): {error}") from None
+
+
+class _Names(Mapping[str, Any]):
+    """Names of an expression: functions and constants first, then the arguments of the file, typed."""
+
+    def __init__(self, arguments: Mapping[str, str], functions: Mapping[str, Any]) -> None:
+        self._arguments = arguments
+        self._known = {**BASE_NAMES, **functions}
+
+    def __getitem__(self, name: str) -> Any:
+        return self._known[name] if name in self._known else convert_value(self._arguments[name], "auto")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter({*self._known, *self._arguments})
+
+    def __len__(self) -> int:
+        return len({*self._known, *self._arguments})
+
+
+def _folder(scope: Scope) -> str:
+    return str(Path(scope.file).parent.absolute())

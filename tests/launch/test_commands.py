@@ -1,0 +1,87 @@
+"""Commands of <param command> run without a shell; xacro never leaves the process."""
+
+import os
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.launch import read_launch_text, resolve_params
+
+
+class NoPackages:
+    def find_package(self, _name: str, /) -> Path | None:
+        return None
+
+
+def resolve(command: str, *, kind: str = "auto", timeout_s: float = 60.0) -> object:
+    text = f'<launch><param name="a" type="{kind}" command="{command}"/></launch>'
+    report = Diagnostics()
+    plan = read_launch_text(text, name="t.launch", packages=NoPackages(), report=report)
+
+    def expand(file: Path, arguments: Mapping[str, str], /) -> str:
+        return f"{file} {dict(arguments)}"
+
+    (param,) = resolve_params(plan, report, expand_xacro=expand, env=os.environ, timeout_s=timeout_s)
+    return param.value
+
+
+PYTHON = sys.executable
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        "$(find xacro)/xacro.py",
+        "$(find xacro)/xacro --inorder",
+        "/opt/ros/indigo/share/xacro/xacro.py",
+        "xacro",
+        "rosrun xacro xacro.py",
+    ],
+)
+def test_xacro_is_expanded_in_process_wherever_it_is_meant_to_live(program: str) -> None:
+    assert resolve(f"{program} '/a b/c.xacro' gui:=true") == "/a b/c.xacro {'gui': 'true'}"
+
+
+def test_another_command_is_run_and_its_output_typed() -> None:
+    assert resolve(f"{PYTHON} -c 'print(1 + 1, end=str())'") == 2
+    assert resolve(f"{PYTHON} -c 'print(1 + 1, end=str())'", kind="str") == "2"
+
+
+def test_no_shell_is_involved() -> None:
+    assert resolve(f"{PYTHON} -c 'import sys; print(sys.argv[1:])' $HOME ; x") == "['$HOME', ';', 'x']\n"
+
+
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        ("/no/such/command x", "no such command '/no/such/command'"),
+        (f"{PYTHON} -c 'import sys; sys.exit(\"bad link\")'", "returned 1: bad link"),
+        (f"{PYTHON} 'unclosed", "cannot be split into words"),
+        ("xacro", "xacro wants one file, got 0"),
+    ],
+)
+def test_a_command_that_fails_ends_the_launch_with_a_sentence(command: str, message: str) -> None:
+    with pytest.raises(DescriptionError, match=r"t\.launch:1: error: param '/a': ") as error:
+        resolve(command.replace('"', "&quot;"))
+    assert message in str(error.value)
+
+
+def test_a_command_that_hangs_is_ended() -> None:
+    with pytest.raises(DescriptionError, match=r"gave no answer within 0\.2 s"):
+        resolve(f"{PYTHON} -c 'import time; time.sleep(600)'", timeout_s=0.2)
+
+
+def test_a_null_parameter_is_named_and_left_out() -> None:
+    report = Diagnostics()
+    text = "<launch><rosparam>{a: ~, b: 1}</rosparam></launch>"
+    plan = read_launch_text(text, name="t.launch", packages=NoPackages(), report=report)
+
+    def expand(file: Path, arguments: Mapping[str, str], /) -> str:
+        raise AssertionError("no xacro here")
+
+    params = resolve_params(plan, report, expand_xacro=expand, env={})
+    assert [p.name for p in params] == ["/b"]
+    assert "'/a' is null" in report.warnings[0]

@@ -1,0 +1,316 @@
+"""Launch files become plans by roslaunch's rules."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.launch import LaunchPlan, ParamCommand, read_launch, read_launch_text
+
+
+class Folders:
+    """Packages that live where a test put them."""
+
+    def __init__(self, folders: Mapping[str, Path] | None = None) -> None:
+        self._folders = dict(folders or {})
+
+    def find_package(self, name: str, /) -> Path | None:
+        return self._folders.get(name)
+
+
+def plan_of(
+    body: str, *, report: Diagnostics | None = None, packages: Folders | None = None, **arguments: str
+) -> LaunchPlan:
+    return read_launch_text(
+        f"<launch>{body}</launch>",
+        name="t.launch",
+        packages=packages or Folders(),
+        report=report or Diagnostics(),
+        arguments=arguments,
+        env={"HOME": "/home/u", "ROBOT": "rover"},
+    )
+
+
+def params_of(body: str, **arguments: str) -> dict[str, object]:
+    return {param.name: param.value for param in plan_of(body, **arguments).params}
+
+
+NODE = '<node pkg="p" type="t" name="n"/>'
+
+
+def test_a_nodes_attributes_arrive_in_the_plan() -> None:
+    (node,) = plan_of(
+        '<node pkg="p" type="t" name="n" ns="a/b" args="-x 1" output="screen" respawn="true" respawn_delay="2.5"'
+        ' cwd="node" launch-prefix="nice"><remap from="x" to="y"/><env name="E" value="1"/></node>'
+    ).nodes
+    assert node.full_name == "/a/b/n"
+    assert (node.package, node.type, node.arguments, node.output) == ("p", "t", "-x 1", "screen")
+    assert (node.respawn, node.respawn_delay_s, node.cwd, node.launch_prefix) == (True, 2.5, "node", "nice")
+    assert node.remappings == (("x", "y"),)
+    assert node.env == (("E", "1"),)
+    assert str(node.at) == "t.launch:1"
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1", 1),
+        ("1.0", 1.0),
+        ("true", True),
+        ("True", True),
+        ("1e3", "1e3"),
+        ("0x10", "0x10"),
+        ("on", "on"),
+        ("", ""),
+        ("1_000", "1_000"),
+        (" 5 ", 5),
+        ("nan", "nan"),
+        ("007", 7),
+    ],
+)
+def test_a_value_without_type_is_typed_as_roslaunch_does(text: str, value: object) -> None:
+    got = params_of(f'<param name="a" value="{text}"/>')["/a"]
+    assert got == value
+    assert type(got) is type(value)
+
+
+def test_named_types_are_kept() -> None:
+    body = '<param name="j" type="str" value="1"/><param name="k" type="double" value="3"/>'
+    body += '<param name="l" type="yaml" value="[1, {a: b}]"/>'
+    assert params_of(body) == {"/j": "1", "/k": 3.0, "/l": [1, {"a": "b"}]}
+
+
+def test_a_private_param_goes_to_every_later_node_of_its_scope() -> None:
+    plan = plan_of(
+        '<node pkg="p" type="t" name="before"/><group ns="g"><param name="~a" value="1"/>'
+        '<node pkg="p" type="t" name="n"/><node pkg="p" type="t" name="m"><param name="a" value="2"/></node></group>'
+        '<node pkg="p" type="t" name="behind"/>'
+    )
+    assert {p.name: p.value for p in plan.params} == {"/g/n/a": 1, "/g/m/a": 2}
+
+
+def test_a_remapping_holds_for_later_nodes_and_the_last_one_wins() -> None:
+    plan = plan_of(f'<remap from="a" to="b"/><remap from="c" to="d"/><remap from="a" to="e"/>{NODE}')
+    assert plan.nodes[0].remappings == (("c", "d"), ("a", "e"))
+
+
+def test_settings_of_a_group_end_with_it() -> None:
+    plan = plan_of(f'<group ns="g"><env name="E" value="1"/><remap from="a" to="b"/></group>{NODE}')
+    assert plan.nodes[0].env == ()
+    assert plan.nodes[0].remappings == ()
+
+
+def test_rosparam_yaml_is_unrolled_and_knows_angles() -> None:
+    values = params_of("<rosparam>\n  a: deg(180)\n  b: {c: rad(pi/2), d: !degrees 90}\n  e: [1, 2]\n</rosparam>")
+    assert values["/a"] == pytest.approx(3.141592653589793)
+    assert values["/b/c"] == pytest.approx(1.5707963267948966)
+    assert values["/b/d"] == pytest.approx(1.5707963267948966)
+    assert values["/e"] == [1, 2]
+
+
+def test_rosparam_below_a_node_is_the_nodes_own() -> None:
+    body = '<node pkg="p" type="t" name="n"><rosparam param="x">[1]</rosparam><rosparam>{y: 2}</rosparam></node>'
+    assert params_of(body) == {"/n/x": [1], "/n/y": 2}
+
+
+def test_steps_and_cleared_namespaces_are_kept_in_order() -> None:
+    plan = plan_of(
+        '<group ns="g" clear_params="true"><rosparam command="delete" param="a"/></group>'
+        '<rosparam command="dump" file="/tmp/x.yaml"/>'
+    )
+    assert plan.clear_params == ("/g",)
+    assert [(s.command, s.name, s.file) for s in plan.steps] == [("delete", "/g/a", ""), ("dump", "/", "/tmp/x.yaml")]
+
+
+def test_if_and_unless_decide_about_an_element() -> None:
+    body = '<arg name="on" default="true"/><param name="a" value="1" if="$(arg on)"/>'
+    body += '<param name="b" value="1" unless="$(arg on)"/>'
+    assert params_of(body) == {"/a": 1}
+    assert params_of(body, on="0") == {"/b": 1}
+
+
+def test_arguments_default_and_override() -> None:
+    body = '<arg name="a" default="1"/><arg name="b" value="$(arg a)2"/><param name="p" value="$(arg b)"/>'
+    assert params_of(body) == {"/p": 12}
+    assert params_of(body, a="7") == {"/p": 72}
+    with pytest.raises(DescriptionError, match="argument 'b' has a fixed value, '12'; it cannot be set"):
+        params_of(body, b="1")
+
+
+def test_substitutions_know_environment_and_folder() -> None:
+    values = params_of(
+        '<param name="a" value="$(env ROBOT)/x"/><param name="b" value="$(optenv NONE two words)"/>'
+        '<param name="c" value="$(dirname)"/><param name="d" value="cost: $5 (a)"/>'
+    )
+    assert values == {"/a": "rover/x", "/b": "two words", "/c": str(Path.cwd()), "/d": "cost: $5 (a)"}
+
+
+def test_an_anonymous_name_is_the_same_within_a_file() -> None:
+    values = params_of('<param name="a" value="$(anon n)"/><param name="b" value="$(anon n)"/>')
+    assert values["/a"] == values["/b"]
+    assert str(values["/a"]).startswith("n_")
+
+
+@pytest.mark.parametrize(
+    ("expression", "value"),
+    [
+        ("arg('v') * 2", 1.0),
+        ("v + 0.5", 1.0),
+        ("'abc' + str(1)", "abc1"),
+        ("env('HOME') != ''", True),
+        ("optenv('ZZ', 'q')", "q"),
+        ("pi", 3.141592653589793),
+        ("'a' if v > 1 and not true else 'b'", "b"),
+        ("'x,y'.split(',')[1]", "y"),
+        ("int(sqrt(16))", 4),
+    ],
+)
+def test_eval_knows_what_launch_files_use(expression: str, value: object) -> None:
+    body = f'<arg name="v" default="0.5"/><param name="a" value="$(eval {expression})"/>'
+    body = body.replace("> 1", "&gt; 1")
+    assert params_of(body)["/a"] == value
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "().__class__",
+        "__import__('os').getcwd()",
+        "1 +",
+        "nobody",
+        "'{}'.format(1)",
+        "9**9**9",
+        "'a' * 10**9",
+        "[x for x in [1]]",
+        "(lambda: 1)()",
+        "pi()",
+        "1/0",
+        "-" * 5000 + "1",
+    ],
+)
+def test_eval_refuses_everything_else_in_a_sentence(expression: str) -> None:
+    with pytest.raises(DescriptionError, match=r"t\.launch:1: error: \$\(eval "):
+        params_of(f'<param name="a" value="$(eval {expression})"/>')
+
+
+def test_find_gives_a_packages_folder_and_xacro_needs_none(tmp_path: Path) -> None:
+    plan = plan_of(
+        '<arg name="urdf" default="$(find xacro)/xacro.py \'$(find car)/car.urdf.xacro\'"/>'
+        '<param name="robot_description" command="$(arg urdf)"/>',
+        packages=Folders({"car": tmp_path}),
+    )
+    command = plan.params[0].value
+    assert isinstance(command, ParamCommand)
+    assert command.line == f"xacro/xacro.py '{tmp_path}/car.urdf.xacro'"
+
+
+@pytest.mark.parametrize(
+    ("body", "message"),
+    [
+        ('<param name="a" value="$(find nowhere)"/>', "no package 'nowhere'"),
+        ('<param name="a" value="$(arg zzz)"/>', "no argument 'zzz'; none is declared so far"),
+        ('<arg name="a"/><param name="a" value="$(arg a)"/>', "the argument 'a' is required and was not given"),
+        ('<param name="a" value="$(env NO_SUCH)"/>', "the environment variable 'NO_SUCH' is not set"),
+        ('<param name="a" value="x$(eval 1)"/>', "eval must be the whole attribute"),
+        ('<param name="a" value="$(arg $(arg b))"/>', "substitutions cannot hold one another"),
+        ('<param name="a" type="int" value="abc"/>', "param 'a': 'abc' is not an integer"),
+        ('<param name="a" type="complex" value="1"/>', "param 'a': no type 'complex'; types are auto"),
+        ('<param name="a"/>', "param 'a' needs one of"),
+        ('<param name="a" textfile="/no/such"/>', "no file '/no/such'"),
+        ('<node pkg="p" name="n"/>', "<node> needs the attribute 'type'"),
+        ('<node pkg="p" type="t" name="a/b"/>', "node name 'a/b' holds a '/'"),
+        (NODE + NODE, "two nodes are named '/n'; the other one is at t.launch:1"),
+        ('<node pkg="p" type="t" name="n" respawn="1"/>', "respawn: '1' is neither 'true' nor 'false'"),
+        ('<node pkg="p" type="t" name="n" respawn="true" required="true"/>', "cannot both be true"),
+        ('<group ns=""/>', "empty 'ns'"),
+        ('<group clear_params="true"/>', "clear_params needs the attribute 'ns'"),
+        ('<remap from="a" to="1/b"/>', "remap to '1/b': not a legal ROS name"),
+        ("<rosparam>{a: [1, 2</rosparam>", "rosparam: invalid YAML: line 1"),
+        ("<rosparam>[1]</rosparam>", "rosparam needs the attribute 'param'"),
+        ('<rosparam>{a: !!python/object/apply:os.system ["id"]}</rosparam>', "could not determine a constructor"),
+        ("<rosparam>&amp;a [*a]</rosparam>", "a value contains itself"),
+        ("<rosparam>{a: rad(1/0)}</rosparam>", "'rad(1/0)' is no angle in radians"),
+        ("<rosparam>" + "[" * 5000 + "</rosparam>", "invalid YAML: nested too deeply"),
+        ('<rosparam command="burn"/>', "rosparam command 'burn'; there are"),
+        ('<include file="/no/such.launch"/>', "no launch file '/no/such.launch' to include"),
+        ('<param name="a" value="1" if="maybe"/>', "'maybe' is neither true, false, 1 nor 0"),
+    ],
+)
+def test_what_roslaunch_refuses_is_refused_in_a_sentence(body: str, message: str) -> None:
+    with pytest.raises(DescriptionError) as error:
+        plan_of(body)
+    assert str(error.value).startswith("t.launch:1: error: ")
+    assert message in str(error.value)
+
+
+def test_an_alias_bomb_is_refused_at_once() -> None:
+    lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x]"]
+    lines += [f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 9)}]" for i in range(1, 12)]
+    text = "\n".join(lines).replace("&", "&amp;")
+    with pytest.raises(DescriptionError, match="its aliases stand for more than"):
+        plan_of(f"<rosparam>\n{text}\n</rosparam>")
+
+
+def test_what_is_not_known_is_named_and_the_reading_goes_on() -> None:
+    report = Diagnostics()
+    plan = plan_of(
+        f'<nodde/><param name="a" value="1" colour="red"/><machine name="m" address="a"/><master/>{NODE}',
+        report=report,
+        speed="1",
+    )
+    assert len(plan.nodes) == 1
+    assert [warning.partition("warning: ")[2] for warning in report.warnings] == [
+        "<nodde> is no tag of launch files; it is ignored",
+        "attribute 'colour' of <param> is not known; it is ignored",
+        "machine 'm' at 'a': nothing runs remotely; its nodes run here",
+        "<master> has no effect since ROS 0.7; it is ignored",
+        "no argument 'speed' to set; the file's arguments: none",
+    ]
+
+
+def write(folder: Path, name: str, body: str) -> Path:
+    path = folder / name
+    path.write_text(f"<launch>{body}</launch>")
+    return path
+
+
+def included(folder: Path, body: str) -> LaunchPlan:
+    path = write(folder, "top.launch", body)
+    return read_launch(path, packages=Folders(), report=Diagnostics())
+
+
+WITH_ARGS = '<arg name="q"/><arg name="r" default="$(arg q)x"/><param name="r" value="$(arg r)"/>'
+
+
+def test_an_included_file_sees_only_the_arguments_it_is_passed(tmp_path: Path) -> None:
+    write(tmp_path, "sub.launch", WITH_ARGS)
+    plan = included(tmp_path, '<include file="$(dirname)/sub.launch" ns="s"><arg name="q" value="9"/></include>')
+    assert {p.name: p.value for p in plan.params} == {"/s/r": "9x"}
+    assert plan.files == (tmp_path / "top.launch", tmp_path / "sub.launch")
+
+    with pytest.raises(DescriptionError, match=r"sub\.launch:1: error: the argument 'q' is required"):
+        included(tmp_path, '<arg name="q" value="1"/><include file="$(dirname)/sub.launch"/>')
+
+
+def test_all_arguments_are_passed_when_asked_for(tmp_path: Path) -> None:
+    write(tmp_path, "sub.launch", WITH_ARGS)
+    plan = included(tmp_path, '<arg name="q" value="4"/><include file="$(dirname)/sub.launch" pass_all_args="true"/>')
+    assert {p.name: p.value for p in plan.params} == {"/r": "4x"}
+
+
+def test_an_argument_the_included_file_lacks_is_an_error(tmp_path: Path) -> None:
+    write(tmp_path, "sub.launch", NODE)
+    with pytest.raises(DescriptionError, match="has no argument 'zz'; its arguments: none"):
+        included(tmp_path, '<include file="$(dirname)/sub.launch"><arg name="zz" value="1"/></include>')
+
+
+def test_a_file_that_includes_itself_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(DescriptionError, match="it may include itself"):
+        included(tmp_path, '<include file="$(dirname)/top.launch"/>')
+
+
+def test_declared_arguments_are_listed_for_the_command_line() -> None:
+    plan = plan_of('<arg name="a"/><arg name="b" default="1" doc="how many"/><arg name="c" value="2"/>')
+    listed = [(a.name, a.default, a.doc, a.required) for a in plan.arguments]
+    assert listed == [("a", None, "", True), ("b", "1", "how many", False), ("c", None, "", False)]
