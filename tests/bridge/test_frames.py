@@ -1,0 +1,81 @@
+"""Link frames: names, parents and relative poses."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from trundle.bridge import link_frames
+from trundle.bridge.frames import relative_poses
+from trundle.diagnostics import Source
+from trundle.model import Joint, JointAxis, JointType, Link, Model, World
+from trundle.spatial import Pose
+
+AT = Source("test.sdf", 1)
+angle = st.floats(-math.pi, math.pi)
+length = st.floats(-10, 10)
+poses = st.builds(Pose.from_rpy, length, length, length, angle, angle, angle)
+
+
+def arm(name: str = "arm", **more: object) -> Model:
+    hinge = Joint(
+        name="hinge",
+        type=JointType.REVOLUTE,
+        parent="base",
+        child="beam",
+        at=AT,
+        axis=JointAxis(direction=(0.0, 0.0, 1.0)),
+    )
+    links = (Link(name="beam", at=AT), Link(name="base", at=AT))
+    return Model(name=name, at=AT, links=links, joints=(hinge,), **more)  # pyright: ignore[reportArgumentType]
+
+
+def row(pose: Pose) -> list[float]:
+    return [*pose.position, *pose.quaternion]
+
+
+@given(poses, poses)
+def test_a_relative_pose_times_its_parent_is_the_child(parent: Pose, child: Pose) -> None:
+    (relative,) = relative_poses(np.array([row(parent), row(child)]), np.array([0]), np.array([1]))
+
+    x, y, z, *q = relative.tolist()
+    again = parent @ Pose((x, y, z), (q[0], q[1], q[2], q[3]))
+
+    assert again.position == pytest.approx(child.position, abs=1e-9)
+    assert again.quaternion == pytest.approx(child.quaternion, abs=1e-9)
+
+
+def test_a_robot_given_alone_keeps_its_links_plain_names() -> None:
+    world = World(name="w", at=AT, models=(arm(), Model(name="ground_plane", at=AT, static=True, added=True)))
+
+    frames = link_frames(world)
+
+    assert [(f.frame, f.parent) for f in frames] == [("beam", "base"), ("base", "world")]
+    assert [(f.link, f.parent_link) for f in frames] == [(0, 1), (1, None)]
+
+
+def test_in_a_world_file_frames_carry_their_model() -> None:
+    """Two robots of one kind would otherwise both be `base`."""
+    world = World(name="w", at=AT, models=(arm("left arm"), arm("2nd")))
+
+    names = [f.frame for f in link_frames(world)]
+
+    assert len(set(names)) == 4
+    assert names[0] == "left_arm/beam"
+
+
+def test_what_cannot_move_is_told_apart() -> None:
+    rigid = Joint(
+        name="rod",
+        type=JointType.REVOLUTE,
+        parent="base",
+        child="beam",
+        at=AT,
+        axis=JointAxis(direction=(0.0, 0.0, 1.0), lower=0.0, upper=0.0),
+    )
+    model = Model(name="arm", at=AT, links=arm().links, joints=(rigid,))
+
+    assert [f.moves for f in link_frames(World(name="w", at=AT, models=(model,)))] == [False, True]
+    assert [f.moves for f in link_frames(World(name="w", at=AT, models=(arm(static=True),)))] == [False, False]

@@ -1,0 +1,73 @@
+"""Finding a user's plugin by the file name of the machine code it replaces."""
+
+from pathlib import Path
+
+import pytest
+
+from trundle.diagnostics import DescriptionError, Source
+from trundle.model import PluginTag
+from trundle.plugins import find_plugin
+from trundle.xmlnode import parse_xml
+
+PLUGIN = "from trundle.plugins import Plugin\n\nclass Spin(Plugin):\n    pass\n"
+
+
+def tag(folder: Path, filename: str = "/home/larry/gazebo_plugin/libspin.so") -> PluginTag:
+    return PluginTag(
+        name="spin",
+        filename=filename,
+        at=Source(str(folder / "model.sdf"), 7),
+        node=parse_xml("<plugin/>", name="model.sdf"),
+    )
+
+
+def test_a_python_file_beside_the_model_replaces_the_machine_code(tmp_path: Path) -> None:
+    (tmp_path / "spin.py").write_text(PLUGIN)
+
+    found, origin = find_plugin(tag(tmp_path), {})
+
+    assert found.__name__ == "Spin"
+    assert origin == str(tmp_path / "spin.py")
+
+
+def test_the_plugin_paths_are_searched_in_order(tmp_path: Path) -> None:
+    for name in ("ours", "gazebos"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "spin.py").write_text(PLUGIN)
+    environment = {
+        "GAZEBO_PLUGIN_PATH": str(tmp_path / "gazebos"),
+        "TRUNDLE_PLUGIN_PATH": f"{tmp_path / 'missing'}:{tmp_path / 'ours'}",
+    }
+
+    _, origin = find_plugin(tag(tmp_path), environment)
+
+    assert origin == str(tmp_path / "ours" / "spin.py")
+
+
+def test_a_missing_plugin_says_where_was_looked(tmp_path: Path) -> None:
+    with pytest.raises(DescriptionError) as error:
+        find_plugin(tag(tmp_path), {"GAZEBO_PLUGIN_PATH": "/opt/plugins"})
+
+    assert str(error.value) == (
+        f"{tmp_path}/model.sdf:7: error: plugin 'spin': no libspin.so; Trundle runs Python plugins: "
+        f"looked for spin.py in {tmp_path}, /opt/plugins"
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("import trundle\n1 / 0\n", 2, "ZeroDivisionError"),
+        ("def (:\n", 1, "SyntaxError"),
+        ("x = 1\n", None, "one subclass of Plugin; here: none"),
+    ],
+)
+def test_a_broken_plugin_is_one_sentence_with_its_own_line(
+    tmp_path: Path, text: str, line: int | None, words: str
+) -> None:
+    (tmp_path / "spin.py").write_text(text)
+
+    with pytest.raises(DescriptionError, match=words) as error:
+        find_plugin(tag(tmp_path), {})
+
+    assert error.value.at == Source(str(tmp_path / "spin.py"), line)
