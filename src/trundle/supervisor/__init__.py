@@ -1,1 +1,19 @@
-"""Room."""
+"""Processes and tasks: started, watched over, respawned, stopped; no ROS in here."""
+
+from .job import Job, JobError, Patience, Policy
+from .process import Command, ProcessJob
+from .supervisor import Event, EventKind, Supervisor
+from .task import TaskJob
+
+__all__ = [
+    "Command",
+    "Event",
+    "EventKind",
+    "Job",
+    "JobError",
+    "Patience",
+    "Policy",
+    "ProcessJob",
+    "Supervisor",
+    "TaskJob",
+]

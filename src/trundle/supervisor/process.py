@@ -1,0 +1,136 @@
+"""A job that runs as a process of its own, with everything it starts in one group."""
+
+import asyncio
+import contextlib
+import os
+import signal
+import subprocess
+from collections import deque
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Literal
+
+from .job import JobError, Patience
+
+_POSIX = os.name == "posix"
+_CHUNK_BYTES = 65536
+_MAX_LINE = 10_000
+"""Characters of a line kept in memory; a program that never ends its line must not fill it."""
+_KEPT_LINES = 10
+_EXIT_GRACE_S = 1.0
+"""How long a program's last output may take to arrive after its end: a child of its own may hold the pipe open."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Command:
+    """A program to run."""
+
+    name: str
+    argv: tuple[str, ...]
+    env: Mapping[str, str]
+    """All of it; nothing is inherited."""
+    cwd: Path | None = None
+    output: Literal["screen", "log"] = "log"
+    """Where standard output goes; standard error always goes to the screen, as with roslaunch."""
+    log_file: Path | None = None
+    """Takes standard output where `output` is 'log'; None drops it."""
+
+
+class ProcessJob:
+    """Runs a program; its lines go to `show` or to its log file."""
+
+    def __init__(self, command: Command, show: Callable[[str, str], None]) -> None:
+        """`show` takes the job's name and one line, without its end."""
+        self.name = command.name
+        self._command = command
+        self._show = show
+        self._process: asyncio.subprocess.Process | None = None
+        self._readers: list[asyncio.Task[None]] = []
+        self._last: deque[str] = deque(maxlen=_KEPT_LINES)
+
+    async def start(self) -> str:
+        command = self._command
+        self._last.clear()
+        try:
+            self._process = await asyncio.create_subprocess_exec(
+                *command.argv,
+                env=dict(command.env),
+                cwd=command.cwd,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                start_new_session=_POSIX,
+            )
+        except FileNotFoundError as error:
+            raise JobError(f"{error.filename or command.argv[0]!r} is not there") from None
+        except (OSError, ValueError) as error:
+            raise JobError(f"{command.argv[0]!r} cannot be run: {error}") from None
+        assert self._process.stdout is not None
+        assert self._process.stderr is not None
+        self._readers = [
+            asyncio.create_task(self._read(self._process.stdout, to_screen=command.output == "screen")),
+            asyncio.create_task(self._read(self._process.stderr, to_screen=True)),
+        ]
+        return f"pid [{self._process.pid}]"
+
+    async def wait(self) -> int:
+        assert self._process is not None, "a job is started before it is waited for"
+        code = await self._process.wait()
+        _, late = await asyncio.wait(self._readers, timeout=_EXIT_GRACE_S)
+        for reader in late:
+            reader.cancel()
+        return code
+
+    async def stop(self, patience: Patience) -> None:
+        process = self._process
+        if process is None or process.returncode is not None:
+            return
+        for number, timeout_s in (
+            (signal.SIGINT if _POSIX else signal.SIGTERM, patience.interrupt_s),
+            (signal.SIGTERM, patience.terminate_s),
+        ):
+            if process.returncode is not None:
+                break
+            self._signal(process, number)
+            with contextlib.suppress(TimeoutError):
+                await asyncio.wait_for(process.wait(), timeout_s)
+        # The group outlives its leader where that left children behind.
+        self._signal(process, signal.SIGKILL if _POSIX else signal.SIGTERM)
+        await process.wait()
+
+    def last_output(self) -> list[str]:
+        return list(self._last)
+
+    @staticmethod
+    def _signal(process: asyncio.subprocess.Process, number: signal.Signals) -> None:
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            if _POSIX:
+                os.killpg(process.pid, number)
+            else:
+                process.terminate()
+
+    async def _read(self, stream: asyncio.StreamReader, *, to_screen: bool) -> None:
+        """Take a stream in as it comes: a program that writes faster than the screen waits, we do not grow."""
+        with contextlib.ExitStack() as stack:
+            log: IO[str] | None = None
+            if not to_screen and self._command.log_file is not None:
+                log = stack.enter_context(self._command.log_file.open("a", errors="replace"))
+            rest = ""
+            while chunk := await stream.read(_CHUNK_BYTES):
+                *lines, rest = (rest + chunk.decode(errors="replace")).split("\n")
+                if len(rest) > _MAX_LINE:
+                    lines, rest = [*lines, rest], ""
+                for line in lines:
+                    self._take(line, log, to_screen=to_screen)
+            if rest:
+                self._take(rest, log, to_screen=to_screen)
+
+    def _take(self, line: str, log: IO[str] | None, *, to_screen: bool) -> None:
+        line = line.rstrip("\r")
+        self._last.append(line[:_MAX_LINE])
+        if to_screen:
+            self._show(self.name, line)
+        elif log is not None:
+            log.write(line + "\n")
+            log.flush()

@@ -1,0 +1,136 @@
+"""Starts jobs, watches over them, starts them again, and stops them in reverse order."""
+
+import asyncio
+import contextlib
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from .job import Job, JobError, Patience, Policy
+
+EventKind: TypeAlias = Literal["started", "failed", "finished", "died", "respawning", "stopping", "required"]
+
+_QUICK_DEATH_S = 2.0
+_LONGEST_BACK_OFF_S = 10.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Event:
+    """Something that happened to a job, in a sentence."""
+
+    kind: EventKind
+    name: str
+    text: str
+
+
+@dataclass(slots=True)
+class _Watched:
+    job: Job
+    policy: Policy
+    watch: asyncio.Task[None] | None = None
+    starts: int = 0
+    code: int | None = None
+
+
+class Supervisor:
+    """Watches over jobs on the running asyncio loop."""
+
+    def __init__(self, listener: Callable[[Event], None], *, patience: Patience | None = None) -> None:
+        """`listener` is told what happens, on the loop's thread."""
+        self._listener = listener
+        self._patience = patience or Patience()
+        self._watched: dict[str, _Watched] = {}
+        self._ended = asyncio.Event()
+        self._required: str | None = None
+        self._stop = asyncio.Event()
+
+    async def start(self, job: Job, policy: Policy | None = None) -> bool:
+        """Start a job; tell whether it runs. One that cannot be started is reported, never raised."""
+        assert job.name not in self._watched, f"two jobs named {job.name!r}"
+        watched = _Watched(job, policy or Policy())
+        self._watched[job.name] = watched
+        if self._required is None:
+            self._ended.clear()
+        runs = await self._start(watched)
+        if runs:
+            watched.watch = asyncio.create_task(self._watch(watched), name=f"watch {job.name}")
+        else:
+            self._end(watched, 1)
+        return runs
+
+    async def wait(self) -> str | None:
+        """Return when a required job ended (its name), or when no job is left (None)."""
+        await self._ended.wait()
+        return self._required
+
+    async def stop(self) -> None:
+        """Stop every job, the last started first."""
+        self._stop.set()
+        running = [w for w in reversed(self._watched.values()) if w.watch is not None and not w.watch.done()]
+        for watched in running:
+            self._tell("stopping", watched, "killing on exit")
+        await asyncio.gather(*(watched.job.stop(self._patience) for watched in running))
+        await asyncio.gather(*(watched.watch for watched in running if watched.watch is not None))
+        self._ended.set()
+
+    def exit_codes(self) -> dict[str, int | None]:
+        """Each job's last exit code; None while it runs."""
+        return {name: watched.code for name, watched in self._watched.items()}
+
+    async def _start(self, watched: _Watched) -> bool:
+        try:
+            what = await watched.job.start()
+        except JobError as error:
+            self._tell("failed", watched, f"cannot be started: {error}")
+            return False
+        watched.starts += 1
+        watched.code = None
+        self._tell("started", watched, f"started {what}")
+        return True
+
+    async def _watch(self, watched: _Watched) -> None:
+        quick_deaths = 0
+        while True:
+            since = time.monotonic()
+            code = await watched.job.wait()
+            if self._stop.is_set():
+                watched.code = code
+                return
+            self._report_end(watched, code)
+            if not watched.policy.respawn:
+                self._end(watched, code)
+                return
+            # A program that dies at once would otherwise be started hundreds of times a second.
+            quick_deaths = quick_deaths + 1 if time.monotonic() - since < _QUICK_DEATH_S else 0
+            back_off_s = min(0.1 * 2**quick_deaths, _LONGEST_BACK_OFF_S) if quick_deaths else 0.0
+            delay_s = max(watched.policy.respawn_delay_s, back_off_s)
+            self._tell("respawning", watched, f"respawning in {delay_s:.1f} s" if delay_s else "respawning")
+            with contextlib.suppress(TimeoutError):
+                await asyncio.wait_for(self._stop.wait(), delay_s)
+            if self._stop.is_set() or not await self._start(watched):
+                self._end(watched, code)
+                return
+            if self._stop.is_set():  # it began to run while everything was being stopped
+                await watched.job.stop(self._patience)
+
+    def _report_end(self, watched: _Watched, code: int) -> None:
+        if code == 0:
+            self._tell("finished", watched, "has finished cleanly")
+            return
+        how = f"exit code {code}" if code > 0 else f"signal {-code}"
+        last = watched.job.last_output()
+        said = "; its last output:\n" + "\n".join(f"    {line}" for line in last) if last else ""
+        self._tell("died", watched, f"has died [{how}]{said}")
+
+    def _end(self, watched: _Watched, code: int) -> None:
+        watched.code = code
+        if watched.policy.required and self._required is None:
+            self._required = watched.job.name
+            self._tell("required", watched, "is required; everything stops")
+            self._ended.set()
+        if all(w.code is not None for w in self._watched.values()):
+            self._ended.set()
+
+    def _tell(self, kind: EventKind, watched: _Watched, text: str) -> None:
+        self._listener(Event(kind=kind, name=watched.job.name, text=text))

@@ -1,0 +1,46 @@
+"""A job that runs as a coroutine of this process."""
+
+import asyncio
+import traceback
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+from trundle.diagnostics import TrundleError
+
+from .job import Patience
+
+
+class TaskJob:
+    """Runs a coroutine function; what it returns is the exit code."""
+
+    def __init__(self, name: str, run: Callable[[], Coroutine[Any, Any, int]]) -> None:
+        self.name = name
+        self._run = run
+        self._task: asyncio.Task[int] | None = None
+        self._last: list[str] = []
+
+    async def start(self) -> str:
+        self._last = []
+        self._task = asyncio.get_running_loop().create_task(self._run(), name=self.name)
+        return "within this process"
+
+    async def wait(self) -> int:
+        assert self._task is not None, "a job is started before it is waited for"
+        await asyncio.wait([self._task])
+        if self._task.cancelled():
+            return 0
+        error = self._task.exception()
+        if error is None:
+            return self._task.result()
+        # A reason the user can mend is one sentence; anything else is our bug, and its trace is the only clue.
+        self._last = [str(error)] if isinstance(error, TrundleError) else traceback.format_exception(error)
+        return 1
+
+    async def stop(self, patience: Patience) -> None:
+        if self._task is None or self._task.done():
+            return
+        self._task.cancel()
+        await asyncio.wait([self._task], timeout=patience.terminate_s)
+
+    def last_output(self) -> list[str]:
+        return self._last
