@@ -1,0 +1,55 @@
+"""The arguments every ROS 1 executable understands: `a:=b`, `__name:=n`, `_param:=value`."""
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+_REMAP = re.compile(r"(?P<from>(?:[~/A-Za-z]|__?)[A-Za-z0-9_/]*):=(?P<to>.*)", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Arguments:
+    """A command line, sorted into what ROS reads and what is left for the program."""
+
+    remappings: dict[str, str] = field(default_factory=dict[str, str])
+    """Names as written, not yet resolved."""
+    params: dict[str, str] = field(default_factory=dict[str, str])
+    """Private parameters; each value is YAML text."""
+    name: str | None = None
+    namespace: str | None = None
+    log: str | None = None
+    master_uri: str | None = None
+    host: str | None = None
+    """From `__ip` or `__hostname`."""
+    rest: tuple[str, ...] = ()
+
+
+def parse_arguments(arguments: Iterable[str]) -> Arguments:
+    """Sort a command line; what ROS does not read keeps its order in `rest`.
+
+    Unknown `__keys` are dropped, as roscpp and rospy do.
+    """
+    remappings: dict[str, str] = {}
+    params: dict[str, str] = {}
+    special: dict[str, str] = {}
+    rest: list[str] = []
+    for argument in arguments:
+        match = _REMAP.fullmatch(argument)
+        if match is None:
+            rest.append(argument)
+        elif match["from"].startswith("__"):
+            special[match["from"]] = match["to"]
+        elif match["from"].startswith("_"):
+            params[match["from"][1:]] = match["to"]
+        elif match["to"].strip():
+            remappings[match["from"]] = match["to"].strip()
+    return Arguments(
+        remappings=remappings,
+        params=params,
+        name=special.get("__name"),
+        namespace=special.get("__ns"),
+        log=special.get("__log"),
+        master_uri=special.get("__master"),
+        host=special.get("__hostname", special.get("__ip")),
+        rest=tuple(rest),
+    )

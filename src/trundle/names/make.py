@@ -1,0 +1,41 @@
+"""Makes ROS names: anonymous ones, and legal ones from the freer names of SDF."""
+
+import os
+import re
+import socket
+import time
+from collections.abc import Iterable
+
+_ILLEGAL = re.compile(r"[^A-Za-z0-9_]")
+
+
+def anonymous_name(base: str) -> str:
+    """Make a name nobody else has: base_host_pid_milliseconds, as rospy does."""
+    return _ILLEGAL.sub("_", f"{base}_{socket.gethostname()}_{os.getpid()}_{int(time.time() * 1000)}")
+
+
+def ros_name(sdf_name: str) -> str:
+    """Map an SDF name to a legal ROS name.
+
+    The one rule: `::` and `/` separate namespaces; in each part every character but letters, digits and `_` becomes
+    `_`; a part that does not begin with a letter gets `n_` in front. Legal names come out unchanged.
+    """
+    parts = [_ILLEGAL.sub("_", part) for part in re.split(r"::|/", sdf_name) if part]
+    legal = [part if part[0].isalpha() else f"n_{part}" for part in parts]
+    return ("/" if sdf_name.startswith("/") else "") + "/".join(legal or ["unnamed"])
+
+
+def ros_names(sdf_names: Iterable[str]) -> dict[str, str]:
+    """Map SDF names to legal ROS names that stay distinct: the second `left_arm` becomes `left_arm_2`."""
+    given = list(dict.fromkeys(sdf_names))
+    taken = {name for name in given if ros_name(name) == name}
+    result: dict[str, str] = {}
+    for name in given:
+        legal = ros_name(name)
+        candidate, count = legal, 1
+        while candidate in taken and candidate != name:
+            count += 1
+            candidate = f"{legal}_{count}"
+        taken.add(candidate)
+        result[name] = candidate
+    return result

@@ -1,0 +1,98 @@
+"""What `roscore` starts: the master with its parameters, and the node that gathers what all others log."""
+
+import asyncio
+import uuid
+from collections.abc import Callable
+
+from .loop import GraphLoop
+from .master import Master
+from .node import Node
+from .parameters import ParameterTree
+
+DISTRO, VERSION = "noetic", "1.16.0"
+"""What /rosdistro and /rosversion say; scripts compare them with real distributions."""
+
+
+class Core:
+    """A master and /rosout, on one loop."""
+
+    def __init__(
+        self,
+        loop: GraphLoop,
+        *,
+        port: int = 11311,
+        host: str | None = None,
+        run_id: str | None = None,
+        rosout: bool = True,
+        distro: str = DISTRO,
+        on_shutdown: Callable[[str], None] | None = None,
+    ) -> None:
+        """Prepare; `start` listens.
+
+        Args:
+            loop: where it runs.
+            port: 0 takes any free one.
+            host: address to listen at; loopback by default.
+            run_id: names this run; new by default.
+            rosout: whether to gather logs.
+            distro: what /rosdistro says.
+            on_shutdown: called, on the loop and with the reason, when a client asks the master to stop.
+        """
+        self._loop = loop
+        self._port = port
+        self._host = host
+        self._run_id = run_id or str(uuid.uuid1())
+        self._wants_rosout = rosout
+        self._distro = distro
+        self._master = Master(on_shutdown=on_shutdown)
+        self._rosout: Node | None = None
+
+    @property
+    def uri(self) -> str:
+        """Address of the master."""
+        return self._master.uri
+
+    @property
+    def port(self) -> int:
+        """Where the master listens."""
+        return self._master.port
+
+    @property
+    def run_id(self) -> str:
+        """Names this run."""
+        return self._run_id
+
+    @property
+    def parameters(self) -> ParameterTree:
+        """The parameters as they are; to set one, `set_param` also tells the nodes that follow it."""
+        return self._master.parameters
+
+    def set_param(self, name: str, value: object) -> None:
+        """Set a parameter by its global name, on the loop."""
+        self._master.set_param(name, value)
+
+    async def start(self) -> None:
+        """Listen.
+
+        Raises:
+            PortTakenError: another program listens there.
+        """
+        await self._master.start(self._port, self._host)
+        for name, value in (("run_id", self._run_id), ("rosdistro", self._distro), ("rosversion", VERSION)):
+            # roslaunch writes both with a newline at the end, as `rosversion -d > file` does; clients strip it.
+            self._master.set_param(f"/{name}", value if name == "run_id" else f"{value}\n")
+        if self._wants_rosout:
+            self._rosout = Node("rosout", loop=self._loop, master_uri=self.uri, host=self._host)
+            gathered = self._rosout.advertise("/rosout_agg", "rosgraph_msgs/Log", queue_size=100)
+            self._rosout.subscribe("/rosout", "rosgraph_msgs/Log", gathered.publish, queue_size=100)
+
+    async def ready(self) -> None:
+        """Wait until /rosout is there too."""
+        if self._rosout is not None:
+            await self._rosout.ready()
+
+    async def stop(self) -> None:
+        """End /rosout, then the master."""
+        if self._rosout is not None:
+            await asyncio.gather(self._rosout.shutdown("the core ends"), return_exceptions=True)
+        await self._master.stop()

@@ -1,0 +1,95 @@
+"""The little of HTTP that XML-RPC needs: one POST, one answer, sizes known beforehand."""
+
+from dataclasses import dataclass
+from urllib.parse import urlsplit
+
+from .errors import WireError
+
+MAX_HEAD_BYTES = 64 * 1024
+MAX_BODY_BYTES = 64 * 1024 * 1024
+"""A parameter tree with several robot descriptions is a few MB; anything near this bound is no graph traffic."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Head:
+    """Start line and header fields of a request or an answer."""
+
+    start: tuple[str, str, str]
+    fields: dict[str, str]
+    """Names in lower case."""
+
+    @property
+    def keeps_alive(self) -> bool:
+        """Whether the connection stays open after this exchange."""
+        connection = self.fields.get("connection", "").lower()
+        if "HTTP/1.0" in self.start:
+            return connection == "keep-alive"
+        return connection != "close"
+
+    @property
+    def body_bytes(self) -> int | None:
+        """Announced size of the body, None if not announced.
+
+        Raises:
+            WireError: the size is no number, or larger than `MAX_BODY_BYTES`.
+        """
+        text = self.fields.get("content-length")
+        if text is None:
+            return None
+        if not text.isdecimal():
+            raise WireError(f"not a content length: {text[:40]!r}")
+        if len(text) > 12 or int(text) > MAX_BODY_BYTES:
+            raise WireError(f"a body of {text[:20]} bytes is larger than the {MAX_BODY_BYTES} accepted")
+        return int(text)
+
+
+def parse_head(data: bytes) -> Head:
+    """Read start line and fields, up to and with the empty line.
+
+    Raises:
+        WireError: this is not HTTP.
+    """
+    lines = data.decode("latin-1").split("\r\n")
+    start = lines[0].split(" ", 2)
+    if len(start) < 2 or not any(part.startswith("HTTP/1.") for part in start):
+        raise WireError("not an HTTP/1 message")
+    fields: dict[str, str] = {}
+    for line in lines[1:]:
+        name, colon, value = line.partition(":")
+        if colon:
+            fields[name.strip().lower()] = value.strip()
+    return Head(start=(start[0], start[1], start[2] if len(start) > 2 else ""), fields=fields)
+
+
+def request(uri: str, body: bytes) -> bytes:
+    """Write a POST; the connection closes after the answer."""
+    parts = urlsplit(uri)
+    head = (
+        f"POST {parts.path or '/'} HTTP/1.1\r\nHost: {parts.netloc}\r\nUser-Agent: trundle\r\n"
+        f"Content-Type: text/xml\r\nContent-Length: {len(body)}\r\nConnection: close\r\n\r\n"
+    )
+    return head.encode("latin-1", "replace") + body
+
+
+def answer(status: str, body: bytes, *, keep_alive: bool) -> bytes:
+    """Write an answer, such as `answer("200 OK", …)`."""
+    head = (
+        f"HTTP/1.1 {status}\r\nServer: trundle\r\nContent-Type: text/xml\r\nContent-length: {len(body)}\r\n"
+        f"Connection: {'keep-alive' if keep_alive else 'close'}\r\n\r\n"
+    )
+    return head.encode("latin-1") + body
+
+
+def host_and_port(uri: str) -> tuple[str, int]:
+    """Split `http://host:port/` or `rosrpc://host:port`.
+
+    Raises:
+        WireError: host or port is missing or no number.
+    """
+    try:
+        parts = urlsplit(uri)
+        if parts.scheme not in ("http", "rosrpc") or not parts.hostname or parts.port is None:
+            raise ValueError
+    except ValueError:
+        raise WireError(f"not a node's address: {uri[:200]!r}; it reads like http://localhost:11311/") from None
+    return parts.hostname, parts.port

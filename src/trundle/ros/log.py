@@ -1,0 +1,34 @@
+"""What nodes say: on stderr as ROS writes it, and on /rosout."""
+
+import inspect
+import sys
+import threading
+from typing import Literal
+
+Level = Literal["debug", "info", "warn", "error", "fatal"]
+LEVELS: dict[str, int] = {"debug": 1, "info": 2, "warn": 4, "error": 8, "fatal": 16}
+"""rosgraph_msgs/Log's numbers."""
+
+_COLOURS = {"debug": "\033[32m", "warn": "\033[33m", "error": "\033[31m", "fatal": "\033[31m"}
+_WIDTHS = {"info": "[INFO]", "debug": "[DEBUG]", "warn": "[WARN]", "error": "[ERROR]", "fatal": "[FATAL]"}
+_lock = threading.Lock()
+
+
+def print_log(level: Level, text: str, *, wall_ns: int, sim_ns: int | None) -> None:
+    """Write a line as rospy does: `[INFO] [wall time, simulated time]: text`."""
+    stamp = f"{wall_ns / 1e9:.6f}" if sim_ns is None else f"{wall_ns / 1e9:.6f}, {sim_ns / 1e9:.6f}"
+    line = f"{_WIDTHS[level]} [{stamp}]: {text}"
+    if sys.stderr.isatty() and level in _COLOURS:
+        line = f"{_COLOURS[level]}{line}\033[0m"
+    with _lock:
+        print(line, file=sys.stderr, flush=True)
+
+
+def caller(depth: int) -> tuple[str, str, int]:
+    """File, function and line `depth` frames above this function's caller, for rosgraph_msgs/Log."""
+    frame = inspect.currentframe()
+    for _ in range(depth + 1):
+        frame = frame.f_back if frame is not None else None
+    if frame is None:
+        return "", "", 0
+    return frame.f_code.co_filename.rpartition("/")[2], frame.f_code.co_qualname, frame.f_lineno

@@ -1,0 +1,158 @@
+"""The thread everything between nodes happens in: one asyncio loop, shared by the nodes of this process."""
+
+import asyncio
+import logging
+import threading
+from collections.abc import Callable, Coroutine
+from concurrent.futures import Future
+from typing import TYPE_CHECKING, Any, Self, TypeVar
+
+from .messages import Messages
+
+if TYPE_CHECKING:
+    from .node import Node
+
+_T = TypeVar("_T")
+_log = logging.getLogger(__name__)
+_CALM_PASSES = 5
+"""Passes of the loop without a delivery after which `settle` calls it quiet; coroutine callbacks that wait for
+nothing outside the process get this many steps."""
+
+
+class GraphLoop:
+    """Owns the thread and the loop in it; nodes are made for one.
+
+    Nodes of one loop pass each other message objects without serialising them. Also a context manager.
+    """
+
+    def __init__(self, *, messages: Messages | None = None) -> None:
+        self.messages = messages or Messages()
+        """Message types of all nodes here; loaded on first use."""
+        self.nodes: dict[str, Node] = {}
+        """Address → running node; touched on the loop only."""
+        self._deliveries = 0
+        """Batches of published messages being handed on, by which `settle` knows that there are more."""
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._work, name="trundle-graph", daemon=True)
+        self._tasks: set[asyncio.Task[Any]] = set()
+
+    def start(self) -> None:
+        """Start the thread."""
+        self._thread.start()
+
+    def stop(self, timeout_s: float = 2.0) -> None:
+        """Shut the nodes down, end what still runs, and end the thread."""
+        if not self._thread.is_alive():
+            return
+        try:
+            self.run(self._wind_up(timeout_s * 0.75), timeout_s)
+        except TimeoutError:
+            _log.warning("nodes did not shut down within %.1f s", timeout_s)
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join(timeout_s)
+
+    def __enter__(self) -> Self:
+        self.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
+
+    @property
+    def is_this_thread(self) -> bool:
+        """Whether the caller runs on the loop."""
+        return threading.current_thread() is self._thread
+
+    def run(self, coroutine: Coroutine[Any, Any, _T], timeout_s: float | None = 10.0) -> _T:
+        """Run a coroutine on the loop and wait for its answer, from another thread.
+
+        Raises:
+            TimeoutError: no answer in time; the coroutine is cancelled.
+        """
+        assert not self.is_this_thread, "run() would wait for itself; await the coroutine"
+        future = asyncio.run_coroutine_threadsafe(coroutine, self._loop)
+        try:
+            return future.result(timeout_s)
+        except TimeoutError:
+            future.cancel()
+            raise
+
+    def spawn(self, coroutine: Coroutine[Any, Any, _T]) -> Future[_T]:
+        """Start a coroutine on the loop, from any thread; if it fails and nobody asks, the log says so."""
+        future: Future[_T] = Future()
+
+        def start() -> None:
+            task = self._loop.create_task(coroutine)
+            self._tasks.add(task)
+            task.add_done_callback(self._tasks.discard)
+            task.add_done_callback(lambda done: _copy(done, future))
+            future.add_done_callback(lambda done: self.call_soon(task.cancel) if done.cancelled() else None)
+
+        self.call_soon(start)
+        return future
+
+    def call_soon(self, function: Callable[[], object]) -> None:
+        """Have the loop call a function, from any thread; ignored once the loop has ended."""
+        if self.is_this_thread:
+            self._loop.call_soon(function)
+            return
+        try:
+            self._loop.call_soon_threadsafe(function)
+        except RuntimeError:  # the loop is closed: nobody is left to hear of it
+            _log.debug("the graph has ended; %s is not called", function)
+
+    def deliver_soon(self, function: Callable[[], object]) -> None:
+        """As `call_soon`, for handing on messages: `settle` waits until none of these was called for a while."""
+
+        def count() -> None:
+            self._deliveries += 1
+            function()
+
+        self.call_soon(count)
+
+    def settle(self, timeout_s: float = 5.0) -> None:
+        """Wait until every message published so far has reached its subscribers in this process.
+
+        Callbacks of nodes with `deliver` have then been handed over, not yet called. For flat-out runs, between
+        two strides.
+        """
+        self.run(self._quiet(), timeout_s)
+
+    async def _quiet(self) -> None:
+        calm, seen = 0, self._deliveries
+        while calm < _CALM_PASSES:
+            await asyncio.sleep(0)
+            calm = calm + 1 if self._deliveries == seen else 0
+            seen = self._deliveries
+
+    async def _wind_up(self, timeout_s: float) -> None:
+        nodes = [node.shutdown("the program ends") for node in list(self.nodes.values())]
+        await asyncio.wait_for(asyncio.gather(*nodes, return_exceptions=True), timeout_s)
+        mine = asyncio.current_task()
+        others = [task for task in asyncio.all_tasks() if task is not mine]
+        for task in others:
+            task.cancel()
+        await asyncio.gather(*others, return_exceptions=True)
+
+    def _work(self) -> None:
+        asyncio.set_event_loop(self._loop)
+        try:
+            self._loop.run_forever()
+        finally:
+            self._loop.run_until_complete(self._loop.shutdown_asyncgens())
+            self._loop.close()
+
+
+def _copy(task: "asyncio.Task[_T]", future: "Future[_T]") -> None:
+    """Hand a task's outcome to a future that any thread may wait for."""
+    if task.cancelled():
+        future.cancel()
+        return
+    error = task.exception()
+    if future.cancelled():
+        return
+    if error is not None:
+        _log.error("a task of the graph failed: %s: %s", type(error).__name__, error, exc_info=error)
+        future.set_exception(error)
+    else:
+        future.set_result(task.result())

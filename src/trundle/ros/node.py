@@ -1,0 +1,555 @@
+"""A node: what it publishes, subscribes and provides, and its word with the master.
+
+Registering returns at once, from any thread; a queue of calls to the master is worked off on the loop, and goes on
+trying while no master answers. Whatever needs an answer is a coroutine of the loop.
+"""
+
+import asyncio
+import contextlib
+import threading
+import traceback
+from collections.abc import Awaitable, Callable, Mapping
+from typing import Any
+
+from trundle.names import canonical_name, join_names, resolve_name
+
+from .clock import Clock, WallClock
+from .errors import MasterError, MasterUnreachableError, MessageError, ParameterError, ServiceError, WireError
+from .log import LEVELS, Level, caller, print_log
+from .loop import GraphLoop
+from .messages import ANY_TYPE, Message, Messages
+from .network import master_uri_from_env, server_address
+from .publisher import Publisher
+from .rpc_client import call_value
+from .service import Service, ServiceCallback, call_service
+from .slave import Slave
+from .subscription import Callback, Subscription
+from .xmlrpc import Fault
+
+_UNSET: Any = object()
+_MASTER_S = 5.0
+"""How long the master may take for an answer."""
+_FAREWELL_S = 1.0
+"""How long unregistering may take: a whole program must end within two seconds of Ctrl-C."""
+_RETRY_S = 0.5
+_Action = Callable[[], Awaitable[None]]
+
+
+class Node:
+    """One node of the graph."""
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        loop: GraphLoop,
+        master_uri: str | None = None,
+        namespace: str = "/",
+        remappings: Mapping[str, str] | None = None,
+        params: Mapping[str, Any] | None = None,
+        clock: Clock | None = None,
+        deliver: Callable[[Callable[[], None]], None] | None = None,
+        rosout: bool = True,
+        host: str | None = None,
+    ) -> None:
+        """Make a node and have it start; returns at once.
+
+        Args:
+            name: base name such as 'driver'; a name that starts with '/' is taken as it is.
+            loop: where it runs.
+            master_uri: ROS_MASTER_URI by default.
+            namespace: where relative names live.
+            remappings: name → name, both as written on a command line.
+            params: private parameters, set before anything else happens.
+            clock: ROS time; the wall's by default.
+            deliver: called on the loop with a function for each message and request that has come in; it must
+                return at once, and somebody, in a thread of their choice, must call the function. By default
+                callbacks run on the loop.
+            rosout: whether to publish /rosout and provide the logger services.
+            host: address to listen at; loopback by default.
+        """
+        self.name = canonical_name("/" + join_names(namespace, name).lstrip("/"))
+        self.loop = loop
+        self.master_uri = master_uri or master_uri_from_env()
+        self.clock: Clock = clock or WallClock()
+        self.deliver = deliver
+        self.log_level: Level = "info"
+        """Messages below this level are not said."""
+        self.closed = asyncio.Event()
+        """Set when the node has shut down; awaited on the loop."""
+        self._remappings = {
+            resolve_name(a, self.name): resolve_name(b, self.name) for a, b in (remappings or {}).items()
+        }
+        self._params = dict(params or {})
+        self._address = server_address(host)
+        self._slave = Slave(self, self._address)
+        self._lock = threading.Lock()
+        self._publishers: dict[str, Publisher] = {}
+        self._subscriptions: dict[str, list[Subscription]] = {}
+        self._publisher_uris: dict[str, list[str]] = {}
+        self._services: dict[str, Service] = {}
+        self._rosout: Publisher | None = None
+        self._wants_rosout = rosout
+        self._actions: asyncio.Queue[_Action] = asyncio.Queue()
+        self._worker: asyncio.Task[None] | None = None
+        self._on_shutdown: list[Callable[[str], None]] = []
+        self._is_down = False
+        self._waits_for_master = False
+        self.loop.call_soon(self._begin)
+
+    # -- who it is
+
+    @property
+    def uri(self) -> str:
+        """Address of its XML-RPC interface; empty before it has started."""
+        return self._slave.uri
+
+    @property
+    def messages(self) -> Messages:
+        """Message types of the loop."""
+        return self.loop.messages
+
+    @property
+    def is_shut_down(self) -> bool:
+        """Whether it has begun to shut down."""
+        return self._is_down
+
+    def resolve(self, name: str) -> str:
+        """Return the global name this node means by `name`, remapped."""
+        return resolve_name(name, self.name, self._remappings)
+
+    def new(self, type_name: str, fields: object = None) -> Message:
+        """Make a message; 'now' and 'auto' are this node's ROS time. See `Messages.new`."""
+        return self.messages.new(type_name, fields, now_ns=self.clock.now_ns())
+
+    def stamp(self) -> Message:
+        """ROS time as a `time` value."""
+        return self.messages.stamp(self.clock.now_ns())
+
+    # -- topics and services: any thread, no waiting
+
+    def advertise(
+        self,
+        topic: str,
+        type_name: str,
+        *,
+        latch: bool = False,
+        queue_size: int | None = 10,
+        on_connect: Callable[[Publisher], None] | None = None,
+    ) -> Publisher:
+        """Publish a topic; a second call for the same topic returns the same publisher.
+
+        Args:
+            topic: resolved and remapped.
+            type_name: such as 'geometry_msgs/Twist'.
+            latch: whether new subscribers get the last message.
+            queue_size: how many messages wait for a subscriber that reads too slowly; None: any number.
+            on_connect: called on the loop whenever a subscriber has connected.
+
+        Raises:
+            MessageError: no such type, or the topic is already published with another.
+        """
+        name = self.resolve(topic)
+        self.messages.md5(type_name)
+        with self._lock:
+            there = self._publishers.get(name)
+            if there is not None:
+                if there.type != type_name:
+                    raise MessageError(f"{self.name} publishes {name} as {there.type}, not as {type_name}")
+                return there
+            publisher = Publisher(self, name, type_name, latch=latch, queue_size=queue_size, on_connect=on_connect)
+            self._publishers[name] = publisher
+        self._do(lambda: self._tell("registerPublisher", name, type_name, self.uri))
+        return publisher
+
+    def subscribe(
+        self,
+        topic: str,
+        type_name: str,
+        callback: Callback,
+        *,
+        queue_size: int | None = 10,
+        tcp_nodelay: bool = True,
+        on_loop: bool = False,
+    ) -> Subscription:
+        """Subscribe to a topic.
+
+        Args:
+            topic: resolved and remapped.
+            type_name: such as 'geometry_msgs/Twist', or '*' for messages of any type as `RawMessage`.
+            callback: function or coroutine function of the message; what it raises is logged.
+            queue_size: how many messages wait for callbacks that are too slow; None: any number.
+            tcp_nodelay: whether to ask publishers for small delays rather than full packets.
+            on_loop: call back on the loop even if this node delivers elsewhere.
+
+        Raises:
+            MessageError: no such type.
+        """
+        name = self.resolve(topic)
+        if type_name != ANY_TYPE:
+            self.messages.md5(type_name)
+        subscription = Subscription(
+            self, name, type_name, callback, queue_size=queue_size, tcp_nodelay=tcp_nodelay, on_loop=on_loop
+        )
+        with self._lock:
+            self._subscriptions.setdefault(name, []).append(subscription)
+        self._do(lambda: self._listen(name, type_name))
+        return subscription
+
+    def advertise_service(self, name: str, type_name: str, handler: ServiceCallback) -> Service:
+        """Provide a service.
+
+        Args:
+            name: resolved and remapped.
+            type_name: such as 'std_srvs/SetBool'.
+            handler: function or coroutine function of the request; returns the response or its fields as a
+                dictionary, or raises ServiceError for "no". A coroutine function runs on the loop even if this node
+                delivers elsewhere.
+
+        Raises:
+            MessageError: no such type.
+        """
+        full = self.resolve(name)
+        service = Service(self, full, type_name, handler)
+        with self._lock:
+            self._services[full] = service
+        self._do(lambda: self._tell("registerService", full, self._slave.service_uri, self.uri))
+        return service
+
+    def unregister_publisher(self, publisher: Publisher) -> None:
+        """Stop publishing a topic."""
+        with self._lock:
+            if self._publishers.get(publisher.topic) is not publisher:
+                return
+            del self._publishers[publisher.topic]
+        self.loop.call_soon(publisher.close)
+        self._do(lambda: self._tell("unregisterPublisher", publisher.topic, self.uri))
+
+    def unregister_subscription(self, subscription: Subscription) -> None:
+        """Stop listening; the master is told when nothing in this node listens to the topic any more."""
+        with self._lock:
+            others = self._subscriptions.get(subscription.topic, [])
+            if subscription not in others:
+                return
+            others.remove(subscription)
+            if not others:
+                del self._subscriptions[subscription.topic]
+        self.loop.call_soon(subscription.close)
+        if not others:
+            self._do(lambda: self._tell("unregisterSubscriber", subscription.topic, self.uri))
+
+    def unregister_service(self, service: Service) -> None:
+        """Stop providing a service."""
+        with self._lock:
+            if self._services.get(service.name) is not service:
+                return
+            del self._services[service.name]
+        self.loop.call_soon(service.close)
+        self._do(lambda: self._tell("unregisterService", service.name, self._slave.service_uri))
+
+    # -- what needs an answer: on the loop
+
+    async def ready(self) -> None:
+        """Wait until everything asked for so far is registered at the master."""
+        future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+
+        async def done() -> None:
+            if not future.done():
+                future.set_result(None)
+
+        await asyncio.sleep(0)  # what other threads asked for before is in the queue now
+        self._actions.put_nowait(done)
+        await future
+
+    async def get_param(self, name: str, default: Any = _UNSET) -> Any:
+        """Return a parameter, or a namespace as a dictionary.
+
+        Raises:
+            ParameterError: it is not set and there is no default.
+            MasterUnreachableError: nobody answers.
+        """
+        full = self.resolve(name)
+        try:
+            return await self._ask("getParam", full)
+        except MasterError:
+            if default is _UNSET:
+                raise ParameterError(f"parameter {full} is not set") from None
+            return default
+
+    async def set_param(self, name: str, value: Any) -> None:
+        """Set a parameter, or a whole namespace from a dictionary.
+
+        Raises:
+            ParameterError: parameters cannot hold the value (integers have 32 bits).
+            MasterUnreachableError: nobody answers.
+        """
+        full = self.resolve(name)
+        try:
+            await self._ask("setParam", full, value)
+        except (ValueError, MasterError) as error:
+            raise ParameterError(f"parameter {full}: {error}") from None
+
+    async def delete_param(self, name: str) -> None:
+        """Delete a parameter or a namespace.
+
+        Raises:
+            ParameterError: it is not set.
+        """
+        full = self.resolve(name)
+        try:
+            await self._ask("deleteParam", full)
+        except MasterError:
+            raise ParameterError(f"parameter {full} is not set") from None
+
+    async def has_param(self, name: str) -> bool:
+        """Tell whether a parameter or a namespace is set."""
+        return bool(await self._ask("hasParam", self.resolve(name)))
+
+    async def search_param(self, key: str) -> str | None:
+        """Find the full name of the nearest parameter upwards from this node."""
+        try:
+            return str(await self._ask("searchParam", key))
+        except MasterError:
+            return None
+
+    async def param_names(self) -> list[str]:
+        """Name every parameter of the graph."""
+        return list(await self._ask("getParamNames"))
+
+    async def call_service(
+        self, name: str, type_name: str, request: Message | dict[str, Any] | None = None, *, timeout_s: float = 10.0
+    ) -> Message:
+        """Call a service.
+
+        Raises:
+            ServiceError: it is not there, says no, or does not answer in time.
+            MessageError: no such type, or a request that does not fit it.
+        """
+        full = self.resolve(name)
+        kind = self.messages.service(type_name)
+        if request is None or isinstance(request, dict):
+            request = self.new(kind.request, request)
+        try:
+            uri = await self._ask("lookupService", full)
+        except MasterError:
+            raise ServiceError(f"no node provides the service {full}") from None
+        try:
+            async with asyncio.timeout(timeout_s):
+                return await call_service(self, uri, full, kind, request)
+        except TimeoutError:
+            raise ServiceError(f"{full} did not answer within {timeout_s:g} s") from None
+
+    async def wait_for_service(self, name: str, timeout_s: float | None = None) -> None:
+        """Wait until a node provides a service.
+
+        Raises:
+            ServiceError: none does in time.
+        """
+        full = self.resolve(name)
+        try:
+            async with asyncio.timeout(timeout_s):
+                while True:
+                    with contextlib.suppress(MasterError):
+                        await self._ask("lookupService", full)
+                        return
+                    await asyncio.sleep(0.05)
+        except TimeoutError:
+            raise ServiceError(f"no node provided the service {full} within {timeout_s:g} s") from None
+
+    # -- logging: any thread
+
+    def log_debug(self, text: str) -> None:
+        """Say something for whoever looks into this node."""
+        self._log("debug", text)
+
+    def log_info(self, text: str) -> None:
+        """Say something everyone may want to know."""
+        self._log("info", text)
+
+    def log_warn(self, text: str) -> None:
+        """Say that something is not as it should be, and what is done instead."""
+        self._log("warn", text)
+
+    def log_error(self, text: str) -> None:
+        """Say that something failed."""
+        self._log("error", text)
+
+    def log_fatal(self, text: str) -> None:
+        """Say why the node cannot go on."""
+        self._log("fatal", text)
+
+    def log_failure(self, what: str, error: Exception) -> None:
+        """Say that code of this node raised, with where."""
+        where = "".join(traceback.format_exception(error)).rstrip()
+        self._log("error", f"{what}: {error}\n{where}")
+
+    def _log(self, level: Level, text: str) -> None:
+        if LEVELS[level] < LEVELS[self.log_level]:
+            return
+        now = self.clock.now_ns()
+        wall = WallClock().now_ns()
+        print_log(level, text, wall_ns=wall, sim_ns=None if isinstance(self.clock, WallClock) else now)
+        if self._rosout is not None and self._rosout.has_subscribers:
+            file, function, line = caller(2)
+            fields = {
+                "header": {"stamp": now},
+                "level": LEVELS[level],
+                "name": self.name,
+                "msg": text,
+                "file": file,
+                "function": function,
+                "line": line,
+                "topics": list(self._publishers),
+            }
+            self._rosout.publish(fields)
+
+    # -- the end
+
+    def on_shutdown(self, callback: Callable[[str], None]) -> None:
+        """Have a function called, on the loop and with the reason, when this node is told to shut down."""
+        self._on_shutdown.append(callback)
+
+    async def shutdown(self, reason: str = "") -> None:
+        """Unregister everything and drop every peer."""
+        if self._is_down:
+            await self.closed.wait()
+            return
+        self._is_down = True
+        if self._worker is not None:
+            self._worker.cancel()
+            await asyncio.gather(self._worker, return_exceptions=True)
+        if self.uri:
+            with contextlib.suppress(TimeoutError):
+                async with asyncio.timeout(_FAREWELL_S):
+                    await self._unregister_all()
+        self.loop.nodes.pop(self.uri, None)
+        for publisher in self._publishers.values():
+            publisher.close()
+        for subscriptions in self._subscriptions.values():
+            for subscription in subscriptions:
+                subscription.close()
+        for service in self._services.values():
+            service.close()
+        await self._slave.stop()
+        self.closed.set()
+
+    async def _unregister_all(self) -> None:
+        farewells = [self._tell("unregisterService", name, self._slave.service_uri) for name in self._services]
+        farewells += [self._tell("unregisterSubscriber", topic, self.uri) for topic in self._subscriptions]
+        farewells += [self._tell("unregisterPublisher", topic, self.uri) for topic in self._publishers]
+        await asyncio.gather(*farewells, return_exceptions=True)
+
+    # -- for this node's servers, on the loop
+
+    @property
+    def publishers(self) -> list[Publisher]:
+        """What this node publishes."""
+        return list(self._publishers.values())
+
+    def publisher(self, topic: str) -> Publisher | None:
+        """Find a publisher by its topic's global name."""
+        return self._publishers.get(topic)
+
+    def service(self, name: str) -> Service | None:
+        """Find a service by its global name."""
+        return self._services.get(name)
+
+    def subscribed_topics(self) -> list[tuple[str, str]]:
+        """Topics with the type this node expects."""
+        return [(topic, subscriptions[0].type) for topic, subscriptions in self._subscriptions.items()]
+
+    def connections(self) -> list[list[Any]]:
+        """All links, as getBusInfo tells them."""
+        links = [link for publisher in self._publishers.values() for link in publisher.connections()]
+        return links + [
+            link
+            for subscriptions in self._subscriptions.values()
+            for subscription in subscriptions
+            for link in subscription.connections()
+        ]
+
+    def statistics(self) -> list[list[Any]]:
+        """Bytes and messages, as getBusStats tells them."""
+        subscriptions = [s for subscriptions in self._subscriptions.values() for s in subscriptions]
+        return [[p.statistics() for p in self._publishers.values()], [s.statistics() for s in subscriptions], []]
+
+    def publishers_changed(self, topic: str, uris: list[str]) -> None:
+        """Follow what the master says about a topic's publishers."""
+        self._publisher_uris[topic] = uris
+        for subscription in self._subscriptions.get(topic, []):
+            subscription.follow(uris)
+
+    def asked_to_shut_down(self, reason: str) -> None:
+        """Obey the master or another node."""
+        if self._is_down:
+            return
+        self.log_warn(f"shutdown request: {reason}")
+        for callback in self._on_shutdown:
+            callback(reason)
+        self.loop.spawn(self.shutdown(reason))
+
+    # -- inside
+
+    def _begin(self) -> None:
+        self._worker = asyncio.get_running_loop().create_task(self._work())
+
+    def _do(self, action: _Action) -> None:
+        self.loop.call_soon(lambda: self._actions.put_nowait(action))
+
+    async def _work(self) -> None:
+        """Start, then work off the queue, one call to the master after the other."""
+        await self._slave.start()
+        self.loop.nodes[self.uri] = self
+        if self._address.warning:
+            self.log_warn(self._address.warning)
+        for name, value in self._params.items():
+            await self._insist(lambda name=name, value=value: self.set_param(f"~{name}", value))
+        if self._wants_rosout and self.name != "/rosout":  # that one would gather its own log for ever
+            self._rosout = self.advertise("/rosout", "rosgraph_msgs/Log", queue_size=100)
+        if self._wants_rosout:
+            self.advertise_service("~get_loggers", "roscpp/GetLoggers", self._get_loggers)
+            self.advertise_service("~set_logger_level", "roscpp/SetLoggerLevel", self._set_logger_level)
+        while True:
+            await self._insist(await self._actions.get())
+
+    async def _insist(self, action: _Action) -> None:
+        """Do something at the master, as soon as there is one."""
+        while True:
+            try:
+                await action()
+            except MasterUnreachableError as error:
+                if not self._waits_for_master:
+                    self._waits_for_master = True
+                    self.log_warn(f"{error}; {self.name} goes on trying")
+                await asyncio.sleep(_RETRY_S)
+                continue
+            except (MasterError, ParameterError) as error:
+                self.log_error(str(error))
+            self._waits_for_master = False
+            return
+
+    async def _ask(self, method: str, *arguments: object) -> Any:
+        try:
+            return await call_value(self.master_uri, method, self.name, *arguments, timeout_s=_MASTER_S)
+        except (OSError, WireError) as error:
+            raise MasterUnreachableError(self.master_uri, str(error) or "no answer in time") from None
+        except Fault as error:
+            raise MasterError(f"{method}: {error}") from None
+
+    async def _tell(self, method: str, *arguments: object) -> None:
+        await self._ask(method, *arguments)
+
+    async def _listen(self, topic: str, type_name: str) -> None:
+        uris = await self._ask("registerSubscriber", topic, type_name, self.uri)
+        self.publishers_changed(topic, [str(uri) for uri in uris])
+
+    def _get_loggers(self, request: Message) -> dict[str, Any]:
+        del request
+        return {"loggers": [{"name": "rosout", "level": self.log_level}]}
+
+    def _set_logger_level(self, request: Message) -> dict[str, Any]:
+        level = request.level.lower()
+        if level not in LEVELS:
+            raise ServiceError(f"no level {request.level!r}; levels: {', '.join(LEVELS)}")
+        self.log_level = level
+        return {}

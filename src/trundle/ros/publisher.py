@@ -1,0 +1,229 @@
+"""A topic as its publisher sees it: links to subscribers here and elsewhere, a queue for each."""
+
+from collections import deque
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Protocol
+
+from .errors import MessageError
+from .messages import Message
+from .tcpros import FrameProtocol, check_md5, frame
+
+if TYPE_CHECKING:
+    from .node import Node
+
+
+class LocalSubscriber(Protocol):
+    """A subscription in this process."""
+
+    def receive(self, message: Message) -> None:
+        """Take a message object."""
+        ...
+
+    def receive_bytes(self, data: bytes, publisher: "Publisher") -> None:
+        """Take a message as bytes."""
+        ...
+
+    @property
+    def is_raw(self) -> bool:
+        """Whether it wants bytes."""
+        ...
+
+
+class Publisher:
+    """Publishes one topic of one node; made by `Node.advertise`."""
+
+    def __init__(
+        self,
+        node: "Node",
+        topic: str,
+        type_name: str,
+        *,
+        latch: bool,
+        queue_size: int | None,
+        on_connect: "Callable[[Publisher], None] | None",
+    ) -> None:
+        self.topic = topic
+        self.type = type_name
+        self.latch = latch
+        self._node = node
+        self._queue_size = queue_size
+        self._on_connect = on_connect
+        self._links: dict[FrameProtocol, str] = {}
+        """Connection → name of the subscribing node."""
+        self._local: dict[LocalSubscriber, str] = {}
+        self._wanted = 0
+        """Number of links; read by any thread."""
+        self._outbox: deque[Any] = deque(maxlen=queue_size)
+        self._flushes = False
+        self._latched: Any = None
+        self._sequence = 0
+        self.published = 0
+        """Messages handed to subscribers so far."""
+
+    @property
+    def subscribers(self) -> int:
+        """How many subscribers are connected."""
+        return self._wanted
+
+    @property
+    def has_subscribers(self) -> bool:
+        """Whether publishing reaches anybody now."""
+        return self._wanted > 0
+
+    def publish(self, message: Message | dict[str, Any] | bytes) -> None:
+        """Publish a message, from any thread; never blocks. The message is read-only from now on.
+
+        A header's `seq` is filled in. Subscribers that read too slowly lose the oldest messages.
+
+        Args:
+            message: a message of the topic's type, its fields as a dictionary, or its bytes.
+
+        Raises:
+            MessageError: a dictionary that does not fit, or a message of another type.
+        """
+        if self._wanted == 0 and not self.latch:
+            return
+        if isinstance(message, dict):
+            message = self._node.new(self.type, message)
+        if not isinstance(message, bytes | bytearray | memoryview):
+            given = self._node.messages.type_of(message)
+            if given != self.type:
+                raise MessageError(f"{self.topic} carries {self.type}, got a {given}")
+            header = getattr(message, "header", None)
+            if header is not None and hasattr(header, "seq"):
+                self._sequence += 1
+                header.seq = self._sequence
+        self._outbox.append(message)
+        if not self._flushes:
+            self._flushes = True
+            self._node.loop.deliver_soon(self._flush)
+
+    def unregister(self) -> None:
+        """Stop publishing; any thread."""
+        self._node.unregister_publisher(self)
+
+    # on the loop
+
+    @property
+    def md5sum(self) -> str:
+        """What subscribers compare."""
+        return self._node.messages.md5(self.type)
+
+    def accept(self, link: FrameProtocol, header: dict[str, str]) -> None:
+        """Take a subscriber's connection, or refuse it with the reason the original gives."""
+        peer, wanted = header.get("callerid", "unknown"), header.get("md5sum", "")
+        if not check_md5(wanted, self.md5sum):
+            theirs = header.get("type", self.type)
+            if theirs != self.type:
+                link.refuse(f"topic types do not match: [{theirs}] vs. [{self.type}]")
+            else:
+                link.refuse(
+                    f"Client [{peer}] wants topic [{self.topic}] to have datatype/md5sum [{theirs}/{wanted}], but "
+                    f"our version has [{self.type}/{self.md5sum}] Dropping connection."
+                )
+            return
+        if header.get("tcp_nodelay", "0").strip() == "1":
+            link.set_nodelay()
+        link.send_header(
+            {
+                "callerid": self._node.name,
+                "topic": self.topic,
+                "type": self.type,
+                "md5sum": self.md5sum,
+                "latching": "1" if self.latch else "0",
+                "message_definition": self._node.messages.definition(self.type),
+            }
+        )
+        self._links[link] = peer
+        self._count()
+        if self._latched is not None and (data := self._bytes(self._latched)) is not None:
+            link.send(frame(data), self._queue_size)
+
+    def release(self, link: FrameProtocol) -> None:
+        """Forget a connection that has ended."""
+        self._links.pop(link, None)
+        self._count()
+
+    def attach(self, subscriber: LocalSubscriber, name: str) -> None:
+        """Take a subscription of this process."""
+        if subscriber in self._local:
+            return
+        self._local[subscriber] = name
+        self._count()
+        if self._latched is not None:
+            self._hand_over(self._latched, subscriber, None)
+
+    def detach(self, subscriber: LocalSubscriber) -> None:
+        """Forget a subscription of this process."""
+        self._local.pop(subscriber, None)
+        self._count()
+
+    def close(self) -> None:
+        """Drop every link."""
+        for link in list(self._links):
+            link.close("the topic is no longer published")
+        self._links.clear()
+        self._local.clear()
+        self._count()
+
+    def connections(self) -> list[list[Any]]:
+        """Links as getBusInfo tells them."""
+        remote = [
+            [_number(link), name, "o", "TCPROS", self.topic, True, link.description]
+            for link, name in self._links.items()
+        ]
+        return remote + [
+            [_number(s), name, "o", "INTRAPROCESS", self.topic, True, ""] for s, name in self._local.items()
+        ]
+
+    def statistics(self) -> list[Any]:
+        """Bytes and messages as getBusStats tells them."""
+        links = [[_number(link), link.bytes_sent, link.frames_sent, True] for link in self._links]
+        return [self.topic, sum(link.bytes_sent for link in self._links), links]
+
+    @property
+    def dropped(self) -> int:
+        """Messages that slow subscribers, connected now, did not get."""
+        return sum(link.dropped for link in self._links)
+
+    def _count(self) -> None:
+        before, self._wanted = self._wanted, len(self._links) + len(self._local)
+        if self._wanted > before and self._on_connect is not None:
+            self._on_connect(self)
+
+    def _flush(self) -> None:
+        self._flushes = False
+        while self._outbox:
+            message = self._outbox.popleft()
+            if self.latch:
+                self._latched = message
+            self.published += 1
+            data: bytes | None = None
+            if self._links and (data := self._bytes(message)) is not None:
+                framed = frame(data)
+                for link in list(self._links):
+                    link.send(framed, self._queue_size)
+            for subscriber in list(self._local):
+                self._hand_over(message, subscriber, data)
+
+    def _hand_over(self, message: Any, subscriber: LocalSubscriber, data: bytes | None) -> None:
+        if not subscriber.is_raw and not isinstance(message, bytes | bytearray | memoryview):
+            subscriber.receive(message)
+            return
+        data = self._bytes(message) if data is None else data
+        if data is not None:
+            subscriber.receive_bytes(data, self)
+
+    def _bytes(self, message: Any) -> bytes | None:
+        if isinstance(message, bytes | bytearray | memoryview):
+            return bytes(message)
+        try:
+            return bytes(self._node.messages.serialize(message))
+        except MessageError as error:
+            self._node.log_error(f"a message on {self.topic} is not sent: {error}")
+            return None
+
+
+def _number(link: object) -> int:
+    """A connection's id as XML-RPC carries it."""
+    return id(link) % 2**31

@@ -1,0 +1,197 @@
+"""Services: a provider's connections, and the client's side of one call."""
+
+import asyncio
+import contextlib
+import inspect
+import struct
+from collections.abc import Awaitable, Callable
+from typing import TYPE_CHECKING, Any
+
+from .errors import MessageError, RosError, ServiceError, WireError
+from .http import host_and_port
+from .messages import Message, ServiceType
+from .tcpros import (
+    MAX_HEADER_BYTES,
+    MAX_MESSAGE_BYTES,
+    FrameProtocol,
+    check_md5,
+    decode_header,
+    encode_header,
+    frame,
+)
+
+if TYPE_CHECKING:
+    from .node import Node
+
+ServiceCallback = Callable[[Message], "Awaitable[Message | dict[str, Any]] | Message | dict[str, Any]"]
+_MAX_WAITING = 64
+"""Requests one client may send ahead of the answers; no client library sends more than one."""
+
+
+class Service:
+    """Provides one service of one node; made by `Node.advertise_service`."""
+
+    def __init__(self, node: "Node", name: str, type_name: str, handler: ServiceCallback) -> None:
+        self.name = name
+        self.type = type_name
+        self.kind: ServiceType = node.messages.service(type_name)
+        self._node = node
+        self._handler = handler
+        self._links: dict[FrameProtocol, asyncio.Queue[bytes]] = {}
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    def unregister(self) -> None:
+        """Stop providing; any thread."""
+        self._node.unregister_service(self)
+
+    # on the loop
+
+    def accept(self, link: FrameProtocol, header: dict[str, str]) -> None:
+        """Take a client's connection, or refuse it with the reason the original gives."""
+        wanted = header.get("md5sum", "")
+        if not check_md5(wanted, self.kind.md5sum):
+            peer = header.get("callerid", "unknown")
+            link.refuse(f"request from [{peer}]: md5sums do not match: [{wanted}] vs. [{self.kind.md5sum}]")
+            return
+        link.set_nodelay()
+        link.send_header(
+            {
+                "callerid": self._node.name,
+                "service": self.name,
+                "type": self.type,
+                "md5sum": self.kind.md5sum,
+                "request_type": self.kind.request,
+                "response_type": self.kind.response,
+            }
+        )
+        if header.get("probe") == "1":
+            link.close("only asked")
+            return
+        requests: asyncio.Queue[bytes] = asyncio.Queue(_MAX_WAITING)
+        self._links[link] = requests
+        persistent = header.get("persistent", "0").lower() in ("1", "true")
+        task = asyncio.get_running_loop().create_task(self._answer_all(link, requests, persistent))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    def request(self, link: FrameProtocol, data: bytes) -> None:
+        """Take a request."""
+        try:
+            self._links[link].put_nowait(data)
+        except (KeyError, asyncio.QueueFull):
+            raise WireError("more requests than are accepted at once") from None
+
+    def release(self, link: FrameProtocol) -> None:
+        """Forget a connection that has ended."""
+        self._links.pop(link, None)
+
+    def close(self) -> None:
+        """Drop every client."""
+        for task in list(self._tasks):
+            task.cancel()
+        for link in list(self._links):
+            link.close("the service is no longer provided")
+
+    async def _answer_all(self, link: FrameProtocol, requests: "asyncio.Queue[bytes]", persistent: bool) -> None:
+        while link.transport is not None:
+            answer = await self._answer(await requests.get())
+            link.send(answer, None)
+            if not persistent:
+                link.close("answered")
+
+    async def _answer(self, data: bytes) -> bytes:
+        """Answer one request: a byte that says whether it went well, then the response or the error's text."""
+        try:
+            response = await self._handle(self._node.messages.deserialize(data, self.kind.request))
+            if isinstance(response, dict) or response is None:
+                response = self._node.new(self.kind.response, response)
+            return b"\x01" + frame(self._node.messages.serialize(response))
+        except (ServiceError, MessageError) as error:
+            return b"\x00" + frame(f"service cannot process request: {error}".encode())
+        except Exception as error:
+            self._node.log_failure(f"the service {self.name} failed", error)
+            return b"\x00" + frame(f"error processing request: {error}".encode())
+
+    async def _handle(self, request: Message) -> Any:
+        deliver = self._node.deliver
+        if deliver is None or inspect.iscoroutinefunction(self._handler):
+            result = self._handler(request)
+            return await result if inspect.isawaitable(result) else result
+        loop = asyncio.get_running_loop()
+        future: asyncio.Future[Any] = loop.create_future()
+
+        def settle(result: Any, error: Exception | None) -> None:
+            if future.done():
+                return
+            if error is None:
+                future.set_result(result)
+            else:
+                future.set_exception(error)
+
+        def work() -> None:
+            """Called by whoever runs the callbacks, in any thread."""
+            try:
+                result, error = self._handler(request), None
+            except Exception as failure:  # travels to the client
+                result, error = None, failure
+            self._node.loop.call_soon(lambda: settle(result, error))
+
+        deliver(work)
+        return await future
+
+
+async def call_service(node: "Node", uri: str, name: str, kind: ServiceType, request: Message) -> Message:
+    """Call a service at a provider's address.
+
+    Raises:
+        ServiceError: the provider refuses or fails, or breaks the connection.
+    """
+    body = node.messages.serialize(request)
+    try:
+        async with _connection(uri) as (reader, writer):
+            header = {"callerid": node.name, "service": name, "type": kind.type, "md5sum": kind.md5sum}
+            writer.write(encode_header(header))
+            answer = decode_header(await _read_frame(reader, MAX_HEADER_BYTES))
+            if "error" in answer:
+                raise ServiceError(f"{name} refuses: {answer['error']}")
+            writer.write(frame(body))
+            well = await reader.readexactly(1) == b"\x01"
+            data = await _read_frame(reader, MAX_MESSAGE_BYTES)
+    except (OSError, WireError, asyncio.IncompleteReadError) as error:
+        raise ServiceError(f"{name} at {uri} cannot be called: {error or type(error).__name__}") from None
+    if not well:
+        raise ServiceError(f"{name} answers: {data.decode('utf-8', 'replace')}")
+    try:
+        return node.messages.deserialize(data, kind.response)
+    except MessageError as error:
+        raise ServiceError(f"{name} answers with something else: {error}") from None
+
+
+async def probe_service(uri: str, name: str, caller: str) -> dict[str, str]:
+    """Ask a provider for its header, which names the type.
+
+    Raises:
+        ServiceError: the provider is not there.
+    """
+    try:
+        async with asyncio.timeout(5.0), _connection(uri) as (reader, writer):
+            writer.write(encode_header({"callerid": caller, "service": name, "md5sum": "*", "probe": "1"}))
+            return decode_header(await _read_frame(reader, MAX_HEADER_BYTES))
+    except (OSError, RosError, asyncio.IncompleteReadError) as error:
+        raise ServiceError(f"{name} at {uri} does not answer: {error or type(error).__name__}") from None
+
+
+@contextlib.asynccontextmanager
+async def _connection(uri: str):
+    reader, writer = await asyncio.open_connection(*host_and_port(uri))
+    try:
+        yield reader, writer
+    finally:
+        writer.close()
+
+
+async def _read_frame(reader: asyncio.StreamReader, limit: int) -> bytes:
+    (size,) = struct.unpack("<I", await reader.readexactly(4))
+    if size > limit:
+        raise WireError(f"a frame of {size} bytes is announced, more than is accepted")
+    return await reader.readexactly(size)

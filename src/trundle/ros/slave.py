@@ -1,0 +1,133 @@
+"""A node's own two servers: its XML-RPC interface, and the port topics and services connect to."""
+
+import asyncio
+import os
+from typing import TYPE_CHECKING, Any
+
+from .network import ServerAddress
+from .rpc_server import RpcServer, UnknownMethodError
+from .tcpros import FrameProtocol
+
+if TYPE_CHECKING:
+    from .node import Node
+    from .publisher import Publisher
+    from .service import Service
+
+_BACKLOG = 128
+
+
+class Slave:
+    """What other nodes and the master reach of a node."""
+
+    def __init__(self, node: "Node", address: ServerAddress) -> None:
+        self._node = node
+        self._address = address
+        self._rpc = RpcServer(self._dispatch)
+        self._server: asyncio.Server | None = None
+        self._links: set[_Inbound] = set()
+        self.uri = ""
+        self.tcp_port = 0
+
+    async def start(self) -> None:
+        """Listen at two free ports."""
+        await self._rpc.start(self._address.bind, 0)
+        self.uri = f"http://{self._address.advertise}:{self._rpc.port}/"
+        loop = asyncio.get_running_loop()
+        self._server = await loop.create_server(
+            lambda: _Inbound(self._node, self._links), self._address.bind, 0, backlog=_BACKLOG
+        )
+        self.tcp_port = self._server.sockets[0].getsockname()[1]
+
+    @property
+    def service_uri(self) -> str:
+        """Where this node's services are called."""
+        return f"rosrpc://{self._address.advertise}:{self.tcp_port}"
+
+    async def stop(self) -> None:
+        """Stop listening and drop every peer."""
+        if self._server is not None:
+            self._server.close()
+        for link in list(self._links):
+            link.close("the node shuts down")
+        await self._rpc.stop()
+
+    def _dispatch(self, method: str, arguments: list[Any]) -> Any:
+        match method, arguments:
+            case "getPid", [_]:
+                return 1, "", os.getpid()
+            case "getMasterUri", [_]:
+                return 1, self._node.master_uri, self._node.master_uri
+            case "getName", [_]:
+                return 1, "node name", self._node.name
+            case "getBusInfo", [_]:
+                return 1, "bus info", self._node.connections()
+            case "getBusStats", [_]:
+                return 1, "", self._node.statistics()
+            case "getPublications", [_]:
+                return 1, "publications", [[p.topic, p.type] for p in self._node.publishers]
+            case "getSubscriptions", [_]:
+                return 1, "subscriptions", [[topic, kind] for topic, kind in self._node.subscribed_topics()]
+            case "publisherUpdate", [_, str(topic), list(uris)]:
+                self._node.publishers_changed(topic, [str(uri) for uri in uris])
+                return 1, "", 0
+            case "paramUpdate", [_, str(_), _]:
+                return 1, "", 0
+            case "shutdown", [_, *reason]:
+                self._node.asked_to_shut_down(str(reason[0]) if reason else "")
+                return 1, "shutdown", 0
+            case "requestTopic", [_, str(topic), list(protocols)]:
+                return self._request_topic(topic, protocols)
+            case _:
+                raise UnknownMethodError(f'method "{method}" is not supported with {len(arguments)} arguments')
+
+    def _request_topic(self, topic: str, protocols: list[Any]) -> Any:
+        if self._node.publisher(topic) is None:
+            return 0, f"Not a publisher of [{topic}]", []
+        if not any(isinstance(p, list) and p and p[0] == "TCPROS" for p in protocols):
+            return 0, "no supported protocol implementations", []
+        host = self._address.advertise
+        return 1, f"ready on {host}:{self.tcp_port}", ["TCPROS", host, self.tcp_port]
+
+
+class _Inbound(FrameProtocol):
+    """A peer that connected: its header says whether it wants a topic or a service."""
+
+    def __init__(self, node: "Node", links: "set[_Inbound]") -> None:
+        super().__init__()
+        self._node = node
+        self._links = links
+        self._target: Publisher | Service | None = None
+
+    def connected(self) -> None:
+        self._links.add(self)
+
+    def header_received(self, header: dict[str, str]) -> None:
+        name = header.get("topic", header.get("service"))
+        if name is None:
+            self.refuse("Missing required 'topic' or 'service' field")
+            return
+        for needed in ("md5sum", "callerid"):
+            if needed not in header:
+                self.refuse(f"Missing required '{needed}' field")
+                return
+        if "topic" in header:
+            self._target = self._node.publisher(name)
+            what = "publisher of"
+        else:
+            self._target = self._node.service(name)
+            what = "provider of "
+        if self._target is None:
+            self.refuse(f"[{self._node.name}] is not a {what} [{name}]")
+            return
+        self._target.accept(self, header)
+
+    def frame_received(self, data: bytes) -> None:
+        from .service import Service
+
+        if isinstance(self._target, Service):
+            self._target.request(self, data)
+
+    def closed(self, reason: str) -> None:
+        self._links.discard(self)
+        if self._target is not None:
+            self._target.release(self)
