@@ -1,9 +1,9 @@
 """The browser page: a scene that moves, camera images, and controls that a person presses.
 
-    viewer = Viewer.start(ViewerScene(title="rp2w", scene=scene, playback=True))
-    while True:
-        viewer.show(ViewerState(time_ns=…, body_poses=…))
-        for request in viewer.requests(): …
+viewer = Viewer.start(ViewerScene(title="rp2w", scene=scene, playback=True))
+while True:
+    viewer.show(ViewerState(time_ns=…, body_poses=…))
+    for request in viewer.requests(): …
 """
 
 from .content import CameraView, FrameInfo, JointSlider, ViewerScene, ViewerState

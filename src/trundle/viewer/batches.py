@@ -9,17 +9,23 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
+from trundle.model import Plane
 from trundle.render import Scene, Shape
 
 from .forms import Instance, form_of, instance_of
-from .poses import Array, composed, rows_of
+from .poses import Array, composed, known, rows_of
 
 
 class Batch:
     """All shapes that share a form."""
 
     def __init__(
-        self, server: viser.ViserServer, name: str, shapes: list[Shape], instances: list[Instance], opacity: float | None
+        self,
+        server: viser.ViserServer,
+        name: str,
+        shapes: list[Shape],
+        instances: list[Instance],
+        opacity: float | None,
     ) -> None:
         form = form_of(shapes[0])
         self._bodies = np.array([shape.body for shape in shapes])
@@ -43,7 +49,7 @@ class Batch:
             flat_shading=form.flat,
             side="double" if form.double_sided else "front",
             lod="off",
-            cast_shadow=opacity is None,
+            cast_shadow=opacity is None and not isinstance(shapes[0].geometry, Plane),  # a ground would shade itself
             receive_shadow=opacity is None,
         )
         self._shown: NDArray[np.bool_] = np.zeros(count, dtype=bool)
@@ -51,7 +57,7 @@ class Batch:
     def update(self, body_poses: Array) -> None:
         """Put every instance on its body; those without a pose shrink to nothing."""
         poses = composed(body_poses[self._bodies], self._body_from_form)
-        shown = np.isfinite(poses).all(axis=1)
+        shown = known(poses)
         poses[~shown] = (0, 0, 0, 1, 0, 0, 0)
         self.handle.batched_positions = poses[:, :3].astype(np.float32)
         self.handle.batched_wxyzs = poses[:, 3:].astype(np.float32)

@@ -5,12 +5,19 @@ W A S D and the arrows move viser's own camera, so the keys are I J K L around t
 """
 
 from collections.abc import Callable
+from typing import Literal
 
 import viser
 
 from .requests import Drive, Request
 
-_KEYS = (("Forward", "I"), ("Left", "J"), ("Back", "K"), ("Right", "L"), ("Stop", "X"))
+_KEYS: tuple[tuple[str, Literal["I", "J", "K", "L", "X"]], ...] = (
+    ("Forward", "I"),
+    ("Left", "J"),
+    ("Back", "K"),
+    ("Right", "L"),
+    ("Stop", "X"),
+)
 
 
 class DrivePad:

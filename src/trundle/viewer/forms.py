@@ -91,7 +91,9 @@ def _turned(profile: NDArray[np.float64]) -> Form:
     """Turn a profile of (radius, z) rows, bottom to top, about z; a row written twice makes a sharp edge."""
     around = np.linspace(0, 2 * np.pi, _SEGMENTS, endpoint=False)
     radius, z = profile[:, 0:1], profile[:, 1:2]
-    rings = np.stack([radius * np.cos(around), radius * np.sin(around), np.broadcast_to(z, (len(z), _SEGMENTS))], axis=2)
+    rings = np.stack(
+        [radius * np.cos(around), radius * np.sin(around), np.broadcast_to(z, (len(z), _SEGMENTS))], axis=2
+    )
     i = np.arange(_SEGMENTS)
     j = (i + 1) % _SEGMENTS
     faces: list[NDArray[np.int64]] = []

@@ -11,7 +11,7 @@ from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
 from trundle.render import Shape
 
 from .content import ViewerScene
-from .poses import Array, composed, rows_of
+from .poses import Array, composed, known, rows_of
 
 _HUGE_M = 20.0
 """What is larger (halls, terrain) is scenery: the camera stands within it."""
@@ -32,8 +32,12 @@ class Extent:
     def aim(self, camera: "viser.InitialCameraConfig | viser.CameraHandle", *, from_above: bool = False) -> None:
         """Place a camera so that the ball fills most of the picture."""
         direction = _FROM_ABOVE if from_above else _FROM_FRONT
-        camera.up = (0.0, 0.0, 1.0)
+        if isinstance(camera, viser.CameraHandle):
+            camera.up_direction = (0.0, 0.0, 1.0)
+        else:
+            camera.up = (0.0, 0.0, 1.0)
         camera.fov = _FOV_RAD
+        camera.near = min(0.05, self.radius / 20)
         camera.position = self.center + direction * self.radius * (3.2 if from_above else 2.5)
         camera.look_at = self.center
 
@@ -48,10 +52,10 @@ def extent_of(scene: ViewerScene, body_poses: Array) -> Extent:
     if shapes:
         poses = composed(body_poses[[s.body for s in shapes]], rows_of([s.body_from_shape for s in shapes]))
         reach = np.array([[_reach(s)] for s in shapes])
-        known = np.isfinite(poses).all(axis=1)
-        if known.any():
-            low = (poses[known, :3] - reach[known]).min(axis=0)
-            high = (poses[known, :3] + reach[known]).max(axis=0)
+        there = known(poses)
+        if there.any():
+            low = (poses[there, :3] - reach[there]).min(axis=0)
+            high = (poses[there, :3] + reach[there]).max(axis=0)
             return Extent((low + high) / 2, max(float(np.linalg.norm(high - low)) / 2, 0.05))
     return Extent(np.zeros(3), 2.0)
 

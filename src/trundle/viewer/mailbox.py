@@ -40,7 +40,7 @@ class Mailbox:
 
     @classmethod
     def _create_in(cls, folder: Path | None, size: int) -> Self:
-        descriptor, name = tempfile.mkstemp(prefix="trundle-", dir=folder)
+        descriptor, name = tempfile.mkstemp(prefix=f"trundle-{os.getpid()}-", dir=folder)
         try:
             with os.fdopen(descriptor, "w+b") as file:
                 # Pages that cannot be had must fail here: touched later they would end the process with SIGBUS.

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from trundle.spatial import Pose
 
 from .content import CameraView, FrameInfo
-from .poses import Array, composed, rows_of
+from .poses import Array, composed, known, rows_of
 
 _CAMERA_FROM_OPTICAL = Pose(quaternion=(0.5, -0.5, 0.5, -0.5))
 """A frustum looks along its +z with y down, a robot's camera along +x with z up."""
@@ -17,8 +17,8 @@ _MOST_NAMES = 100
 """Above this many frames their names would only hide each other."""
 _PATH_STEP_M = 0.1
 _PATH_ARROWS = 500
-_PATH_COLOR = (255, 25, 0)
-"""Steps of 0.1 m and this red are what rviz's Odometry display starts with."""
+_PATH_COLOR = (235, 8, 0)
+"""Steps of 0.1 m and a red are what rviz's Odometry display starts with; viser lightens it."""
 
 
 class Frames:
@@ -68,18 +68,18 @@ class Frames:
             self._top.visible = axes
         if not axes or self._axes is None or self._lines is None:
             return
-        known = np.isfinite(poses).all(axis=1)
-        drawn = np.where(known[:, None], poses, (0.0, 0, 0, 1, 0, 0, 0))
+        there = known(poses)
+        drawn = np.where(there[:, None], poses, (0.0, 0, 0, 1, 0, 0, 0))
         self._axes.batched_positions = drawn[:, :3].astype(np.float32)
         self._axes.batched_wxyzs = drawn[:, 3:].astype(np.float32)
-        if not np.array_equal(known, self._shown):
-            self._shown = known
-            self._axes.batched_scales = known.astype(np.float32)
+        if not np.array_equal(there, self._shown):
+            self._shown = there
+            self._axes.batched_scales = np.asarray(there, dtype=np.float32)
         if len(self._edges):
             ends = drawn[self._edges, :3]
-            ends[~known[self._edges].all(axis=1)] = 0.0
+            ends[~there[self._edges].all(axis=1)] = 0.0
             self._lines.points = ends.astype(np.float32)
-        for label, is_known, position in zip(self._labels, known, drawn[:, :3], strict=False):
+        for label, is_known, position in zip(self._labels, there, drawn[:, :3], strict=False):
             if label.visible != (names and bool(is_known)):
                 label.visible = names and bool(is_known)
             if label.visible:
@@ -129,10 +129,10 @@ class Frusta:
             if camera.body is None or handle is None:
                 continue
             pose = composed(body_poses[camera.body : camera.body + 1], body_from_optical[None])[0]
-            known = bool(np.isfinite(pose).all())
-            if handle.visible != known:
-                handle.visible = known
-            if known:
+            seen = bool(np.isfinite(pose).all())
+            if handle.visible != seen:
+                handle.visible = seen
+            if seen:
                 handle.position, handle.wxyz = pose[:3], pose[3:]
 
     def image(self, index: int, rgb: NDArray[np.uint8]) -> None:

@@ -56,6 +56,7 @@ class Page:
             server.gui.reset()
             server.scene.reset()
             server.scene.set_up_direction("+z")
+            server.gui.main_panel.dock_right()
             self._stage = Stage(server, scene)
             self._panel = Panel(
                 server, scene, self._display, send=self._mouth.say, redraw=self._dirty.set, aim=self._aim
@@ -149,7 +150,6 @@ def main() -> None:
         mouth.say(Refused(f"cannot serve the viewer at {serve.host}:{serve.port}: the port was just taken"))
         os._exit(0)
     server.gui.configure_theme(control_width="medium", show_logo=False, show_share_button=False)
-    server.gui.main_panel.dock_right()
     page = Page(server, mouth)
     page.show(show)
     reachable = "127.0.0.1" if serve.host in ("0.0.0.0", "") else serve.host

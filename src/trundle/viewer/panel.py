@@ -75,9 +75,9 @@ class Panel:
         buttons.on_click(lambda _: self._send(asked[buttons.value]))
         speed = gui.add_dropdown("Speed", tuple(_SPEEDS), initial_value="1 ×", hint="Multiple of real time")
         speed.on_update(lambda _: self._send(SetSpeed(_SPEEDS[speed.value])))
-        for label, key, request in (("Play", "P", Play()), ("Pause", "H", Pause()), ("Step", "N", Step())):
-            command = gui.add_command(label, hotkey=key)
-            command.on_trigger(lambda _, request=request: self._send(request))
+        gui.add_command("Play", hotkey="P").on_trigger(lambda _: self._send(Play()))
+        gui.add_command("Pause", hotkey="H").on_trigger(lambda _: self._send(Pause()))
+        gui.add_command("Step", hotkey="N").on_trigger(lambda _: self._send(Step()))
 
     def _add_cameras(self) -> list[viser.GuiImageHandle]:
         cameras = self._scene.cameras

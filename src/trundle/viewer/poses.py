@@ -13,6 +13,11 @@ def rows_of(poses: list[Pose]) -> Array:
     return np.array([(*p.position, *p.quaternion) for p in poses], dtype=np.float64).reshape(-1, 7)
 
 
+def known(poses: Array) -> NDArray[np.bool_]:
+    """Return which rows are poses: (N,), false where any number is NaN or infinite."""
+    return np.asarray(np.isfinite(poses).all(axis=1), dtype=np.bool_)
+
+
 def rotated(q: Array, v: Array) -> Array:
     """Rotate vectors (N, 3) by unit quaternions (N, 4): v + 2w(u × v) + 2u × (u × v)."""
     t = 2.0 * np.cross(q[:, 1:], v)

@@ -13,11 +13,10 @@ from .content import ViewerScene, ViewerState
 from .display import Display
 from .framing import Extent, extent_of
 from .marks import Frames, Frusta, Path
+from .mood import add_grid, add_lights, sky
 from .poses import Array, composed, inverted
 
 _IDENTITY: Array = np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
-_GRID_LIFT_M = 0.002
-"""Keeps the grid's lines out of the ground plane they would flicker in."""
 
 
 class Stage:
@@ -42,20 +41,9 @@ class Stage:
         self._collision_batches = (
             batches_of(server, "/view/root/collisions", scene.collisions, opacity=0.45) if scene.collisions else []
         )
-        self._grid = server.scene.add_grid(
-            "/view/grid",
-            infinite_grid=True,
-            cell_size=0.2,
-            section_size=1.0,
-            cell_color=(150, 152, 156),
-            section_color=(110, 112, 118),
-            cell_thickness=0.6,
-            section_thickness=1.1,
-            fade_distance=40.0,
-            fade_strength=1.5,
-            shadow_opacity=0.3,
-            position=(0.0, 0.0, _GRID_LIFT_M),
-        )
+        self._grid = add_grid(server, "/view/grid")
+        add_lights(server, scene.scene)
+        server.scene.set_background_image(sky(scene.scene), format="png")
         self._frames = Frames(server, "/view/root/frames", scene.frames)
         self._frusta = Frusta(server, "/view/root/cameras", scene.cameras)
         self._path = Path(server, "/view/root/path")
