@@ -1,6 +1,5 @@
 """What `roscore` starts: the master with its parameters, and the node that gathers what all others log."""
 
-import asyncio
 import uuid
 from collections.abc import Callable
 
@@ -94,5 +93,5 @@ class Core:
     async def stop(self) -> None:
         """End /rosout, then the master."""
         if self._rosout is not None:
-            await asyncio.gather(self._rosout.shutdown("the core ends"), return_exceptions=True)
+            await self._rosout.shutdown()
         await self._master.stop()

@@ -126,7 +126,7 @@ class GraphLoop:
             seen = self._deliveries
 
     async def _wind_up(self, timeout_s: float) -> None:
-        nodes = [node.shutdown("the program ends") for node in list(self.nodes.values())]
+        nodes = [node.shutdown() for node in list(self.nodes.values())]
         await asyncio.wait_for(asyncio.gather(*nodes, return_exceptions=True), timeout_s)
         mine = asyncio.current_task()
         others = [task for task in asyncio.all_tasks() if task is not mine]

@@ -39,17 +39,13 @@ class Master:
         self._notices = Notices()
         self._server = RpcServer(self.dispatch)
         self._methods: dict[str, tuple[int, object, Callable[..., Answer]]] = {
-            "getPid": (0, -1, lambda caller: (1, "", os.getpid())),
-            "getUri": (0, "", lambda caller: (1, "", self.uri)),
+            "getPid": (0, -1, self._get_pid),
+            "getUri": (0, "", self._get_uri),
             "shutdown": (1, 0, self._shutdown),
             "lookupNode": (1, "", self._lookup_node),
             "lookupService": (1, "", self._lookup_service),
             "getSystemState": (0, [], self._system_state),
-            "getTopicTypes": (
-                0,
-                [],
-                lambda caller: (1, "current system state", [list(i) for i in self._types.items()]),
-            ),
+            "getTopicTypes": (0, [], self._topic_types),
             "getPublishedTopics": (1, [], self._published_topics),
             "registerPublisher": (3, [], self._register_publisher),
             "unregisterPublisher": (2, 0, self._unregister_publisher),
@@ -62,7 +58,7 @@ class Master:
             "hasParam": (1, False, self._has_param),
             "deleteParam": (1, 0, self._delete_param),
             "searchParam": (1, "", self._search_param),
-            "getParamNames": (0, [], lambda caller: (1, "Parameter names", self.parameters.names())),
+            "getParamNames": (0, [], self._param_names),
             "subscribeParam": (2, 0, self._subscribe_param),
             "unsubscribeParam": (2, 0, self._unsubscribe_param),
         }
@@ -87,7 +83,7 @@ class Master:
         await self._server.stop()
         await self._notices.stop()
 
-    def dispatch(self, method: str, arguments: list[Any]) -> Answer | list[object]:
+    def dispatch(self, method: str, arguments: list[Any]) -> Answer | list[Any]:
         """Answer one call."""
         if method == "system.multicall":
             calls: list[dict[str, Any]] = arguments[0]
@@ -110,6 +106,12 @@ class Master:
         except _BadArgumentError as error:
             return -1, str(error), nothing
 
+    def _get_pid(self, _: str) -> Answer:
+        return 1, "", os.getpid()
+
+    def _get_uri(self, _: str) -> Answer:
+        return 1, "", self.uri
+
     def _shutdown(self, caller: str, reason: Any) -> Answer:
         if self._on_shutdown is not None:
             self._on_shutdown(f"external shutdown request from [{caller}]: {reason}")
@@ -126,7 +128,10 @@ class Master:
         _, api = self._books.service_apis.get(_name("service", service, caller), ("", ""))
         return (1, f"rosrpc URI: [{api}]", api) if api else (-1, "no provider", "")
 
-    def _system_state(self, caller: str) -> Answer:
+    def _topic_types(self, _: str) -> Answer:
+        return 1, "current system state", [list(item) for item in self._types.items()]
+
+    def _system_state(self, _: str) -> Answer:
         books = self._books
         return 1, "current system state", [t.state() for t in (books.publishers, books.subscribers, books.services)]
 
@@ -231,12 +236,10 @@ class Master:
     def _search_param(self, caller: str, key: Any) -> Answer:
         if not isinstance(key, str) or not key:
             raise _BadArgumentError("ERROR: parameter [key] must be specified and non-empty")
-        if key.startswith("~") or not caller.startswith("/"):
-            return (
-                0,
-                "Internal failure: invalid key" if key[0] == "~" else "Internal failure: namespace must be global",
-                0,
-            )
+        if key.startswith("~"):
+            return 0, "Internal failure: invalid key", ""
+        if not caller.startswith("/"):
+            return 0, "Internal failure: namespace must be global", ""
         found = self.parameters.search(caller, key)
         if found is None:
             return -1, f"Cannot find parameter [{key}] in an upwards search", ""
@@ -252,6 +255,9 @@ class Master:
         name, uri = _parameter(key, caller), _api("caller_api", api)
         self._books.strike(self._books.parameters, _followed(name), caller, uri)
         return 1, f"Unsubscribe to parameter [{name}]", 1
+
+    def _param_names(self, _: str) -> Answer:
+        return 1, "Parameter names", self.parameters.names()
 
     def _tell_followers(self, name: str, value: object, by: str | None) -> None:
         table = self._books.parameters.entries

@@ -24,7 +24,7 @@ from .rpc_client import call_value
 from .service import Service, ServiceCallback, call_service
 from .slave import Slave
 from .subscription import Callback, Subscription
-from .xmlrpc import Fault
+from .xmlrpc import FaultError
 
 _UNSET: Any = object()
 _MASTER_S = 5.0
@@ -409,7 +409,7 @@ class Node:
         """Have a function called, on the loop and with the reason, when this node is told to shut down."""
         self._on_shutdown.append(callback)
 
-    async def shutdown(self, reason: str = "") -> None:
+    async def shutdown(self) -> None:
         """Unregister everything and drop every peer."""
         if self._is_down:
             await self.closed.wait()
@@ -486,7 +486,7 @@ class Node:
         self.log_warn(f"shutdown request: {reason}")
         for callback in self._on_shutdown:
             callback(reason)
-        self.loop.spawn(self.shutdown(reason))
+        self.loop.spawn(self.shutdown())
 
     # -- inside
 
@@ -533,7 +533,7 @@ class Node:
             return await call_value(self.master_uri, method, self.name, *arguments, timeout_s=_MASTER_S)
         except (OSError, WireError) as error:
             raise MasterUnreachableError(self.master_uri, str(error) or "no answer in time") from None
-        except Fault as error:
+        except FaultError as error:
             raise MasterError(f"{method}: {error}") from None
 
     async def _tell(self, method: str, *arguments: object) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 
 from .errors import RosError
 from .rpc_client import call
-from .xmlrpc import Fault
+from .xmlrpc import FaultError
 
 _log = logging.getLogger(__name__)
 _TIMEOUT_S = 5.0
@@ -45,7 +45,7 @@ class Notices:
                 method, arguments = queue.pop(0)
                 try:
                     await call(uri, method, *arguments, timeout_s=_TIMEOUT_S)
-                except (OSError, RosError, Fault, ValueError) as error:
+                except (OSError, RosError, FaultError, ValueError) as error:
                     _log.debug("%s of %s: %s", method, uri, error)
         finally:
             self._waiting.pop(uri, None)

@@ -6,7 +6,7 @@ from typing import Any
 from .errors import MasterError, MasterUnreachableError, WireError
 from .http import MAX_BODY_BYTES, host_and_port, parse_head, request
 from .network import master_uri_from_env
-from .xmlrpc import Fault, decode_response, encode_call
+from .xmlrpc import FaultError, decode_response, encode_call
 
 
 class MasterProxy:
@@ -28,7 +28,7 @@ class MasterProxy:
             answer = blocking_call(self.uri, method, self._caller_id, *arguments, timeout_s=self._timeout_s)
         except (OSError, WireError) as error:
             raise MasterUnreachableError(self.uri, str(error)) from None
-        except Fault as error:
+        except FaultError as error:
             raise MasterError(f"{method}: {error}") from None
         if not isinstance(answer, list) or len(answer) != 3:
             raise MasterUnreachableError(self.uri, "what answers there is no ROS master")
@@ -44,7 +44,7 @@ def blocking_call(uri: str, method: str, *arguments: object, timeout_s: float) -
     Raises:
         OSError: nobody listens there (TimeoutError: nobody answers in time).
         WireError: the peer does not speak XML-RPC.
-        Fault: the peer cannot make the call.
+        FaultError: the peer cannot make the call.
     """
     with socket.create_connection(host_and_port(uri), timeout=timeout_s) as connection:
         connection.sendall(request(uri, encode_call(method, arguments)))

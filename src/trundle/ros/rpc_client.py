@@ -15,7 +15,7 @@ async def call(uri: str, method: str, *arguments: object, timeout_s: float = 5.0
     Raises:
         OSError: nobody listens there (TimeoutError: nobody answers in time).
         WireError: the peer does not speak XML-RPC.
-        Fault: the peer cannot make the call.
+        FaultError: the peer cannot make the call.
     """
     host, port = host_and_port(uri)
     body = encode_call(method, arguments)
@@ -41,7 +41,7 @@ async def call_value(uri: str, method: str, *arguments: object, timeout_s: float
 
     Raises:
         MasterError: the code is not 1.
-        OSError, WireError, Fault: as `call`.
+        OSError, WireError, FaultError: as `call`.
     """
     return value_of(uri, method, await call(uri, method, *arguments, timeout_s=timeout_s))
 

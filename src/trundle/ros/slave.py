@@ -127,7 +127,7 @@ class _Inbound(FrameProtocol):
         if isinstance(self._target, Service):
             self._target.request(self, data)
 
-    def closed(self, reason: str) -> None:
+    def closed(self, _: str, /) -> None:
         self._links.discard(self)
         if self._target is not None:
             self._target.release(self)

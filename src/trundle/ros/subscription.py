@@ -11,7 +11,7 @@ from .errors import MessageError, RosError, WireError
 from .messages import ANY_TYPE, Message, RawMessage
 from .rpc_client import call
 from .tcpros import FrameProtocol, check_md5
-from .xmlrpc import Fault
+from .xmlrpc import FaultError
 
 if TYPE_CHECKING:
     from .node import Node
@@ -110,7 +110,7 @@ class Subscription:
     def receive_bytes(self, data: bytes, publisher: "Publisher") -> None:
         """Take a message as bytes from a publisher of this process."""
         definition = self._node.messages.definition(publisher.type) if self.is_raw else ""
-        self._take(data, publisher.type, publisher.md5sum, definition)
+        self.take(data, publisher.type, publisher.md5sum, definition)
 
     def connections(self) -> list[list[Any]]:
         """Links as getBusInfo tells them."""
@@ -126,7 +126,12 @@ class Subscription:
         links = [link for link in self._links.values() if isinstance(link, FrameProtocol)]
         return [self.topic, [[id(link) % 2**31, link.bytes_received, -1, self.dropped, True] for link in links]]
 
-    def _take(self, data: bytes, type_name: str, md5sum: str, definition: str) -> None:
+    def take(self, data: bytes, type_name: str, md5sum: str, definition: str) -> None:
+        """Take a message as bytes.
+
+        Raises:
+            MessageError: the bytes are no such message.
+        """
         if self.is_raw:
             self.receive(RawMessage(type=type_name, md5sum=md5sum, definition=definition, data=data))
         else:
@@ -145,7 +150,7 @@ class Subscription:
                 else:
                     await self._connect(uri)
                 attempt = 0
-            except (OSError, RosError, Fault) as error:
+            except (OSError, RosError, FaultError) as error:
                 self._complain(uri, str(error) or type(error).__name__, attempt)
             await asyncio.sleep(_RETRY_S[min(attempt, len(_RETRY_S) - 1)])
             attempt += 1
@@ -257,14 +262,12 @@ class _SubscriberLink(FrameProtocol):
 
     def frame_received(self, data: bytes) -> None:
         header = self.header or {}
-        take = self._subscription._take  # pyright: ignore[reportPrivateUsage] two halves of one thing
+        type_name, md5sum = header.get("type", ANY_TYPE), header.get("md5sum", ANY_TYPE)
         try:
-            take(
-                data, header.get("type", ANY_TYPE), header.get("md5sum", ANY_TYPE), header.get("message_definition", "")
-            )
+            self._subscription.take(data, type_name, md5sum, header.get("message_definition", ""))
         except MessageError as error:
             raise WireError(str(error)) from None
 
-    def closed(self, reason: str) -> None:
+    def closed(self, reason: str, /) -> None:
         if not self.ended.done():
             self.ended.set_result(reason)

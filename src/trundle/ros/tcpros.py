@@ -90,7 +90,7 @@ class FrameProtocol(asyncio.Protocol):
     def frame_received(self, data: bytes) -> None:
         """Called with each frame after the header; a WireError ends the connection."""
 
-    def closed(self, reason: str) -> None:
+    def closed(self, reason: str, /) -> None:
         """Called once when the connection has ended."""
 
     # asyncio's side

@@ -21,7 +21,7 @@ _MAX_DEPTH = 100
 _ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;"})
 
 
-class Fault(Exception):
+class FaultError(Exception):
     """The peer answered with a fault."""
 
     def __init__(self, code: int, text: str) -> None:
@@ -31,8 +31,8 @@ class Fault(Exception):
 def encode_call(method: str, arguments: Sequence[object]) -> bytes:
     """Write a call."""
     params = "".join(f"<param>{_value(a)}</param>" for a in arguments)
-    text = f"<?xml version='1.0'?>\n<methodCall><methodName>{_text(method)}</methodName><params>{params}</params></methodCall>"
-    return text.encode()
+    name = f"<methodName>{_text(method)}</methodName>"
+    return f"<?xml version='1.0'?>\n<methodCall>{name}<params>{params}</params></methodCall>".encode()
 
 
 def encode_response(value: object) -> bytes:
@@ -63,7 +63,7 @@ def decode_response(body: bytes) -> Any:
     """Read an answer.
 
     Raises:
-        Fault: the answer is a fault.
+        FaultError: the answer is a fault.
         WireError: the body is not an XML-RPC response.
     """
     reader = _Reader(body)
@@ -72,7 +72,7 @@ def decode_response(body: bytes) -> Any:
     value = reader.values[0]
     if reader.is_fault:
         fault: dict[str, Any] = value if isinstance(value, dict) else {}
-        raise Fault(int(fault.get("faultCode", 0)), str(fault.get("faultString", "")))
+        raise FaultError(int(fault.get("faultCode", 0)), str(fault.get("faultString", "")))
     return value
 
 
