@@ -1,1 +1,22 @@
-"""Room."""
+"""Stand-ins for stock executables: nodes that launch files name, run in this process."""
+
+from .catalog import STAND_INS
+from .find import Executable, Missing, Replacement, find_node
+from .host import Display, Host, Slider, StandIn
+from .profile import PROFILES, Profile
+from .run import run_stand_in
+
+__all__ = [
+    "PROFILES",
+    "STAND_INS",
+    "Display",
+    "Executable",
+    "Host",
+    "Missing",
+    "Profile",
+    "Replacement",
+    "Slider",
+    "StandIn",
+    "find_node",
+    "run_stand_in",
+]

@@ -33,7 +33,7 @@ class TaskJob:
         if error is None:
             return self._task.result()
         # A reason the user can mend is one sentence; anything else is our bug, and its trace is the only clue.
-        self._last = [str(error)] if isinstance(error, TrundleError) else traceback.format_exception(error)
+        self._last = (str(error) if isinstance(error, TrundleError) else _trace(error)).splitlines()
         return 1
 
     async def stop(self, patience: Patience) -> None:
@@ -44,3 +44,7 @@ class TaskJob:
 
     def last_output(self) -> list[str]:
         return self._last
+
+
+def _trace(error: BaseException) -> str:
+    return "".join(traceback.format_exception(error))

@@ -1,0 +1,128 @@
+"""arbotix_python/arbotix_driver in its simulated mode: kinematic, no serial port, no physics."""
+
+from trundle.ros import Message, MessageError, Node
+
+from ..host import Host
+from ..rate import Cadence, Rate
+from ..settings import SettingError, Settings
+from .diff import DiffController
+from .linear import LinearController, LinearJoint
+from .part import Controller, Joint, JointReading
+from .servos import DynamixelServo, HobbyServo, ServoController
+
+
+class ArbotixDriver:
+    """Runs the controllers and joints that the node's parameters ask for, in one loop as the original does."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del arguments, host
+        self._node = node
+        self._joints: dict[str, Joint] = {}
+        self._controllers: list[Controller] = []
+
+    async def run(self) -> int:
+        """Read the parameters, then loop at `~rate`."""
+        node = self._node
+        try:
+            settings = Settings(await node.get_param("~", {}), node.name)
+            if not settings.flag("sim", default=False):
+                port = settings.text("port", "/dev/ttyUSB0")
+                node.log_error(f"no ArbotiX board can be driven through {port}: set {node.name}/sim to true")
+                return 1
+            return await self._loop(settings)
+        except SettingError as error:
+            node.log_error(str(error))
+            return 1
+
+    async def _loop(self, settings: Settings) -> int:
+        node = self._node
+        rate_hz = settings.rate_hz("rate", 100.0)
+        diagnostics = Cadence(node.clock.now_ns, settings.rate_hz("diagnostic_rate", 1.0))
+        self._diagnostics = node.advertise("diagnostics", "diagnostic_msgs/DiagnosticArray", queue_size=5)
+        joint_states = Cadence(node.clock.now_ns, settings.rate_hz("read_rate", 10.0))
+        self._joint_states = node.advertise("joint_states", "sensor_msgs/JointState", queue_size=5)
+        node.log_info("ArbotiX being simulated.")
+        self._add_joints(settings.section("joints"))
+        self._controllers.append(ServoController(node, self._joints, settings))
+        self._add_controllers(settings.section("controllers"))
+        for name in ("SetupAnalogIn", "SetupDigitalIn", "SetupDigitalOut"):
+            node.advertise_service(f"~{name}", "arbotix_msgs/SetupChannel", _no_channel)
+        rate = Rate(node, rate_hz)
+        while True:
+            for controller in self._controllers:
+                controller.update()
+            if joint_states.due():
+                self._publish_joint_states()
+            if diagnostics.due():
+                self._publish_diagnostics()
+            await rate.sleep()
+
+    def _add_joints(self, settings: Settings) -> None:
+        for name in settings.names():
+            section = settings.section(name)
+            match kind := section.text("type", "dynamixel"):
+                case "dynamixel":
+                    self._joints[name] = DynamixelServo(self._node, name, section)
+                case "hobby_servo":
+                    self._joints[name] = HobbyServo(self._node, name, section)
+                case "calibrated_linear":
+                    self._joints[name] = LinearJoint(self._node, name, section)
+                case _:
+                    self._node.log_warn(f"joint {name}: no type {kind!r}; it is left out")
+
+    def _add_controllers(self, settings: Settings) -> None:
+        """Add what can be added; the original, too, goes on without a controller that it cannot make."""
+        for name in settings.names():
+            section = settings.section(name)
+            try:
+                match kind := section.text("type"):
+                    case "diff_controller":
+                        self._controllers.append(DiffController(self._node, name, section))
+                    case "linear_controller":
+                        self._controllers.append(LinearController(self._node, name, section))
+                    case "linear_controller_i":
+                        self._controllers.append(LinearController(self._node, name, section, incremental=True))
+                    case "follow_controller":
+                        self._node.log_error(f"controller {name}: follow_controller is not supported; it is left out")
+                    case _:
+                        self._node.log_error(f"Unrecognized controller: {kind}")
+            except (SettingError, MessageError) as error:
+                self._node.log_error(f"controller {name}: {error}; it is left out")
+
+    def _readings(self) -> list[JointReading]:
+        joints = [joint.reading for joint in self._joints.values()]
+        return joints + [reading for controller in self._controllers for reading in controller.readings]
+
+    def _publish_joint_states(self) -> None:
+        """Servos, then the controllers' joints; sent even when there are none."""
+        readings = self._readings()
+        self._joint_states.publish(
+            {
+                "header": {"stamp": self._node.clock.now_ns()},
+                "name": [reading.name for reading in readings],
+                "position": [reading.position for reading in readings],
+                "velocity": [reading.velocity for reading in readings],
+            }
+        )
+
+    def _publish_diagnostics(self) -> None:
+        parts = [*self._controllers, *self._joints.values()]
+        entries = [status for part in parts if (status := part.status()) is not None]
+        self._diagnostics.publish(
+            {
+                "header": {"stamp": self._node.clock.now_ns()},
+                "status": [
+                    {
+                        "name": entry.name,
+                        "message": entry.message,
+                        "values": [{"key": key, "value": value} for key, value in entry.values],
+                    }
+                    for entry in entries
+                ],
+            }
+        )
+
+
+def _no_channel(_request: Message) -> dict[str, object]:
+    """Answer a request for an input or output that a simulated board does not have, as the original does."""
+    return {}

@@ -1,0 +1,78 @@
+"""Finds what a launch file means by a package and a type."""
+
+import importlib
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeAlias, cast
+
+from trundle.ros import Node
+
+from .catalog import STAND_INS
+from .host import Host, StandIn
+
+_NOT_SEARCHED = frozenset({"__pycache__", "node_modules", "build"})
+StandInClass: TypeAlias = Callable[[Node, list[str], Host], StandIn]
+FindPackage: TypeAlias = Callable[[str], Path | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Executable:
+    """A program in the package's folder, to be run as a process."""
+
+    path: Path
+
+
+@dataclass(frozen=True, slots=True)
+class Replacement:
+    """A stand-in of ours, to be run in this process."""
+
+    target: str
+    """module:Class"""
+
+    def load(self) -> StandInClass:
+        """Import it."""
+        module, _, name = self.target.partition(":")
+        return cast(StandInClass, getattr(importlib.import_module(module), name))
+
+
+@dataclass(frozen=True, slots=True)
+class Missing:
+    """Neither; the launch goes on without."""
+
+    why: str
+
+
+def find_node(package: str, type_name: str, find_package: FindPackage) -> Executable | Replacement | Missing:
+    """Find a node: an executable in the package's folder, else a stand-in, else what is missing."""
+    folder = find_package(package)
+    plain: Path | None = None
+    if folder is not None:
+        for path in _files(folder, type_name):
+            if os.access(path, os.X_OK):
+                return Executable(path)
+            plain = plain or path
+    target = STAND_INS.get((package, type_name))
+    if target is not None:
+        return Replacement(target)
+    if plain is not None:
+        return Missing(f"{plain} is not executable; run chmod +x on it")
+    if folder is not None:
+        return Missing(f"no executable {type_name!r} in {folder}, and no stand-in for {package}/{type_name}")
+    known = sorted(name for owner, name in STAND_INS if owner == package)
+    there_is = f"; stand-ins of that package: {', '.join(known)}" if known else ""
+    return Missing(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
+
+
+def _files(folder: Path, name: str) -> Iterator[Path]:
+    """Every file of that name in a package, as rosrun searches it; names may hold folders."""
+    direct = folder / name
+    if "/" in name:
+        if direct.is_file() and folder.resolve() in direct.resolve().parents:
+            yield direct
+        return
+    for root, folders, files in os.walk(folder):
+        folders[:] = sorted(f for f in folders if not f.startswith(".") and f not in _NOT_SEARCHED)
+        if name in files:
+            yield Path(root) / name

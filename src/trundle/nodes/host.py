@@ -1,0 +1,60 @@
+"""What a stand-in is, and what it may ask of the program it runs in."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from trundle.ros import Node
+
+from .profile import PROFILES, Profile
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Slider:
+    """A joint that a user may move by hand; limits are finite [rad] or [m]."""
+
+    name: str
+    lower: float
+    upper: float
+    position: float
+
+
+class Display(Protocol):
+    """Shows the graph in a browser; a launch has one page, however many rviz nodes it starts."""
+
+    def offer_sliders(self, sliders: Sequence[Slider], move: Callable[[str, float], None]) -> None:
+        """Let the user move joints; `move` takes a joint's name and position, on any thread."""
+        ...
+
+    async def show(self, node: Node, *, config: str | None, fixed_frame: str | None) -> int:
+        """Show until the page is closed for good or the call is cancelled; return an exit code.
+
+        Args:
+            node: the rviz node, for subscriptions and publications of its displays and tools.
+            config: an .rviz file as the launch file names it; it may not be there.
+            fixed_frame: overrides the file's.
+        """
+        ...
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Host:
+    """What the program offers its stand-ins."""
+
+    display: Display | None = None
+    """None: headless; rviz idles."""
+    profile: Profile = field(default=PROFILES["noetic"])
+
+
+class StandIn(Protocol):
+    """A node that runs in this process in place of a stock executable.
+
+    Made on the graph's loop with `(node, arguments, host)`: `arguments` is the command line without the program and
+    without what ROS itself reads. It tells and waits for time through `node.clock` alone.
+    """
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None: ...
+
+    async def run(self) -> int:
+        """Do what the original does until it would exit; return its exit code. Cancelled when everything stops."""
+        ...

@@ -1,0 +1,275 @@
+"""joint_state_publisher: says where joints are that nothing measures."""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
+from trundle.ros import Message, Node
+from trundle.xmlnode import XmlNode, parse_numbers, parse_xml
+
+from .host import Host, Slider
+from .profile import Profile
+from .rate import Rate
+from .settings import SettingError, Settings
+
+_OPTIONS = (
+    "delta",
+    "dependent_joints",
+    "publish_default_efforts",
+    "publish_default_positions",
+    "publish_default_velocities",
+    "rate",
+    "robot_description",
+    "source_list",
+    "use_gui",
+    "use_mimic_tags",
+    "use_smallest_joint_limits",
+    "zeros",
+)
+
+
+@dataclass(slots=True, kw_only=True)
+class FreeJoint:
+    """A joint whose position this node decides, or hears of."""
+
+    lower: float
+    upper: float
+    """[rad] or [m]"""
+    continuous: bool = False
+    position: float | None = None
+    """None is not published."""
+    velocity: float | None = None
+    effort: float | None = None
+    rising: bool = True
+
+    def sweep(self, delta: float) -> None:
+        """Move by `delta` up to a limit, then back; a continuous joint starts again at its lower limit."""
+        if self.position is None:
+            return
+        if self.rising:
+            self.position += delta
+            if self.position > self.upper:
+                self.position = self.lower if self.continuous else self.upper
+                self.rising = self.continuous
+        else:
+            self.position -= delta
+            if self.position < self.lower:
+                self.position, self.rising = self.lower, True
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DependentJoint:
+    """A joint that follows another one."""
+
+    parent: str
+    factor: float = 1.0
+    offset: float = 0.0
+
+
+class JointSet:
+    """The joints of a robot, as the original picks them out of its URDF."""
+
+    def __init__(self, options: Settings, profile: Profile) -> None:
+        self.names: list[str] = []
+        """In file order."""
+        self.free: dict[str, FreeJoint] = {}
+        self.dependent: dict[str, DependentJoint] = _dependent(options.section("dependent_joints"))
+        self._options = options
+        self._zeros = options.section("zeros")
+        self._skipped = ("fixed", "floating") if profile.planar_is_free else ("fixed", "floating", "planar")
+
+    def read(self, robot: XmlNode, report: Diagnostics) -> None:
+        """Take in a URDF's joints; one without limits is named and left out."""
+        for joint in robot.all("joint"):
+            kind, name = joint.attribute("type") or "", joint.attribute("name") or ""
+            if kind in self._skipped:
+                continue
+            limits = (-math.pi, math.pi) if kind == "continuous" else _limits(joint, "limit", "lower", "upper")
+            if limits is None:
+                report.warn(joint.at, f"joint {name!r} is not fixed, nor continuous, but has no limits; it is left out")
+                continue
+            self.names.append(name)
+            self._add(joint, name, limits, continuous=kind == "continuous")
+
+    def _add(self, joint: XmlNode, name: str, limits: tuple[float, float], *, continuous: bool) -> None:
+        lower, upper = limits
+        if self._options.flag("use_smallest_joint_limits", default=True):
+            soft = _limits(joint, "safety_controller", "soft_lower_limit", "soft_upper_limit")
+            if soft is not None:
+                lower, upper = max(lower, soft[0]), min(upper, soft[1])
+        mimic = joint.find("mimic")
+        if mimic is not None and self._options.flag("use_mimic_tags", default=True):
+            self.dependent[name] = DependentJoint(
+                parent=mimic.attribute("joint") or "",
+                factor=_number(mimic.attribute("multiplier"), 1.0),
+                offset=_number(mimic.attribute("offset"), 0.0),
+            )
+            return
+        if name in self.dependent:
+            return
+        zero = 0.0 if lower <= 0.0 <= upper else (lower + upper) / 2.0
+        if name in self._zeros.names():
+            zero = self._zeros.number(name)
+        self.free[name] = FreeJoint(
+            lower=lower,
+            upper=upper,
+            continuous=continuous,
+            position=zero if self._options.flag("publish_default_positions", default=True) else None,
+            velocity=0.0 if self._options.flag("publish_default_velocities", default=False) else None,
+            effort=0.0 if self._options.flag("publish_default_efforts", default=False) else None,
+        )
+
+    def hear(self, message: Message) -> None:
+        """Take over what another publisher says about free joints."""
+        for index, name in enumerate(message.name):
+            joint = self.free.get(name)
+            if joint is not None:
+                joint.position = _at(message.position, index, joint.position)
+                joint.velocity = _at(message.velocity, index, joint.velocity)
+                joint.effort = _at(message.effort, index, joint.effort)
+
+    def resolve(self, name: str) -> tuple[FreeJoint, float, float]:
+        """Follow a chain of dependent joints: the free joint at its end, factor and offset.
+
+        Raises:
+            SettingError: the chain is a circle, or ends at a joint that is not there.
+        """
+        factor, offset = 1.0, 0.0
+        chain: list[str] = []
+        while name in self.dependent:
+            if name in chain:
+                raise SettingError(f"Found an infinite recursive mimic chain: {', '.join([*chain, name])}")
+            chain.append(name)
+            joint = self.dependent[name]
+            offset += factor * joint.offset
+            factor *= joint.factor
+            name = joint.parent
+        if name not in self.free:
+            raise SettingError(f"joint {chain[0] if chain else name!r} follows {name!r}, which is no free joint")
+        return self.free[name], factor, offset
+
+    def message(self) -> dict[str, Any]:
+        """Names and whatever is known, in file order; an array that nobody knows anything about is left empty."""
+        joints = [(name, *self.resolve(name)) for name in self.names]
+        fields: dict[str, Any] = {"name": [name for name, *_ in joints]}
+        if self.dependent or any(joint.position is not None for joint in self.free.values()):
+            fields["position"] = [
+                0.0 if joint.position is None else joint.position * factor + offset
+                for _, joint, factor, offset in joints
+            ]
+        if any(joint.velocity is not None for joint in self.free.values()):
+            fields["velocity"] = [(joint.velocity or 0.0) * factor for _, joint, factor, _ in joints]
+        if any(joint.effort is not None for joint in self.free.values()):
+            fields["effort"] = [joint.effort or 0.0 for _, joint, *_ in joints]
+        return fields
+
+
+class JointStatePublisher:
+    """Publishes joint_states at a fixed rate; with `use_gui`, what the sliders on the page say."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del arguments
+        self._node = node
+        self._display = host.display
+        self._profile = host.profile
+        self._always_sliders = False
+
+    async def run(self) -> int:
+        """Read the robot, then publish."""
+        node = self._node
+        try:
+            options = Settings(await self._options(), node.name)
+            joints = JointSet(options, self._profile)
+            report = Diagnostics()
+            joints.read(self._robot(options), report)
+            for warning in report.findings:
+                node.log_warn(warning.what)
+            # A name of Indigo's, which works in every profile.
+            if self._always_sliders or options.flag("use_gui", default=False):
+                self._offer_sliders(joints)
+            delta = options.number("delta", 0.0)
+            rate = Rate(node, options.rate_hz("rate", 10.0))
+            joints.message()
+        except TrundleError as error:
+            node.log_error(str(error))
+            return 1
+        for source in options.texts("source_list"):
+            node.subscribe(source, "sensor_msgs/JointState", joints.hear)
+        publisher = node.advertise("joint_states", "sensor_msgs/JointState", queue_size=5)
+        while True:
+            stamp_ns = node.clock.now_ns()
+            if delta > 0.0:
+                for joint in joints.free.values():
+                    joint.sweep(delta)
+            if joints.names or self._profile.publishes_empty_joint_states:
+                publisher.publish({"header": {"stamp": stamp_ns}, **joints.message()})
+            await rate.sleep()
+
+    async def _options(self) -> dict[str, Any]:
+        """Look each option up as `~name`, then as `name` in the node's namespace: `/use_gui` is found so."""
+        values: dict[str, Any] = {}
+        for name in _OPTIONS:
+            for candidate in (f"~{name}", name):
+                value = await self._node.get_param(candidate, None)
+                if value is not None:
+                    values[name] = value
+                    break
+        return values
+
+    def _offer_sliders(self, joints: JointSet) -> None:
+        if self._display is None:
+            self._node.log_warn("there is no page to show sliders on; every joint stays where it is")
+            return
+        sliders = [
+            Slider(name=name, lower=joint.lower, upper=joint.upper, position=joint.position or 0.0)
+            for name, joint in joints.free.items()
+        ]
+
+        def move(name: str, position: float) -> None:
+            joints.free[name].position = position
+
+        self._display.offer_sliders(sliders, move)
+
+    def _robot(self, options: Settings) -> XmlNode:
+        name = f"{self._node.name}/robot_description"
+        robot = parse_xml(options.text("robot_description"), name=name)
+        if robot.tag != "robot":
+            raise DescriptionError(robot.at, f"a URDF starts with <robot>, not <{robot.tag}>")
+        return robot
+
+
+class JointStatePublisherGui(JointStatePublisher):
+    """joint_state_publisher_gui: always with sliders."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        super().__init__(node, arguments, host)
+        self._always_sliders = True
+
+
+def _dependent(settings: Settings) -> dict[str, DependentJoint]:
+    return {
+        name: DependentJoint(
+            parent=settings.section(name).text("parent"),
+            factor=settings.section(name).number("factor", 1.0),
+            offset=settings.section(name).number("offset", 0.0),
+        )
+        for name in settings.names()
+    }
+
+
+def _limits(joint: XmlNode, tag: str, lower: str, upper: str) -> tuple[float, float] | None:
+    element = joint.find(tag)
+    values = None if element is None else [parse_numbers(element.attribute(name) or "") for name in (lower, upper)]
+    if values is None or not values[0] or not values[1]:
+        return None
+    return values[0][0], values[1][0]
+
+
+def _number(text: str | None, default: float) -> float:
+    values = parse_numbers(text or "")
+    return values[0] if values else default
+
+
+def _at(values: Any, index: int, default: float | None) -> float | None:
+    return float(values[index]) if index < len(values) else default

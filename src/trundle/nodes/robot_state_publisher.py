@@ -1,0 +1,173 @@
+"""robot_state_publisher: joint positions in, the robot's frames out."""
+
+from dataclasses import dataclass
+
+from trundle.diagnostics import Diagnostics, TrundleError
+from trundle.robot import Robot, RobotJoint, parent_from_child, read_robot
+from trundle.ros import Message, Node, StaticTransformBroadcaster, Transform, TransformBroadcaster, ns_of
+from trundle.xmlnode import parse_xml
+
+from .host import Host
+from .rate import Throttle, period_ns
+from .settings import Settings
+
+_NS = 1_000_000_000
+_OLD_NS = 30 * _NS
+_FIXED_AHEAD_NS = _NS // 2
+"""Fixed joints on /tf are stamped half a second ahead, so that they are still good when the next ones are due."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotFrames:
+    """A robot's joints as transforms, named with the node's tf_prefix."""
+
+    moving: dict[str, RobotJoint]
+    fixed: dict[str, RobotJoint]
+    mimics: dict[str, RobotJoint]
+    """Those of `moving` that follow another joint, one level deep, as in the original."""
+    prefix: str = ""
+
+    @staticmethod
+    def of(robot: Robot, prefix: str) -> "RobotFrames":
+        """Sort a robot's joints; floating ones have no transform that one number could give."""
+        joints = sorted(robot.joints, key=lambda joint: joint.name)  # std::map's order, which is the messages' too
+        moving = {j.name: j for j in joints if j.type not in ("fixed", "floating", "planar")}
+        return RobotFrames(
+            moving=moving,
+            fixed={j.name: j for j in joints if j.type == "fixed"},
+            mimics={name: j for name, j in moving.items() if j.mimic is not None},
+            prefix=prefix.strip("/"),
+        )
+
+    def positions(self, message: Message) -> dict[str, float]:
+        """Positions by joint, in name order, with those of joints that follow others."""
+        positions = {str(name): float(position) for name, position in zip(message.name, message.position, strict=True)}
+        for name, joint in self.mimics.items():
+            assert joint.mimic is not None
+            if joint.mimic.joint in positions:
+                followed = positions[joint.mimic.joint] * joint.mimic.multiplier + joint.mimic.offset
+                positions.setdefault(name, followed)
+        return dict(sorted(positions.items()))
+
+    def transform(self, joint: RobotJoint, position: float, stamp_ns: int) -> Transform:
+        """A joint's child frame in its parent frame."""
+        pose = parent_from_child(joint, position)
+        return Transform(
+            parent=self._frame(joint.parent),
+            child=self._frame(joint.child),
+            stamp_ns=stamp_ns,
+            translation=pose.position,
+            rotation=pose.rotation,
+        )
+
+    def _frame(self, link: str) -> str:
+        name = link.removeprefix("/")
+        return f"{self.prefix}/{name}" if self.prefix else name
+
+
+class RobotStatePublisher:
+    """Publishes moving joints whenever joint_states says where they are, fixed ones by themselves."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del arguments
+        self._node = node
+        self._profile = host.profile
+        self._last_published_ns: dict[str, int] = {}
+        self._last_heard_ns = 0
+        self._no_position = Throttle(node, 300.0)
+        self._unknown = Throttle(node, 10.0)
+        self._old = Throttle(node, 10.0)
+
+    async def run(self) -> int:
+        """Read the robot once, then publish until cancelled."""
+        node = self._node
+        try:
+            settings = Settings(await node.get_param("~", {}), node.name)
+            # Below 1 Hz the original takes 1 Hz.
+            self._interval_ns = period_ns(max(settings.number("publish_frequency", 50.0), 1.0))
+            self._ignores_stamps = settings.flag("ignore_timestamp", default=False)
+            use_tf_static = settings.flag("use_tf_static", default=self._profile.use_tf_static)
+            self._frames = RobotFrames.of(await self._robot(), await self._prefix())
+        except TrundleError as error:
+            node.log_error(str(error))
+            return 1
+        self._broadcaster = TransformBroadcaster(node)
+        node.subscribe("joint_states", "sensor_msgs/JointState", self._hear, queue_size=1)
+        static = StaticTransformBroadcaster(node)
+        if use_tf_static:
+            await node.clock.sleep(self._interval_ns / _NS)
+            if fixed := self._fixed(node.clock.now_ns()):
+                static.send(*fixed)
+            await node.closed.wait()
+            return 0
+        while True:
+            await node.clock.sleep(self._interval_ns / _NS)
+            if fixed := self._fixed(node.clock.now_ns() + _FIXED_AHEAD_NS):
+                self._broadcaster.send(*fixed)
+
+    async def _robot(self) -> Robot:
+        """Read the description from the nearest parameter upwards."""
+        node = self._node
+        name = await node.search_param("robot_description") or "robot_description"
+        text = Settings({name: await node.get_param(name, None)}, "").text(name)
+        report = Diagnostics()
+        robot = read_robot(parse_xml(text, name=node.resolve(name)), report)
+        for finding in report.findings:
+            node.log_debug(str(finding))
+        return robot
+
+    async def _prefix(self) -> str:
+        name = await self._node.search_param("tf_prefix")
+        return str(await self._node.get_param(name, "")) if name else ""
+
+    def _fixed(self, stamp_ns: int) -> list[Transform]:
+        return [self._frames.transform(joint, 0.0, stamp_ns) for joint in self._frames.fixed.values()]
+
+    def _hear(self, message: Message) -> None:
+        node = self._node
+        if len(message.name) != len(message.position):
+            if len(message.position) == 0:
+                self._no_position.warn(
+                    f"Robot state publisher ignored a JointState message about joint(s) "
+                    f'"{message.name[0]}"(,...) whose position member was empty. '
+                    "This message will not reappear for 300 seconds."
+                )
+            else:
+                node.log_error("Robot state publisher ignored an invalid JointState message")
+            return
+        now, stamp_ns = node.clock.now_ns(), ns_of(message.header.stamp)
+        if now < self._last_heard_ns:
+            node.log_warn(
+                "Moved backwards in time (probably because ROS clock was reset), re-publishing joint transforms!"
+            )
+            self._last_published_ns.clear()
+        self._last_heard_ns = now
+        if stamp_ns + _OLD_NS < now:
+            self._old.warn(f"Received JointState is {(now - stamp_ns) / 1e9:f} seconds old.")
+        # Joints of different publishers come in different messages: the one longest unheard of decides.
+        oldest_ns = min((self._last_published_ns.get(name, 0) for name in message.name), default=now)
+        if not self._ignores_stamps and stamp_ns < min(oldest_ns, now) + self._interval_ns:
+            return
+        self._publish(self._frames.positions(message), stamp_ns)
+        self._last_published_ns.update(dict.fromkeys(message.name, stamp_ns))
+
+    def _publish(self, positions: dict[str, float], stamp_ns: int) -> None:
+        transforms: list[Transform] = []
+        for name, position in positions.items():
+            joint = self._frames.moving.get(name)
+            if joint is not None:
+                transforms.append(self._frames.transform(joint, position, stamp_ns))
+            elif name not in self._frames.fixed:
+                self._unknown.warn(f'Joint state with name: "{name}" was received but not found in URDF')
+        if transforms:
+            self._broadcaster.send(*transforms)
+
+
+class StatePublisher(RobotStatePublisher):
+    """robot_state_publisher's name of old."""
+
+    async def run(self) -> int:
+        self._node.log_warn(
+            "The 'state_publisher' executable is deprecated. Please use 'robot_state_publisher' instead"
+        )
+        return await super().run()

@@ -1,0 +1,69 @@
+"""rviz/rviz: the viewer, with what the original publishes, listens to and provides."""
+
+from pathlib import Path
+
+from trundle.ros import Message, Node
+
+from .host import Host
+
+_SEND_FILE_PATH = "std_msgs/String path\n---\nbool success\n"
+_TAKES_A_VALUE = ("-d", "--display-config", "-f", "--fixed-frame", "-s", "--splash-screen", "--help-file", "-t")
+
+
+class Rviz:
+    """Opens the launch's one viewer page; without a display it is there and does nothing."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        self._node = node
+        self._display = host.display
+        self._options = _options(arguments)
+
+    async def run(self) -> int:
+        """Show until the page is closed for good, or for ever where there is none."""
+        node = self._node
+        config = self._options.get("-d") or self._options.get("--display-config")
+        if config is not None and not Path(config).is_file():
+            node.log_warn(f"no rviz config {config!r}; the default view is shown")
+            config = None
+        # Tools of the default layout; the viewer publishes what is clicked.
+        node.advertise("/initialpose", "geometry_msgs/PoseWithCovarianceStamped", queue_size=1)
+        node.advertise("/move_base_simple/goal", "geometry_msgs/PoseStamped", queue_size=1)
+        node.advertise("/clicked_point", "geometry_msgs/PointStamped", queue_size=1)
+        node.messages.add_service("rviz/SendFilePath", _SEND_FILE_PATH)
+        node.advertise_service("~load_config", "rviz/SendFilePath", _refuse)
+        node.advertise_service("~save_config", "rviz/SendFilePath", _refuse)
+        node.advertise_service("~reload_shaders", "std_srvs/Empty", _nothing)
+        if self._display is None:
+            # Registered, so that the graph looks the same with and without a page.
+            node.subscribe("/tf", "tf2_msgs/TFMessage", _ignore, queue_size=1)
+            node.subscribe("/tf_static", "tf2_msgs/TFMessage", _ignore, queue_size=1)
+            await node.closed.wait()
+            return 0
+        fixed_frame = self._options.get("-f") or self._options.get("--fixed-frame")
+        return await self._display.show(node, config=config, fixed_frame=fixed_frame)
+
+
+def _options(arguments: list[str]) -> dict[str, str]:
+    """Read the options that take a value; a lone file is a config, as with `-d`."""
+    options: dict[str, str] = {}
+    words = iter(arguments)
+    for word in words:
+        name, equals, value = word.partition("=")
+        if name in _TAKES_A_VALUE:
+            options[name] = value if equals else next(words, "")
+        elif not word.startswith("-") and "-d" not in options:
+            options["-d"] = word
+    return options
+
+
+def _ignore(_message: Message) -> None:
+    """Be a subscriber, no more."""
+
+
+def _nothing(_request: Message) -> dict[str, object]:
+    return {}
+
+
+def _refuse(_request: Message) -> dict[str, object]:
+    """Say no: the page has no config to load or save while it runs."""
+    return {"success": False}
