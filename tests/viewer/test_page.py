@@ -144,7 +144,10 @@ def test_a_slider_shows_its_joint_and_asks_nothing(
     assert viewer.requests() == []
 
 
-def test_camera_images_appear_in_the_panel_and_in_the_scene(page: Any, viewer: Viewer) -> None:
+def test_camera_images_appear_in_the_panel_and_in_the_scene(
+    page: Any, viewer: Viewer, car_state: Callable[..., ViewerState]
+) -> None:
+    viewer.show(car_state(-0.4, y=-0.4, time_s=2.0))  # the frustum comes to the middle
     rgb = np.zeros((240, 320, 3), dtype=np.uint8)
     rgb[:] = (240, 10, 10)
     assert _red(_scene(page)).sum() == 0

@@ -9,9 +9,11 @@ while True:
 from .content import CameraView, FrameInfo, JointSlider, ViewerScene, ViewerState
 from .errors import ViewerError
 from .requests import Drive, Pause, Play, Request, Reset, SetFixedFrame, SetJoint, SetSpeed, Step
+from .rviz import DEFAULT_CONFIG, RvizConfig, RvizDisplay, choose_fixed_frame, read_rviz_config
 from .viewer import Viewer
 
 __all__ = [
+    "DEFAULT_CONFIG",
     "CameraView",
     "Drive",
     "FrameInfo",
@@ -20,6 +22,8 @@ __all__ = [
     "Play",
     "Request",
     "Reset",
+    "RvizConfig",
+    "RvizDisplay",
     "SetFixedFrame",
     "SetJoint",
     "SetSpeed",
@@ -28,4 +32,6 @@ __all__ = [
     "ViewerError",
     "ViewerScene",
     "ViewerState",
+    "choose_fixed_frame",
+    "read_rviz_config",
 ]
