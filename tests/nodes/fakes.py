@@ -1,0 +1,110 @@
+"""A node without a graph, on a clock that a test turns by hand."""
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+from trundle.ros import Message, Messages
+
+MESSAGES = Messages()
+
+
+class FakeClock:
+    """Time goes on only while a node sleeps, to exactly where it wants to wake, plus what a test adds."""
+
+    def __init__(self, *, start_ns: int = 1_000_000_000, end_ns: int, late_ns: Callable[[], int] = lambda: 0) -> None:
+        self.ns = start_ns
+        self._end_ns = end_ns
+        self._late_ns = late_ns
+
+    def now_ns(self) -> int:
+        return self.ns
+
+    async def sleep_until(self, ns: int) -> None:
+        if ns > self._end_ns:
+            raise asyncio.CancelledError
+        self.ns = max(self.ns, ns) + self._late_ns()
+        await asyncio.sleep(0)
+
+    async def sleep(self, seconds: float) -> None:
+        await self.sleep_until(self.ns + round(seconds * 1e9))
+
+
+class FakePublisher:
+    """Keeps what is published, as messages."""
+
+    has_subscribers = True
+
+    def __init__(self, type_name: str) -> None:
+        self.type = type_name
+        self.sent: list[Message] = []
+
+    def publish(self, message: Message | dict[str, Any]) -> None:
+        self.sent.append(MESSAGES.new(self.type, message) if isinstance(message, dict) else message)
+
+
+class FakeNode:
+    """Everything a stand-in asks of a node."""
+
+    def __init__(self, clock: FakeClock, params: dict[str, Any] | None = None, name: str = "/n") -> None:
+        self.name = name
+        self.clock = clock
+        self.messages = MESSAGES
+        self.params = params or {}
+        self.topics: dict[str, FakePublisher] = {}
+        self.callbacks: dict[str, Callable[[Message], object]] = {}
+        self.services: dict[str, Callable[[Message], dict[str, Any]]] = {}
+        self.logged: list[tuple[str, str]] = []
+        self.closed = asyncio.Event()
+
+    def __getattr__(self, name: str) -> Callable[[str], None]:
+        if not name.startswith("log_"):
+            raise AttributeError(name)
+        return lambda text: self.logged.append((name.removeprefix("log_"), text))
+
+    def resolve(self, name: str) -> str:
+        return f"{self.name}/{name[1:]}" if name.startswith("~") else f"/{name.lstrip('/')}"
+
+    async def get_param(self, name: str, default: Any = None) -> Any:
+        """Private parameters are given without, others with a leading slash."""
+        if name == "~":
+            return {key: value for key, value in self.params.items() if not key.startswith("/")}
+        key = name[1:] if name.startswith("~") else f"/{name.lstrip('/')}"
+        return self.params.get(key, default)
+
+    async def search_param(self, name: str) -> str | None:
+        return f"/{name}" if f"/{name}" in self.params else None
+
+    def advertise(self, topic: str, type_name: str, **_: Any) -> FakePublisher:
+        return self.topics.setdefault(self.resolve(topic), FakePublisher(type_name))
+
+    def subscribe(self, topic: str, type_name: str, callback: Callable[[Message], object], **_: Any) -> None:
+        assert MESSAGES.has(type_name)
+        self.callbacks[self.resolve(topic)] = callback
+
+    def advertise_service(self, name: str, type_name: str, handler: Callable[[Message], dict[str, Any]]) -> None:
+        MESSAGES.service(type_name)
+        self.services[self.resolve(name)] = handler
+
+    def new(self, type_name: str, fields: object = None) -> Message:
+        return MESSAGES.new(type_name, fields, now_ns=self.clock.now_ns())
+
+    def hear(self, topic: str, fields: dict[str, Any], type_name: str) -> None:
+        """Have the node receive a message."""
+        self.callbacks[topic](MESSAGES.new(type_name, fields))
+
+    def sent(self, topic: str) -> list[Message]:
+        """What the node has published there."""
+        return self.topics[topic].sent
+
+
+def run_to_end(coroutine: Coroutine[Any, Any, int]) -> int | None:
+    """Run a node until its clock ends (None) or it ends itself (its exit code)."""
+
+    async def run() -> int | None:
+        task = asyncio.ensure_future(coroutine)
+        await asyncio.wait([task], timeout=60.0)
+        assert task.done()
+        return None if task.cancelled() else task.result()
+
+    return asyncio.run(run())

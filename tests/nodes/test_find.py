@@ -1,0 +1,58 @@
+"""A package and a type lead to a program, a stand-in, or a sentence."""
+
+import importlib
+from pathlib import Path
+
+import pytest
+
+from trundle.nodes import STAND_INS, Executable, Missing, Replacement, find_node
+
+
+def program(path: Path, mode: int = 0o755) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("#!/bin/sh\n")
+    path.chmod(mode)
+    return path
+
+
+@pytest.mark.parametrize("target", sorted(set(STAND_INS.values())))
+def test_every_stand_in_of_the_catalog_is_there(target: str) -> None:
+    module, _, name = target.partition(":")
+    assert callable(getattr(importlib.import_module(module), name).run)
+
+
+def test_the_packages_own_program_goes_before_the_stand_in(tmp_path: Path) -> None:
+    path = program(tmp_path / "scripts/rviz")
+    assert find_node("rviz", "rviz", lambda _: tmp_path) == Executable(path)
+    path.chmod(0o644)
+    assert isinstance(find_node("rviz", "rviz", lambda _: tmp_path), Replacement)
+
+
+def test_programs_in_hidden_and_build_folders_do_not_count(tmp_path: Path) -> None:
+    program(tmp_path / ".git/x")
+    program(tmp_path / "build/x")
+    assert isinstance(find_node("p", "x", lambda _: tmp_path), Missing)
+
+
+def test_a_type_may_name_a_folder_but_never_leave_the_package(tmp_path: Path) -> None:
+    path = program(tmp_path / "p/nodes/x")
+    program(tmp_path / "outside")
+    assert find_node("p", "nodes/x", lambda _: tmp_path / "p") == Executable(path)
+    assert isinstance(find_node("p", "../outside", lambda _: tmp_path / "p"), Missing)
+
+
+@pytest.mark.parametrize("name", ["arbotix_driver", "arbotix_driver.py", "driver.py"])
+def test_old_names_of_the_arbotix_driver_lead_to_it(name: str) -> None:
+    found = find_node("arbotix_python", name, lambda _: None)
+    assert found == Replacement("trundle.nodes.arbotix:ArbotixDriver")
+
+
+def test_what_is_missing_is_named(tmp_path: Path) -> None:
+    assert find_node("tf", "nope", lambda _: None) == Missing(
+        "no package 'tf', and no stand-in for tf/nope; stand-ins of that package: static_transform_publisher"
+    )
+    path = program(tmp_path / "x.py", 0o644)
+    assert find_node("p", "x.py", lambda _: tmp_path) == Missing(f"{path} is not executable; run chmod +x on it")
+    assert find_node("p", "y", lambda _: tmp_path) == Missing(
+        f"no executable 'y' in {tmp_path}, and no stand-in for p/y"
+    )
