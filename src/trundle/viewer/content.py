@@ -20,7 +20,7 @@ class FrameInfo:
     parent: str | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class CameraView:
     """A camera drawn as a frustum, with its live image in the panel and in the frustum."""
 
@@ -34,7 +34,7 @@ class CameraView:
     height_px: int = 240
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class JointSlider:
     """A movable joint: its range becomes a slider."""
 

@@ -17,6 +17,7 @@ _MOST_NAMES = 100
 """Above this many frames their names would only hide each other."""
 _PATH_STEP_M = 0.1
 _PATH_ARROWS = 500
+_LEAP_M = 1.0
 _PATH_COLOR = (235, 8, 0)
 """Steps of 0.1 m and a red are what rviz's Odometry display starts with; viser lightens it."""
 
@@ -42,20 +43,20 @@ class Frames:
         count = len(self._names)
         if count == 0:
             return
-        length = 0.28 * radius
+        length = 0.4 * radius
         self._axes = self._server.scene.add_batched_axes(
             f"{self._folder}/axes",
             batched_wxyzs=np.tile([1.0, 0.0, 0.0, 0.0], (count, 1)),
             batched_positions=np.zeros((count, 3)),
             batched_scales=np.zeros(count),
             axes_length=length,
-            axes_radius=0.045 * length,
+            axes_radius=0.03 * length,
         )
         self._lines = self._server.scene.add_line_segments(
             f"{self._folder}/edges",
             points=np.zeros((max(len(self._edges), 1), 2, 3), dtype=np.float32),
             colors=(240, 200, 40),
-            thickness=0.012 * radius,
+            thickness=0.008 * radius,
         )
         self._labels = [
             self._server.scene.add_label(f"{self._folder}/names/{i}", name, visible=False, font_screen_scale=0.9)
@@ -142,6 +143,12 @@ class Frusta:
             handle.image = rgb
 
 
+def arrows_along(points: Array) -> Array:
+    """Join points (N, 3) by arrows (M, 2, 3) from each to the next; a leap (a reset, a respawn) is no way driven."""
+    arrows = np.stack([points[:-1], points[1:]], axis=1)
+    return arrows[np.linalg.norm(arrows[:, 1] - arrows[:, 0], axis=1) < _LEAP_M]
+
+
 class Path:
     """Where the followed body has been, as arrows along its way."""
 
@@ -171,10 +178,9 @@ class Path:
             self._handle.remove()
             self._handle = None
         if wanted >= 2:
-            points = np.array(self._points)
             self._handle = self._server.scene.add_arrows(
                 self._name,
-                points=np.stack([points[:-1], points[1:]], axis=1),
+                points=arrows_along(np.array(self._points)),
                 colors=_PATH_COLOR,
                 shaft_radius=0.010,
                 head_radius=0.024,

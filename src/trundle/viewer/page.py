@@ -28,6 +28,8 @@ from .wire import Refused, Serve, Served, Show
 _DEFAULT_PORT = 8080
 _PORTS_TRIED = 200
 _PERIOD_S = 1 / 30
+_DARK = 0.4
+"""A background darker than this, as rviz's, gets a dark panel."""
 
 
 class Page:
@@ -39,6 +41,7 @@ class Page:
         self._display: Display | None = None
         self._state: ViewerState | None = None
         self._dirty = threading.Event()
+        self._told: tuple[str, ...] = ()
 
     def show(self, show: Show) -> None:
         """Draw another scene; the toggles stay as the person set them."""
@@ -56,6 +59,8 @@ class Page:
             server.gui.reset()
             server.scene.reset()
             server.scene.set_up_direction("+z")
+            dark = sum(scene.scene.background[:3]) / 3 < _DARK
+            server.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=dark)
             server.gui.main_panel.dock_right()
             self._stage = Stage(server, scene)
             self._panel = Panel(
@@ -67,8 +72,9 @@ class Page:
     def tick(self) -> None:
         """Draw the newest state and images, if there are any."""
         assert self._display is not None
+        watched = bool(self._server.get_clients())
         for index, box in enumerate(self._image_boxes):
-            message = box.take()
+            message = box.take() if watched else None  # two JPEGs a frame are not made for nobody
             if message is not None:
                 height, width = np.frombuffer(message, dtype=np.int32, count=2)
                 rgb = np.frombuffer(message, dtype=np.uint8, offset=8).reshape(int(height), int(width), 3)
@@ -81,10 +87,12 @@ class Page:
         elif self._dirty.is_set() and self._state is not None:
             first = False
         else:
+            if self._state is not None:
+                self._panel.update(self._state, self._told)  # its texts lag behind the scene on purpose
             return
         self._dirty.clear()
-        told = self._stage.update(self._state, self._display)
-        self._panel.update(self._state, told)
+        self._told = self._stage.update(self._state, self._display)
+        self._panel.update(self._state, self._told)
         if first and self._stage.extent is not None:
             self._stage.extent.aim(self._server.initial_camera)
 
@@ -149,7 +157,6 @@ def main() -> None:
     if serve.port and server.get_port() != serve.port:  # somebody was faster: viser has moved on
         mouth.say(Refused(f"cannot serve the viewer at {serve.host}:{serve.port}: the port was just taken"))
         os._exit(0)
-    server.gui.configure_theme(control_width="medium", show_logo=False, show_share_button=False)
     page = Page(server, mouth)
     page.show(show)
     reachable = "127.0.0.1" if serve.host in ("0.0.0.0", "") else serve.host
