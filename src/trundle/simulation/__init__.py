@@ -1,1 +1,20 @@
-"""Room."""
+"""The running world: clock, commands, snapshots, hooks, handles."""
+
+from trundle.physics import SimulationUnstableError
+
+from .handles import JointHandle, LinkHandle, ModelHandle
+from .hooks import AfterStep, BeforeStep
+from .simulation import SavedSimulation, Simulation
+from .snapshot import Snapshot
+
+__all__ = [
+    "AfterStep",
+    "BeforeStep",
+    "JointHandle",
+    "LinkHandle",
+    "ModelHandle",
+    "SavedSimulation",
+    "Simulation",
+    "SimulationUnstableError",
+    "Snapshot",
+]

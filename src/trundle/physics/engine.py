@@ -1,0 +1,207 @@
+"""Steps a compiled world in C, and reads and writes its state.
+
+Nothing here runs in Python at every step: `step(n)` is one call, and the state is read when somebody asks.
+"""
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.diagnostics import TrundleError
+from trundle.spatial import Pose, Vector3, Wrench
+
+from .compile import CompiledWorld
+
+HOLD_RATE = 3.0
+"""[1/s] How fast a held joint closes in: a first-order lag of a third of a second, as its motor's torque allows."""
+
+
+class SimulationUnstableError(TrundleError):
+    """The physics blew up; the engine holds the last good state."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class EngineState:
+    """Everything that decides how the world goes on, and nothing else."""
+
+    numbers: NDArray[np.float64]
+    gains: NDArray[np.float64]
+    biases: NDArray[np.float64]
+    ranges: NDArray[np.float64]
+
+
+class Engine:
+    """A compiled world in motion."""
+
+    def __init__(self, compiled: CompiledWorld) -> None:
+        self.compiled = compiled
+        self._model = compiled.model
+        self._data = mujoco.MjData(compiled.model)
+        self._roots = self._model.body_rootid[compiled.link_bodies]
+        self._moves = compiled.joint_qpos >= 0
+        self._spec = mujoco.mjtState.mjSTATE_INTEGRATION
+        self._fresh = False
+        self._good = np.empty(mujoco.mj_stateSize(self._model, self._spec))
+        self.reset()
+
+    def reset(self) -> None:
+        """Go back to the world as compiled, at rest, with every motor off."""
+        mujoco.mj_resetData(self._model, self._data)
+        self._model.actuator_gainprm[:] = 0
+        self._model.actuator_biasprm[:] = 0
+        self._fresh = False
+
+    def step(self, count: int) -> None:
+        """Advance so many time steps; other threads run meanwhile.
+
+        Raises:
+            SimulationUnstableError: naming the link that ran away; the state is the one before this call.
+        """
+        mujoco.mj_getState(self._model, self._data, self._good, self._spec)
+        mujoco.mj_step(self._model, self._data, nstep=count)
+        self._fresh = False
+        if self._is_unstable():
+            self._give_up()
+
+    def _is_unstable(self) -> bool:
+        warnings = self._data.warning
+        bad = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
+        return any(warnings[kind].number > 0 for kind in bad)
+
+    def _give_up(self) -> None:
+        runaway = np.abs(np.nan_to_num(self._data.qvel, nan=np.inf))
+        body = int(self._model.dof_bodyid[int(np.argmax(runaway))]) if runaway.size else 0
+        name = self._model.body(body).name
+        for warning in self._data.warning:
+            warning.number = 0
+        mujoco.mj_setState(self._model, self._data, self._good, self._spec)
+        self._fresh = False
+        raise SimulationUnstableError(
+            f"the physics became unstable after {self._data.time:.3f} s: {name!r} ran away; "
+            f"a smaller <max_step_size> or more plausible masses and inertias may help"
+        )
+
+    # -- reading
+
+    def _refresh(self) -> None:
+        """Bring poses and velocities up to the state; what a step computes belongs to where it started.
+
+        Nothing that decides the next step is touched, so looking never changes the outcome.
+        """
+        if not self._fresh:
+            mujoco.mj_kinematics(self._model, self._data)
+            mujoco.mj_comPos(self._model, self._data)
+            mujoco.mj_comVel(self._model, self._data)
+            self._fresh = True
+
+    def link_poses(self) -> NDArray[np.float64]:
+        """(links, 7) x y z qw qx qy qz of the link frames in the world [m]."""
+        self._refresh()
+        bodies = self.compiled.link_bodies
+        return np.concatenate([self._data.xpos[bodies], self._data.xquat[bodies]], axis=1)
+
+    def link_twists(self) -> NDArray[np.float64]:
+        """(links, 6) velocity of the link frame's origin [m/s] and angular velocity [rad/s], world axes."""
+        self._refresh()
+        bodies = self.compiled.link_bodies
+        angular, linear = self._data.cvel[bodies, :3], self._data.cvel[bodies, 3:]
+        # cvel is taken at the tree's centre of mass.
+        arm = self._data.xpos[bodies] - self._data.subtree_com[self._roots]
+        return np.concatenate([linear + np.cross(angular, arm), angular], axis=1)
+
+    def joint_positions(self) -> NDArray[np.float64]:
+        """(joints,) [rad or m]; joints without one axis of freedom read 0."""
+        return np.where(self._moves, self._data.qpos[self.compiled.joint_qpos], 0.0)
+
+    def joint_velocities(self) -> NDArray[np.float64]:
+        """(joints,) [rad/s or m/s]"""
+        return np.where(self._moves, self._data.qvel[self.compiled.joint_dof], 0.0)
+
+    def joint_efforts(self) -> NDArray[np.float64]:
+        """(joints,) what motors and applied efforts exert [N·m or N]."""
+        dof = self.compiled.joint_dof
+        return np.where(self._moves, self._data.qfrc_applied[dof] + self._data.qfrc_actuator[dof], 0.0)
+
+    def link_mass(self, link: int) -> float:
+        """[kg]"""
+        return float(self._model.body_mass[self.compiled.link_bodies[link]])
+
+    # -- writing
+
+    def set_wrench(self, link: int, wrench: Wrench) -> None:
+        """Hold a force [N] at the link's centre of mass and a torque [N·m], world axes, until set anew."""
+        self._data.xfrc_applied[self.compiled.link_bodies[link]] = [*wrench.force, *wrench.torque]
+
+    def set_effort(self, joint: int, effort: float) -> None:
+        """Hold an effort [N·m or N] on a joint and switch its motor off."""
+        self._motor(joint, gain=0.0, position=0.0, velocity=0.0, limit=1.0)
+        self._data.qfrc_applied[self.compiled.joint_dof[joint]] = effort
+
+    def set_velocity(self, joint: int, velocity: float, max_effort: float) -> None:
+        """Have a joint's motor keep a speed [rad/s or m/s] with at most so much effort."""
+        gain = self._inertia(joint) / self._model.opt.timestep
+        self._motor(joint, gain=gain, position=0.0, velocity=gain, limit=max_effort)
+        self._data.ctrl[self.compiled.joint_actuators[joint]] = velocity
+
+    def hold(self, joint: int, position: float, max_effort: float) -> None:
+        """Have a joint's motor go to a position [rad or m] and stay there."""
+        damping = self._inertia(joint) / self._model.opt.timestep
+        gain = HOLD_RATE * damping
+        self._motor(joint, gain=gain, position=gain, velocity=damping, limit=max_effort)
+        self._data.ctrl[self.compiled.joint_actuators[joint]] = position
+
+    def _inertia(self, joint: int) -> float:
+        """What the motor has to move, with the rest of the robot at its pose of zero [kg·m² or kg]."""
+        return float(self._model.dof_M0[self.compiled.joint_dof[joint]])
+
+    def _motor(self, joint: int, *, gain: float, position: float, velocity: float, limit: float) -> None:
+        """force = gain · command − position · q − velocity · q̇, within ±limit."""
+        self._data.qfrc_applied[self.compiled.joint_dof[joint]] = 0.0
+        actuator = self.compiled.joint_actuators[joint]
+        self._model.actuator_gainprm[actuator, 0] = gain
+        self._model.actuator_biasprm[actuator, 1:3] = (-position, -velocity)
+        limit = min(limit, 1e10) if math.isfinite(limit) else 1e10
+        self._model.actuator_forcerange[actuator] = (-limit, limit)
+
+    def set_joint_position(self, joint: int, position: float) -> None:
+        """Put a joint to a position [rad or m], at rest."""
+        self._data.qpos[self.compiled.joint_qpos[joint]] = position
+        self._data.qvel[self.compiled.joint_dof[joint]] = 0.0
+        self._fresh = False
+
+    def set_link_pose(self, link: int, world_from_link: Pose) -> None:
+        """Put a link that moves freely somewhere else, at rest."""
+        body = self.compiled.link_bodies[link]
+        start = self._model.jnt_qposadr[self._model.body_jntadr[body]]
+        self._data.qpos[start : start + 7] = [*world_from_link.position, *world_from_link.quaternion]
+        dof = self._model.body_dofadr[body]
+        self._data.qvel[dof : dof + 6] = 0.0
+        self._fresh = False
+
+    def center_of_mass(self, link: int) -> Vector3:
+        """Where a link's centre of mass is in the world [m]."""
+        self._refresh()
+        x, y, z = self._data.xipos[self.compiled.link_bodies[link]].tolist()
+        return (x, y, z)
+
+    # -- keeping
+
+    def save(self) -> EngineState:
+        """Everything that decides how the world goes on."""
+        numbers = np.empty_like(self._good)
+        mujoco.mj_getState(self._model, self._data, numbers, self._spec)
+        model = self._model
+        return EngineState(
+            numbers, model.actuator_gainprm.copy(), model.actuator_biasprm.copy(), model.actuator_forcerange.copy()
+        )
+
+    def restore(self, state: EngineState) -> None:
+        """Go back to a saved state, exactly."""
+        mujoco.mj_setState(self._model, self._data, state.numbers, self._spec)
+        self._model.actuator_gainprm[:] = state.gains
+        self._model.actuator_biasprm[:] = state.biases
+        self._model.actuator_forcerange[:] = state.ranges
+        self._fresh = False

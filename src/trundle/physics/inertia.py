@@ -1,0 +1,69 @@
+"""Makes mass properties such that an engine can use them, and says what it changed."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.diagnostics import Diagnostics
+from trundle.model import Inertial, Link
+from trundle.spatial import Pose
+
+SMALLEST_MASS = 1e-6
+"""[kg] What a mass of zero or less becomes."""
+SMALLEST_MOMENT = 1e-9
+"""[kg·m²]"""
+
+
+def principal_inertia(link: Link, report: Diagnostics) -> tuple[float, Pose, tuple[float, float, float]]:
+    """Return mass [kg], link_from_principal_axes and the three principal moments [kg·m²].
+
+    A moment larger than the sum of the two others belongs to no body; the two are raised by the least equal
+    amount that makes it one.
+    """
+    inertial = link.inertial
+    mass = inertial.mass
+    if not mass >= SMALLEST_MASS:
+        report.warn(link.at, f"link {link.name!r}: mass {mass:g} kg cannot move; physics uses {SMALLEST_MASS:g}")
+        mass = SMALLEST_MASS
+    moments, axes = np.linalg.eigh(_tensor(inertial))
+    if np.linalg.det(axes) < 0:
+        axes[:, 0] = -axes[:, 0]
+    if moments[0] < SMALLEST_MOMENT:
+        report.warn(
+            link.at,
+            f"link {link.name!r}: moment of inertia {moments[0]:g} kg·m² cannot turn; physics uses {SMALLEST_MOMENT:g}",
+        )
+        moments = np.maximum(moments, SMALLEST_MOMENT)
+    excess = moments[2] - (moments[0] + moments[1])
+    if excess > 1e-12 * moments[2]:
+        report.warn(
+            link.at,
+            f"link {link.name!r}: principal moments {moments[0]:g}, {moments[1]:g}, {moments[2]:g} kg·m² belong to no "
+            f"body (the largest exceeds the sum of the others); physics raises the two smaller by {excess / 2:g}",
+        )
+        moments = moments + np.array([excess / 2, excess / 2, 0.0]) * (1 + 1e-9)
+    pose = inertial.link_from_com
+    rotated = pose @ Pose(quaternion=_quaternion(axes))
+    return mass, rotated, (float(moments[0]), float(moments[1]), float(moments[2]))
+
+
+def _tensor(inertial: Inertial) -> NDArray[np.float64]:
+    ixx, iyy, izz = inertial.moments
+    ixy, ixz, iyz = inertial.products
+    return np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
+
+
+def _quaternion(rotation: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    """A proper rotation matrix as (w, x, y, z), by the largest of Shepperd's four forms."""
+    m = rotation
+    trace = np.trace(m)
+    four = np.array(
+        [
+            [1 + trace, m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
+            [m[2, 1] - m[1, 2], 1 + 2 * m[0, 0] - trace, m[0, 1] + m[1, 0], m[0, 2] + m[2, 0]],
+            [m[0, 2] - m[2, 0], m[0, 1] + m[1, 0], 1 + 2 * m[1, 1] - trace, m[1, 2] + m[2, 1]],
+            [m[1, 0] - m[0, 1], m[0, 2] + m[2, 0], m[1, 2] + m[2, 1], 1 + 2 * m[2, 2] - trace],
+        ]
+    )
+    best = four[int(np.argmax(np.diag(four)))]
+    w, x, y, z = (best / np.linalg.norm(best)).tolist()
+    return (w, x, y, z)

@@ -1,0 +1,103 @@
+"""Collisions as MuJoCo geoms."""
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+
+from trundle.diagnostics import Diagnostics
+from trundle.meshes import load_mesh
+from trundle.model import Box, Capsule, Collision, Cylinder, Ellipsoid, Geometry, MeshFile, Plane, Sphere, Surface
+from trundle.spatial import IDENTITY_QUATERNION, Pose, Quaternion, Vector3
+
+THINNEST = 1e-4
+"""[m] What a thickness of zero becomes: 0.1 mm."""
+
+
+@dataclass(frozen=True, slots=True)
+class ShapeEntry:
+    """One geom that can touch others."""
+
+    geom: mujoco.MjsGeom
+    name: str
+    model: int
+    link: str
+    fixed: bool
+    """Part of the world: nothing it does moves it."""
+    surface: Surface
+
+
+def add_shape(
+    spec: mujoco.MjSpec, body: mujoco.MjsBody, collision: Collision, name: str, report: Diagnostics
+) -> mujoco.MjsGeom | None:
+    """Add a collision to a body; None after a warning where it cannot be one."""
+    geometry = _mended(collision, report)
+    pose = collision.link_from_collision
+    geom = body.add_geom(name=name, pos=pose.position, quat=pose.quaternion, group=3)
+    match geometry:
+        case Box(size):
+            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_BOX, [s / 2 for s in size]
+        case Cylinder(radius, length):
+            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_CYLINDER, [radius, length / 2, 0]
+        case Capsule(radius, length):
+            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_CAPSULE, [radius, length / 2, 0]
+        case Sphere(radius):
+            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_SPHERE, [radius, 0, 0]
+        case Ellipsoid(radii):
+            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_ELLIPSOID, list(radii)
+        case Plane(normal, _):
+            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_PLANE, [0, 0, 1]
+            geom.quat = (pose @ Pose(quaternion=_z_to(normal))).quaternion
+        case MeshFile():
+            mesh = load_mesh(geometry, report=report, at=collision.at)
+            if mesh is None:
+                spec.delete(geom)
+                return None
+            spec.add_mesh(
+                name=name,
+                uservert=mesh.vertices.reshape(-1).astype(float),
+                userface=mesh.faces.reshape(-1),
+                inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX,
+            )
+            geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, name
+    return geom
+
+
+def _mended(collision: Collision, report: Diagnostics) -> Geometry:
+    def thick(lengths: Vector3, names: str) -> Vector3:
+        thin = [n for n, length in zip(names.split(), lengths, strict=False) if not length >= THINNEST]
+        if thin:
+            report.warn(
+                collision.at,
+                f"collision {collision.name!r}: {' and '.join(thin)} of zero thickness; "
+                f"physics uses {THINNEST * 1000:g} mm",
+            )
+        x, y, z = (max(length, THINNEST) for length in lengths)
+        return (x, y, z)
+
+    match collision.geometry:
+        case Box(size):
+            return Box(thick(size, "x y z"))
+        case Cylinder(radius, length):
+            radius, length, _ = thick((radius, length, 1.0), "radius length")
+            return Cylinder(radius, length)
+        case Capsule(radius, length):
+            radius, length, _ = thick((radius, length, 1.0), "radius length")
+            return Capsule(radius, length)
+        case Sphere(radius):
+            return Sphere(thick((radius, 1.0, 1.0), "radius")[0])
+        case Ellipsoid(radii):
+            return Ellipsoid(thick(radii, "x y z"))
+        case other:
+            return other
+
+
+def _z_to(normal: Vector3) -> Quaternion:
+    """The shortest rotation that takes +z to a unit vector."""
+    x, y, z = normal
+    if z < -1 + 1e-12:
+        return (0.0, 1.0, 0.0, 0.0)
+    if z > 1 - 1e-12:
+        return IDENTITY_QUATERNION
+    w = math.sqrt((1 + z) / 2)
+    return (w, -y / (2 * w), x / (2 * w), 0.0)
