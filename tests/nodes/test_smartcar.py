@@ -19,7 +19,7 @@ from trundle.nodes import Host, Replacement, find_node, run_stand_in
 from trundle.ros import Core, GraphLoop, MasterProxy, Message, Node
 from trundle.supervisor import Event, Supervisor, TaskJob
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 30.0
 
 
 @dataclass
@@ -96,12 +96,14 @@ def smartcar(shared: Path) -> Iterator[Smartcar]:
         ):
             car.listen(topic, kind)
         supervisor = loop.run(set_up(plan, params, loop, core.uri, events))
-        for topic in ("/tf_static", "/diagnostics", "/odom"):
-            car.wait_for(topic)
-        yield car
-        loop.run(supervisor.stop(), TIMEOUT_S)
-        loop.run(core.stop())
-    assert [event for event in events if event.kind in ("failed", "died", "finished")] == []
+        try:
+            for topic in ("/tf_static", "/diagnostics", "/odom"):
+                car.wait_for(topic)
+            yield car
+        finally:
+            loop.run(supervisor.stop(), TIMEOUT_S)
+            loop.run(core.stop())
+            assert [event for event in events if event.kind in ("failed", "died", "finished")] == []
 
 
 def sections(text: str) -> dict[str, list[str]]:

@@ -57,7 +57,7 @@ class RobotFrames:
             child=self._frame(joint.child),
             stamp_ns=stamp_ns,
             translation=pose.position,
-            rotation=pose.rotation,
+            rotation=pose.quaternion,
         )
 
     def _frame(self, link: str) -> str:
