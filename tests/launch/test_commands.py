@@ -15,6 +15,9 @@ class NoPackages:
     def find_package(self, _name: str, /) -> Path | None:
         return None
 
+    def why_not_found(self, name: str, /) -> str:
+        return f"no package {name!r}"
+
 
 def resolve(command: str, *, kind: str = "auto", timeout_s: float = 60.0) -> object:
     text = f'<launch><param name="a" type="{kind}" command="{command}"/></launch>'

@@ -18,6 +18,9 @@ class Folders:
     def find_package(self, name: str, /) -> Path | None:
         return self._folders.get(name)
 
+    def why_not_found(self, name: str, /) -> str:
+        return f"no package {name!r}"
+
 
 def plan_of(
     body: str, *, report: Diagnostics | None = None, packages: Folders | None = None, **arguments: str

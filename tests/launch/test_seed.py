@@ -21,6 +21,9 @@ class OneFolder:
         path = self._folder / name
         return path if path.is_dir() else None
 
+    def why_not_found(self, name: str, /) -> str:
+        return f"no package {name!r}"
+
 
 def read_seed(shared: Path) -> tuple[LaunchPlan, Diagnostics]:
     report = Diagnostics()
@@ -110,6 +113,9 @@ def test_the_corpus_has_the_nodes_and_parameter_names_of_the_real_loader(shared:
         def find_package(self, name: str, /) -> Path | None:
             found = folders.get(name, set())
             return next(iter(found)) if len(found) == 1 else None
+
+        def why_not_found(self, name: str, /) -> str:
+            return f"no package {name!r}"
 
     compared = 0
     refused: dict[str, str] = {}

@@ -75,6 +75,9 @@ def smartcar(shared: Path) -> Iterator[Smartcar]:
             path = shared / "seeds" / name
             return path if path.is_dir() else None
 
+        def why_not_found(self, name: str, /) -> str:
+            return f"no package {name!r}"
+
     peers = shared / "peers/ros_reference"
     urdf = yaml.safe_load((peers / "rosparam_dump.txt").read_text())["robot_description"]
     report = Diagnostics()

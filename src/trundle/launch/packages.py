@@ -10,3 +10,7 @@ class PackageFinder(Protocol):
     def find_package(self, name: str, /) -> Path | None:
         """Return the folder of a package, or None."""
         ...
+
+    def why_not_found(self, name: str, /) -> str:
+        """Say in a sentence that there is no such package, and where it was looked for."""
+        ...

@@ -100,7 +100,7 @@ class Substitution:
         if name == "xacro":
             # Trundle expands xacro itself; `$(find xacro)/xacro` only has to stay recognisable.
             return "xacro"
-        raise DescriptionError(at, f"no package {name!r}; set ROS_PACKAGE_PATH to the folder that holds it")
+        raise DescriptionError(at, self.packages.why_not_found(name))
 
     def _eval(self, text: str, scope: Scope, at: Source) -> str:
         def arg(name: str) -> Any:
