@@ -15,6 +15,7 @@ from .poses import Array, composed, known, rows_of
 
 _HUGE_M = 20.0
 """What is larger (halls, terrain) is scenery: the camera stands within it."""
+_GUESS_M = 1.0
 _FOV_RAD = math.radians(50.0)
 _FROM_FRONT = np.array([1.0, -0.95, 0.62]) / np.linalg.norm([1.0, -0.95, 0.62])
 _FROM_ABOVE = np.array([-0.02, 0.0, 1.0])
@@ -22,12 +23,14 @@ _FROM_ABOVE = np.array([-0.02, 0.0, 1.0])
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Extent:
-    """A ball around what matters in the scene, in the scene's root frame."""
+    """A ball around what matters in the scene, in the frame that the poses were given in."""
 
     center: Array
     """(3,) [m]"""
     radius: float
     """[m]"""
+    is_guess: bool = False
+    """Nothing was there to measure yet."""
 
     def aim(self, camera: "viser.InitialCameraConfig | viser.CameraHandle", *, from_above: bool = False) -> None:
         """Place a camera so that the ball fills most of the picture."""
@@ -57,7 +60,7 @@ def extent_of(scene: ViewerScene, body_poses: Array) -> Extent:
             low = (poses[there, :3] - reach[there]).min(axis=0)
             high = (poses[there, :3] + reach[there]).max(axis=0)
             return Extent((low + high) / 2, max(float(np.linalg.norm(high - low)) / 2, 0.05))
-    return Extent(np.zeros(3), 2.0)
+    return Extent(np.zeros(3), _GUESS_M, is_guess=True)
 
 
 def _reach(shape: Shape) -> float:

@@ -19,6 +19,7 @@ import viser
 
 from .content import ViewerState
 from .display import Display
+from .framing import Extent
 from .mailbox import Mailbox
 from .panel import Panel
 from .requests import Request
@@ -42,6 +43,8 @@ class Page:
         self._state: ViewerState | None = None
         self._dirty = threading.Event()
         self._told: tuple[str, ...] = ()
+        self._framed: Extent | None = None
+        self._fixed_by_owner = ""
 
     def show(self, show: Show) -> None:
         """Draw another scene; the toggles stay as the person set them."""
@@ -53,8 +56,9 @@ class Page:
         fixed = scene.fixed_frame or scene.root_frame
         if self._display is None:
             self._display = Display(frames=scene.show_frames, path=scene.show_path, fixed_frame=fixed)
-        elif self._display.fixed_frame not in (scene.root_frame, *(frame.name for frame in scene.frames)):
+        elif fixed != self._fixed_by_owner:
             self._display.fixed_frame = fixed
+        self._fixed_by_owner = fixed
         with server.atomic():
             server.gui.reset()
             server.scene.reset()
@@ -83,18 +87,26 @@ class Page:
         message = self._state_box.take()
         if message is not None:
             state: ViewerState = pickle.loads(message)
-            first, self._state = self._state is None, state
-        elif self._dirty.is_set() and self._state is not None:
-            first = False
-        else:
+            self._state = state
+        elif not self._dirty.is_set() or self._state is None:
             if self._state is not None:
                 self._panel.update(self._state, self._told)  # its texts lag behind the scene on purpose
             return
         self._dirty.clear()
         self._told = self._stage.update(self._state, self._display)
         self._panel.update(self._state, self._told)
-        if first and self._stage.extent is not None:
-            self._stage.extent.aim(self._server.initial_camera)
+        self._frame()
+
+    def _frame(self) -> None:
+        """Place the camera once there is something to see; from then on it belongs to the person."""
+        extent = self._stage.extent
+        if extent is None or extent is self._framed or (extent.is_guess and self._framed is not None):
+            return
+        extent.aim(self._server.initial_camera)
+        if self._framed is None or self._framed.is_guess:
+            for client in self._server.get_clients().values():
+                extent.aim(client.camera)
+        self._framed = extent
 
     def _aim(self, client: viser.ClientHandle, from_above: bool) -> None:
         if self._stage.extent is not None:

@@ -50,21 +50,20 @@ class Stage:
 
     @property
     def extent(self) -> Extent | None:
-        """Where the robot was when first seen; None before the first state."""
+        """Where the robot was when first seen, in the fixed frame of then; None before the first state."""
         return self._extent
 
     def update(self, state: ViewerState, display: Display) -> tuple[str, ...]:
         """Draw a state as the toggles say; returns what to tell about it."""
         scene, told = self._scene, ()
         frame_poses = state.body_poses if state.frame_poses is None else state.frame_poses
-        if self._extent is None:
-            self._extent = extent_of(scene, state.body_poses)
-            self._frames.resize(self._extent.radius)
-            self._frusta.resize(self._extent.radius)
         root = self._fixed_from_root(frame_poses, display.fixed_frame)
         if root is None:
             told = (f"Fixed Frame [{display.fixed_frame}] does not exist",)
             root = _IDENTITY
+        if self._extent is None or self._extent.is_guess:
+            fixed_from_bodies = composed(np.tile(root, (len(state.body_poses), 1)), state.body_poses)
+            self._measure(extent_of(scene, fixed_from_bodies))
         followed = None if scene.follow_body is None else state.body_poses[scene.follow_body]
         with self._server.atomic():
             self._root.position, self._root.wxyz = root[:3], root[3:]
@@ -80,6 +79,12 @@ class Stage:
             self._frusta.update(state.body_poses, shown=display.cameras)
             self._path.update(state.time_ns, followed, shown=display.path)
         return told
+
+    def _measure(self, extent: Extent) -> None:
+        if self._extent is None or not extent.is_guess:
+            self._frames.resize(extent.radius)
+            self._frusta.resize(extent.radius)
+        self._extent = extent
 
     def image(self, index: int, rgb: NDArray[np.uint8]) -> None:
         """Show a camera's newest image in its frustum."""
