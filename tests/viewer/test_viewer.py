@@ -1,5 +1,6 @@
 """The page's process: it answers, gives ports and memory back, and ends with its owner."""
 
+import contextlib
 import os
 import signal
 import socket
@@ -8,10 +9,14 @@ import sys
 import urllib.error
 import urllib.request
 from collections.abc import Callable
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
 import pytest
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+from websockets.typing import Subprotocol
 
 from trundle.diagnostics import UsageError
 from trundle.viewer import Viewer, ViewerScene, ViewerState
@@ -91,6 +96,26 @@ def test_an_image_larger_than_a_thumbnail_is_thinned(viewer: Viewer) -> None:
     viewer.image(0, np.zeros((1080, 1920, 3), dtype=np.uint8))
 
     assert viewer.alive
+
+
+def test_nonsense_from_the_net_is_dropped_in_silence(viewer: Viewer, capfd: pytest.CaptureFixture[str]) -> None:
+    """Whoever can connect may send anything; the page goes on and no traceback is shown."""
+    address = ("127.0.0.1", int(viewer.url.rpartition(":")[2]))
+    for nonsense in (b"\x00\xff" * 100, b"GET /../../etc/passwd HTTP/1.1\r\n\r\n", b""):
+        with socket.create_connection(address) as connection:
+            connection.sendall(nonsense)
+            connection.shutdown(socket.SHUT_WR)
+            connection.settimeout(30)
+            while connection.recv(1000):
+                pass
+    with connect(f"ws://127.0.0.1:{address[1]}", subprotocols=[Subprotocol(f"viser-v{version('viser')}")]) as client:
+        client.send(b"\x99nonsense")
+        with contextlib.suppress(ConnectionClosed):
+            while True:
+                client.recv(timeout=30)
+
+    assert _get(viewer.url) == 200
+    assert capfd.readouterr() == ("", "")
 
 
 def _gone(pid: int) -> bool:

@@ -4,6 +4,8 @@ Run as `python -m trundle.viewer.page` by `Viewer.start` alone. Standard input c
 standard output what people press; nothing else may write there.
 """
 
+import contextlib
+import logging
 import os
 import pickle
 import queue
@@ -124,7 +126,7 @@ class Mouth:
 
     def say(self, message: Served | Refused | Request) -> None:
         """Send one message."""
-        with self._lock:
+        with self._lock, contextlib.suppress(OSError):  # an owner that is gone is noticed where its pipe ends
             pickle.dump(message, self._stream, protocol=5)
             self._stream.flush()
 
@@ -157,6 +159,7 @@ def _free_port(serve: Serve) -> int | Refused:
 def main() -> None:
     """Serve until standard input ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    logging.getLogger("websockets").setLevel(logging.CRITICAL)  # it answers nonsense from the net with tracebacks
     mouth = Mouth(os.fdopen(os.dup(1), "wb"))
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # viser prints banners
     serve, show = pickle.load(sys.stdin.buffer), pickle.load(sys.stdin.buffer)

@@ -17,6 +17,8 @@ from .requests import Pause, Play, Request, Reset, SetFixedFrame, SetJoint, SetS
 _SPEEDS = {"¼ ×": 0.25, "½ ×": 0.5, "1 ×": 1.0, "2 ×": 2.0, "5 ×": 5.0, "max": math.inf}
 _STATUS_PERIOD_S = 0.1
 _JOINTS_PERIOD_S = 0.2
+_OPEN_JOINTS = 12
+"""More sliders than this start folded away."""
 _HAND_OFF_S = 1.0
 """A slider that a person moved is left alone this long before it shows the joint's own position again."""
 
@@ -90,7 +92,7 @@ class Panel:
     def _add_joints(self) -> list["_Slider"]:
         if not self._scene.joints:
             return []
-        with self._server.gui.add_folder("Joints"):
+        with self._server.gui.add_folder("Joints", expand_by_default=len(self._scene.joints) <= _OPEN_JOINTS):
             return [_Slider(self._server, joint, self._send) for joint in self._scene.joints]
 
     def _add_views(self) -> None:
