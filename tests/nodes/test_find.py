@@ -23,36 +23,56 @@ def test_every_stand_in_of_the_catalog_is_there(target: str) -> None:
 
 def test_the_packages_own_program_goes_before_the_stand_in(tmp_path: Path) -> None:
     path = program(tmp_path / "scripts/rviz")
-    assert find_node("rviz", "rviz", lambda _: tmp_path) == Executable(path)
+    assert find_node("rviz", "rviz", lambda _: tmp_path, env={}) == Executable(path)
     path.chmod(0o644)
-    assert isinstance(find_node("rviz", "rviz", lambda _: tmp_path), Replacement)
+    assert isinstance(find_node("rviz", "rviz", lambda _: tmp_path, env={}), Replacement)
 
 
 def test_programs_in_hidden_and_build_folders_do_not_count(tmp_path: Path) -> None:
     program(tmp_path / ".git/x")
     program(tmp_path / "build/x")
-    assert isinstance(find_node("p", "x", lambda _: tmp_path), Missing)
+    assert isinstance(find_node("p", "x", lambda _: tmp_path, env={}), Missing)
 
 
 def test_a_type_may_name_a_folder_but_never_leave_the_package(tmp_path: Path) -> None:
     path = program(tmp_path / "p/nodes/x")
     program(tmp_path / "outside")
-    assert find_node("p", "nodes/x", lambda _: tmp_path / "p") == Executable(path)
-    assert isinstance(find_node("p", "../outside", lambda _: tmp_path / "p"), Missing)
+    assert find_node("p", "nodes/x", lambda _: tmp_path / "p", env={}) == Executable(path)
+    assert isinstance(find_node("p", "../outside", lambda _: tmp_path / "p", env={}), Missing)
 
 
 @pytest.mark.parametrize("name", ["arbotix_driver", "arbotix_driver.py", "driver.py"])
 def test_old_names_of_the_arbotix_driver_lead_to_it(name: str) -> None:
-    found = find_node("arbotix_python", name, lambda _: None)
+    found = find_node("arbotix_python", name, lambda _: None, env={})
     assert found == Replacement("trundle.nodes.arbotix:ArbotixDriver")
 
 
 def test_what_is_missing_is_named(tmp_path: Path) -> None:
-    assert find_node("tf", "nope", lambda _: None) == Missing(
+    assert find_node("tf", "nope", lambda _: None, env={}) == Missing(
         "no package 'tf', and no stand-in for tf/nope; stand-ins of that package: static_transform_publisher"
     )
     path = program(tmp_path / "x.py", 0o644)
-    assert find_node("p", "x.py", lambda _: tmp_path) == Missing(f"{path} is not executable; run chmod +x on it")
-    assert find_node("p", "y", lambda _: tmp_path) == Missing(
+    assert find_node("p", "x.py", lambda _: tmp_path, env={}) == Missing(
+        f"{path} is not executable; run chmod +x on it"
+    )
+    assert find_node("p", "y", lambda _: tmp_path, env={}) == Missing(
         f"no executable 'y' in {tmp_path}, and no stand-in for p/y"
     )
+
+
+def test_a_script_for_a_ros_that_is_not_installed_gives_way_to_the_stand_in(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The tutorials clone arbotix_ros into the workspace."""
+    monkeypatch.setattr("trundle.nodes.find._DEBIAN_MODULES", str(tmp_path / "none"))
+    path = program(tmp_path / "bin/arbotix_driver")
+    path.write_text("#!/usr/bin/env python\n\nimport rospy\n")
+    (tmp_path / "ros/rospy").mkdir(parents=True)
+    installed = {"PYTHONPATH": str(tmp_path / "ros")}
+    assert find_node("arbotix_python", "arbotix_driver", lambda _: tmp_path, env=installed) == Executable(path)
+
+    own = program(tmp_path / "scripts/talk.py")
+    own.write_text("import rospy\n")
+    assert find_node("p", "talk.py", lambda _: tmp_path, env={}) == Executable(own)
+    found = find_node("arbotix_python", "arbotix_driver", lambda _: tmp_path, env={})
+    assert found == Replacement("trundle.nodes.arbotix:ArbotixDriver")

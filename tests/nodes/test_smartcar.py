@@ -57,7 +57,7 @@ async def set_up(plan: LaunchPlan, params: Any, loop: GraphLoop, uri: str, event
     await setter.shutdown()
     supervisor = Supervisor(events.append)
     for planned in plan.nodes:
-        found = find_node(planned.package, planned.type, lambda _: None)
+        found = find_node(planned.package, planned.type, lambda _: None, env={})
         assert isinstance(found, Replacement), found
 
         async def run(planned: LaunchNode = planned, found: Replacement = found) -> int:

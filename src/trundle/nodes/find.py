@@ -2,7 +2,8 @@
 
 import importlib
 import os
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias, cast
@@ -12,6 +13,8 @@ from trundle.ros import Node
 from .catalog import STAND_INS
 from .host import Host, StandIn
 
+_IMPORTS_ROSPY = re.compile(rb"^\s*(?:import|from)\s+(?:rospy|roslib)\b", re.MULTILINE)
+_DEBIAN_MODULES = "/usr/lib/python3/dist-packages"
 _NOT_SEARCHED = frozenset({"__pycache__", "node_modules", "build"})
 StandInClass: TypeAlias = Callable[[Node, list[str], Host], StandIn]
 FindPackage: TypeAlias = Callable[[str], Path | None]
@@ -44,16 +47,29 @@ class Missing:
     why: str
 
 
-def find_node(package: str, type_name: str, find_package: FindPackage) -> Executable | Replacement | Missing:
-    """Find a node: an executable in the package's folder, else a stand-in, else what is missing."""
+def find_node(
+    package: str, type_name: str, find_package: FindPackage, *, env: Mapping[str, str]
+) -> Executable | Replacement | Missing:
+    """Find a node: an executable in the package's folder, else a stand-in, else what is missing.
+
+    Where a package's sources lie in the workspace, its program is a script for a ROS that need not be installed:
+    one that imports rospy gives way to the stand-in on a machine without.
+
+    Args:
+        package: as the launch file names it.
+        type_name: the executable.
+        find_package: knows where packages live.
+        env: what a process would be started with.
+    """
     folder = find_package(package)
+    target = STAND_INS.get((package, type_name))
     plain: Path | None = None
     if folder is not None:
         for path in _files(folder, type_name):
-            if os.access(path, os.X_OK):
+            if not os.access(path, os.X_OK):
+                plain = plain or path
+            elif target is None or _can_run(path, env):
                 return Executable(path)
-            plain = plain or path
-    target = STAND_INS.get((package, type_name))
     if target is not None:
         return Replacement(target)
     if plain is not None:
@@ -63,6 +79,15 @@ def find_node(package: str, type_name: str, find_package: FindPackage) -> Execut
     known = sorted(name for owner, name in STAND_INS if owner == package)
     there_is = f"; stand-ins of that package: {', '.join(known)}" if known else ""
     return Missing(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
+
+
+def _can_run(path: Path, env: Mapping[str, str]) -> bool:
+    """Tell whether a program needs no rospy, or finds it."""
+    with path.open("rb") as program:
+        if _IMPORTS_ROSPY.search(program.read(100_000)) is None:
+            return True
+    folders = [*env.get("PYTHONPATH", "").split(os.pathsep), _DEBIAN_MODULES]
+    return any((Path(folder) / "rospy").is_dir() for folder in folders if folder)
 
 
 def _files(folder: Path, name: str) -> Iterator[Path]:
