@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .network import master_uri_from_env
     from .node import Node
     from .parameters import ParameterTree, set_leaves
+    from .printing import MessagePrinter, field_value
     from .proxy import MasterProxy, blocking_call
     from .publisher import Publisher
     from .service import Service, probe_service
@@ -41,6 +42,7 @@ _HOMES = {
     "MasterUnreachableError": "errors",
     "Message": "messages",
     "MessageError": "errors",
+    "MessagePrinter": "printing",
     "Messages": "messages",
     "Node": "node",
     "ParameterError": "errors",
@@ -62,6 +64,7 @@ _HOMES = {
     "TransformListener": "tf_nodes",
     "WallClock": "clock",
     "blocking_call": "proxy",
+    "field_value": "printing",
     "follow_time": "clock",
     "master_uri_from_env": "network",
     "ns_of": "clock",
@@ -90,6 +93,7 @@ __all__ = [
     "MasterUnreachableError",
     "Message",
     "MessageError",
+    "MessagePrinter",
     "Messages",
     "Node",
     "ParameterError",
@@ -111,6 +115,7 @@ __all__ = [
     "TransformListener",
     "WallClock",
     "blocking_call",
+    "field_value",
     "follow_time",
     "master_uri_from_env",
     "ns_of",

@@ -1,0 +1,54 @@
+"""Run the ROS master, the parameter server and /rosout, as roscore does."""
+
+import argparse
+import signal
+import sys
+import threading
+
+from trundle.diagnostics import UsageError
+from trundle.ros import Core, GraphLoop
+
+EXAMPLES = """
+  trundle core                  the usual place: http://localhost:11311
+  trundle core -p 11312         beside another one
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("-p", "--port", type=int, default=11311, help="port to listen at; 0: any free one")
+    parser.add_argument("--host", help="address to listen at, such as 0.0.0.0 for all; this machine only by default")
+    parser.add_argument("--distro", default="noetic", help="what /rosdistro says (default: %(default)s)")
+    # roscore's other switches tune its worker threads, sockets and logs; there is nothing here to tune.
+    parser.add_argument("-v", "--verbose", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("-w", "--numworkers", type=int, help=argparse.SUPPRESS)
+    parser.add_argument("-t", "--timeout", type=float, help=argparse.SUPPRESS)
+    parser.add_argument("--master-logger-level", help=argparse.SUPPRESS)
+
+
+def main(args: argparse.Namespace) -> int:
+    """Run until Ctrl-C, SIGTERM, or a shutdown request."""
+    if not 0 <= args.port < 65536:
+        raise UsageError(f"a port lies between 0 and 65535, got {args.port}")
+    stopped = threading.Event()
+    reasons: list[str] = []
+
+    def stop(reason: str) -> None:
+        reasons.append(reason)
+        stopped.set()
+
+    signal.signal(signal.SIGTERM, lambda _number, _frame: stop("terminated"))
+    with GraphLoop() as loop:
+        core = Core(loop, port=args.port, host=args.host, distro=args.distro, on_shutdown=stop)
+        loop.run(core.start())
+        loop.run(core.ready())
+        print(f"ROS_MASTER_URI={core.uri}", flush=True)
+        print(f"started core service [/rosout]; run_id {core.run_id}; Ctrl-C stops it", file=sys.stderr, flush=True)
+        try:
+            while not stopped.wait(1.0):
+                pass
+        finally:
+            loop.run(core.stop(), timeout_s=1.5)
+    if reasons:
+        print(f"core stopped: {reasons[0]}", file=sys.stderr)
+    return 0

@@ -1,0 +1,146 @@
+"""`trundle topic pub`: publishes messages given as YAML."""
+
+import argparse
+import sys
+import time
+from collections.abc import Iterator
+from typing import Any
+
+from trundle.diagnostics import UsageError
+from trundle.ros import MessageError, MessagePrinter, Node, Publisher, WallClock, follow_time
+
+from .graph import global_name, running_node
+
+_ONCE_S = 3.0
+_PIPED_HZ = 10.0
+_SUBSCRIBER_S = 5.0
+"""How long to wait for a first subscriber before piped messages go out."""
+
+
+def main(args: argparse.Namespace) -> int:
+    """Publish until done or Ctrl-C."""
+    if args.rate is not None and args.once:
+        raise UsageError("You cannot select both -r and -1 (--once)")
+    if args.rate is not None and not args.rate > 0:
+        raise UsageError("rate must be greater than zero")
+    if args.values and args.file:
+        raise UsageError("args conflict with -f setting")
+    values = [_yaml(text) for text in args.values]
+    with running_node("rostopic") as (loop, node):
+        takes_values = bool(loop.messages.fields(args.type))
+        is_piped = not values and takes_values
+        if is_piped and not args.file and sys.stdin.isatty():
+            raise UsageError(
+                f"Please specify message values; fields of {args.type}: {', '.join(loop.messages.fields(args.type))}"
+            )
+        if args.use_rostime:
+            clock = loop.run(follow_time(node))
+            while not isinstance(clock, WallClock) and clock.now_ns() == 0:
+                time.sleep(0.01)
+        publisher = node.advertise(
+            global_name(args.topic, "rostopic"), args.type, latch=args.rate is None or args.latch, queue_size=100
+        )
+        loop.run(node.ready(), timeout_s=None)
+        if is_piped:
+            _publish_documents(args, node, publisher)
+        else:
+            _publish_values(args, node, publisher, values)
+    return 0
+
+
+def _publish_values(args: argparse.Namespace, node: Node, publisher: Publisher, values: list[Any]) -> None:
+    message = _message(node, args.type, values)
+    if args.rate is not None:
+        due = time.monotonic()
+        while True:
+            if args.substitute_keywords:
+                message = _message(node, args.type, values)
+            _say(args, node, message)
+            publisher.publish(message)
+            due = max(due + 1 / args.rate, time.monotonic() - 1 / args.rate)
+            time.sleep(max(0.0, due - time.monotonic()))
+    what = (
+        f"publishing and latching [{_text(node, args.type, message)}]"
+        if args.verbose
+        else "publishing and latching message"
+    )
+    print(f"{what} for {_ONCE_S} seconds" if args.once else f"{what}. Press ctrl-C to terminate", flush=True)
+    publisher.publish(message)
+    if args.once:
+        time.sleep(_ONCE_S)
+        return
+    while True:
+        time.sleep(3600.0)
+
+
+def _publish_documents(args: argparse.Namespace, node: Node, publisher: Publisher) -> None:
+    """Publish each YAML document of a file or of standard input."""
+    rate = args.rate or (None if args.latch or args.once else _PIPED_HZ)
+    documents = list(_file(args.file)) if args.file else _piped()
+    until = time.monotonic() + _SUBSCRIBER_S
+    while not publisher.has_subscribers and time.monotonic() < until:
+        time.sleep(0.01)
+    repeats = isinstance(documents, list) and len(documents) == 1 and args.rate is not None
+    if repeats:
+        print("Got one message and a rate, publishing repeatedly", flush=True)
+    while True:
+        for document in documents:
+            message = _message(node, args.type, document if isinstance(document, list) else [document])
+            _say(args, node, message)
+            publisher.publish(message)
+            time.sleep(1 / rate if rate else _ONCE_S)
+            if args.once:
+                return
+        if not repeats:
+            return
+
+
+def _message(node: Node, type_name: str, values: list[Any]) -> Any:
+    given = values[0] if len(values) == 1 and isinstance(values[0], dict) else values
+    try:
+        return node.new(type_name, given)
+    except MessageError as error:
+        fields = ", ".join(f"{kind} {name}" for name, kind in node.messages.fields(type_name).items())
+        raise MessageError(f"{error}\n{type_name} is: {fields}") from None
+
+
+def _say(args: argparse.Namespace, node: Node, message: Any) -> None:
+    if args.verbose:
+        print(f"publishing {_text(node, args.type, message)}", flush=True)
+
+
+def _text(node: Node, type_name: str, message: Any) -> str:
+    return MessagePrinter(messages=node.messages).text(message, type_name)
+
+
+def _yaml(text: str) -> Any:
+    import yaml
+
+    try:
+        return yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise UsageError(f"Argument error: {error}") from None
+
+
+def _file(path: str) -> Iterator[Any]:
+    import yaml
+
+    try:
+        with open(path, encoding="utf-8") as file:
+            yield from (document for document in yaml.safe_load_all(file) if document is not None)
+    except OSError as error:
+        raise UsageError(f"file cannot be read: {path}: {error.strerror}") from None
+    except yaml.YAMLError as error:
+        raise UsageError(f"invalid YAML in file {path}: {error}") from None
+
+
+def _piped() -> Iterator[Any]:
+    """Yield documents from standard input, each as soon as the `---` after it is there."""
+    lines: list[str] = []
+    for line in sys.stdin:
+        if line.strip() != "---":
+            lines.append(line)
+            continue
+        document, lines = _yaml("".join(lines)), []
+        if document is not None:
+            yield document

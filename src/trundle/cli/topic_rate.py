@@ -1,0 +1,149 @@
+"""`trundle topic hz` and `trundle topic bw`: measure what comes, once a second."""
+
+import argparse
+import math
+import sys
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+from trundle.ros import Clock, RawMessage, WallClock, follow_time
+
+from .graph import global_name, master, running_node
+from .topic_echo import compiled
+from .topic_field import wait_for_topic
+
+_MAX_WINDOW = 50_000
+"""Messages averaged over when no window is given; rostopic's number."""
+
+
+def main(args: argparse.Namespace) -> int:
+    """Measure until Ctrl-C."""
+    is_rate = args.command == "hz"
+    with running_node("rostopic") as (loop, node):
+        clock = loop.run(follow_time(node)) if is_rate and not args.wall_time else WallClock()
+        meters: dict[str, Rate | Bandwidth] = {}
+        for name in args.topics:
+            field = wait_for_topic(master("rostopic"), global_name(name, "rostopic"))
+            if is_rate:
+                meter: Rate | Bandwidth = Rate(clock, args.window)
+                wanted = compiled(args.filter)
+                callback = meter.take if wanted is None else _filtered(meter.take, wanted, field.topic)
+                kind = "*" if wanted is None else field.type
+                node.subscribe(field.topic, kind, callback, queue_size=None, tcp_nodelay=args.tcpnodelay)
+            else:
+                meter = Bandwidth(args.window)
+                node.subscribe(field.topic, "*", meter.take, queue_size=None)
+            meters[name] = meter
+            print(f"subscribed to [{field.topic}]", flush=True)
+        if is_rate and not isinstance(clock, WallClock):
+            print("WARNING: may be using simulated time", file=sys.stderr, flush=True)
+        while True:
+            time.sleep(1.0)
+            text = report(meters)
+            if text:
+                print(text, flush=True)
+
+
+class Rate:
+    """Times between the messages of one topic."""
+
+    def __init__(self, clock: Clock, window: int) -> None:
+        self._clock = clock
+        self._last = -1.0
+        self._times: deque[float] = deque(maxlen=(window if window > 1 else _MAX_WINDOW) - 1)
+        self._is_new = False
+        self._lock = threading.Lock()
+
+    def take(self, _: object) -> None:
+        """Note that a message came."""
+        now = self._clock.now_ns() / 1e9
+        with self._lock:
+            if now == 0.0:
+                if self._times:
+                    print("time has reset, resetting counters")
+                self._times.clear()
+                self._last = -1.0
+                return
+            if self._last < 0 or now < self._last:
+                self._times.clear()
+            else:
+                self._times.append(now - self._last)
+                self._is_new = True
+            self._last = now
+
+    def statistics(self) -> tuple[float, float, float, float, int] | None:
+        """Rate [Hz], shortest and longest time, standard deviation [s], number of messages; None if none came since."""
+        with self._lock:
+            if not self._times or not self._is_new:
+                return None
+            self._is_new = False
+            count = len(self._times)
+            mean = sum(self._times) / count
+            deviation = math.sqrt(sum((t - mean) ** 2 for t in self._times) / count)
+            return 1 / mean if mean > 0 else 0.0, min(self._times), max(self._times), deviation, count + 1
+
+
+class Bandwidth:
+    """Sizes of the messages of one topic."""
+
+    def __init__(self, window: int) -> None:
+        self._taken: deque[tuple[float, int]] = deque(maxlen=max(window, 2))
+        self._lock = threading.Lock()
+
+    def take(self, message: RawMessage) -> None:
+        """Note a message's size."""
+        with self._lock:
+            self._taken.append((time.monotonic(), len(message.data)))
+
+    def text(self) -> str | None:
+        """Bytes per second and per message as rostopic writes them; None before there are two messages."""
+        with self._lock:
+            if len(self._taken) < 2:
+                return None
+            sizes = [size for _, size in self._taken]
+            rate = sum(sizes) / (time.monotonic() - self._taken[0][0])
+        unit, factor = ("B", 1) if rate < 1e3 else ("KB", 1e3) if rate < 1e6 else ("MB", 1e6)
+        total, mean, least, most = (
+            f"{v / factor:.2f}{unit}" for v in (rate, sum(sizes) / len(sizes), min(sizes), max(sizes))
+        )
+        return f"average: {total}/s\n\tmean: {mean} min: {least} max: {most} window: {len(sizes)}"
+
+
+def report(meters: "dict[str, Rate | Bandwidth]") -> str | None:
+    """Write what was measured during the last second."""
+    rows: list[list[str]] = []
+    for name, meter in meters.items():
+        if isinstance(meter, Bandwidth):
+            return meter.text()
+        numbers = meter.statistics()
+        if numbers is None:
+            continue
+        rate, least, most, deviation, window = numbers
+        if len(meters) == 1:
+            return (
+                f"average rate: {rate:.3f}\n"
+                f"\tmin: {least:.3f}s max: {most:.3f}s std dev: {deviation:.5f}s window: {window}"
+            )
+        rows.append([name, *(f"{v:.4}" for v in (rate, least, most, deviation)), str(window)])
+    return _table(["topic", "rate", "min_delta", "max_delta", "std_dev", "window"], rows) if rows else "no new messages"
+
+
+def _table(header: list[str], rows: list[list[str]]) -> str:
+    widths = [max(map(len, column)) for column in zip(header, *rows, strict=True)]
+    lines = [
+        "   ".join(title.center(width) for title, width in zip(header, widths, strict=True)),
+        "=" * (sum(widths) + 3 * (len(widths) - 1)),
+        *("   ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in rows),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _filtered(take: Callable[[Any], None], wanted: Any, topic: str) -> Callable[[Any], None]:
+    def filtered(message: Any) -> None:
+        if eval(wanted, {"m": message, "topic": topic}):
+            take(message)
+
+    return filtered
