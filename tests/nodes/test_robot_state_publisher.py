@@ -80,6 +80,19 @@ def test_fixed_joints_are_repeated_half_a_second_ahead_in_indigo(params: dict[st
     assert stamp.sec * S + stamp.nanosec == round(100.6 * S)
 
 
+@pytest.mark.parametrize(("distro", "held"), [("noetic", ["plane"]), ("indigo", ["float", "plane"])])
+def test_joints_that_one_number_cannot_place_are_held_as_kdl_holds_them(distro: str, held: list[str]) -> None:
+    robot = """<robot name="r"><link name="base"/><link name="a"/><link name="b"/>
+      <joint name="float" type="floating"><parent link="base"/><child link="a"/></joint>
+      <joint name="plane" type="planar"><parent link="base"/><child link="b"/></joint></robot>"""
+    params = {"/robot_description": robot, "use_tf_static": False, "publish_frequency": 10}
+    node = FakeNode(FakeClock(end_ns=round(1.15 * S)), params)
+    host = Host(profile=PROFILES[distro])
+    assert run_to_end(RobotStatePublisher(node, [], host).run()) is None  # pyright: ignore[reportArgumentType]
+    children = {"float": "a", "plane": "b"}
+    assert [t.child_frame_id for t in node.sent("/tf")[0].transforms] == [children[name] for name in held]
+
+
 def test_messages_closer_than_the_interval_are_dropped_by_joint() -> None:
     def script(node: FakeNode) -> None:
         hear(node, ["shoulder"], [0.0], 99.0)

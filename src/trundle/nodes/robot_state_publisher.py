@@ -28,13 +28,14 @@ class RobotFrames:
     prefix: str = ""
 
     @staticmethod
-    def of(robot: Robot, prefix: str) -> "RobotFrames":
-        """Sort a robot's joints; floating ones have no transform that one number could give."""
+    def of(robot: Robot, prefix: str, *, floating_is_fixed: bool) -> "RobotFrames":
+        """Sort a robot's joints; one number cannot place a floating or planar joint, so KDL holds them fixed."""
         joints = sorted(robot.joints, key=lambda joint: joint.name)  # std::map's order, which is the messages' too
-        moving = {j.name: j for j in joints if j.type not in ("fixed", "floating", "planar")}
+        held = ("fixed", "planar", "floating") if floating_is_fixed else ("fixed", "planar")
+        moving = {j.name: j for j in joints if j.type not in ("fixed", "planar", "floating")}
         return RobotFrames(
             moving=moving,
-            fixed={j.name: j for j in joints if j.type == "fixed"},
+            fixed={j.name: j for j in joints if j.type in held},
             mimics={name: j for name, j in moving.items() if j.mimic is not None},
             prefix=prefix.strip("/"),
         )
@@ -87,10 +88,14 @@ class RobotStatePublisher:
             self._interval_ns = period_ns(max(settings.number("publish_frequency", 50.0), 1.0))
             self._ignores_stamps = settings.flag("ignore_timestamp", default=False)
             use_tf_static = settings.flag("use_tf_static", default=self._profile.use_tf_static)
-            self._frames = RobotFrames.of(await self._robot(), await self._prefix())
+            robot, prefix = await self._robot(), await self._prefix()
+            self._frames = RobotFrames.of(robot, prefix, floating_is_fixed=self._profile.floating_is_fixed)
         except TrundleError as error:
             node.log_error(str(error))
             return 1
+        for joint in robot.joints:
+            if joint.type == "floating" and joint.name not in self._frames.fixed:
+                node.log_info(f"Floating joint. Not adding segment from {joint.parent} to {joint.child}.")
         self._broadcaster = TransformBroadcaster(node)
         node.subscribe("joint_states", "sensor_msgs/JointState", self._hear, queue_size=1)
         static = StaticTransformBroadcaster(node)
