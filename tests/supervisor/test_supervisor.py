@@ -209,3 +209,23 @@ def test_a_task_is_cancelled_on_stop(tmp_path: Path) -> None:
 
     on_stage(tmp_path, play)
     assert cleaned == [True]
+
+
+def test_a_task_that_ignores_its_cancellation_holds_up_nobody(tmp_path: Path) -> None:
+    release = asyncio.Event()
+
+    async def deaf() -> int:
+        while not release.is_set():
+            try:
+                await release.wait()
+            except asyncio.CancelledError:
+                continue
+        return 0
+
+    async def play(stage: Stage) -> None:
+        await stage.supervisor.start(TaskJob("a", deaf))
+        await asyncio.sleep(0)
+        await stage.supervisor.stop()
+        release.set()
+
+    on_stage(tmp_path, play, Patience(terminate_s=0.05))

@@ -13,6 +13,8 @@ EventKind: TypeAlias = Literal["started", "failed", "finished", "died", "respawn
 
 _QUICK_DEATH_S = 2.0
 _LONGEST_BACK_OFF_S = 10.0
+_LAST_WORDS_S = 2.0
+"""How long a stopped job's last output may take to arrive."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,7 +73,10 @@ class Supervisor:
         for watched in running:
             self._tell("stopping", watched, "killing on exit")
         await asyncio.gather(*(watched.job.stop(self._patience) for watched in running))
-        await asyncio.gather(*(watched.watch for watched in running if watched.watch is not None))
+        if watches := [watched.watch for watched in running if watched.watch is not None]:
+            _, deaf = await asyncio.wait(watches, timeout=_LAST_WORDS_S)
+            for watch in deaf:  # a task that does not obey its cancellation is left behind
+                watch.cancel()
         self._ended.set()
 
     def exit_codes(self) -> dict[str, int | None]:
