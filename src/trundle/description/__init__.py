@@ -1,1 +1,7 @@
-"""Room."""
+"""Text becomes model: SDF, URDF and xacro, each by its own rules."""
+
+from .load import load
+from .loaded import Loaded
+from .xacro import expand_xacro
+
+__all__ = ["Loaded", "expand_xacro", "load"]

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from trundle.diagnostics import Source
 from trundle.spatial import Pose
 
+from .plugin import PluginTag
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraOptics:
@@ -35,3 +37,4 @@ class Sensor:
     topic: str = ""
     camera: CameraOptics | None = None
     """Set for cameras."""
+    plugins: tuple[PluginTag, ...] = ()

@@ -1,0 +1,77 @@
+"""Finds the reader for a file, a folder or a model:// name."""
+
+from pathlib import Path
+from urllib.parse import unquote
+
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.packages import Packages, model_file
+from trundle.xmlnode import XmlNode, parse_xml, read_xml
+
+from .loaded import Loaded
+from .sdf import Context, read_root, read_version
+from .urdf import lower_robot, read_urdf_text
+from .xacro import expand_xacro, is_xacro
+
+
+def load(what: str, report: Diagnostics, *, packages: Packages) -> Loaded:
+    """Read a description: SDF, URDF or xacro.
+
+    Args:
+        what: a path, a folder with model.config, model://NAME, or the name of a world on GAZEBO_RESOURCE_PATH.
+        report: takes everything worth saying.
+        packages: where URIs lead.
+
+    Raises:
+        DescriptionError: of which nothing sensible can be made.
+        UsageError: no such model.
+    """
+    path = _find(what, packages)
+    if path.is_dir():
+        path = model_file(path, report)
+    packages = packages.around(path)
+    if is_xacro(path):
+        text = expand_xacro(path, {}, packages=packages, report=report)
+        return _from_urdf(text, f"{path} (expanded)", path, packages, report)
+    root = read_xml(path)
+    if root.tag == "robot":
+        text = path.read_text(encoding="utf-8", errors="replace")
+        if "xmlns:xacro" in text:
+            text = expand_xacro(path, {}, packages=packages, report=report)
+        return _from_urdf(text, str(path), path, packages, report)
+    return load_sdf(root, path, packages, report)
+
+
+def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics) -> Loaded:
+    """Read a parsed SDF file; `path` is where it is.
+
+    Raises:
+        DescriptionError: it is no SDF.
+    """
+    if root.tag not in ("sdf", "gazebo"):
+        raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")
+    version = read_version(root, report)
+    if root.tag == "gazebo" or version < (1, 3):
+        report.warn(root.at, f"SDF {version} wrote values as attributes, which is not supported yet; read as 1.3")
+    context = Context(version=version, folder=path.parent, packages=packages, report=report, including=(path,))
+    world, has_world = read_root(root, context)
+    return Loaded(kind="world" if has_world else "model", world=world)
+
+
+def _from_urdf(text: str, name: str, path: Path, packages: Packages, report: Diagnostics) -> Loaded:
+    robot = read_urdf_text(text, name=name, report=report)
+    world = lower_robot(robot, parse_xml(text, name=name), folder=path.parent, packages=packages, report=report)
+    return Loaded(kind="urdf", world=world, robot=robot, urdf=text)
+
+
+def _find(what: str, packages: Packages) -> Path:
+    if what.startswith("model://"):
+        return packages.find_model(what.removeprefix("model://").strip("/"))
+    if what.startswith("file://"):
+        return Path(unquote(what.removeprefix("file://")))
+    path = Path(what).expanduser()
+    if path.exists():
+        return path
+    world = None if path.is_absolute() else packages.find_world(what)
+    if world is not None:
+        return world
+    raise DescriptionError(Source(what), "no such file or folder")

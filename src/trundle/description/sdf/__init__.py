@@ -1,0 +1,7 @@
+"""SDF 1.2 to 1.12, each file read by the rules of its own version."""
+
+from .context import Context
+from .version import read_version
+from .world import read_root
+
+__all__ = ["Context", "read_root", "read_version"]

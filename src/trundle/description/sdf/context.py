@@ -1,0 +1,72 @@
+"""What every reader of one SDF file needs to know."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from trundle.diagnostics import Diagnostics
+from trundle.packages import Packages
+from trundle.spatial import Pose
+from trundle.xmlnode import XmlNode
+
+from .version import Version
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Context:
+    """One file being read."""
+
+    version: Version
+    folder: Path
+    """Of the file: relative URIs start here."""
+    packages: Packages
+    report: Diagnostics
+    including: tuple[Path, ...] = ()
+    """The files above this one, outermost first: a model that includes itself is found out."""
+
+    def inside(self, file: Path, version: Version) -> "Context":
+        """The context of a file that this one includes."""
+        return replace(self, version=version, folder=file.parent, including=(*self.including, file))
+
+
+@dataclass(frozen=True, slots=True)
+class RawPose:
+    """A <pose> as written: where, and seen from which frame."""
+
+    pose: Pose
+    relative_to: str | None = None
+
+
+def read_pose(node: XmlNode, context: Context) -> RawPose:
+    """Read an element's <pose>; absent, it is the identity."""
+    child = node.find("pose")
+    if child is None:
+        return RawPose(Pose())
+    relative_to = child.attribute("relative_to")
+    if relative_to is None:
+        # 1.5 and 1.6 parsed `frame`, and Gazebo never looked at it; the 1.7 converter renames it.
+        frame = child.attribute("frame")
+        if frame:
+            context.report.warn(child.at, f"pose frame={frame!r}: Gazebo ignored it before SDF 1.7; so do we")
+    return RawPose(_numbers(child, context), relative_to or None)
+
+
+def _numbers(child: XmlNode, context: Context) -> Pose:
+    degrees = (child.attribute("degrees") or "").strip().lower() in ("true", "1")
+    if child.attribute("rotation_format") == "quat_xyzw":
+        values = child.as_numbers(7, report=context.report, fallback="the identity is used")
+        if values is None:
+            return Pose()
+        x, y, z, qx, qy, qz, qw = values
+        length = (qw * qw + qx * qx + qy * qy + qz * qz) ** 0.5
+        if length == 0.0:
+            context.report.warn(child.at, "<pose>: a quaternion of zero length turns nothing; no rotation is used")
+            return Pose((x, y, z))
+        return Pose((x, y, z), (qw / length, qx / length, qy / length, qz / length))
+    if not degrees:
+        return child.as_pose(report=context.report)
+    values = child.as_numbers(6, report=context.report, fallback="the identity is used")
+    if values is None:
+        return Pose()
+    turn = 3.141592653589793 / 180.0
+    x, y, z, roll, pitch, yaw = values
+    return Pose.from_rpy(x, y, z, roll * turn, pitch * turn, yaw * turn)

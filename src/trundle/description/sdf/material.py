@@ -1,0 +1,63 @@
+"""Reads <material>: colours given outright, or a Gazebo material by name."""
+
+from trundle.model import GREY, Material, Rgba
+from trundle.xmlnode import XmlNode
+
+from .context import Context
+from .gazebo_materials import GAZEBO_MATERIALS, TEXTURED
+
+
+def read_material(visual: XmlNode, context: Context) -> Material:
+    """The colours of a visual; those written out override the named script's."""
+    node = visual.find("material")
+    if node is None:
+        return GREY
+    script = node.find("script")
+    base = GREY
+    if script is not None:
+        base = named_material(script.string("name"), script, context)
+        script.all("uri")
+        script.report_unread(context.report)
+    material = Material(
+        ambient=read_colour(node, "ambient", base.ambient, context),
+        diffuse=read_colour(node, "diffuse", base.diffuse, context),
+        specular=read_colour(node, "specular", base.specular, context),
+        emissive=read_colour(node, "emissive", base.emissive, context),
+    )
+    node.find("lighting")
+    node.report_unread(context.report)
+    return material
+
+
+def named_material(name: str, node: XmlNode, context: Context) -> Material:
+    """One of Gazebo's materials; an unknown name is grey, after a warning."""
+    if name in GAZEBO_MATERIALS:
+        return GAZEBO_MATERIALS[name]
+    if name in TEXTURED:
+        r, g, b = TEXTURED[name]
+        context.report.info(node.at, f"material {name!r} has a texture that only Gazebo ships; a plain colour is used")
+        return Material(ambient=(r, g, b, 1.0), diffuse=(r, g, b, 1.0))
+    context.report.warn(node.at, f"no material {name!r}; grey is used")
+    return GREY
+
+
+def read_colour(node: XmlNode, tag: str, default: Rgba, context: Context) -> Rgba:
+    """A child's r g b a, each held to 0…1."""
+    child = node.find(tag)
+    if child is None:
+        return default
+    values = [float(v) for v in _numbers(child.text)]
+    if len(values) == 3:
+        values.append(1.0)
+    if len(values) != 4:
+        context.report.warn(child.at, f"<{tag}> wants r g b a, got {child.text!r}; the default is used")
+        return default
+    r, g, b, a = (min(max(v, 0.0), 1.0) for v in values)
+    return (r, g, b, a)
+
+
+def _numbers(text: str) -> list[float]:
+    try:
+        return [v for v in map(float, text.split()) if v == v]  # NaN is not equal to itself
+    except ValueError:
+        return []

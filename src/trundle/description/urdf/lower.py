@@ -1,0 +1,259 @@
+"""A URDF as Gazebo simulates it.
+
+Fixed joints lump their links; a link without mass, and all below it, falls away; floating and planar joints leave
+their child free. What Gazebo would also drop, a URDF's colours, is kept: it can be seen and weighs nothing.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.model import (
+    Box,
+    Collision,
+    Cylinder,
+    Geometry,
+    Inertial,
+    Joint,
+    JointAxis,
+    JointType,
+    Link,
+    Material,
+    MeshFile,
+    Model,
+    Sphere,
+    Visual,
+    World,
+)
+from trundle.packages import Packages
+from trundle.robot import (
+    Robot,
+    RobotBox,
+    RobotCylinder,
+    RobotInertial,
+    RobotJoint,
+    RobotLink,
+    RobotMesh,
+    RobotShape,
+    RobotSphere,
+    root_from_links,
+)
+from trundle.spatial import Pose, normalized
+from trundle.xmlnode import XmlNode
+
+from ..sdf.context import Context
+from ..sdf.version import Version
+from .gazebo_tags import GazeboTags
+from .lump import WORLD, Lump, lump_links, lumped_inertial, shape_name
+
+_TYPES = {
+    "revolute": JointType.REVOLUTE,
+    "continuous": JointType.REVOLUTE,
+    "prismatic": JointType.PRISMATIC,
+    "fixed": JointType.FIXED,
+}
+
+
+def lower_robot(robot: Robot, root: XmlNode, *, folder: Path, packages: Packages, report: Diagnostics) -> World:
+    """Convert a URDF's tree; `root` is its XML, for the <gazebo> blocks.
+
+    Args:
+        robot: the tree as written.
+        root: <robot>.
+        folder: relative mesh paths start here.
+        packages: where URIs lead.
+        report: takes what falls away.
+    """
+    # gazebo blocks hold SDF by the rules of the version that the conversion writes.
+    context = Context(version=Version((1, 6)), folder=folder, packages=packages, report=report)
+    model = _Lowering(robot, GazeboTags(root, context), context).model()
+    return World(name=robot.name, at=robot.at, models=(model,))
+
+
+class _Lowering:
+    def __init__(self, robot: Robot, tags: GazeboTags, context: Context) -> None:
+        self.robot = robot
+        self.tags = tags
+        self.context = context
+        self.report = context.report
+        self.links = {link.name: link for link in robot.links}
+        kept = frozenset(
+            joint.name
+            for joint in robot.joints
+            if tags.flag(joint.name, "preserveFixedJoint") or tags.flag(joint.name, "disableFixedJointLumping")
+        )
+        self.lumps = lump_links(robot, kept)
+        self.lump_of = {link: lump.name for lump in self.lumps.values() for link, _ in lump.parts}
+
+    def model(self) -> Model:
+        """The robot as one model."""
+        poses = root_from_links(self.robot, {})
+        dropped = self._without_mass()
+        links = tuple(
+            self._link(lump, poses[lump.name])
+            for lump in self.lumps.values()
+            if lump.name not in dropped and lump.name != WORLD
+        )
+        joints = tuple(
+            lowered
+            for joint in self.robot.joints
+            if self.lump_of[joint.child] not in dropped and (lowered := self._joint(joint, poses)) is not None
+        )
+        plugins = self.tags.plugins("")
+        static = self.tags.flag("", "static") or False
+        self.tags.report_unread()
+        return Model(name=self.robot.name, at=self.robot.at, static=static, links=links, joints=joints, plugins=plugins)
+
+    def _without_mass(self) -> set[str]:
+        """Lumps that weigh nothing, with all that hang below them."""
+        dropped: set[str] = set()
+        below: dict[str, list[str]] = {}
+        for joint in self.robot.joints:
+            below.setdefault(self.lump_of[joint.parent], []).append(self.lump_of[joint.child])
+        for lump in self.lumps.values():
+            if lump.name == WORLD or lump.name in dropped or self._inertials(lump):
+                continue
+            pending, gone = [lump.name], list[str]()
+            while pending:
+                name = pending.pop()
+                if name not in dropped:
+                    dropped.add(name)
+                    gone.append(name)
+                    pending += [child for child in below.get(name, []) if child != name]
+            with_it = f" with {', '.join(map(repr, gone[1:]))} below it" if gone[1:] else ""
+            self.report.warn(
+                self.links[lump.name].at,
+                f"link {lump.name!r} has no mass; as in Gazebo it is left out of the simulation{with_it}; "
+                "give it an <inertial>",
+            )
+        return dropped
+
+    def _inertials(self, lump: Lump) -> list[tuple[RobotInertial, Pose]]:
+        found = [(self.links[name].inertial, pose) for name, pose in lump.parts]
+        return [(inertial, pose) for inertial, pose in found if inertial is not None and inertial.mass > 0]
+
+    def _link(self, lump: Lump, root_from_link: Pose) -> Link:
+        own = self.links[lump.name]
+        visuals: list[Visual] = []
+        collisions: list[Collision] = []
+        for name, pose in lump.parts:
+            part = self.links[name]
+            material = self.tags.material(name)
+            visuals += self._visuals(lump.name, part, pose, material)
+            collisions += self._collisions(lump.name, part, pose)
+        gravity_off = self.tags.flag(lump.name, "turnGravityOff")
+        sensors = [
+            replace(sensor, link_from_sensor=pose @ sensor.link_from_sensor)
+            for name, pose in lump.parts
+            for sensor in self.tags.sensors(name)
+        ]
+        return Link(
+            name=lump.name,
+            at=own.at,
+            model_from_link=root_from_link,
+            inertial=self._inertial(lump),
+            visuals=tuple(visuals),
+            collisions=tuple(collisions),
+            sensors=tuple(sensors),
+            gravity=not gravity_off,
+            self_collide=self.tags.flag(lump.name, "selfCollide"),
+        )
+
+    def _inertial(self, lump: Lump) -> Inertial:
+        return lumped_inertial(self._inertials(lump))
+
+    def _visuals(self, lump: str, part: RobotLink, pose: Pose, gazebo: Material | None) -> list[Visual]:
+        visuals: list[Visual] = []
+        for i, shape in enumerate(part.visuals):
+            geometry = self._geometry(shape)
+            if geometry is not None:
+                visuals.append(
+                    Visual(
+                        name=shape_name(lump, part.name, "visual", i, shape),
+                        geometry=geometry,
+                        at=shape.at,
+                        link_from_visual=pose @ shape.link_from_shape,
+                        material=gazebo or _material(shape),
+                        transparency=0.0 if gazebo or shape.rgba is None else 1.0 - shape.rgba[3],
+                    )
+                )
+                if gazebo is None and shape.rgba is not None:
+                    self.report.info(shape.at, "Gazebo draws URDF colours grey; here they are kept")
+        return visuals
+
+    def _collisions(self, lump: str, part: RobotLink, pose: Pose) -> list[Collision]:
+        surface = self.tags.surface(part.name)
+        return [
+            Collision(
+                name=shape_name(lump, part.name, "collision", i, shape),
+                geometry=geometry,
+                at=shape.at,
+                link_from_collision=pose @ shape.link_from_shape,
+                surface=surface,
+            )
+            for i, shape in enumerate(part.collisions)
+            if (geometry := self._geometry(shape)) is not None
+        ]
+
+    def _geometry(self, shape: RobotShape) -> Geometry | None:
+        match shape.geometry:
+            case RobotBox(size):
+                return Box(size)
+            case RobotCylinder(radius, length):
+                return Cylinder(radius, length)
+            case RobotSphere(radius):
+                return Sphere(radius)
+            case RobotMesh(uri, scale):
+                try:
+                    path = self.context.packages.resolve(uri, beside=self.context.folder, at=shape.at)
+                except DescriptionError as error:
+                    self.report.warn(error.at, f"{error.what}; the mesh is left out")
+                    return None
+                return MeshFile(path=path, uri=uri, scale=scale)
+
+    def _joint(self, joint: RobotJoint, poses: Mapping[str, Pose]) -> Joint | None:
+        parent, child = self.lump_of[joint.parent], self.lump_of[joint.child]
+        if parent == child:
+            return None
+        if joint.type not in _TYPES:
+            self.report.warn(joint.at, f"joint {joint.name!r}: Gazebo makes nothing of {joint.type}; its child is free")
+            return None
+        type_ = _TYPES[joint.type]
+        if joint.mimic is not None:
+            self.report.warn(joint.at, f"joint {joint.name!r}: <mimic> is not simulated yet, as in Gazebo; it is free")
+        return Joint(
+            name=joint.name,
+            type=type_,
+            parent=WORLD if joint.parent == WORLD else parent,
+            child=child,
+            at=joint.at,
+            axis=None if type_ is JointType.FIXED else _axis(joint, poses[joint.child], self.report),
+        )
+
+
+def _axis(joint: RobotJoint, root_from_joint: Pose, report: Diagnostics) -> JointAxis:
+    limit = joint.limit
+    bounded = limit is not None and joint.type != "continuous"
+    lower = limit.lower if limit is not None and bounded else -math.inf
+    upper = limit.upper if limit is not None and bounded else math.inf
+    if lower > upper:
+        report.warn(joint.at, f"joint {joint.name!r}: lower {lower:g} is above upper {upper:g}; they are swapped")
+        lower, upper = upper, lower
+    return JointAxis(
+        direction=root_from_joint.direction(normalized(joint.axis) or (1.0, 0.0, 0.0)),
+        lower=lower,
+        upper=upper,
+        effort=math.inf if limit is None else limit.effort,
+        velocity=math.inf if limit is None else limit.velocity,
+        damping=joint.damping,
+        friction=joint.friction,
+    )
+
+
+def _material(shape: RobotShape) -> Material:
+    if shape.rgba is None:
+        return Material()
+    r, g, b, _ = shape.rgba
+    return Material(ambient=(r, g, b, 1.0), diffuse=(r, g, b, 1.0))

@@ -1,0 +1,178 @@
+"""Expands xacro with the official package: our package resolver in place of ament's, and a pass for Indigo's files.
+
+Indigo's xacro took `<property>`, `<macro>`, … and calls of macros without the `xacro:` prefix; today's copies them to
+the output as plain XML, without a word, and a robot has no links. The pass rewrites them and says so.
+"""
+
+import re
+import threading
+import xml.dom.minidom
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+from xml.parsers.expat import ExpatError
+
+import xacro
+from xacro import substitution_args
+
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.packages import Packages
+
+_LOCK = threading.Lock()
+"""The package keeps its state in module globals."""
+_CORE = {
+    "include": "filename",
+    "property": "name",
+    "macro": "name",
+    "if": "value",
+    "unless": "value",
+    "insert_block": "name",
+}
+"""Indigo's bare tags, and the attribute that tells them from plain XML of the same name."""
+_URDF = frozenset(
+    [
+        "robot",
+        "link",
+        "joint",
+        "inertial",
+        "visual",
+        "collision",
+        "origin",
+        "geometry",
+        "box",
+        "cylinder",
+        "sphere",
+        "mesh",
+        "material",
+        "color",
+        "texture",
+        "mass",
+        "inertia",
+        "parent",
+        "child",
+        "axis",
+        "limit",
+        "dynamics",
+        "mimic",
+        "safety_controller",
+        "calibration",
+        "transmission",
+        "actuator",
+        "gazebo",
+        "sensor",
+        "plugin",
+        "hardwareInterface",
+        "mechanicalReduction",
+        "type",
+    ]
+)
+"""Element names that stay what they are even where a macro has the same name."""
+_ENTITY = re.compile(rb"<!(DOCTYPE|ENTITY)")
+
+
+def is_xacro(path: Path) -> bool:
+    """Whether a file is to be expanded, by its name."""
+    return path.suffix == ".xacro"
+
+
+def expand_xacro(path: Path, arguments: Mapping[str, str], *, packages: Packages, report: Diagnostics) -> str:
+    """Expand a file; return the XML text.
+
+    Args:
+        path: the top file.
+        arguments: `name:=value` of the command line.
+        packages: answers `$(find …)`.
+        report: takes what was rewritten and what xacro warns of.
+
+    Raises:
+        DescriptionError: it cannot be expanded; the sentence is xacro's, with the file it was in.
+    """
+    if not path.is_file():
+        raise DescriptionError(Source(str(path)), "no such file")
+    with _LOCK, _ours(packages.around(path), report, path):
+        try:
+            document = xacro.process_file(str(path), mappings=dict(arguments), verbosity=0)
+            return str(document.toprettyxml(indent="  "))
+        except DescriptionError:
+            raise
+        except RecursionError:
+            raise DescriptionError(_where(path), "macros or properties that use themselves without end") from None
+        except ExpatError as error:
+            raise DescriptionError(Source(_where(path).file, error.lineno), f"not well-formed XML: {error}") from None
+        except Exception as error:  # xacro evaluates the file's own Python: anything may come out of it
+            what = " ".join(str(error).split()) or type(error).__name__
+            raise DescriptionError(_where(path), what) from None
+
+
+def _where(path: Path) -> Source:
+    stack = [name for name in (xacro.filestack or []) if name]
+    return Source(str(stack[-1]) if stack else str(path))
+
+
+@contextmanager
+def _ours(packages: Packages, report: Diagnostics, path: Path) -> Iterator[None]:
+    """Put our functions in the official package's place, for as long as one file takes."""
+
+    def find(name: str) -> str:
+        folder = packages.find_package(name)
+        if folder is None:
+            raise DescriptionError(_where(path), f"$(find {name}): {packages.why_not_found(name)}")
+        return str(folder)
+
+    def warn(*words: object) -> None:
+        report.warn(_where(path), " ".join(map(str, words)))
+
+    modules: Any = (xacro, substitution_args)
+    package, arguments = modules
+    kept = (package.parse, package.handle_macro_call, package.warning, arguments._eval_find)
+    package.parse = _parse_for(kept[0], report)
+    package.handle_macro_call = _call_for(kept[1], report, path)
+    package.warning = warn
+    arguments._eval_find = arguments._eval_dict["find"] = find
+    package.all_includes.clear()
+    try:
+        yield
+    finally:
+        package.parse, package.handle_macro_call, package.warning = kept[:3]
+        arguments._eval_find = arguments._eval_dict["find"] = kept[3]
+        package.filestack = package.macrostack = None
+
+
+def _parse_for(original: Callable[..., Any], report: Diagnostics) -> Callable[..., Any]:
+    def parse(inp: object, filename: str | None = None) -> Any:
+        if filename is not None:
+            data = Path(filename).read_bytes() if Path(filename).is_file() else b""
+            if _ENTITY.search(data):
+                raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
+            # Blank lines before <?xml …?> stop expat, and no robot.
+            document = xml.dom.minidom.parseString(data.lstrip()) if data.strip() else original(inp, filename)
+            _prefix_core_tags(document, filename, report)
+            return document
+        return original(inp, filename)
+
+    return parse
+
+
+def _prefix_core_tags(document: Any, filename: str, report: Diagnostics) -> None:
+    """Give Indigo's bare core tags their prefix."""
+    rewritten: set[str] = set()
+    for tag, attribute in _CORE.items():
+        for element in document.getElementsByTagName(tag):
+            has_elements = any(child.nodeType == child.ELEMENT_NODE for child in element.childNodes)
+            if element.hasAttribute(attribute) and not (tag == "include" and has_elements):
+                element.tagName = element.nodeName = f"xacro:{tag}"
+                rewritten.add(tag)
+    for tag in sorted(rewritten):
+        report.warn(Source(filename), f"<{tag}> without the prefix xacro: is Indigo's way; read as <xacro:{tag}>")
+
+
+def _call_for(original: Callable[..., bool], report: Diagnostics, path: Path) -> Callable[..., bool]:
+    def handle_macro_call(node: Any, macros: Any, symbols: Any) -> bool:
+        name = str(node.tagName)
+        if ":" not in name and name not in _URDF and name in macros:
+            report.warn(_where(path), f"<{name}> calls a macro without the prefix xacro:; read as <xacro:{name}>")
+            node.tagName = node.nodeName = f"xacro:{name}"
+        return original(node, macros, symbols)
+
+    return handle_macro_call
