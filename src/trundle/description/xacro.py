@@ -7,7 +7,7 @@ the output as plain XML, without a word, and a robot has no links. The pass rewr
 import re
 import threading
 import xml.dom.minidom
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -92,7 +92,7 @@ def expand_xacro(path: Path, arguments: Mapping[str, str], *, packages: Packages
         raise DescriptionError(Source(str(path)), "no such file")
     with _LOCK, _ours(packages.around(path), report, path):
         try:
-            document = xacro.process_file(str(path), mappings=dict(arguments), verbosity=0)
+            document: Any = xacro.process_file(str(path), mappings=dict(arguments), verbosity=0)
             return str(document.toprettyxml(indent="  "))
         except DescriptionError:
             raise
@@ -111,7 +111,7 @@ def _where(path: Path) -> Source:
 
 
 @contextmanager
-def _ours(packages: Packages, report: Diagnostics, path: Path) -> Iterator[None]:
+def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None]:
     """Put our functions in the official package's place, for as long as one file takes."""
 
     def find(name: str) -> str:

@@ -24,9 +24,7 @@ def read_link(node: XmlNode, name: str, model_from_link: Pose, context: Context)
         collisions=tuple(c for child in node.all("collision") if (c := _read_collision(child, context)) is not None),
         sensors=_read_sensors(node, context),
         gravity=node.flag("gravity", default=True, report=report),
-        self_collide=None
-        if node.find("self_collide") is None
-        else node.flag("self_collide", default=False, report=report),
+        self_collide=None if collide is None else collide.as_flag(default=False, report=report),
         kinematic=node.flag("kinematic", default=False, report=report),
         linear_decay=0.0 if decay is None else decay.number("linear", default=0.0, report=report),
         angular_decay=0.0 if decay is None else decay.number("angular", default=0.0, report=report),

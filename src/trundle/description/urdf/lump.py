@@ -64,7 +64,7 @@ def lumped_inertial(parts: list[tuple[RobotInertial, Pose]]) -> Inertial:
         )
     mass = sum(part.mass for part, _ in parts)
     coms = [(pose @ part.link_from_com) for part, pose in parts]
-    center = sum(part.mass * np.array(com.position) for (part, _), com in zip(parts, coms, strict=True)) / mass
+    center = np.average([com.position for com in coms], axis=0, weights=[part.mass for part, _ in parts])
     total = np.zeros((3, 3))
     for (part, _), com in zip(parts, coms, strict=True):
         rotation = _matrix(com)
