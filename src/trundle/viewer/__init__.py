@@ -8,7 +8,9 @@ while True:
 
 from .content import CameraView, FrameInfo, JointSlider, ViewerScene, ViewerState
 from .errors import ViewerError
+from .graph_page import GraphPage
 from .requests import Drive, Pause, Play, Request, Reset, SetFixedFrame, SetJoint, SetSpeed, Step
+from .robot_scene import robot_scene
 from .rviz import DEFAULT_CONFIG, RvizConfig, RvizDisplay, choose_fixed_frame, read_rviz_config
 from .viewer import Viewer
 
@@ -17,6 +19,7 @@ __all__ = [
     "CameraView",
     "Drive",
     "FrameInfo",
+    "GraphPage",
     "JointSlider",
     "Pause",
     "Play",
@@ -34,4 +37,5 @@ __all__ = [
     "ViewerState",
     "choose_fixed_frame",
     "read_rviz_config",
+    "robot_scene",
 ]

@@ -94,7 +94,9 @@ def graph_state(tree: FrameTree, buffer: TransformBuffer, robot: Scene, *, time_
     """Return where everything is now, with rviz's own words about what is not known."""
     known = tree.poses(buffer)
     status: list[str] = []
-    if tree.fixed_frame in tree.parents:
+    if tree.fixed_frame not in tree.parents:
+        status.append(f"Fixed Frame [{tree.fixed_frame}] does not exist")
+    else:
         lost = [link for link in robot.bodies if link not in known]
         status += [f"No transform from [{link}] to [{tree.fixed_frame}]" for link in lost[:_MOST_COMPLAINTS]]
         if len(lost) > _MOST_COMPLAINTS:

@@ -159,6 +159,11 @@ class Path:
         self._time_ns = 0
         self._drawn = 0
         self._handle: viser.ArrowsHandle | None = None
+        self._shaft_m = 0.01
+
+    def resize(self, radius: float) -> None:
+        """Draw arrows of a size that suits a robot of this radius [m]."""
+        self._shaft_m = min(0.02 * radius, 0.1 * _PATH_STEP_M)
 
     def update(self, time_ns: int, followed: Array | None, *, shown: bool) -> None:
         """Note where the body is, and draw the path if it is shown; time that runs back starts a new one."""
@@ -182,7 +187,7 @@ class Path:
                 self._name,
                 points=arrows_along(np.array(self._points)),
                 colors=_PATH_COLOR,
-                shaft_radius=0.010,
-                head_radius=0.024,
-                head_length=0.05,
+                shaft_radius=self._shaft_m,
+                head_radius=2.4 * self._shaft_m,
+                head_length=4.0 * self._shaft_m,
             )

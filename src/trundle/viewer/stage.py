@@ -84,6 +84,7 @@ class Stage:
         if self._extent is None or not extent.is_guess:
             self._frames.resize(extent.radius)
             self._frusta.resize(extent.radius)
+            self._path.resize(extent.radius)
         self._extent = extent
 
     def image(self, index: int, rgb: NDArray[np.uint8]) -> None:

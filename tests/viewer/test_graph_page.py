@@ -1,0 +1,160 @@
+"""The page of a real graph in a real browser: a robot on tf, images, sliders, and a pad that drives."""
+
+import io
+import queue
+import time
+from collections.abc import Iterator
+from concurrent.futures import Future
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from trundle.diagnostics import Diagnostics
+from trundle.ros import Core, GraphLoop, Message, Node, Transform, TransformBroadcaster
+from trundle.viewer import GraphPage
+
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+_PATIENCE_S = 60.0
+_URDF = """\
+<robot name="bluecar">
+  <link name="base_link">
+    <visual>
+      <geometry><box size="0.5 0.3 0.15"/></geometry>
+      <material name="blue"><color rgba="0 0 0.9 1"/></material>
+    </visual>
+  </link>
+</robot>
+"""
+_CONFIG = """\
+Visualization Manager:
+  Displays:
+    - Class: rviz/RobotModel
+    - Class: rviz/Image
+      Image Topic: /camera/image_raw
+  Global Options:
+    Fixed Frame: odom
+"""
+
+
+@dataclass(frozen=True)
+class Slider:
+    name: str
+    lower: float
+    upper: float
+    position: float
+
+
+@dataclass(frozen=True)
+class Scenery:
+    loop: GraphLoop
+    robot: Node
+    page: GraphPage
+    shown: "Future[int]"
+    report: Diagnostics
+
+
+@pytest.fixture
+def scenery(tmp_path: Path) -> Iterator[Scenery]:
+    """Start a master, a robot's node and a page that shows the graph."""
+    config, report = tmp_path / "car.rviz", Diagnostics()
+    config.write_text(_CONFIG)
+    with GraphLoop() as loop:
+        core = Core(loop=loop, port=0)
+        loop.run(core.start())
+        robot = Node("robot", loop=loop, master_uri=core.uri)
+        loop.run(robot.set_param("/robot_description", _URDF))
+        rviz = Node("rviz", loop=loop, master_uri=core.uri)
+        page = GraphPage(report=report, port=0)
+        shown = loop.spawn(page.show(rviz, config=str(config)))
+        deadline = time.monotonic() + _PATIENCE_S
+        while page.url is None:
+            assert not shown.done(), shown.exception()
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        yield Scenery(loop, robot, page, shown, report)
+        page.close()
+        loop.run(rviz.shutdown())
+        loop.run(robot.shutdown())
+        loop.run(core.stop())
+
+
+@pytest.fixture
+def browser_page(chromium: Any, scenery: Scenery) -> Iterator[Any]:
+    page = chromium.new_page(viewport={"width": 900, "height": 900})
+    page.set_default_timeout(_PATIENCE_S * 1000)
+    page.goto(scenery.page.url)
+    page.add_style_tag(content=".mantine-Notification-root { display: none }")
+    yield page
+    page.close()
+
+
+def _blue_pixels(page: Any) -> int:
+    png = page.screenshot(clip={"x": 0, "y": 0, "width": 560, "height": 900})
+    picture = np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=np.int16)
+    return int(((picture[..., 2] > 100) & (picture[..., 0] < 60) & (picture[..., 1] < 60)).sum())
+
+
+def test_a_robot_appears_once_tf_says_where_it_is(scenery: Scenery, browser_page: Any) -> None:
+    browser_page.wait_for_selector("text=bluecar")
+    browser_page.wait_for_selector("text=Fixed Frame [odom] does not exist")
+    assert _blue_pixels(browser_page) == 0
+    broadcaster = TransformBroadcaster(scenery.robot)
+
+    deadline = time.monotonic() + _PATIENCE_S
+    while _blue_pixels(browser_page) < 5000:
+        assert time.monotonic() < deadline, "the robot never appeared"
+        broadcaster.send(Transform(parent="odom", child="base_link", stamp_ns=time.time_ns(), translation=(3.0, 0, 0)))
+        browser_page.wait_for_timeout(100)
+
+    assert browser_page.get_by_text("does not exist").count() == 0
+
+
+def test_the_pad_publishes_cmd_vel_until_it_is_stopped(scenery: Scenery, browser_page: Any) -> None:
+    heard: queue.SimpleQueue[tuple[float, float]] = queue.SimpleQueue()
+
+    def hear(message: Message) -> None:
+        heard.put((message.linear.x, message.angular.z))
+
+    scenery.robot.subscribe("/cmd_vel", "geometry_msgs/Twist", hear)
+    browser_page.get_by_role("button", name="Forward", exact=True).click()
+    assert {heard.get(timeout=_PATIENCE_S) for _ in range(3)} == {(0.5, 0.0)}
+
+    browser_page.get_by_role("button", name="Stop", exact=True).click()
+    while heard.get(timeout=_PATIENCE_S) != (0.0, 0.0):
+        pass
+
+
+def test_an_image_topic_of_the_configuration_is_shown(scenery: Scenery, browser_page: Any) -> None:
+    camera = scenery.robot.advertise("/camera/image_raw", "sensor_msgs/Image", latch=True)
+    data = np.full((24, 32, 3), 200, dtype=np.uint8)
+
+    camera.publish({"height": 24, "width": 32, "encoding": "rgb8", "step": 96, "data": data.ravel()})
+
+    browser_page.get_by_text("/camera/image_raw").wait_for()
+    browser_page.wait_for_selector("img[src^='blob:']")
+
+
+def test_sliders_that_a_node_offers_move_its_joints(scenery: Scenery, browser_page: Any) -> None:
+    moved: queue.SimpleQueue[tuple[str, float]] = queue.SimpleQueue()
+
+    scenery.page.offer_sliders([Slider("head_joint", -1.0, 1.0, 0.0)], lambda name, value: moved.put((name, value)))
+    browser_page.wait_for_selector("text=head_joint")
+    slider = browser_page.get_by_role("slider").last
+    slider.focus()
+    slider.press("Home")
+
+    assert moved.get(timeout=_PATIENCE_S) == ("head_joint", -1.0)
+
+
+def test_show_ends_when_the_page_dies(scenery: Scenery) -> None:
+    viewer = scenery.page._viewer
+    assert viewer is not None
+    viewer._process.kill()
+
+    assert scenery.shown.result(timeout=_PATIENCE_S) == 0
+    assert scenery.page.url is None
