@@ -1,0 +1,315 @@
+"""Nodes among themselves: topics, services, parameters, logs; in one process and over sockets."""
+
+import asyncio
+import queue
+import threading
+from typing import Any
+
+import pytest
+
+from trundle.ros import (
+    MasterProxy,
+    MessageError,
+    ParameterError,
+    RawMessage,
+    ServiceError,
+    SimClock,
+    WallClock,
+    follow_time,
+    probe_service,
+)
+
+STRING = "std_msgs/String"
+
+
+@pytest.fixture(params=["same process", "sockets"])
+def pair(request: pytest.FixtureRequest, graph: Any, far: Any) -> tuple[Any, Any]:
+    """A talking and a listening node."""
+    return graph.node("talker"), (graph if request.param == "same process" else far).node("listener")
+
+
+def test_messages_reach_a_subscriber_in_order(graph: Any, pair: tuple[Any, Any]) -> None:
+    talker, listener = pair
+    got: list[str] = []
+    publisher = talker.advertise("chatter", STRING, queue_size=None)
+    listener.subscribe("chatter", STRING, lambda m: got.append(m.data))
+    graph.until(lambda: publisher.has_subscribers)
+    for i in range(100):
+        publisher.publish({"data": str(i)})
+    graph.until(lambda: len(got) == 100)
+    assert got == [str(i) for i in range(100)]
+
+
+def test_in_one_process_the_very_object_arrives(graph: Any) -> None:
+    talker, listener = graph.node("talker"), graph.node("listener")
+    got: list[Any] = []
+    publisher = talker.advertise("chatter", STRING)
+    listener.subscribe("chatter", STRING, got.append)
+    graph.until(lambda: publisher.has_subscribers)
+    message = talker.new(STRING, {"data": "x"})
+    publisher.publish(message)
+    graph.loop.settle()
+    assert got[0] is message
+    ((_, peer, direction, transport, topic, connected, _),) = talker.connections()[:1]
+    assert (peer, direction, transport, topic, connected) == ("/listener", "o", "INTRAPROCESS", "/chatter", True)
+
+
+def test_a_newcomer_gets_the_latched_message(graph: Any, pair: tuple[Any, Any]) -> None:
+    talker, listener = pair
+    talker.advertise("map", STRING, latch=True).publish({"data": "the map"})
+    graph.ready(talker)
+    got: list[str] = []
+    listener.subscribe("map", STRING, lambda m: got.append(m.data))
+    graph.until(lambda: got == ["the map"])
+
+
+def test_header_sequence_numbers_are_filled_in(graph: Any, pair: tuple[Any, Any]) -> None:
+    talker, listener = pair
+    got: list[int] = []
+    publisher = talker.advertise("joints", "sensor_msgs/JointState")
+    listener.subscribe("joints", "sensor_msgs/JointState", lambda m: got.append(m.header.seq))
+    graph.until(lambda: publisher.has_subscribers)
+    for _ in range(3):
+        publisher.publish({})
+    graph.until(lambda: len(got) == 3)
+    assert got == [1, 2, 3]
+
+
+def test_any_type_is_taken_as_bytes_with_its_definition(graph: Any, pair: tuple[Any, Any]) -> None:
+    talker, listener = pair
+    got: list[RawMessage] = []
+    publisher = talker.advertise("chatter", STRING, latch=True)
+    listener.subscribe("chatter", "*", got.append)
+    publisher.publish({"data": "hi"})
+    graph.until(lambda: got)
+    assert got[0].data == b"\x02\x00\x00\x00hi"
+    assert (got[0].type, got[0].md5sum) == (STRING, "992ce8a1687cec8c8bd883ec73ca41d1")
+    assert got[0].definition == "string data\n"
+
+
+def test_bytes_are_published_as_they_are(graph: Any, pair: tuple[Any, Any]) -> None:
+    talker, listener = pair
+    got: list[str] = []
+    talker.advertise("chatter", STRING, latch=True).publish(b"\x02\x00\x00\x00hi")
+    listener.subscribe("chatter", STRING, lambda m: got.append(m.data))
+    graph.until(lambda: got == ["hi"])
+
+
+def test_another_type_is_refused_and_said(graph: Any, pair: tuple[Any, Any], capfd: Any) -> None:
+    talker, listener = pair
+    publisher = talker.advertise("chatter", STRING)
+    listener.subscribe("chatter", "std_msgs/Int32", lambda m: None)
+    said: list[str] = []
+    graph.until(lambda: said.append(capfd.readouterr().err) or "no messages on /chatter" in "".join(said))
+    assert not publisher.has_subscribers
+
+
+def test_callbacks_may_be_coroutines_and_keep_their_order(graph: Any) -> None:
+    talker, listener = graph.node("talker"), graph.node("listener")
+    got: list[str] = []
+
+    async def slow(message: Any) -> None:
+        await asyncio.sleep(0.002 if message.data == "0" else 0)
+        got.append(message.data)
+
+    publisher = talker.advertise("chatter", STRING)
+    listener.subscribe("chatter", STRING, slow)
+    graph.until(lambda: publisher.has_subscribers)
+    for i in range(5):
+        publisher.publish({"data": str(i)})
+    graph.until(lambda: len(got) == 5)
+    assert got == ["0", "1", "2", "3", "4"]
+
+
+def test_a_failing_callback_is_said_and_the_next_message_comes(graph: Any, capfd: Any) -> None:
+    talker, listener = graph.node("talker"), graph.node("listener")
+    got: list[str] = []
+
+    def callback(message: Any) -> None:
+        got.append(message.data)
+        if message.data == "bad":
+            raise ValueError("cannot take this")
+
+    publisher = talker.advertise("chatter", STRING)
+    listener.subscribe("chatter", STRING, callback)
+    graph.until(lambda: publisher.has_subscribers)
+    publisher.publish({"data": "bad"})
+    publisher.publish({"data": "good"})
+    graph.until(lambda: len(got) == 2)
+    assert "[ERROR]" in (said := capfd.readouterr().err)
+    assert "the callback of /chatter failed: cannot take this" in said
+
+
+def test_another_thread_can_run_the_callbacks_and_the_oldest_messages_go(graph: Any) -> None:
+    inbox: queue.Queue[Any] = queue.Queue()
+    talker, listener = graph.node("talker"), graph.node("listener", deliver=inbox.put)
+    got: list[tuple[str, str]] = []
+    publisher = talker.advertise("chatter", STRING, queue_size=None)
+    subscription = listener.subscribe(
+        "chatter", STRING, lambda m: got.append((m.data, threading.current_thread().name)), queue_size=2
+    )
+    graph.until(lambda: publisher.has_subscribers)
+    for i in range(5):
+        publisher.publish({"data": str(i)})
+    graph.loop.settle()
+    assert inbox.qsize() == 2
+    while not inbox.empty():
+        inbox.get()()
+    assert got == [("3", "MainThread"), ("4", "MainThread")]
+    assert subscription.dropped == 3
+
+
+def test_a_service_is_called_and_its_no_is_heard(graph: Any, pair: tuple[Any, Any]) -> None:
+    provider, client = pair
+
+    async def handler(request: Any) -> dict[str, Any]:
+        if not request.data:
+            raise ServiceError("only true")
+        return {"success": True, "message": "done"}
+
+    provider.advertise_service("~enable", "std_srvs/SetBool", handler)
+    graph.ready(provider)
+    run = client.loop.run
+    assert run(client.call_service("/talker/enable", "std_srvs/SetBool", {"data": True})).message == "done"
+    with pytest.raises(ServiceError, match="only true"):
+        run(client.call_service("/talker/enable", "std_srvs/SetBool"))
+    with pytest.raises(ServiceError, match="refuses: request from .* md5sums do not match"):
+        run(client.call_service("/talker/enable", "std_srvs/Trigger"))
+    with pytest.raises(ServiceError, match="no node provides the service /nothing"):
+        run(client.call_service("/nothing", "std_srvs/Trigger"))
+    uri = MasterProxy(graph.core.uri).call("lookupService", "/talker/enable")
+    assert run(probe_service(uri, "/talker/enable", "/me"))["type"] == "std_srvs/SetBool"
+
+
+def test_a_request_can_be_handled_in_another_thread(graph: Any) -> None:
+    inbox: queue.Queue[Any] = queue.Queue()
+    provider, client = graph.node("talker", deliver=inbox.put), graph.node("listener")
+    provider.advertise_service("/where", "std_srvs/Trigger", lambda _: {"message": threading.current_thread().name})
+    graph.ready(provider)
+    answer = graph.loop.spawn(client.call_service("/where", "std_srvs/Trigger"))
+    inbox.get(timeout=20)()
+    assert answer.result(20).message == "MainThread"
+
+
+def test_parameters_are_read_and_written(graph: Any) -> None:
+    node = graph.node("n", namespace="/ns", params={"rate": 20})
+    graph.ready(node)
+    run = graph.loop.run
+    assert node.name == "/ns/n"
+    assert run(node.get_param("~rate")) == 20
+    assert run(node.get_param("nope", 5)) == 5
+    with pytest.raises(ParameterError, match="/ns/nope is not set"):
+        run(node.get_param("nope"))
+    with pytest.raises(ParameterError, match="32 bits"):
+        run(node.set_param("big", 2**40))
+    run(node.set_param("/robot_description", "<robot/>"))
+    assert run(node.search_param("robot_description")) == "/robot_description"
+    assert run(node.search_param("nope")) is None
+    run(node.delete_param("~rate"))
+    assert not run(node.has_param("~rate"))
+
+
+def test_names_are_remapped(graph: Any) -> None:
+    node = graph.node("n", namespace="ns", remappings={"scan": "/front", "~out": "result"})
+    assert node.advertise("scan", STRING).topic == "/front"
+    assert node.resolve("~out") == "/ns/result"
+
+
+def test_what_a_node_says_is_on_stderr_and_gathered(graph: Any, far: Any, capfd: Any) -> None:
+    node, reader = graph.node("sayer"), far.node("reader")
+    got: list[Any] = []
+    reader.subscribe("/rosout_agg", "rosgraph_msgs/Log", got.append)
+    graph.ready(node)
+
+    def said() -> bool:
+        node.log_warn("careful")
+        return any(m.name == "/sayer" for m in got)
+
+    graph.until(said)
+    log = next(m for m in got if m.name == "/sayer")
+    assert (log.level, log.msg, log.file, log.topics) == (4, "careful", "test_node.py", ["/rosout"])
+    assert "[WARN] [" in capfd.readouterr().err
+    graph.loop.run(node.call_service("~set_logger_level", "roscpp/SetLoggerLevel", {"level": "error"}))
+    node.log_warn("unheard")
+    assert "unheard" not in capfd.readouterr().err
+    loggers = graph.loop.run(node.call_service("~get_loggers", "roscpp/GetLoggers")).loggers
+    assert [(logger.name, logger.level) for logger in loggers] == [("rosout", "error")]
+
+
+def test_unregistering_is_told_to_the_master(graph: Any) -> None:
+    node, other = graph.node("n"), graph.node("other")
+    publisher = node.advertise("a", STRING)
+    subscription = other.subscribe("a", STRING, lambda m: None)
+    service = node.advertise_service("s", "std_srvs/Empty", lambda _: {})
+    graph.until(lambda: publisher.has_subscribers)
+    for thing in (publisher, subscription, service):
+        thing.unregister()
+    graph.ready(node, other)
+    state = MasterProxy(graph.core.uri).call("getSystemState")
+    assert not [name for table in state for name, _ in table if name in ("/a", "/s")]
+
+
+def test_shutting_down_leaves_nothing_at_the_master(graph: Any) -> None:
+    node = graph.node("n")
+    node.advertise("a", STRING)
+    node.subscribe("b", STRING, lambda m: None)
+    graph.ready(node)
+    graph.loop.run(node.shutdown())
+    state = MasterProxy(graph.core.uri).call("getSystemState")
+    assert not [name for table in state for name, nodes in table if "/n" in nodes]
+    assert node.is_shut_down
+
+
+def test_a_second_node_of_a_name_ends_the_first(graph: Any, far: Any) -> None:
+    first = graph.node("twin")
+    first.advertise("a", STRING)
+    graph.ready(first)
+    reasons: list[str] = []
+    first.on_shutdown(reasons.append)
+    far.ready(far.node("twin"))
+    graph.until(lambda: first.is_shut_down)
+    assert reasons == ["[/twin] Reason: new node registered with same name"]
+
+
+def test_a_topic_has_one_type_in_a_node(graph: Any) -> None:
+    node = graph.node("n")
+    publisher = node.advertise("a", STRING)
+    assert node.advertise("a", STRING) is publisher
+    with pytest.raises(MessageError, match="publishes /a as std_msgs/String"):
+        node.advertise("a", "std_msgs/Int32")
+    with pytest.raises(MessageError, match="no message type"):
+        node.subscribe("b", "std_msgs/Nope", lambda m: None)
+
+
+def test_publishing_without_subscribers_does_nothing(graph: Any) -> None:
+    publisher = graph.node("n").advertise("a", STRING)
+    publisher.publish({"nonsense": 1})
+    assert publisher.published == 0
+
+
+def test_ros_time_is_the_walls_unless_the_graph_says_otherwise(graph: Any, far: Any) -> None:
+    node = far.node("n")
+    assert isinstance(far.loop.run(follow_time(node)), WallClock)
+    far.loop.run(node.set_param("/use_sim_time", True))
+    clock = far.loop.run(follow_time(node))
+    assert isinstance(clock, SimClock)
+    assert clock.now_ns() == 0
+    ticker = graph.node("sim").advertise("/clock", "rosgraph_msgs/Clock", latch=True)
+    ticker.publish({"clock": {"secs": 3, "nsecs": 7}})
+    graph.until(lambda: clock.now_ns() == 3_000_000_007)
+    assert node.stamp().nanosec == 7
+
+
+def test_a_node_waits_for_a_master_that_comes_later(graph: Any, capfd: Any) -> None:
+    from trundle.ros import Core, Node
+
+    port = graph.core.port
+    graph.loop.run(graph.core.stop())
+    node = Node("early", loop=graph.loop, master_uri=f"http://127.0.0.1:{port}")
+    node.advertise("a", STRING)
+    said: list[str] = []
+    graph.until(lambda: said.append(capfd.readouterr().err) or "goes on trying" in "".join(said))
+    graph.core = Core(graph.loop, port=port)
+    graph.loop.run(graph.core.start())
+    graph.ready(node)
+    assert MasterProxy(graph.core.uri).call("lookupNode", "/early") == node.uri

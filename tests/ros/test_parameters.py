@@ -1,0 +1,64 @@
+"""The parameter tree, with rosmaster's answers."""
+
+import pytest
+
+from trundle.ros import ParameterTree, set_leaves
+from trundle.ros.parameters import updates
+
+
+def _tree(**values: object) -> ParameterTree:
+    tree = ParameterTree()
+    for name, value in values.items():
+        tree.set(f"/{name}", value)
+    return tree
+
+
+def test_a_namespace_is_a_dictionary() -> None:
+    tree = _tree()
+    tree.set("/a/b/c", 1)
+    assert tree.get("/a") == {"b": {"c": 1}}
+    assert tree.get("/") == {"a": {"b": {"c": 1}}}
+    assert tree.names() == ["/a/b/c"]
+
+
+def test_setting_a_dictionary_replaces_the_namespace() -> None:
+    tree = _tree(a={"x": 1, "y": 2})
+    tree.set("/a", {"x": 3})
+    assert tree.get("/a") == {"x": 3}
+
+
+def test_setting_leaves_keeps_the_rest_of_a_namespace() -> None:
+    tree = _tree(a={"x": 1, "y": 2})
+    set_leaves("/a", {"x": 3, "z": {"q": 4}}, tree.set)
+    assert tree.get("/a") == {"x": 3, "y": 2, "z": {"q": 4}}
+
+
+def test_a_value_in_the_way_becomes_a_namespace() -> None:
+    tree = _tree(a=1)
+    tree.set("/a/b", 2)
+    assert tree.get("/a") == {"b": 2}
+
+
+@pytest.mark.parametrize("name", ["/nope", "/a/x/deeper", "/"])
+def test_deleting_what_is_not_there_is_a_key_error(name: str) -> None:
+    with pytest.raises(KeyError):
+        _tree(a={"x": 1}).delete(name)
+
+
+def test_the_root_takes_only_a_dictionary() -> None:
+    with pytest.raises(TypeError, match="root"):
+        _tree().set("/", 3)
+
+
+def test_a_search_goes_upwards_and_the_first_part_decides() -> None:
+    tree = _tree(robot_description={"arm": 1})
+    tree.set("/pr2/robot_description/base", 1)
+    assert tree.search("/pr2/foo", "robot_description") == "/pr2/robot_description"
+    assert tree.search("/pr2/foo", "robot_description/arm") == "/pr2/robot_description/arm"
+    assert tree.search("/other/foo", "robot_description/arm") == "/robot_description/arm"
+    assert tree.search("/pr2/foo", "nope") is None
+
+
+def test_followers_above_below_and_beside_learn_their_part() -> None:
+    told = updates(["/a/", "/a/b/", "/a/c/", "/x/"], "/a", {"b": 1})
+    assert told == [("/a/", "/a/", {"b": 1}), ("/a/b/", "/a/b/", 1), ("/a/c/", "/a/c/", {})]
