@@ -2,5 +2,6 @@
 
 from .compile import CompiledWorld, compile_world
 from .engine import Engine, EngineState, SimulationUnstableError
+from .raycaster import RayRenderer
 
-__all__ = ["CompiledWorld", "Engine", "EngineState", "SimulationUnstableError", "compile_world"]
+__all__ = ["CompiledWorld", "Engine", "EngineState", "RayRenderer", "SimulationUnstableError", "compile_world"]

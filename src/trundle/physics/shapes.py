@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import mujoco
 
 from trundle.diagnostics import Diagnostics
-from trundle.meshes import load_mesh
+from trundle.meshes import MeshError, load_mesh
 from trundle.model import Box, Capsule, Collision, Cylinder, Ellipsoid, Geometry, MeshFile, Plane, Sphere, Surface
 from trundle.spatial import IDENTITY_QUATERNION, Pose, Quaternion, Vector3
 
@@ -47,12 +47,15 @@ def add_shape(
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_ELLIPSOID, list(radii)
         case Plane(normal, _):
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_PLANE, [0, 0, 1]
-            geom.quat = (pose @ Pose(quaternion=_z_to(normal))).quaternion
+            geom.quat = (pose @ Pose(quaternion=upright(normal))).quaternion
         case MeshFile():
-            mesh = load_mesh(geometry, report=report, at=collision.at)
-            if mesh is None:
+            try:
+                mesh = load_mesh(geometry.path, submesh=geometry.submesh, center=geometry.center_submesh)
+            except MeshError as error:
+                report.warn(collision.at, f"{error}; the collision is left out")
                 spec.delete(geom)
                 return None
+            mesh = mesh.scaled(geometry.scale)
             spec.add_mesh(
                 name=name,
                 uservert=mesh.vertices.reshape(-1).astype(float),
@@ -92,7 +95,7 @@ def _mended(collision: Collision, report: Diagnostics) -> Geometry:
             return other
 
 
-def _z_to(normal: Vector3) -> Quaternion:
+def upright(normal: Vector3) -> Quaternion:
     """The shortest rotation that takes +z to a unit vector."""
     x, y, z = normal
     if z < -1 + 1e-12:

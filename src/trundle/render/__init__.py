@@ -1,5 +1,7 @@
-"""What there is to see, as plain data, and the pictures and ranges made from it."""
+"""What there is to see, as plain data, and what a renderer makes of it."""
 
+from .from_world import scene_of
+from .renderer import Intrinsics, Picture, Renderer
 from .scene import Scene, SceneLight, Shape, ShapeGeometry
 
-__all__ = ["Scene", "SceneLight", "Shape", "ShapeGeometry"]
+__all__ = ["Intrinsics", "Picture", "Renderer", "Scene", "SceneLight", "Shape", "ShapeGeometry", "scene_of"]

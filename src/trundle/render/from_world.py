@@ -1,0 +1,61 @@
+"""A world's visuals, or its collision shapes, as a scene."""
+
+from collections.abc import Iterator
+
+from trundle.diagnostics import Diagnostics, Source
+from trundle.meshes import MeshError, load_mesh
+from trundle.model import Collision, Geometry, MeshFile, Rgba, Visual, World
+
+from .scene import Scene, SceneLight, Shape, ShapeGeometry
+
+_COLLISION: Rgba = (1.0, 0.55, 0.1, 0.45)
+_BARELY_THERE = 0.02
+"""Opacity below which a visual is not drawn at all."""
+
+
+def scene_of(world: World, report: Diagnostics, *, collisions: bool = False) -> Scene:
+    """Make a scene whose bodies are the links of all models, in file order: that of `Snapshot.poses`."""
+    shapes: list[Shape] = []
+    bodies: list[str] = []
+    for model in world.models:
+        for link in model.links:
+            items = link.collisions if collisions else link.visuals
+            shapes += _shapes(items, len(bodies), report)
+            bodies.append(f"{model.name}::{link.name}")
+    lights = tuple(
+        SceneLight(direction=light.world_from_light.direction(light.direction), diffuse=light.diffuse)
+        for light in world.lights
+        if light.type == "directional"
+    )
+    for light in world.lights:
+        if light.type != "directional" and not collisions:
+            report.warn(
+                light.at, f"light {light.name!r}: {light.type} lights are not drawn yet; only directional ones are"
+            )
+    return Scene(bodies=tuple(bodies), shapes=tuple(shapes), lights=lights, background=world.background)
+
+
+def _shapes(items: tuple[Visual, ...] | tuple[Collision, ...], body: int, report: Diagnostics) -> Iterator[Shape]:
+    for item in items:
+        geometry = _geometry(item.geometry, item.at, report)
+        if geometry is None:
+            continue
+        if isinstance(item, Collision):
+            pose, rgba = item.link_from_collision, _COLLISION
+        else:
+            pose = item.link_from_visual
+            r, g, b, a = item.material.diffuse
+            rgba = (r, g, b, a * (1.0 - item.transparency))
+        if rgba[3] > _BARELY_THERE:
+            yield Shape(name=item.name, body=body, geometry=geometry, body_from_shape=pose, rgba=rgba)
+
+
+def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeometry | None:
+    if not isinstance(geometry, MeshFile):
+        return geometry
+    try:
+        mesh = load_mesh(geometry.path, submesh=geometry.submesh, center=geometry.center_submesh)
+    except MeshError as error:
+        report.warn(at, f"{error}; the shape is left out")
+        return None
+    return mesh.scaled(geometry.scale)

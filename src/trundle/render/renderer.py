@@ -1,0 +1,48 @@
+"""What a renderer does: poses in, pictures out. Implementations live where their engines do."""
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.spatial import Pose
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Intrinsics:
+    """A pinhole without distortion."""
+
+    width_px: int
+    height_px: int
+    horizontal_fov_rad: float
+    near_m: float = 0.1
+    far_m: float = 100.0
+
+    @property
+    def focal_px(self) -> float:
+        """Focal length [px], the same along both axes, as gazebo_ros computes it."""
+        return self.width_px / (2.0 * math.tan(self.horizontal_fov_rad / 2.0))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Picture:
+    """What a camera saw."""
+
+    rgb: NDArray[np.uint8]
+    """(height, width, 3)"""
+    depth: NDArray[np.float32] | None = None
+    """(height, width) distance along the view axis [m]; infinite where nothing is."""
+
+
+class Renderer(Protocol):
+    """Draws one scene from anywhere."""
+
+    def update(self, poses: NDArray[np.float64]) -> None:
+        """Move the scene's bodies: (bodies, 7) x y z qw qx qy qz in the world."""
+        ...
+
+    def render(self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False) -> Picture:
+        """Draw; the camera looks along its +x, with y to the left and z up, as in SDF."""
+        ...

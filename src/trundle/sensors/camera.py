@@ -1,0 +1,93 @@
+"""Camera sensors: a snapshot becomes a picture."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import Link, Model, Sensor
+from trundle.render import Intrinsics, Renderer
+from trundle.simulation import Snapshot
+from trundle.spatial import Pose
+
+NS = 1_000_000_000
+FASTEST_HZ = 30.0
+"""Of a camera whose update_rate is 0. Gazebo then draws at every step, which nobody means."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class CameraReading:
+    """What a camera saw, and when."""
+
+    time_ns: int
+    """The instant the world looked so."""
+    rgb: NDArray[np.uint8]
+    """(height, width, 3)"""
+
+
+@dataclass(slots=True)
+class _Listener:
+    call: Callable[[CameraReading], None]
+    wanted: Callable[[], bool]
+
+
+class CameraSensor:
+    """A hook that takes a picture when it is due and somebody wants it."""
+
+    def __init__(self, model: Model, link: Link, sensor: Sensor, *, link_index: int, renderer: Renderer) -> None:
+        """Mount a camera.
+
+        Args:
+            model: whose it is.
+            link: that carries it.
+            sensor: with its camera.
+            link_index: of the link in `Snapshot.poses`.
+            renderer: draws the world; shared by all cameras.
+        """
+        optics = sensor.camera
+        assert optics is not None, f"{sensor.name!r} is no camera"
+        self.model = model
+        self.link = link
+        self.sensor = sensor
+        self.link_index = link_index
+        self.link_from_camera: Pose = sensor.link_from_sensor @ optics.sensor_from_camera
+        self.intrinsics = Intrinsics(
+            width_px=optics.width_px,
+            height_px=optics.height_px,
+            horizontal_fov_rad=optics.horizontal_fov_rad,
+            near_m=optics.near_m,
+            far_m=optics.far_m,
+        )
+        self.period_ns = round(NS / (sensor.update_rate_hz or FASTEST_HZ))
+        self.images = 0
+        """Pictures finished."""
+        self._renderer = renderer
+        self._listeners: list[_Listener] = []
+
+    @property
+    def name(self) -> str:
+        """As in the file."""
+        return self.sensor.name
+
+    def listen(self, call: Callable[[CameraReading], None], *, wanted: Callable[[], bool] = lambda: True) -> None:
+        """Have a function called with each picture; while nobody wants one, none is taken."""
+        self._listeners.append(_Listener(call, wanted))
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Take a picture, if the sensor is always on or anybody wants it."""
+        listeners = [listener for listener in self._listeners if listener.wanted()]
+        if not listeners and not self.sensor.always_on:
+            return
+        reading = self.take(snapshot)
+        for listener in listeners:
+            listener.call(reading)
+
+    def take(self, snapshot: Snapshot) -> CameraReading:
+        """Take a picture of this instant."""
+        x, y, z, qw, qx, qy, qz = snapshot.poses[self.link_index].tolist()
+        world_from_camera = Pose((x, y, z), (qw, qx, qy, qz)) @ self.link_from_camera
+        self._renderer.update(snapshot.poses)
+        picture = self._renderer.render(world_from_camera, self.intrinsics)
+        self.images += 1
+        return CameraReading(time_ns=snapshot.time_ns, rgb=picture.rgb)

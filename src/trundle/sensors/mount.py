@@ -1,0 +1,35 @@
+"""Mounts the sensors of a world."""
+
+from collections.abc import Callable
+
+from trundle.diagnostics import Diagnostics
+from trundle.model import World
+from trundle.render import Renderer
+
+from .camera import CameraSensor
+
+SIMULATED = frozenset({"camera"})
+"""SDF's sensor types that measure."""
+
+
+def mount_cameras(world: World, renderer: Callable[[], Renderer], report: Diagnostics) -> list[CameraSensor]:
+    """Every camera of a world, in file order; sensors of other types are named.
+
+    Args:
+        world: with its sensors.
+        renderer: makes the one renderer all cameras share; called only if there is a camera.
+        report: takes what is not simulated.
+    """
+    cameras: list[CameraSensor] = []
+    shared: Renderer | None = None
+    index = 0
+    for model in world.models:
+        for link in model.links:
+            for sensor in link.sensors:
+                if sensor.type not in SIMULATED or sensor.camera is None:
+                    report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")
+                    continue
+                shared = shared or renderer()
+                cameras.append(CameraSensor(model, link, sensor, link_index=index, renderer=shared))
+            index += 1
+    return cameras
