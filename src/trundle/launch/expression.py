@@ -7,6 +7,7 @@ nothing can be imported, and no value can grow without bound, so a file from the
 import ast
 import math
 import operator
+import warnings
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -97,7 +98,9 @@ def evaluate(text: str, names: Mapping[str, Any]) -> Any:
     if "__" in text:
         raise ExpressionError("may not contain double underscores")
     try:
-        tree = ast.parse(text.strip(), mode="eval")
+        with warnings.catch_warnings():  # "1or 2" is legal, and Python says what it thinks of it
+            warnings.simplefilter("ignore", SyntaxWarning)
+            tree = ast.parse(text.strip(), mode="eval")
         return _Evaluation(names).visit(tree.body)
     except SyntaxError as error:
         raise ExpressionError(f"not a Python expression: {error.msg}") from None

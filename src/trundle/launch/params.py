@@ -1,6 +1,5 @@
 """Reads <param> and <rosparam>."""
 
-from pathlib import Path
 from typing import Literal
 
 from trundle.diagnostics import DescriptionError, Diagnostics
@@ -9,6 +8,7 @@ from trundle.xmlnode import XmlNode
 
 from .attributes import Attributes
 from .draft import Draft
+from .files import read_file
 from .plan import ParamCommand, ParamStep, ParamType, ParamValue
 from .scope import Scope
 from .substitution import Substitution
@@ -51,9 +51,9 @@ def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
             case "value":
                 return name, convert_value(text.strip(), kind)
             case "textfile":
-                return name, convert_value(_read(text).decode(), kind)
+                return name, convert_value(read_file(text).decode(), kind)
             case "binfile":
-                return name, _read(text)
+                return name, read_file(text)
             case _:
                 return name, ParamCommand(line=text, type=kind, at=at)
     except UnicodeDecodeError:
@@ -98,7 +98,7 @@ def _step(
 def _load(attributes: Attributes, draft: Draft, name: str, file: str | None, *, needs_mapping: bool) -> None:
     at = attributes.at
     try:
-        text = _read(file).decode() if file else attributes.node.raw_text
+        text = read_file(file).decode() if file else attributes.node.raw_text
         data = load_yaml(attributes.resolve(text) if attributes.flag("subst_value") else text)
     except UnicodeDecodeError:
         raise DescriptionError(at, f"rosparam: {file!r} is not a text file") from None
@@ -118,13 +118,3 @@ def _set(draft: Draft, name: str, value: ParamValue, attributes: Attributes) -> 
         return
     for key, item in value.items():
         _set(draft, join_names(name, key), item, attributes)
-
-
-def _read(file: str) -> bytes:
-    path = Path(file)
-    if not path.is_file():
-        raise ValueError(f"no file {file!r}")
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise ValueError(f"{file!r} cannot be read: {error.strerror}") from None

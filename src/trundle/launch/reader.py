@@ -9,6 +9,7 @@ from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
 from .attributes import Attributes
 from .draft import Draft
+from .files import is_file
 from .nodes import read_node
 from .packages import PackageFinder
 from .params import read_param, read_rosparam
@@ -194,10 +195,9 @@ class _Reader:
             raise DescriptionError(node.at, f"argument {name!r} is passed to {file!r} without a value")
         given = passed.declared
         passed.declared = set()
-        path = Path(file)
-        if not path.is_file():
+        if not is_file(file):
             raise DescriptionError(node.at, f"no launch file {file!r} to include")
-        self._launch(read_xml(path), passed, depth=depth + 1)
+        self._launch(read_xml(Path(file)), passed, depth=depth + 1)
         if unused := sorted(given - passed.declared):
             known = ", ".join(map(repr, sorted(passed.declared))) or "none"
             raise DescriptionError(node.at, f"{file!r} has no argument {unused[0]!r}; its arguments: {known}")

@@ -124,7 +124,7 @@ class Substitution:
         functions = {f.__name__: f for f in (arg, env, optenv, find, anon, dirname)}
         try:
             return str(evaluate(text, _Names(scope.arguments, functions)))
-        except ExpressionError as error:
+        except (ExpressionError, ValueError) as error:  # ValueError: a number of thousands of digits has no text
             raise DescriptionError(at, f"$(eval {text}): {error}") from None
 
 
