@@ -14,6 +14,7 @@ import pytest
 from PIL import Image
 
 from trundle.diagnostics import Diagnostics
+from trundle.packages import Packages
 from trundle.ros import Core, GraphLoop, Message, Node, Transform, TransformBroadcaster
 from trundle.viewer import GraphPage
 
@@ -69,7 +70,7 @@ def scenery(tmp_path: Path) -> Iterator[Scenery]:
         robot = Node("robot", loop=loop, master_uri=core.uri)
         loop.run(robot.set_param("/robot_description", _URDF))
         rviz = Node("rviz", loop=loop, master_uri=core.uri)
-        page = GraphPage(report=report, port=0)
+        page = GraphPage(packages=Packages({}, start=tmp_path), report=report, port=0)
         shown = loop.spawn(page.show(rviz, config=str(config)))
         deadline = time.monotonic() + _PATIENCE_S
         while page.url is None:

@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Protocol
 
 from trundle.diagnostics import Diagnostics, TrundleError
+from trundle.packages import Packages
 from trundle.render import Scene
 from trundle.robot import read_robot
-from trundle.ros import Message, Node, Publisher, TransformListener
+from trundle.ros import MasterUnreachableError, Message, Node, Publisher, TransformListener
 from trundle.xmlnode import parse_xml
 
 from .content import JointSlider, ViewerScene
@@ -47,7 +48,10 @@ class OfferedSlider(Protocol):
 class GraphPage:
     """One page for a launch or for `trundle view`, however many rviz nodes ask for it."""
 
-    def __init__(self, *, report: Diagnostics, host: str = "127.0.0.1", port: int | None = None) -> None:
+    def __init__(
+        self, *, packages: Packages, report: Diagnostics, host: str = "127.0.0.1", port: int | None = None
+    ) -> None:
+        self._packages = packages
         self._report = report
         self._host = host
         self._port = port
@@ -115,7 +119,7 @@ class GraphPage:
     async def _feed(self, viewer: Viewer, shown: "_Shown") -> None:
         shown.listen(viewer)
         while viewer.alive:
-            await shown.look_for_robot(self._report)
+            await shown.look_for_robot(self._packages, self._report)
             if shown.look_at_frames() or self._stale:
                 viewer.replace(self._layout(shown))
             viewer.show(graph_state(shown.tree, shown.buffer, shown.robot, time_ns=shown.node.clock.now_ns()))
@@ -171,25 +175,29 @@ class _Shown:
             before = replace(before, fixed_frame=self.tree.fixed_frame)
         return self.tree != before or self._changed()
 
-    async def look_for_robot(self, report: Diagnostics) -> None:
+    async def look_for_robot(self, packages: Packages, report: Diagnostics) -> None:
         """Read the robot's description, once there is one."""
         now = time.monotonic()
         if self._found or now < self._look_due:
             return
         self._look_due = now + _LOOK_AGAIN_S
         source = next((d.source for d in self.config.enabled("RobotModel") if d.source), "robot_description")
-        name = await self.node.search_param(source) or source
-        text = await self.node.get_param(name, None)
+        try:
+            name = await self.node.search_param(source) or source
+            text = await self.node.get_param(name, None)
+        except MasterUnreachableError:
+            return  # it may come back; what is known is shown meanwhile
         if not isinstance(text, str):
             return
         self._found = True
         try:
             robot = read_robot(parse_xml(text, name=self.node.resolve(name)), report)
+            # Meshes take their time; topics go on meanwhile.
+            self.robot = await asyncio.to_thread(robot_scene, robot, packages, report)
+            self.collisions = await asyncio.to_thread(robot_scene, robot, packages, report, collisions=True)
         except TrundleError as error:
             self.node.log_error(f"URDF failed Model parse: {error}")  # rviz's own words
             return
-        self.robot = robot_scene(robot, report)
-        self.collisions = robot_scene(robot, report, collisions=True)
         self.title = robot.name
         self._robot_is_new = True
 

@@ -1,7 +1,13 @@
 """A URDF as rviz's RobotModel draws it: every link as written, nothing lumped."""
 
-from trundle.diagnostics import Diagnostics
+from pathlib import Path
+
+import numpy as np
+
+from trundle.diagnostics import Diagnostics, TrundleError
+from trundle.meshes import Mesh, load_mesh
 from trundle.model import Box, Cylinder, Rgba, Sphere
+from trundle.packages import Packages
 from trundle.render import Scene, Shape, ShapeGeometry
 from trundle.robot import Robot, RobotBox, RobotCylinder, RobotMesh, RobotShape, RobotSphere
 
@@ -9,13 +15,16 @@ _UNPAINTED: Rgba = (1.0, 0.0, 0.0, 1.0)
 """rviz draws what has no material in red; the first robot of urdf_tutorial is known for it."""
 
 
-def robot_scene(robot: Robot, report: Diagnostics, *, collisions: bool = False) -> Scene:
-    """Turn a robot's visuals, or its collision shapes, into a scene whose bodies are the links, root first."""
+def robot_scene(robot: Robot, packages: Packages, report: Diagnostics, *, collisions: bool = False) -> Scene:
+    """Turn a robot's visuals, or its collision shapes, into a scene whose bodies are the links, root first.
+
+    A mesh that cannot be found or read is named and left out.
+    """
     links = sorted(robot.links, key=lambda link: link.name != robot.root)  # stable: the others stay in file order
     shapes: list[Shape] = []
     for body, link in enumerate(links):
         for shape in link.collisions if collisions else link.visuals:
-            geometry = _geometry(shape, report)
+            geometry = _geometry(shape, packages, report)
             if geometry is not None:
                 shapes.append(
                     Shape(
@@ -23,13 +32,13 @@ def robot_scene(robot: Robot, report: Diagnostics, *, collisions: bool = False) 
                         body=body,
                         geometry=geometry,
                         body_from_shape=shape.link_from_shape,
-                        rgba=shape.rgba or _UNPAINTED,
+                        rgba=shape.rgba or (geometry.rgba if isinstance(geometry, Mesh) else None) or _UNPAINTED,
                     )
                 )
     return Scene(bodies=tuple(link.name for link in links), shapes=tuple(shapes))
 
 
-def _geometry(shape: RobotShape, report: Diagnostics) -> ShapeGeometry | None:
+def _geometry(shape: RobotShape, packages: Packages, report: Diagnostics) -> ShapeGeometry | None:
     match shape.geometry:
         case RobotBox(size):
             return Box(size)
@@ -37,6 +46,12 @@ def _geometry(shape: RobotShape, report: Diagnostics) -> ShapeGeometry | None:
             return Cylinder(radius, length)
         case RobotSphere(radius):
             return Sphere(radius)
-        case RobotMesh(uri):
-            report.warn(shape.at, f"{uri}: the page of a graph does not draw meshes yet; this shape is left out")
-            return None
+        case RobotMesh(uri, scale):
+            try:
+                mesh = load_mesh(packages.resolve(uri, beside=Path(shape.at.file).parent, at=shape.at))
+            except TrundleError as error:
+                report.warn(shape.at, f"{error}; this shape is not drawn")
+                return None
+            if scale == (1.0, 1.0, 1.0):
+                return mesh
+            return Mesh(vertices=mesh.vertices * np.array(scale, dtype=np.float32), faces=mesh.faces, rgba=mesh.rgba)
