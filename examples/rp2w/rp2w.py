@@ -83,7 +83,7 @@ class Rp2w(Plugin):
         self.odom = node.advertise("/odom", "nav_msgs/Odometry", queue_size=5)
         self.tf = TransformBroadcaster(node)
         StaticTransformBroadcaster(node).send(
-            Transform("world", "odom", sim.time_ns, rotation=(math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)))
+            Transform(parent="world", child="odom", rotation=(math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)))
         )
         sim.add_hook(JointStates(node, model), period_ns=JointStates.period_ns)
         node.subscribe("/cmd_vel", "geometry_msgs/Twist", self.drive)
@@ -94,7 +94,7 @@ class Rp2w(Plugin):
     def drive(self, twist) -> None:
         self.forward, self.turning = twist.linear.x, twist.angular.z
 
-    def before_step(self, sim: Simulation) -> None:
+    def before_step(self, _sim: Simulation) -> None:
         for wheel, speed in (
             (self.left, self.forward - self.turning * self.separation / 2),
             (self.right, self.forward + self.turning * self.separation / 2),
@@ -113,7 +113,15 @@ class Rp2w(Plugin):
     def publish(self, time_ns: int) -> None:
         o = self.odometry
         qw, qz = math.cos(o.yaw / 2), math.sin(o.yaw / 2)
-        self.tf.send(Transform("odom", self.frame, time_ns, (o.x, o.y, 0.0), (qw, 0.0, 0.0, qz)))
+        self.tf.send(
+            Transform(
+                parent="odom",
+                child=self.frame,
+                stamp_ns=time_ns,
+                translation=(o.x, o.y, 0.0),
+                rotation=(qw, 0.0, 0.0, qz),
+            )
+        )
         self.odom.publish(
             self.node.new(
                 "nav_msgs/Odometry",

@@ -1,5 +1,6 @@
 """Where the wings meet: snapshots and readings become messages on topics, /clock and tf."""
 
+from .camera import CameraTopics
 from .clock import ClockTopic
 from .frames import SimulationFrames
 from .joint_states import JointStates
@@ -7,6 +8,7 @@ from .naming import WORLD_FRAME, has_plain_frames, link_frame_name, link_frames
 
 __all__ = [
     "WORLD_FRAME",
+    "CameraTopics",
     "ClockTopic",
     "JointStates",
     "SimulationFrames",

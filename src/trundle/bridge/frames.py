@@ -51,7 +51,13 @@ def _parents(frames: list[LinkFrame]) -> NDArray[np.intp]:
 
 def _transforms(frames: list[LinkFrame], poses: NDArray[np.float64], stamp_ns: int) -> list[Transform]:
     return [
-        Transform(frame.parent, frame.frame, stamp_ns, (x, y, z), (qw, qx, qy, qz))
+        Transform(
+            parent=frame.parent,
+            child=frame.frame,
+            stamp_ns=stamp_ns,
+            translation=(x, y, z),
+            rotation=(qw, qx, qy, qz),
+        )
         for frame, (x, y, z, qw, qx, qy, qz) in zip(frames, poses.tolist(), strict=True)
     ]
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from trundle.model import JointType, Model
+from trundle.model import JointType
 from trundle.names import ros_name
 from trundle.ros import Node
-from trundle.simulation import Snapshot
+from trundle.simulation import ModelHandle, Snapshot
 
 _MOVABLE = frozenset({JointType.REVOLUTE, JointType.PRISMATIC, JointType.SCREW})
 
@@ -16,18 +16,11 @@ class JointStates:
     period_ns = 20_000_000
     """50 Hz"""
 
-    def __init__(self, node: Node, model: Model, *, first_joint: int, topic: str = "joint_states") -> None:
-        """Advertise.
-
-        Args:
-            node: publishes.
-            model: whose joints.
-            first_joint: where the model's joints start in `Snapshot.joint_positions`.
-            topic: relative to the node's namespace.
-        """
-        movable = [(i, j) for i, j in enumerate(model.joints) if j.type in _MOVABLE]
-        self._names = [ros_name(joint.name) for _, joint in movable]
-        self._joints = np.array([first_joint + i for i, _ in movable], dtype=np.intp)
+    def __init__(self, node: Node, model: ModelHandle, *, topic: str = "/joint_states") -> None:
+        """Advertise the joints of one model."""
+        movable = [handle for handle in model.joints if handle.joint.type in _MOVABLE]
+        self._names = [ros_name(handle.name) for handle in movable]
+        self._joints = np.array([handle.index for handle in movable], dtype=np.intp)
         self._node = node
         self._publisher = node.advertise(topic, "sensor_msgs/JointState", queue_size=5)
 

@@ -86,7 +86,7 @@ def _answers(uri: str) -> bool:
 
 def _start_core(loop: GraphLoop, port: int, host: str, *, or_any: bool) -> Core:
     for candidate in (port, 0) if or_any else (port,):
-        core = Core(port=candidate, host=host)
+        core = Core(loop, port=candidate, host=host)
         try:
             loop.run(core.start())
         except PortTakenError:

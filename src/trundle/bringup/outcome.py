@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypedDict
+from typing import NotRequired, TypedDict
 
 from trundle.diagnostics import DiagnosticJson, Diagnostics
 from trundle.model import World
@@ -23,14 +23,14 @@ class _JointJson(TypedDict):
     effort: float
 
 
-class ModelJson(TypedDict, total=False):
+class ModelJson(TypedDict):
     """One model's state as `run --json` prints it."""
 
     name: str
     pose: list[float]
     links: list[_LinkJson]
     joints: list[_JointJson]
-    added: bool
+    added: NotRequired[bool]
 
 
 class OutcomeJson(TypedDict):
@@ -119,7 +119,9 @@ class Outcome:
         """A few lines for a person: time, speed, images, and where each robot stands."""
         factor = self.real_time_factor
         speed = "" if factor is None else f", {factor:.3g} times real time"
-        lines = [f"{self.time_s:.3f} s simulated in {self.wall_s:.2f} s{speed}; {self.steps} steps, {self.images} images"]
+        lines = [
+            f"{self.time_s:.3f} s simulated in {self.wall_s:.2f} s{speed}; {self.steps} steps, {self.images} images"
+        ]
         for model in self._models():
             if "added" not in model:
                 x, y, z, roll, pitch, yaw = model["pose"]

@@ -19,9 +19,14 @@ class TransformBroadcaster:
         self._node = node
         self._publisher = node.advertise("/tf", _TYPE, queue_size=_QUEUE)
 
+    @property
+    def has_subscribers(self) -> bool:
+        """Whether anybody listens: if not, there is no need to make transforms."""
+        return self._publisher.has_subscribers
+
     def send(self, *transforms: Transform) -> None:
         """Send transforms in one message, from any thread."""
-        if self._publisher.has_subscribers:
+        if self.has_subscribers:
             self._publisher.publish(transform_message(self._node, transforms))
 
 

@@ -1,0 +1,100 @@
+"""The ROS side of a simulation: its node, clock, frames, images and parameters on the graph."""
+
+from collections.abc import Mapping, Sequence
+from types import TracebackType
+from typing import Self
+
+from trundle.bridge import CameraTopics, ClockTopic, JointStates, SimulationFrames
+from trundle.ros import Node, SimClock, StaticTransformBroadcaster
+from trundle.sensors import CameraSensor
+from trundle.simulation import Simulation
+
+from .graph import Graph
+from .stage import Stage
+
+NODE_NAME = "/trundle"
+
+
+class RosSide:
+    """Everything of one simulation that other ROS nodes see."""
+
+    def __init__(self, graph: Graph, simulation: Simulation, cameras: Sequence[CameraSensor], stage: Stage) -> None:
+        self._graph = graph
+        self._simulation = simulation
+        self.clock = SimClock(graph.loop)
+        self.node = self.make_node(NODE_NAME)
+        loop = graph.loop
+        loop.run(self.node.ready())
+        loop.run(self.node.set_param("/use_sim_time", True))
+        simulation.add_hook(ClockTopic(self.node, self.clock), period_ns=ClockTopic.period_ns)
+        still = StaticTransformBroadcaster(self.node)
+        frames = SimulationFrames(self.node, still, stage.world, simulation.snapshot())
+        simulation.add_hook(frames, period_ns=SimulationFrames.period_ns)
+        for camera in cameras:
+            CameraTopics(self.node, still, camera, stage.world)
+        if stage.urdf is not None:
+            loop.run(self.node.set_param("/robot_description", stage.urdf))
+            states = JointStates(self.node, simulation.models[0])
+            simulation.add_hook(states, period_ns=JointStates.period_ns)
+        self._cmd_vel = None
+
+    @classmethod
+    def open(
+        cls,
+        simulation: Simulation,
+        stage: Stage,
+        cameras: Sequence[CameraSensor],
+        environment: Mapping[str, str],
+        *,
+        host: str,
+    ) -> Self:
+        """Join or start a graph and put the simulation on it."""
+        graph = Graph.open(environment, host=host, any_port=True)
+        try:
+            return cls(graph, simulation, cameras, stage)
+        except BaseException:
+            graph.close()
+            raise
+
+    @property
+    def story(self) -> str:
+        """One line that says which graph this is."""
+        return self._graph.story
+
+    def make_node(self, name: str) -> Node:
+        """A node on simulation time, whose callbacks run on the simulation's thread between two steps."""
+        simulation = self._simulation
+        return Node(
+            name,
+            loop=self._graph.loop,
+            master_uri=self._graph.master_uri,
+            clock=self.clock,
+            deliver=lambda call: simulation.post(lambda _: call()),
+            host=self._graph.host,
+        )
+
+    def settle(self) -> None:
+        """Wait until every message published so far has reached the nodes of this process.
+
+        Flat-out runs call it after each stride, so that who hears what before which step does not depend on
+        how fast the machine is.
+        """
+        self._graph.loop.settle()
+
+    def drive(self, linear: float, angular: float) -> None:
+        """Publish a velocity command [m/s, rad/s], as the page's drive pad asks."""
+        if self._cmd_vel is None:
+            self._cmd_vel = self.node.advertise("/cmd_vel", "geometry_msgs/Twist")
+        self._cmd_vel.publish({"linear": {"x": linear}, "angular": {"z": angular}})
+
+    def close(self) -> None:
+        """Leave the graph; stop it if it was started here."""
+        self._graph.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()

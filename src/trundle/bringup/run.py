@@ -1,0 +1,112 @@
+"""`trundle run`: one world, simulated, seen and heard until its time is over."""
+
+import os
+import sys
+import time
+from collections.abc import Mapping
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from threading import Event
+
+from trundle.diagnostics import Diagnostics
+from trundle.packages import Packages
+from trundle.physics import RayRenderer
+from trundle.render import scene_of
+from trundle.sensors import mount_cameras
+from trundle.simulation import Simulation
+
+from .outcome import Outcome
+from .pace import NS, Pacer
+from .page import Page
+from .plugins import load_plugins
+from .ros_side import RosSide
+from .showing import Showing
+from .signals import stop_flag
+from .stage import set_stage
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RunOptions:
+    """How to run; the defaults are those of `trundle run`."""
+
+    headless: bool = False
+    host: str = "127.0.0.1"
+    port: int | None = None
+    """Of the page; None: 8080 or the next free one."""
+    duration_s: float | None = None
+    """Simulation time; None: until interrupted."""
+    speed: float | None = 1.0
+    """Times real time; None: flat out."""
+    paused: bool = False
+    seed: int = 0
+    ros: bool = True
+    sensors: bool = True
+    strict: bool = False
+
+
+def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = None) -> Outcome:
+    """Simulate what a file describes.
+
+    Args:
+        file: a path, a folder with model.config, or model://NAME.
+        options: how.
+        environment: None: the process's own.
+
+    Raises:
+        TrundleError: the file, or the request, is at fault.
+    """
+    env = dict(os.environ if environment is None else environment)
+    report = Diagnostics(strict=options.strict)
+    show = Showing(sys.stderr, report)
+    with stop_flag() as stop, ExitStack() as open_things:
+        stage = set_stage(file, Packages(env, start=Path.cwd()), report)
+        simulation = Simulation(stage.world, report, seed=options.seed)
+        cameras = mount_cameras(stage.world, lambda: RayRenderer(scene_of(stage.world, report)), report)
+        if not options.sensors:
+            cameras.clear()
+        for camera in cameras:
+            simulation.add_hook(camera, period_ns=camera.period_ns)
+        show.findings()
+        ros = None
+        if options.ros:
+            ros = open_things.enter_context(RosSide.open(simulation, stage, cameras, env, host=options.host))
+            show.line(ros.story)
+        load_plugins(simulation, ros, env, say=show.line)
+        show.findings()
+        page = None
+        if not options.headless:
+            page = open_things.enter_context(Page.open(simulation, cameras, ros, host=options.host, port=options.port))
+            show.line(f"see it at {page.url}")
+        wall_s = _drive(simulation, ros, page, options, stop)
+        show.findings()
+        return Outcome(
+            world=stage.world,
+            snapshot=simulation.snapshot(),
+            steps=simulation.steps,
+            wall_s=wall_s,
+            images=sum(camera.images for camera in cameras),
+            report=report,
+            interrupted=stop.is_set(),
+        )
+
+
+def _drive(simulation: Simulation, ros: RosSide | None, page: Page | None, options: RunOptions, stop: Event) -> float:
+    """Step until the time is over or somebody asks to stop; return the wall time it took [s]."""
+    end_ns = None if options.duration_s is None else round(options.duration_s * NS)
+    pacer = Pacer(options.speed)
+    paused = options.paused
+    started = time.monotonic()
+    while not stop.is_set() and (end_ns is None or simulation.time_ns < end_ns):
+        if page is not None:
+            paused = page.obey(pacer, paused=paused)
+            page.feed(pacer, paused=paused)
+        if paused:
+            stop.wait(0.02)
+            pacer.restart()
+            continue
+        target_ns = pacer.next_target(simulation.time_ns)
+        simulation.advance(target_ns if end_ns is None else min(target_ns, end_ns))
+        if ros is not None and pacer.speed is None:
+            ros.settle()
+    return time.monotonic() - started

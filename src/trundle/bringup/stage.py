@@ -1,0 +1,41 @@
+"""Puts what a file describes into a world that can be simulated."""
+
+from dataclasses import dataclass, replace
+
+from trundle.description import Loaded, load
+from trundle.diagnostics import Diagnostics
+from trundle.model import World
+from trundle.packages import Packages
+from trundle.robot import Robot
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stage:
+    """A world ready to compile, and the URDF it came from, if it came from one."""
+
+    world: World
+    robot: Robot | None
+    urdf: str | None
+    """The expanded XML, what goes on the parameter /robot_description."""
+
+
+def set_stage(file: str, packages: Packages, report: Diagnostics) -> Stage:
+    """Read a file; a robot alone is put on a ground plane under a sun, a world is taken as it is.
+
+    Raises:
+        DescriptionError: the file cannot be made sense of.
+    """
+    loaded = load(file, report, packages=packages)
+    world = loaded.world if loaded.kind == "world" else _on_the_ground(loaded, packages, report)
+    return Stage(world=world, robot=loaded.robot, urdf=loaded.urdf)
+
+
+def _on_the_ground(loaded: Loaded, packages: Packages, report: Diagnostics) -> World:
+    ground = load("model://ground_plane", report, packages=packages).world.models
+    sun = load("model://sun", report, packages=packages).world.lights
+    world = loaded.world
+    return replace(
+        world,
+        models=(*world.models, *(replace(model, added=True) for model in ground)),
+        lights=(*world.lights, *(replace(light, added=True) for light in sun)),
+    )
