@@ -1,6 +1,7 @@
 """The thread everything between nodes happens in: one asyncio loop, shared by the nodes of this process."""
 
 import asyncio
+import contextlib
 import logging
 import threading
 from collections.abc import Callable, Coroutine
@@ -127,12 +128,15 @@ class GraphLoop:
 
     async def _wind_up(self, timeout_s: float) -> None:
         nodes = [node.shutdown() for node in list(self.nodes.values())]
-        await asyncio.wait_for(asyncio.gather(*nodes, return_exceptions=True), timeout_s)
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(asyncio.gather(*nodes, return_exceptions=True), timeout_s)
         mine = asyncio.current_task()
         others = [task for task in asyncio.all_tasks() if task is not mine]
         for task in others:
             task.cancel()
         await asyncio.gather(*others, return_exceptions=True)
+        for _ in range(_CALM_PASSES):  # transports close their sockets in a pass of their own
+            await asyncio.sleep(0)
 
     def _work(self) -> None:
         asyncio.set_event_loop(self._loop)

@@ -53,6 +53,10 @@ class RpcServer:
             raise RosError(f"cannot listen on {host}:{port}: {error.strerror or error}") from None
         self.port = self._server.sockets[0].getsockname()[1]
 
+    @property
+    def _is_serving(self) -> bool:
+        return self._server is not None and self._server.is_serving()
+
     async def stop(self) -> None:
         """Stop listening and drop every client."""
         if self._server is not None:
@@ -63,7 +67,7 @@ class RpcServer:
     async def _serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         self._clients.add(writer)
         try:
-            while await self._exchange(reader, writer):
+            while self._is_serving and await self._exchange(reader, writer):
                 pass
         except (OSError, asyncio.IncompleteReadError, asyncio.CancelledError, TimeoutError):
             pass  # the peer went away, fell silent, or this server stops

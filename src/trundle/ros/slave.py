@@ -100,6 +100,8 @@ class _Inbound(FrameProtocol):
 
     def connected(self) -> None:
         self._links.add(self)
+        if self._node.is_shut_down:  # accepted in the same moment
+            self.close("the node shuts down")
 
     def header_received(self, header: dict[str, str]) -> None:
         name = header.get("topic", header.get("service"))

@@ -1,0 +1,58 @@
+"""ROS time from a simulation."""
+
+from typing import Any
+
+from trundle.ros import SimClock, WallClock
+
+
+def test_sleepers_wake_when_their_time_has_come(graph: Any) -> None:
+    clock = SimClock(graph.loop)
+    woken: list[int] = []
+
+    async def sleep_until(ns: int) -> None:
+        await clock.sleep_until(ns)
+        woken.append(ns)
+
+    for ns in (30, 10, 20):
+        graph.loop.spawn(sleep_until(ns))
+    graph.loop.settle()
+    clock.set(5)
+    graph.loop.settle()
+    assert woken == []
+    clock.set(20)
+    graph.until(lambda: len(woken) == 2)
+    assert woken == [10, 20]
+    clock.set(1000)
+    graph.until(lambda: len(woken) == 3)
+
+
+def test_a_sleep_before_the_first_tick_starts_there(graph: Any) -> None:
+    clock = SimClock(graph.loop)
+    done = graph.loop.spawn(clock.sleep(1.0))
+    graph.loop.settle()
+    clock.set(50)
+    graph.loop.settle()
+    clock.set(1_000_000_049)
+    graph.loop.settle()
+    assert not done.done()
+    clock.set(1_000_000_050)
+    done.result(20)
+
+
+def test_time_going_back_wakes_everyone_and_is_told(graph: Any) -> None:
+    clock = SimClock(graph.loop)
+    clock.set(100)
+    told: list[int] = []
+    clock.on_jump(lambda: told.append(clock.now_ns()))
+    done = graph.loop.spawn(clock.sleep_until(10**12))
+    graph.loop.settle()
+    clock.set(3)
+    done.result(20)
+    assert (told, clock.jumps) == ([3], 1)
+
+
+def test_a_time_that_has_passed_is_not_waited_for(graph: Any) -> None:
+    clock = SimClock(graph.loop)
+    clock.set(100)
+    graph.loop.run(clock.sleep_until(100))
+    graph.loop.run(WallClock().sleep_until(5))
