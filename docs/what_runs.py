@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 from trundle.cli.main import COMMANDS
-from trundle.nodes import CATALOG
+from trundle.nodes import STAND_INS
 from trundle.plugins import BUILTIN
 from trundle.sensors import SIMULATED
 
@@ -17,7 +17,7 @@ def table() -> str:
     """The rows: commands, nodes, sensors, plugins."""
     rows = {
         "commands": [f"`trundle {name}`" for name in COMMANDS],
-        "nodes without ROS": [f"`{package}/{type_}`" for package, type_ in sorted(CATALOG)],
+        "nodes without ROS": [f"`{package}/{type_}`" for package, type_ in sorted(STAND_INS)],
         "sensors": [f"`{name}`" for name in sorted(SIMULATED)],
         "Gazebo plugins": [*(f"`{name}`" for name in sorted(BUILTIN)), "your own, in Python"],
     }

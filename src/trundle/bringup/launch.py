@@ -3,7 +3,6 @@
 import asyncio
 import os
 import sys
-import time
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -15,15 +14,23 @@ import yaml
 from trundle.description import expand_xacro
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.launch import LaunchParam, LaunchPlan, read_launch, resolve_params
+from trundle.nodes import Host
 from trundle.packages import Packages
-from trundle.ros import Node
+from trundle.ros import Node, follow_time
 from trundle.supervisor import Event, Supervisor
+from trundle.viewer import GraphPage
 
 from .graph import Graph
 from .launch_nodes import NodeStarter
 from .launch_words import read_words
 from .showing import Showing
 from .signals import stop_flag
+
+NS = 1_000_000_000
+_START_S = 60.0
+"""Starting programs takes its time on a busy machine."""
+_STOP_S = 30.0
+"""roslaunch's patience with a program: 15 s to obey SIGINT, 2 s to obey SIGTERM."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,21 +86,23 @@ def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[st
         show.line(graph.story)
         launcher = Node("/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False)
         graph.loop.run(_set_params(launcher, plan, params))
-        starter = open_things.enter_context(
-            NodeStarter(graph, packages, env, report, headless=options.headless, view_port=options.view_port)
+        clock = graph.loop.run(follow_time(launcher))
+        page = None
+        if not options.headless:
+            page = GraphPage(packages=packages, report=report, host=options.host, port=options.view_port)
+            open_things.callback(page.close)
+        starter = NodeStarter(
+            graph=graph, packages=packages, env=env, report=report, host=Host(display=page), log_folder=_logs(env)
         )
         running = _Running(starter, plan, show, screen=options.screen)
-        graph.loop.run(running.start(), timeout_s=None)
-        show.findings()
-        if starter.url is not None:
-            show.line(f"see it at {starter.url}")
-        end = None if options.duration_s is None else time.monotonic() + options.duration_s
         try:
-            while not stop.wait(0.05) and not running.over and (end is None or time.monotonic() < end):
-                starter.feed_page()
+            graph.loop.run(running.start(), timeout_s=_START_S)
+            show.findings()
+            end_ns = None if options.duration_s is None else clock.now_ns() + round(options.duration_s * NS)
+            while not stop.wait(0.05) and not running.over and (end_ns is None or clock.now_ns() < end_ns):
                 show.findings()
         finally:
-            graph.loop.run(running.stop(), timeout_s=None)
+            graph.loop.run(running.stop(), timeout_s=_STOP_S)
         if stop.is_set():
             return 130
         return 1 if running.required_died else 0
@@ -113,7 +122,7 @@ class _Running:
     async def start(self) -> None:
         self._supervisor = Supervisor(self._tell)
         for node in self._plan.nodes:
-            job = await self._starter.job(node, screen=self._screen, show=self._show_output)
+            job = self._starter.job(node, screen=self._screen, show=self._show_output)
             if job is not None:
                 await self._supervisor.start(job, self._starter.policy(node))
         self._waiting = asyncio.create_task(self._supervisor.wait())
@@ -156,6 +165,12 @@ async def _set_params(node: Node, plan: LaunchPlan, params: Sequence[LaunchParam
             Path(step.file).write_text(yaml.safe_dump(await node.get_param(step.name)))
         except OSError as error:
             raise DescriptionError(step.at, f"rosparam dump to {step.file!r}: {error.strerror}") from None
+
+
+def _logs(env: Mapping[str, str]) -> Path:
+    """Where programs log to, by ROS_LOG_DIR and ROS_HOME as in ROS."""
+    home = Path(env.get("ROS_HOME") or Path(env.get("HOME", "/tmp")) / ".ros")
+    return Path(env["ROS_LOG_DIR"]) if env.get("ROS_LOG_DIR") else home / "log"
 
 
 def _nodes(plan: LaunchPlan) -> str:

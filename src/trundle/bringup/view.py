@@ -1,0 +1,62 @@
+"""`trundle view`: any ROS graph in the browser."""
+
+import asyncio
+import os
+import sys
+from collections.abc import Mapping
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.packages import Packages
+from trundle.ros import GraphLoop, MasterProxy, MasterUnreachableError, Node, follow_time, master_uri_from_env
+from trundle.viewer import GraphPage
+
+from .showing import Showing
+from .signals import stop_flag
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ViewOptions:
+    """What to show, and where."""
+
+    config: str | None = None
+    """An .rviz file."""
+    fixed_frame: str | None = None
+    host: str = "127.0.0.1"
+    port: int | None = None
+    """None: 8080 or the next free one."""
+
+
+def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> int:
+    """Show the graph that ROS_MASTER_URI names until Ctrl-C; return the exit code.
+
+    Raises:
+        UsageError: no master answers there.
+    """
+    env = dict(os.environ if environment is None else environment)
+    uri = env.get("ROS_MASTER_URI") or master_uri_from_env()
+    try:
+        MasterProxy(uri).call("getPid")
+    except MasterUnreachableError:
+        raise UsageError(
+            f"no ROS master answers at {uri}; start one with 'trundle core' or 'trundle launch', or set ROS_MASTER_URI"
+        ) from None
+    report = Diagnostics()
+    show = Showing(sys.stderr, report)
+    with stop_flag() as stop, ExitStack() as open_things:
+        loop = open_things.enter_context(GraphLoop())
+        node = Node("/rviz", loop=loop, master_uri=uri, host=options.host)
+        loop.run(follow_time(node))
+        packages = Packages(env, start=Path.cwd())
+        page = GraphPage(packages=packages, report=report, host=options.host, port=options.port)
+        open_things.callback(page.close)
+        shown = loop.spawn(page.show(node, config=options.config, fixed_frame=options.fixed_frame))
+        while not stop.wait(0.1):
+            show.findings()
+            if shown.done():
+                return shown.result()
+        shown.cancel()
+        loop.run(asyncio.sleep(0))
+    return 130

@@ -1,0 +1,24 @@
+"""Show a running ROS graph in the browser, as rviz does."""
+
+import argparse
+
+EXAMPLES = """
+  trundle view                                        the graph that ROS_MASTER_URI names
+  trundle view -f odom                                seen from the frame odom
+  trundle view -d robot.rviz                          with the displays of an rviz config
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("-d", "--display-config", metavar="FILE", help="an .rviz file")
+    parser.add_argument("-f", "--fixed-frame", metavar="FRAME", help="the frame everything is seen from")
+    parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
+    parser.add_argument("--host", default="127.0.0.1", help="address that the page binds (127.0.0.1)")
+
+
+def main(args: argparse.Namespace) -> int:
+    """Show until Ctrl-C."""
+    from trundle.bringup import ViewOptions, view
+
+    return view(ViewOptions(config=args.display_config, fixed_frame=args.fixed_frame, host=args.host, port=args.port))
