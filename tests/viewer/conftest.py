@@ -110,7 +110,7 @@ def chromium() -> Iterator[Any]:
 @pytest.fixture
 def page(chromium: Any, viewer: Viewer) -> Iterator[Any]:
     """Open the car's page and wait until it is drawn."""
-    page = chromium.new_page(viewport={"width": 900, "height": 1300})
+    page = chromium.new_page(viewport={"width": 1200, "height": 1300})
     page.set_default_timeout(60_000)
     page.goto(viewer.url)
     page.add_style_tag(content=".mantine-Notification-root { display: none }")  # "WebGL is in software mode"

@@ -86,7 +86,7 @@ def scenery(tmp_path: Path) -> Iterator[Scenery]:
 
 @pytest.fixture
 def browser_page(chromium: Any, scenery: Scenery) -> Iterator[Any]:
-    page = chromium.new_page(viewport={"width": 900, "height": 900})
+    page = chromium.new_page(viewport={"width": 1200, "height": 900})
     page.set_default_timeout(_PATIENCE_S * 1000)
     page.goto(scenery.page.url)
     page.add_style_tag(content=".mantine-Notification-root { display: none }")
@@ -95,7 +95,7 @@ def browser_page(chromium: Any, scenery: Scenery) -> Iterator[Any]:
 
 
 def _blue_pixels(page: Any) -> int:
-    png = page.screenshot(clip={"x": 0, "y": 0, "width": 560, "height": 900})
+    png = page.screenshot(clip={"x": 310, "y": 0, "width": 560, "height": 900})
     picture = np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=np.int16)
     return int(((picture[..., 2] > 100) & (picture[..., 0] < 60) & (picture[..., 1] < 60)).sum())
 

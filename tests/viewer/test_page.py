@@ -32,8 +32,8 @@ _PATIENCE_S = 60.0
 
 
 def _scene(page: Any) -> Picture:
-    """Return the three-dimensional part of the page, (height, width, 3)."""
-    png = page.screenshot(clip={"x": 0, "y": 0, "width": 560, "height": 1300})
+    """Return the three-dimensional part of the page, between the panels, (height, width, 3)."""
+    png = page.screenshot(clip={"x": 310, "y": 0, "width": 560, "height": 1300})
     return np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=np.int16)
 
 
@@ -215,6 +215,7 @@ def test_another_scene_replaces_the_first_on_the_same_page(
     page.wait_for_selector("text=another")
     page.wait_for_selector("text=5.00 s")
     assert page.get_by_text("left_wheel_joint").count() == 0
+    assert page.get_by_text("Cameras", exact=True).count() == 0
     _eventually(page, lambda picture: _blue(picture).sum() > 5000)
 
 

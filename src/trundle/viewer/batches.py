@@ -44,7 +44,7 @@ class Batch:
             batched_positions=np.zeros((count, 3)),
             batched_scales=np.full_like(self._scales, 0.0),
             batched_colors=np.clip(colors * 255 + 0.5, 0, 255).astype(np.uint8),
-            batched_opacities=None if opacities.min() >= 1.0 else opacities,
+            batched_opacities=None if opacity is not None or opacities.min() >= 1.0 else opacities,
             opacity=opacity,
             flat_shading=form.flat,
             side="double" if form.double_sided else "front",

@@ -115,8 +115,8 @@ class Frusta:
         """Draw the pyramids at a size that suits a robot of this radius [m]."""
         for handle in self._handles:
             if handle is not None:
-                handle.scale = 0.3 * radius
-                handle.thickness = 0.006 * radius
+                handle.scale = 0.2 * radius
+                handle.thickness = 0.004 * radius
 
     def update(self, body_poses: Array, *, shown: bool) -> None:
         """Put the pyramids on their bodies."""

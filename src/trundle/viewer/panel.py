@@ -19,6 +19,7 @@ _STATUS_PERIOD_S = 0.1
 _JOINTS_PERIOD_S = 0.2
 _OPEN_JOINTS = 12
 """More sliders than this start folded away."""
+_CAMERAS_WIDTH_PX = 300
 _HAND_OFF_S = 1.0
 """A slider that a person moved is left alone this long before it shows the joint's own position again."""
 
@@ -85,7 +86,10 @@ class Panel:
         cameras = self._scene.cameras
         if not cameras:
             return []
-        with self._server.gui.add_folder("Cameras"):
+        panel = self._server.gui.add_panel()
+        panel.dock_left()
+        panel.set_width(_CAMERAS_WIDTH_PX)
+        with panel.add_tab("Cameras"):
             blank = np.full((3, 4, 3), 60, dtype=np.uint8)
             return [self._server.gui.add_image(blank, label=camera.name, format="jpeg") for camera in cameras]
 
