@@ -1,11 +1,13 @@
 """Read and write the parameter server, as rosparam does."""
 
 import argparse
+import ast
 import math
+import operator
 import os
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from trundle.diagnostics import UsageError
@@ -21,6 +23,12 @@ EXAMPLES = """
   trundle param load robot.yaml /robot
 """
 _SCRIPT = "rosparam"
+_OPERATORS: dict[type[ast.operator], Callable[[float, float], float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -204,11 +212,20 @@ def _angle(text: str) -> float:
     try:
         if text.startswith("deg("):
             return math.radians(float(inner))
-        if not re.fullmatch(r"(?:pi|[\d.+\-*/() ]|(?<=\d)[eE])+", inner):
-            raise ValueError
-        # Only numbers, pi and arithmetic are left, and powers, the one costly operator, are refused.
-        if "**" in inner:
-            raise ValueError
-        return float(eval(inner, {"__builtins__": {}}, {"pi": math.pi}))
-    except (ValueError, SyntaxError, ZeroDivisionError, TypeError):
+        return _arithmetic(ast.parse(inner, mode="eval").body)
+    except (ValueError, SyntaxError, ZeroDivisionError, RecursionError):
         raise UsageError(f"not an angle: {text!r}") from None
+
+
+def _arithmetic(node: ast.expr) -> float:
+    match node:
+        case ast.Constant(value=int() | float() as value):
+            return float(value)
+        case ast.Name(id="pi"):
+            return math.pi
+        case ast.UnaryOp(op=ast.USub(), operand=operand):
+            return -_arithmetic(operand)
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _OPERATORS:
+            return _OPERATORS[type(op)](_arithmetic(left), _arithmetic(right))
+        case _:
+            raise ValueError

@@ -1,0 +1,59 @@
+"""`trundle core`: starts, answers, and stops."""
+
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import pytest
+
+from trundle.cli import main
+from trundle.ros import MasterProxy
+
+
+@contextmanager
+def _core(*arguments: str) -> Iterator["tuple[subprocess.Popen[str], str]"]:
+    command = [sys.executable, "-m", "trundle", "core", "-p", "0", *arguments]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout is not None
+            name, _, uri = process.stdout.readline().strip().partition("=")
+            assert name == "ROS_MASTER_URI"
+            yield process, uri
+        finally:
+            if process.poll() is None:
+                process.kill()
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 0)])
+def test_it_answers_until_it_is_stopped(number: signal.Signals, code: int) -> None:
+    with _core() as (process, uri):
+        assert MasterProxy(uri).call("getSystemState")[0] == [["/rosout_agg", ["/rosout"]]]
+        process.send_signal(number)
+        assert process.wait(20) == code
+        assert process.stderr is not None
+        assert "Traceback" not in process.stderr.read()
+
+
+def test_a_shutdown_request_ends_it() -> None:
+    with _core("--distro", "indigo") as (process, uri):
+        assert MasterProxy(uri).call("getParam", "/rosdistro") == "indigo\n"
+        MasterProxy(uri, "/me").call("shutdown", "enough")
+        assert process.wait(20) == 0
+        assert process.stderr is not None
+        assert "external shutdown request from [/me]: enough" in process.stderr.read()
+
+
+def test_a_taken_port_is_one_sentence(graph: Any) -> None:
+    code, out, error = graph.trundle("core", "-p", str(graph.core.port))
+    assert (code, out) == (1, "")
+    assert error.count("\n") == 1
+    assert f"port {graph.core.port} on 127.0.0.1 is taken" in error
+    assert "-p PORT" in error
+
+
+def test_a_port_that_is_none_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["core", "-p", "99999"]) == 1
+    assert "between 0 and 65535, got 99999" in capsys.readouterr().err

@@ -1,0 +1,67 @@
+"""`trundle node`, with rosnode's output."""
+
+import os
+from typing import Any
+
+STRING = "std_msgs/String"
+
+
+def test_nodes_are_listed_with_and_without_addresses(graph: Any) -> None:
+    node = graph.node("driver", namespace="/r")
+    graph.ready(node)
+    assert graph.trundle("node", "list") == (0, "/r/driver\n/rosout\n", "")
+    assert graph.trundle("node", "list", "/r")[1] == "/r/driver\n"
+    assert graph.trundle("node", "list", "-u", "/r")[1] == f"{node.uri}\n"
+    assert graph.trundle("node", "list", "-a", "/r")[1] == f"{node.uri} \t/r/driver\n"
+
+
+def test_a_node_is_described_as_by_rosnode(graph: Any) -> None:
+    node, other = graph.node("one"), graph.node("two")
+    publisher = node.advertise("/a", STRING)
+    other.subscribe("/a", STRING, print)
+    node.subscribe("/b", STRING, print)
+    graph.until(lambda: publisher.has_subscribers)
+    graph.until(lambda: len(node.connections()) == 2)
+    graph.ready(node)
+
+    code, out, _ = graph.trundle("node", "info", "/one")
+
+    assert code == 0
+    assert out == (
+        "-" * 80 + "\nNode [/one]\nPublications: \n"
+        " * /a [std_msgs/String]\n * /rosout [rosgraph_msgs/Log]\n\n"
+        "Subscriptions: \n * /b [unknown type]\n\n"
+        "Services: \n * /one/get_loggers\n * /one/set_logger_level\n\n"
+        f"\ncontacting node {node.uri} ...\nPid: {os.getpid()}\nConnections:\n"
+        " * topic: /a\n    * to: /two\n    * direction: outbound\n    * transport: INTRAPROCESS\n"
+        " * topic: /rosout\n    * to: /rosout\n    * direction: outbound\n    * transport: INTRAPROCESS\n\n"
+    )
+
+
+def test_an_unknown_node_is_said(graph: Any) -> None:
+    code, _, error = graph.trundle("node", "info", "/nobody")
+    assert (code, error) == (1, "cannot contact [/nobody]: unknown node\n")
+    assert graph.trundle("node", "kill", "/nobody") == (1, "", "ERROR: Unknown node(s):\n * /nobody\n")
+    assert graph.trundle("node", "ping", "/nobody")[0] == 1
+
+
+def test_nodes_are_pinged(graph: Any) -> None:
+    code, out, _ = graph.trundle("node", "ping", "-c", "1", "/rosout")
+    assert code == 0
+    assert out.startswith(
+        "rosnode: node is [/rosout]\npinging /rosout with a timeout of 3.0s\nxmlrpc reply from http://"
+    )
+    assert graph.trundle("node", "ping", "-a")[1].startswith("Will ping the following nodes: \n * /rosout\n\n")
+
+
+def test_a_node_is_killed(graph: Any) -> None:
+    node = graph.node("victim")
+    graph.ready(node)
+    assert graph.trundle("node", "kill", "/victim")[:2] == (0, "killing /victim\nkilled\n")
+    graph.until(lambda: node.closed.is_set())
+    assert graph.trundle("node", "list")[1] == "/rosout\n"
+
+
+def test_machines_are_listed(graph: Any) -> None:
+    assert graph.trundle("node", "machine")[1] == "127.0.0.1\n"
+    assert graph.trundle("node", "machine", "127.0.0.1")[1] == "/rosout\n"
