@@ -1,8 +1,7 @@
-"""A hand-made car to look at: blue body, white mast, black wheels, a camera; and a browser to look with."""
+"""A hand-made car to look at: blue body, white mast, black wheels, a camera."""
 
 import math
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,19 +13,6 @@ from trundle.render import Scene, Shape
 from trundle.spatial import Pose
 from trundle.viewer import CameraView, FrameInfo, JointSlider, Viewer, ViewerScene, ViewerState
 
-_CHROMIUM = Path("/usr/bin/chromium")
-_SOFTWARE_GL = (
-    "--no-sandbox",
-    "--disable-gpu",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-)
 _BODIES = ("ground::link", "car::base_link", "car::left_wheel", "car::right_wheel")
 
 
@@ -93,18 +79,6 @@ def viewer() -> Iterator[Viewer]:
     """Serve the car's page on a free port."""
     with Viewer.start(make_scene(), port=0, state=make_state()) as viewer:
         yield viewer
-
-
-@pytest.fixture(scope="session")
-def chromium() -> Iterator[Any]:
-    """Start a real browser that draws in software."""
-    if not _CHROMIUM.exists():
-        pytest.skip(f"{_CHROMIUM} is not installed")
-    api = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
-    with api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=str(_CHROMIUM), args=list(_SOFTWARE_GL))
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

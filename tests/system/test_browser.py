@@ -1,0 +1,92 @@
+"""The tutorials' two robots as a user meets them: one command, and a page in a browser."""
+
+import io
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+_PATIENCE_S = 120.0
+
+
+@contextmanager
+def _trundle(*words: str, environment: dict[str, str]) -> Iterator[str]:
+    """Run a command until its page answers; yields the page's address, then presses Ctrl-C."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "trundle", *words],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        text=True,
+        env={**os.environ, **environment},
+        start_new_session=True,
+    )
+    assert process.stderr is not None
+    said = ""
+    try:
+        for line in process.stderr:
+            said += line
+            if found := re.search(r"see it at (http://\S+)", line):
+                yield found[1]
+                os.killpg(process.pid, signal.SIGINT)
+                _, rest = process.communicate(timeout=_PATIENCE_S)
+                assert "Traceback" not in said + rest
+                assert process.returncode == 130
+                return
+        raise AssertionError(f"no page: {said}")
+    finally:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
+
+
+@contextmanager
+def _opened(chromium: Any, url: str) -> Iterator[Any]:
+    page = chromium.new_page(viewport={"width": 1200, "height": 900})
+    page.set_default_timeout(_PATIENCE_S * 1000)
+    page.goto(url)
+    page.add_style_tag(content=".mantine-Notification-root { display: none }")
+    yield page
+    page.close()
+
+
+def _blue_columns(page: Any) -> np.ndarray[Any, Any]:
+    png = page.screenshot(clip={"x": 310, "y": 0, "width": 560, "height": 900})
+    picture = np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=np.int16)
+    return np.nonzero((picture[..., 2] > 100) & (picture[..., 0] < 60) & (picture[..., 1] < 60))[1]
+
+
+def _until(page: Any, reached: Any, what: str) -> None:
+    deadline = time.monotonic() + _PATIENCE_S
+    while not reached():
+        assert time.monotonic() < deadline, what
+        page.wait_for_timeout(200)
+
+
+def test_the_smartcar_is_shown_and_driven_from_the_page(chromium: Any, shared: Path) -> None:
+    """The file names an urdf.rviz that was never published: the usual displays, with odom as the fixed frame."""
+    words = ("launch", "smartcar_description", "smartcar_display.rviz.launch", "--port", "0", "--view-port", "0")
+    with (
+        _trundle(*words, environment={"ROS_PACKAGE_PATH": str(shared / "seeds")}) as url,
+        _opened(chromium, url) as page,
+    ):
+        page.get_by_text("smartcar", exact=True).first.wait_for()
+        page.locator("input[value='odom']").first.wait_for(state="attached")
+        _until(page, lambda: len(_blue_columns(page)) > 2000, "the car never appeared")
+        standing = len(_blue_columns(page))
+
+        page.get_by_role("button", name="Forward", exact=True).click()
+
+        # It drives out of the picture; what stays blue is the z axis of odom.
+        _until(page, lambda: len(_blue_columns(page)) < standing / 4, "the car never moved")
