@@ -91,6 +91,7 @@ class Node:
         self._rosout: Publisher | None = None
         self._wants_rosout = rosout
         self._actions: asyncio.Queue[_Action] = asyncio.Queue()
+        self._started = asyncio.Event()
         self._worker: asyncio.Task[None] | None = None
         self._on_shutdown: list[Callable[[str], None]] = []
         self._is_down = False
@@ -257,6 +258,7 @@ class Node:
             if not future.done():
                 future.set_result(None)
 
+        await self._started.wait()
         await asyncio.sleep(0)  # what other threads asked for before is in the queue now
         self._actions.put_nowait(done)
         await future
@@ -492,6 +494,11 @@ class Node:
 
     def _begin(self) -> None:
         self._worker = asyncio.get_running_loop().create_task(self._work())
+        self._worker.add_done_callback(self._worker_ended)
+
+    def _worker_ended(self, worker: "asyncio.Task[None]") -> None:
+        if not worker.cancelled() and (error := worker.exception()) is not None:
+            print_log("fatal", f"{self.name} cannot go on: {error}", wall_ns=WallClock().now_ns(), sim_ns=None)
 
     def _do(self, action: _Action) -> None:
         self.loop.call_soon(lambda: self._actions.put_nowait(action))
@@ -509,6 +516,7 @@ class Node:
         if self._wants_rosout:
             self.advertise_service("~get_loggers", "roscpp/GetLoggers", self._get_loggers)
             self.advertise_service("~set_logger_level", "roscpp/SetLoggerLevel", self._set_logger_level)
+        self._started.set()
         while True:
             await self._insist(await self._actions.get())
 

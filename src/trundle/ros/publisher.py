@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from .node import Node
 
 
+_BATCH_MESSAGES, _BATCH_BYTES = 200, 256 * 1024
+"""How much is handed on before others get their turn on the loop, whoever publishes however fast."""
+
+
 class LocalSubscriber(Protocol):
     """A subscription in this process."""
 
@@ -94,9 +98,7 @@ class Publisher:
                 self._sequence += 1
                 header.seq = self._sequence
         self._outbox.append(message)
-        if not self._flushes:
-            self._flushes = True
-            self._node.loop.deliver_soon(self._flush)
+        self._flush_soon()
 
     def unregister(self) -> None:
         """Stop publishing; any thread."""
@@ -137,7 +139,7 @@ class Publisher:
         self._links[link] = peer
         self._count()
         if self._latched is not None and (data := self._bytes(self._latched)) is not None:
-            link.send(frame(data), self._queue_size)
+            link.send_all([frame(data)], self._queue_size)
 
     def release(self, link: FrameProtocol) -> None:
         """Forget a connection that has ended."""
@@ -192,33 +194,48 @@ class Publisher:
             self._on_connect(self)
 
     def _flush(self) -> None:
-        self._flushes = False
-        while self._outbox:
-            message = self._outbox.popleft()
-            if self.latch:
-                self._latched = message
-            self.published += 1
-            data: bytes | None = None
-            if self._links and (data := self._bytes(message)) is not None:
-                framed = frame(data)
+        frames: list[bytes] = []
+        count = size = 0
+        try:
+            while self._outbox and count < _BATCH_MESSAGES and size < _BATCH_BYTES:
+                message = self._outbox.popleft()
+                count += 1
+                if self.latch:
+                    self._latched = message
+                self.published += 1
+                data = self._bytes(message) if self._links else None
+                if data is not None:
+                    frames.append(frame(data))
+                    size += len(data)
+                for subscriber in list(self._local):
+                    self._hand_over(message, subscriber, data)
+            if frames:
                 for link in list(self._links):
-                    link.send(framed, self._queue_size)
-            for subscriber in list(self._local):
-                self._hand_over(message, subscriber, data)
+                    link.send_all(frames, self._queue_size)
+        finally:
+            # In this order: a message put in between is seen here or by its own publish().
+            self._flushes = False
+            if self._outbox:
+                self._flush_soon()
 
-    def _hand_over(self, message: Any, subscriber: LocalSubscriber, data: bytes | None) -> None:
+    def _flush_soon(self) -> None:
+        if not self._flushes:
+            self._flushes = True
+            self._node.loop.deliver_soon(self._flush)
+
+    def _hand_over(self, message: Any, subscriber: LocalSubscriber, data: bytes | memoryview | None) -> None:
         if not subscriber.is_raw and not isinstance(message, bytes | bytearray | memoryview):
             subscriber.receive(message)
             return
         data = self._bytes(message) if data is None else data
         if data is not None:
-            subscriber.receive_bytes(data, self)
+            subscriber.receive_bytes(bytes(data), self)
 
-    def _bytes(self, message: Any) -> bytes | None:
+    def _bytes(self, message: Any) -> bytes | memoryview | None:
         if isinstance(message, bytes | bytearray | memoryview):
             return bytes(message)
         try:
-            return bytes(self._node.messages.serialize(message))
+            return self._node.messages.serialize(message)
         except MessageError as error:
             self._node.log_error(f"a message on {self.topic} is not sent: {error}")
             return None

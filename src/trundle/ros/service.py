@@ -95,7 +95,7 @@ class Service:
     async def _answer_all(self, link: FrameProtocol, requests: "asyncio.Queue[bytes]", persistent: bool) -> None:
         while link.transport is not None:
             answer = await self._answer(await requests.get())
-            link.send(answer, None)
+            link.send_all([answer], None)
             if not persistent:
                 link.close("answered")
 

@@ -110,7 +110,10 @@ class Subscription:
     def receive_bytes(self, data: bytes, publisher: "Publisher") -> None:
         """Take a message as bytes from a publisher of this process."""
         definition = self._node.messages.definition(publisher.type) if self.is_raw else ""
-        self.take(data, publisher.type, publisher.md5sum, definition)
+        try:
+            self.take(data, publisher.type, publisher.md5sum, definition)
+        except MessageError as error:
+            self._node.log_error(f"a message on {self.topic} is not taken: {error}")
 
     def connections(self) -> list[list[Any]]:
         """Links as getBusInfo tells them."""

@@ -135,8 +135,8 @@ class FrameProtocol(asyncio.Protocol):
 
     def resume_writing(self) -> None:
         self._may_write = True
-        while self._queue and self._may_write:
-            self._write(self._queue.popleft())
+        # Not from here: asyncio 3.11 ends a connection twice when a write fails inside this call.
+        asyncio.get_running_loop().call_soon(self._send_waiting)
 
     # for users
 
@@ -145,15 +145,15 @@ class FrameProtocol(asyncio.Protocol):
         if self.transport is not None:
             self.transport.write(encode_header(fields))
 
-    def send(self, data: bytes, queue_size: int | None) -> None:
-        """Send a framed message; if the peer reads too slowly, at most `queue_size` wait and the oldest goes."""
+    def send_all(self, frames: list[bytes], queue_size: int | None) -> None:
+        """Send framed messages; if the peer reads too slowly, at most `queue_size` wait and the oldest go."""
         if self._may_write and not self._queue:
-            self._write(data)
+            self._write(b"".join(frames) if len(frames) > 1 else frames[0], len(frames))
             return
-        if queue_size is not None and len(self._queue) >= queue_size:
+        self._queue.extend(frames)
+        while queue_size is not None and len(self._queue) > queue_size:
             self._queue.popleft()
             self.dropped += 1
-        self._queue.append(data)
 
     def refuse(self, reason: str) -> None:
         """Answer a header with an error and end the connection."""
@@ -186,10 +186,14 @@ class FrameProtocol(asyncio.Protocol):
         number = self.transport.get_extra_info("socket").fileno()
         return f"TCPROS connection on port {local[1]} to [{peer[0]}:{peer[1]} on socket {number}]"
 
-    def _write(self, data: bytes) -> None:
-        if self.transport is not None:
+    def _send_waiting(self) -> None:
+        while self._queue and self._may_write:
+            self._write(self._queue.popleft(), 1)
+
+    def _write(self, data: bytes, frames: int) -> None:
+        if self.transport is not None and not self.transport.is_closing():
             self.bytes_sent += len(data)
-            self.frames_sent += 1
+            self.frames_sent += frames
             self.transport.write(data)
 
     def _too_slow(self) -> None:
