@@ -90,3 +90,17 @@ def test_the_smartcar_is_shown_and_driven_from_the_page(chromium: Any, shared: P
 
         # It drives out of the picture; what stays blue is the z axis of odom.
         _until(page, lambda: len(_blue_columns(page)) < standing / 4, "the car never moved")
+
+
+def test_the_rp2w_runs_with_both_cameras_and_its_joints_on_the_page(chromium: Any, shared: Path) -> None:
+    with (
+        _trundle("run", str(shared / "seeds" / "rp2w"), "--no-ros", "--port", "0", environment={}) as url,
+        _opened(chromium, url) as page,
+    ):
+        for text in ("netbook_webcam", "my_sensor", "camera_base_camera", "real-time factor"):
+            page.get_by_text(text).first.wait_for()
+        _until(page, lambda: page.locator("img[src^='blob:']").count() == 2, "an image is missing")
+
+        page.get_by_role("button", name="Pause", exact=True).click()
+
+        page.get_by_text("paused", exact=True).wait_for()

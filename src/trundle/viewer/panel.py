@@ -19,6 +19,8 @@ _STATUS_PERIOD_S = 0.1
 _JOINTS_PERIOD_S = 0.2
 _OPEN_JOINTS = 12
 """More sliders than this start folded away."""
+_SHORTEST_RANGE = 0.002
+"""A joint whose limits coincide still needs a slider with two ends [m or rad]."""
 _CAMERAS_WIDTH_PX = 300
 _HAND_OFF_S = 1.0
 """A slider that a person moved is left alone this long before it shows the joint's own position again."""
@@ -153,8 +155,9 @@ class _Slider:
     """One joint's slider."""
 
     def __init__(self, server: viser.ViserServer, joint: JointSlider, send: Callable[[Request], None]) -> None:
-        span = max(joint.upper - joint.lower, 1e-6)
-        self._low, self._high = joint.lower, joint.lower + span
+        span = max(joint.upper - joint.lower, _SHORTEST_RANGE)
+        # Rounded for the eye: the slider prints its ends. What is sent stays within the joint's own range.
+        self._low, self._high = round(joint.lower, 3), round(joint.lower + span, 3)
         self._touched = -math.inf
         start = min(max(joint.position, self._low), self._high)
         self._handle = server.gui.add_slider(joint.name, self._low, self._high, span / 1000, start)
@@ -163,7 +166,7 @@ class _Slider:
         def _(event: viser.GuiEvent[viser.GuiSliderHandle[float]]) -> None:
             if event.client_id is not None:  # None: the position shown changed, nobody touched the slider
                 self._touched = time.monotonic()
-                send(SetJoint(joint.name, float(event.target.value)))
+                send(SetJoint(joint.name, min(max(float(event.target.value), joint.lower), joint.upper)))
 
     def show(self, position: float, now: float) -> None:
         """Follow the joint, unless a person has just moved the slider."""
