@@ -29,8 +29,10 @@ class GraphLoop:
     def __init__(self, *, messages: Messages | None = None) -> None:
         self.messages = messages or Messages()
         """Message types of all nodes here; loaded on first use."""
+        self.members: set[Node] = set()
+        """Nodes that have begun and not ended; touched on the loop only, as is `nodes`."""
         self.nodes: dict[str, Node] = {}
-        """Address → running node; touched on the loop only."""
+        """Address → node that listens there."""
         self._deliveries = 0
         """Batches of published messages being handed on, by which `settle` knows that there are more."""
         self._loop = asyncio.new_event_loop()
@@ -127,7 +129,7 @@ class GraphLoop:
             seen = self._deliveries
 
     async def _wind_up(self, timeout_s: float) -> None:
-        nodes = [node.shutdown() for node in list(self.nodes.values())]
+        nodes = [node.shutdown() for node in list(self.members)]
         with contextlib.suppress(TimeoutError):
             await asyncio.wait_for(asyncio.gather(*nodes, return_exceptions=True), timeout_s)
         mine = asyncio.current_task()

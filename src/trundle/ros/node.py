@@ -7,35 +7,31 @@ trying while no master answers. Whatever needs an answer is a coroutine of the l
 import asyncio
 import contextlib
 import threading
-import traceback
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any
 
 from trundle.names import canonical_name, join_names, resolve_name
 
 from .clock import Clock, WallClock
-from .errors import MasterError, MasterUnreachableError, MessageError, ParameterError, ServiceError, WireError
-from .log import LEVELS, Level, caller, print_log
+from .errors import MasterError, MasterUnreachableError, MessageError, ParameterError, ServiceError
+from .log import LEVELS, Level, print_log
 from .loop import GraphLoop
-from .messages import ANY_TYPE, Message, Messages
+from .messages import ANY_TYPE, Message
 from .network import master_uri_from_env, server_address
+from .node_calls import NodeCalls
+from .node_log import NodeLog
 from .publisher import Publisher
-from .rpc_client import call_value
-from .service import Service, ServiceCallback, call_service
+from .service import Service, ServiceCallback
 from .slave import Slave
 from .subscription import Callback, Subscription
-from .xmlrpc import FaultError
 
-_UNSET: Any = object()
-_MASTER_S = 5.0
-"""How long the master may take for an answer."""
 _FAREWELL_S = 1.0
 """How long unregistering may take: a whole program must end within two seconds of Ctrl-C."""
 _RETRY_S = 0.5
 _Action = Callable[[], Awaitable[None]]
 
 
-class Node:
+class Node(NodeCalls, NodeLog):
     """One node of the graph."""
 
     def __init__(
@@ -91,6 +87,7 @@ class Node:
         self._rosout: Publisher | None = None
         self._wants_rosout = rosout
         self._actions: asyncio.Queue[_Action] = asyncio.Queue()
+        self._listens = asyncio.Event()
         self._started = asyncio.Event()
         self._worker: asyncio.Task[None] | None = None
         self._on_shutdown: list[Callable[[str], None]] = []
@@ -106,11 +103,6 @@ class Node:
         return self._slave.uri
 
     @property
-    def messages(self) -> Messages:
-        """Message types of the loop."""
-        return self.loop.messages
-
-    @property
     def is_shut_down(self) -> bool:
         """Whether it has begun to shut down."""
         return self._is_down
@@ -118,14 +110,6 @@ class Node:
     def resolve(self, name: str) -> str:
         """Return the global name this node means by `name`, remapped."""
         return resolve_name(name, self.name, self._remappings)
-
-    def new(self, type_name: str, fields: object = None) -> Message:
-        """Make a message; 'now' and 'auto' are this node's ROS time. See `Messages.new`."""
-        return self.messages.new(type_name, fields, now_ns=self.clock.now_ns())
-
-    def stamp(self) -> Message:
-        """ROS time as a `time` value."""
-        return self.messages.stamp(self.clock.now_ns())
 
     # -- topics and services: any thread, no waiting
 
@@ -248,7 +232,7 @@ class Node:
         self.loop.call_soon(service.close)
         self._do(lambda: self._tell("unregisterService", service.name, self._slave.service_uri))
 
-    # -- what needs an answer: on the loop
+    # -- the end, and waiting for the beginning: on the loop
 
     async def ready(self) -> None:
         """Wait until everything asked for so far is registered at the master."""
@@ -263,150 +247,6 @@ class Node:
         self._actions.put_nowait(done)
         await future
 
-    async def get_param(self, name: str, default: Any = _UNSET) -> Any:
-        """Return a parameter, or a namespace as a dictionary.
-
-        Raises:
-            ParameterError: it is not set and there is no default.
-            MasterUnreachableError: nobody answers.
-        """
-        full = self.resolve(name)
-        try:
-            return await self._ask("getParam", full)
-        except MasterError:
-            if default is _UNSET:
-                raise ParameterError(f"parameter {full} is not set") from None
-            return default
-
-    async def set_param(self, name: str, value: Any) -> None:
-        """Set a parameter, or a whole namespace from a dictionary.
-
-        Raises:
-            ParameterError: parameters cannot hold the value (integers have 32 bits).
-            MasterUnreachableError: nobody answers.
-        """
-        full = self.resolve(name)
-        try:
-            await self._ask("setParam", full, value)
-        except (ValueError, MasterError) as error:
-            raise ParameterError(f"parameter {full}: {error}") from None
-
-    async def delete_param(self, name: str) -> None:
-        """Delete a parameter or a namespace.
-
-        Raises:
-            ParameterError: it is not set.
-        """
-        full = self.resolve(name)
-        try:
-            await self._ask("deleteParam", full)
-        except MasterError:
-            raise ParameterError(f"parameter {full} is not set") from None
-
-    async def has_param(self, name: str) -> bool:
-        """Tell whether a parameter or a namespace is set."""
-        return bool(await self._ask("hasParam", self.resolve(name)))
-
-    async def search_param(self, key: str) -> str | None:
-        """Find the full name of the nearest parameter upwards from this node."""
-        try:
-            return str(await self._ask("searchParam", key))
-        except MasterError:
-            return None
-
-    async def param_names(self) -> list[str]:
-        """Name every parameter of the graph."""
-        return list(await self._ask("getParamNames"))
-
-    async def call_service(
-        self, name: str, type_name: str, request: Message | dict[str, Any] | None = None, *, timeout_s: float = 10.0
-    ) -> Message:
-        """Call a service.
-
-        Raises:
-            ServiceError: it is not there, says no, or does not answer in time.
-            MessageError: no such type, or a request that does not fit it.
-        """
-        full = self.resolve(name)
-        kind = self.messages.service(type_name)
-        if request is None or isinstance(request, dict):
-            request = self.new(kind.request, request)
-        try:
-            uri = await self._ask("lookupService", full)
-        except MasterError:
-            raise ServiceError(f"no node provides the service {full}") from None
-        try:
-            async with asyncio.timeout(timeout_s):
-                return await call_service(self, uri, full, kind, request)
-        except TimeoutError:
-            raise ServiceError(f"{full} did not answer within {timeout_s:g} s") from None
-
-    async def wait_for_service(self, name: str, timeout_s: float | None = None) -> None:
-        """Wait until a node provides a service.
-
-        Raises:
-            ServiceError: none does in time.
-        """
-        full = self.resolve(name)
-        try:
-            async with asyncio.timeout(timeout_s):
-                while True:
-                    with contextlib.suppress(MasterError):
-                        await self._ask("lookupService", full)
-                        return
-                    await asyncio.sleep(0.05)
-        except TimeoutError:
-            raise ServiceError(f"no node provided the service {full} within {timeout_s:g} s") from None
-
-    # -- logging: any thread
-
-    def log_debug(self, text: str) -> None:
-        """Say something for whoever looks into this node."""
-        self._log("debug", text)
-
-    def log_info(self, text: str) -> None:
-        """Say something everyone may want to know."""
-        self._log("info", text)
-
-    def log_warn(self, text: str) -> None:
-        """Say that something is not as it should be, and what is done instead."""
-        self._log("warn", text)
-
-    def log_error(self, text: str) -> None:
-        """Say that something failed."""
-        self._log("error", text)
-
-    def log_fatal(self, text: str) -> None:
-        """Say why the node cannot go on."""
-        self._log("fatal", text)
-
-    def log_failure(self, what: str, error: Exception) -> None:
-        """Say that code of this node raised, with where."""
-        where = "".join(traceback.format_exception(error)).rstrip()
-        self._log("error", f"{what}: {error}\n{where}")
-
-    def _log(self, level: Level, text: str) -> None:
-        if LEVELS[level] < LEVELS[self.log_level]:
-            return
-        now = self.clock.now_ns()
-        wall = WallClock().now_ns()
-        print_log(level, text, wall_ns=wall, sim_ns=None if isinstance(self.clock, WallClock) else now)
-        if self._rosout is not None and self._rosout.has_subscribers:
-            file, function, line = caller(2)
-            fields = {
-                "header": {"stamp": now},
-                "level": LEVELS[level],
-                "name": self.name,
-                "msg": text,
-                "file": file,
-                "function": function,
-                "line": line,
-                "topics": list(self._publishers),
-            }
-            self._rosout.publish(fields)
-
-    # -- the end
-
     def on_shutdown(self, callback: Callable[[str], None]) -> None:
         """Have a function called, on the loop and with the reason, when this node is told to shut down."""
         self._on_shutdown.append(callback)
@@ -418,12 +258,14 @@ class Node:
             return
         self._is_down = True
         if self._worker is not None:
+            await self._listens.wait()  # a server caught half made would stay open
             self._worker.cancel()
             await asyncio.gather(self._worker, return_exceptions=True)
         if self.uri:
             with contextlib.suppress(TimeoutError):
                 async with asyncio.timeout(_FAREWELL_S):
                     await self._unregister_all()
+        self.loop.members.discard(self)
         self.loop.nodes.pop(self.uri, None)
         for publisher in self._publishers.values():
             publisher.close()
@@ -493,6 +335,9 @@ class Node:
     # -- inside
 
     def _begin(self) -> None:
+        if self._is_down:
+            return
+        self.loop.members.add(self)
         self._worker = asyncio.get_running_loop().create_task(self._work())
         self._worker.add_done_callback(self._worker_ended)
 
@@ -505,7 +350,10 @@ class Node:
 
     async def _work(self) -> None:
         """Start, then work off the queue, one call to the master after the other."""
-        await self._slave.start()
+        try:
+            await self._slave.start()
+        finally:
+            self._listens.set()
         self.loop.nodes[self.uri] = self
         if self._address.warning:
             self.log_warn(self._address.warning)
@@ -536,19 +384,11 @@ class Node:
             self._waits_for_master = False
             return
 
-    async def _ask(self, method: str, *arguments: object) -> Any:
-        try:
-            return await call_value(self.master_uri, method, self.name, *arguments, timeout_s=_MASTER_S)
-        except (OSError, WireError) as error:
-            raise MasterUnreachableError(self.master_uri, str(error) or "no answer in time") from None
-        except FaultError as error:
-            raise MasterError(f"{method}: {error}") from None
-
     async def _tell(self, method: str, *arguments: object) -> None:
-        await self._ask(method, *arguments)
+        await self.ask(method, *arguments)
 
     async def _listen(self, topic: str, type_name: str) -> None:
-        uris = await self._ask("registerSubscriber", topic, type_name, self.uri)
+        uris = await self.ask("registerSubscriber", topic, type_name, self.uri)
         self.publishers_changed(topic, [str(uri) for uri in uris])
 
     def _get_loggers(self, request: Message) -> dict[str, Any]:

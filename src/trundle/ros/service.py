@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from .errors import MessageError, RosError, ServiceError, WireError
 from .http import host_and_port
-from .messages import Message, ServiceType
+from .messages import Message, Messages, ServiceType
 from .tcpros import (
     MAX_HEADER_BYTES,
     MAX_MESSAGE_BYTES,
@@ -140,16 +140,18 @@ class Service:
         return await future
 
 
-async def call_service(node: "Node", uri: str, name: str, kind: ServiceType, request: Message) -> Message:
-    """Call a service at a provider's address.
+async def call_service(
+    messages: Messages, caller: str, uri: str, name: str, kind: ServiceType, request: Message
+) -> Message:
+    """Call a service at a provider's address, in the name of the node `caller`.
 
     Raises:
         ServiceError: the provider refuses or fails, or breaks the connection.
     """
-    body = node.messages.serialize(request)
+    body = messages.serialize(request)
     try:
         async with _connection(uri) as (reader, writer):
-            header = {"callerid": node.name, "service": name, "type": kind.type, "md5sum": kind.md5sum}
+            header = {"callerid": caller, "service": name, "type": kind.type, "md5sum": kind.md5sum}
             writer.write(encode_header(header))
             answer = decode_header(await _read_frame(reader, MAX_HEADER_BYTES))
             if "error" in answer:
@@ -162,7 +164,7 @@ async def call_service(node: "Node", uri: str, name: str, kind: ServiceType, req
     if not well:
         raise ServiceError(f"{name} answers: {data.decode('utf-8', 'replace')}")
     try:
-        return node.messages.deserialize(data, kind.response)
+        return messages.deserialize(data, kind.response)
     except MessageError as error:
         raise ServiceError(f"{name} answers with something else: {error}") from None
 

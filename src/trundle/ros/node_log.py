@@ -1,0 +1,63 @@
+"""What a node says: on stderr, and on /rosout once somebody gathers it. Any thread may speak."""
+
+import traceback
+
+from .clock import Clock, WallClock
+from .log import LEVELS, Level, caller, print_log
+from .publisher import Publisher
+
+
+class NodeLog:
+    """The log of one node."""
+
+    name: str
+    clock: Clock
+    log_level: Level
+    """Messages below this level are not said."""
+    _rosout: Publisher | None
+    _publishers: dict[str, Publisher]
+
+    def log_debug(self, text: str) -> None:
+        """Say something for whoever looks into this node."""
+        self._log("debug", text)
+
+    def log_info(self, text: str) -> None:
+        """Say something everyone may want to know."""
+        self._log("info", text)
+
+    def log_warn(self, text: str) -> None:
+        """Say that something is not as it should be, and what is done instead."""
+        self._log("warn", text)
+
+    def log_error(self, text: str) -> None:
+        """Say that something failed."""
+        self._log("error", text)
+
+    def log_fatal(self, text: str) -> None:
+        """Say why the node cannot go on."""
+        self._log("fatal", text)
+
+    def log_failure(self, what: str, error: Exception) -> None:
+        """Say that code of this node raised, with where."""
+        where = "".join(traceback.format_exception(error)).rstrip()
+        self._log("error", f"{what}: {error}\n{where}")
+
+    def _log(self, level: Level, text: str) -> None:
+        if LEVELS[level] < LEVELS[self.log_level]:
+            return
+        now = self.clock.now_ns()
+        wall = WallClock().now_ns()
+        print_log(level, text, wall_ns=wall, sim_ns=None if isinstance(self.clock, WallClock) else now)
+        if self._rosout is not None and self._rosout.has_subscribers:
+            file, function, line = caller(2)
+            fields = {
+                "header": {"stamp": now},
+                "level": LEVELS[level],
+                "name": self.name,
+                "msg": text,
+                "file": file,
+                "function": function,
+                "line": line,
+                "topics": list(self._publishers),
+            }
+            self._rosout.publish(fields)
