@@ -260,7 +260,6 @@ def test_what_is_not_known_is_named_and_the_reading_goes_on() -> None:
     plan = plan_of(
         f'<nodde/><param name="a" value="1" colour="red"/><machine name="m" address="a"/><master/>{NODE}',
         report=report,
-        speed="1",
     )
     assert len(plan.nodes) == 1
     assert [warning.partition("warning: ")[2] for warning in report.warnings] == [
@@ -268,8 +267,13 @@ def test_what_is_not_known_is_named_and_the_reading_goes_on() -> None:
         "attribute 'colour' of <param> is not known; it is ignored",
         "machine 'm' at 'a': nothing runs remotely; its nodes run here",
         "<master> has no effect since ROS 0.7; it is ignored",
-        "no argument 'speed' to set; the file's arguments: none",
     ]
+
+
+def test_an_argument_that_the_file_does_not_have_is_an_error() -> None:
+    """roslaunch starts without a word, and the misspelt argument does nothing."""
+    with pytest.raises(DescriptionError, match="no argument 'sped' to set; the file's arguments: 'speed'"):
+        plan_of('<arg name="speed" default="1"/>', sped="2")
 
 
 def write(folder: Path, name: str, body: str) -> Path:

@@ -83,9 +83,10 @@ class _Reader:
         """Read a file of the command line."""
         scope = Scope(namespace=canonical_name(namespace) or "/", file=str(file), arguments=dict(arguments))
         self._launch(root, scope, depth=0)
-        for name in sorted(set(arguments) - scope.declared):
+        unknown = sorted(set(arguments) - scope.declared)
+        if unknown:  # roslaunch says nothing, and a misspelt argument silently does nothing
             known = ", ".join(map(repr, sorted(scope.declared))) or "none"
-            self._report.warn(root.at, f"no argument {name!r} to set; the file's arguments: {known}")
+            raise DescriptionError(root.at, f"no argument {unknown[0]!r} to set; the file's arguments: {known}")
 
     def _launch(self, root: XmlNode, scope: Scope, *, depth: int) -> None:
         if root.tag != "launch":
