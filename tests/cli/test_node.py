@@ -17,6 +17,7 @@ def test_nodes_are_listed_with_and_without_addresses(graph: Any) -> None:
 
 def test_a_node_is_described_as_by_rosnode(graph: Any) -> None:
     node, other = graph.node("one"), graph.node("two")
+    graph.ready(node)
     publisher = node.advertise("/a", STRING)
     other.subscribe("/a", STRING, print)
     node.subscribe("/b", STRING, print)
@@ -33,8 +34,8 @@ def test_a_node_is_described_as_by_rosnode(graph: Any) -> None:
         "Subscriptions: \n * /b [unknown type]\n\n"
         "Services: \n * /one/get_loggers\n * /one/set_logger_level\n\n"
         f"\ncontacting node {node.uri} ...\nPid: {os.getpid()}\nConnections:\n"
-        " * topic: /a\n    * to: /two\n    * direction: outbound\n    * transport: INTRAPROCESS\n"
-        " * topic: /rosout\n    * to: /rosout\n    * direction: outbound\n    * transport: INTRAPROCESS\n\n"
+        " * topic: /rosout\n    * to: /rosout\n    * direction: outbound\n    * transport: INTRAPROCESS\n"
+        " * topic: /a\n    * to: /two\n    * direction: outbound\n    * transport: INTRAPROCESS\n\n"
     )
 
 
