@@ -1,0 +1,24 @@
+"""The room's public face."""
+
+import pytest
+
+import trundle.names
+import trundle.ros
+from trundle.ros.network import server_address
+
+
+def test_every_public_name_is_there_and_sorted() -> None:
+    for room in (trundle.ros, trundle.names):
+        assert list(room.__all__) == sorted(room.__all__)
+        for name in room.__all__:
+            assert getattr(room, name) is not None
+
+
+def test_addresses_given_out_lead_to_where_a_server_listens(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("ROS_HOSTNAME", raising=False)
+    monkeypatch.setenv("ROS_IP", "localhost")
+    assert server_address().advertise == "localhost"
+    monkeypatch.setenv("ROS_IP", "192.0.2.1")
+    assert server_address().advertise == "127.0.0.1"
+    assert "192.0.2.1" in (server_address().warning or "")
+    assert server_address("0.0.0.0").advertise == "192.0.2.1"
