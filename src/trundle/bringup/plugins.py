@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 
 from trundle.diagnostics import DescriptionError
 from trundle.names import ros_name
-from trundle.plugins import find_plugin
+from trundle.plugins import Plugin, find_plugin
 from trundle.simulation import Simulation
 
 from .ros_side import RosSide
@@ -12,9 +12,10 @@ from .ros_side import RosSide
 
 def load_plugins(
     simulation: Simulation, ros: RosSide | None, environment: Mapping[str, str], *, say: Callable[[str], None]
-) -> None:
+) -> list[Plugin]:
     """Load each plugin and hook it in; one that cannot be had is named, and the run goes on as in Gazebo."""
     report = simulation.report
+    loaded: list[Plugin] = []
     for model in simulation.world.models:
         for tag in model.plugins:
             try:
@@ -31,5 +32,7 @@ def load_plugins(
                 continue
             simulation.add_hook(plugin, period_ns=plugin.period_ns)
             simulation.on_reset(plugin.reset)
+            loaded.append(plugin)
     for tag in simulation.world.plugins:
         report.warn(tag.at, f"world plugin {tag.name!r} ({tag.filename}) is not supported; the run goes on without it")
+    return loaded

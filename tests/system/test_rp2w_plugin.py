@@ -1,0 +1,103 @@
+"""The RP2W with its Python plugin: from the files to where the robot stands."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from trundle.bringup.plugins import load_plugins
+from trundle.bringup.stage import set_stage
+from trundle.diagnostics import Diagnostics
+from trundle.packages import Packages
+from trundle.plugins import Plugin
+from trundle.simulation import Simulation
+
+EXAMPLE = Path(__file__).parents[2] / "examples/rp2w"
+
+
+class Run:
+    """A simulation and the plugin that its model loaded."""
+
+    def __init__(self, folder: Path) -> None:
+        report = Diagnostics()
+        stage = set_stage(str(folder), Packages({}, start=folder), report)
+        self.sim = Simulation(stage.world, report)
+        self.robot = self.sim.models[0]
+        self.plugin: Plugin = load_plugins(self.sim, None, {}, say=lambda _: None)[0]
+
+
+def with_the_published_model(folder: Path, shared: Path) -> Path:
+    """The tutorial's own files, and the plugin put beside them."""
+    for name in ("model.sdf", "model.config"):
+        shutil.copy(shared / "seeds/rp2w" / name, folder)
+    shutil.copy(EXAMPLE / "rp2w.py", folder)
+    return folder
+
+
+def test_the_published_robot_drives_the_way_its_cameras_look(tmp_path: Path, shared: Path) -> None:
+    """Its seven unit inertias make it heavy: 2 N·m on each wheel bring it to 0.2 m/s in about three seconds."""
+    run = Run(with_the_published_model(tmp_path, shared))
+    run.plugin.wanted = (0.2, 0.0)
+
+    run.sim.run(5.0)
+
+    x, y, _ = run.robot.pose.position
+    assert y > 0.3
+    assert abs(x) < 0.02 * y
+    assert abs(run.robot.pose.rpy[0]) < 0.01
+
+
+def test_our_robot_follows_a_velocity_command() -> None:
+    run = Run(EXAMPLE)
+    run.plugin.wanted = (0.4, 0.0)
+
+    run.sim.run(5.0)
+
+    # 0.4 m/s reached after 0.8 s at 0.5 m/s²: 0.16 m, then 4.2 s at full speed; wheels slip a little.
+    x, y, _ = run.robot.pose.position
+    assert y == pytest.approx(0.16 + 4.2 * 0.4, rel=0.02)
+    assert abs(x) < 0.02
+    assert run.plugin.odometry.x == pytest.approx(y, rel=0.02)
+
+
+def test_our_robot_turns_left_for_a_positive_turn() -> None:
+    run = Run(EXAMPLE)
+    run.plugin.wanted = (0.0, 0.5)
+
+    run.sim.run(5.0)
+
+    yaw = run.robot.pose.rpy[2]
+    assert yaw == pytest.approx(0.5 * 5.0 - 0.5**2 / (2 * 2.0), rel=0.1)
+    assert run.plugin.odometry.yaw == pytest.approx(yaw, rel=0.1)
+
+
+@pytest.mark.parametrize(("joint", "angle"), [("body_camera_base", 0.7), ("camera_base_camera", -0.4)])
+def test_the_camera_turns_on_both_axes(joint: str, angle: float) -> None:
+    run = Run(EXAMPLE)
+    handle = run.robot.joint(joint)
+    run.plugin.look(handle, angle)
+
+    run.sim.run(4.0)
+
+    assert handle.position == pytest.approx(angle, abs=0.02)
+
+
+def test_tilting_up_lifts_the_view() -> None:
+    run = Run(EXAMPLE)
+    run.plugin.look(run.robot.joint("camera_base_camera"), 0.5)
+
+    run.sim.run(4.0)
+
+    looks_along = run.robot.link("camera").pose.direction((1.0, 0.0, 0.0))
+    assert looks_along[2] > 0.4
+
+
+def test_a_reset_takes_the_command_back() -> None:
+    run = Run(EXAMPLE)
+    run.plugin.wanted = (0.4, 0.0)
+    run.sim.run(1.0)
+
+    run.sim.reset()
+    run.sim.run(1.0)
+
+    assert run.robot.pose.position == pytest.approx((0.0, 0.0, 0.0), abs=1e-3)
