@@ -1,8 +1,21 @@
 """The composition root: starts, paces and stops everything; alone knows everyone."""
 
+from .check import CheckOutcome, check
 from .launch import LaunchOptions, launch
 from .outcome import Outcome
+from .picture import picture_of
 from .run import RunOptions, run
 from .view import ViewOptions, view
 
-__all__ = ["LaunchOptions", "Outcome", "RunOptions", "ViewOptions", "launch", "run", "view"]
+__all__ = [
+    "CheckOutcome",
+    "LaunchOptions",
+    "Outcome",
+    "RunOptions",
+    "ViewOptions",
+    "check",
+    "launch",
+    "picture_of",
+    "run",
+    "view",
+]

@@ -67,6 +67,7 @@ def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[st
     show = Showing(sys.stderr, report)
     packages = Packages(env, start=Path.cwd())
     request = read_words(words, packages)
+    packages = packages.around(request.files[0])
     plan = read_launch(request.files, packages=packages, report=report, arguments=request.arguments, env=env)
     show.findings()
     if options.only in ("nodes", "arguments"):

@@ -10,6 +10,7 @@ from trundle.xmlnode import read_xml
 MANIFESTS = ("package.xml", "manifest.xml")
 _DEEPEST = 8
 """How far below a package path packages are looked for; rospack has no bound, real workspaces need five."""
+_PARTS = ("launch", "urdf", "meshes")
 _NOT_CRAWLED = frozenset({"build", "node_modules", "__pycache__"})
 _IGNORED_BY = ("CATKIN_IGNORE", "AMENT_IGNORE", "rospack_nosubdirs")
 
@@ -78,11 +79,14 @@ def _package_name(folder: Path) -> str:
 
 
 def _around(start: Path) -> Iterable[Path]:
-    """The package that `start` is in, the folder that holds it, and a workspace's `src` above."""
+    """The folder that holds the package `start` is in, and a workspace's `src` above.
+
+    A published tutorial often has no package.xml: a folder with a `launch`, `urdf` or `meshes` in it is a package too.
+    """
     folder = start if start.is_dir() else start.parent
     above = [folder, *folder.parents]
     for each in above:
-        if any((each / manifest).is_file() for manifest in MANIFESTS):
+        if any((each / part).exists() for part in (*MANIFESTS, *_PARTS)):
             yield each.parent
             break
     for each in above:

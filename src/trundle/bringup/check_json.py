@@ -1,0 +1,171 @@
+"""What was understood of a file, as `trundle check --json` prints it.
+
+Every pose is [x y z roll pitch yaw] in its own model's frame; a limit that is none is null; values are as resolved
+from the file, before physics mends anything.
+"""
+
+import math
+
+from trundle.description import Loaded
+from trundle.launch import LaunchPlan, ParamCommand
+from trundle.model import Joint, JointAxis, JointType, Link, Model, World, model_from_joint
+from trundle.robot import Robot, root_from_links
+
+_WITHOUT_AXIS = frozenset({JointType.FIXED, JointType.BALL})
+_NO_AXIS: dict[str, object] = {"axis": None, "lower": None, "upper": None, "effort": None, "velocity": None}
+
+
+def described(loaded: Loaded) -> dict[str, object]:
+    """A world, a model or a URDF."""
+    world = loaded.world
+    result: dict[str, object] = {
+        "kind": "world" if loaded.kind == "world" else "model",
+        "name": world.name,
+        "sdf_version": world.sdf_version,
+        "models": [_model(model) for model in world.models],
+    }
+    if loaded.kind == "world":
+        result |= _world(world)
+    if loaded.robot is not None:
+        result["urdf"] = _urdf(loaded.robot)
+    return result
+
+
+def launch_described(plan: LaunchPlan) -> dict[str, object]:
+    """A launch file; commands are named, not run."""
+    return {
+        "kind": "launch",
+        "nodes": [
+            {
+                "name": node.full_name,
+                "package": node.package,
+                "type": node.type,
+                "args": node.arguments,
+                "remaps": [list(pair) for pair in node.remappings],
+                "required": node.required,
+                "respawn": node.respawn,
+            }
+            for node in plan.nodes
+        ],
+        "params": {
+            param.name: {"command": param.value.line} if isinstance(param.value, ParamCommand) else _plain(param.value)
+            for param in plan.params
+        },
+    }
+
+
+def _plain(value: object) -> object:
+    """A parameter's value as JSON has it: bytes and numbers that are none become text."""
+    match value:
+        case bytes():
+            return value.hex()
+        case float() if not math.isfinite(value):
+            return str(value)
+        case list():
+            return [_plain(each) for each in value]
+        case dict():
+            return {str(key): _plain(each) for key, each in value.items()}
+        case _:
+            return value
+
+
+def _model(model: Model) -> dict[str, object]:
+    return {
+        "name": model.name,
+        "pose": model.world_from_model.as_list(),
+        "static": model.static,
+        "self_collide": model.self_collide,
+        "canonical_link": model.canonical_link or (model.links[0].name if model.links else None),
+        "links": [_link(link) for link in model.links],
+        "joints": [_joint(model, joint) for joint in model.joints],
+        "frames": [],
+        "models": [],
+        "plugins": [{"name": plugin.name, "filename": plugin.filename} for plugin in model.plugins],
+    }
+
+
+def _link(link: Link) -> dict[str, object]:
+    inertial = link.inertial
+    return {
+        "name": link.name,
+        "mass": inertial.mass,
+        "inertia": [*inertial.moments, *inertial.products],
+        "inertial_pose": inertial.link_from_com.as_list(),
+        "pose": link.model_from_link.as_list(),
+        "visuals": len(link.visuals),
+        "collisions": len(link.collisions),
+        "sensors": [sensor.name for sensor in link.sensors],
+    }
+
+
+def _joint(model: Model, joint: Joint) -> dict[str, object]:
+    axis2 = _axis(joint.axis2)
+    return {
+        "name": joint.name,
+        "type": joint.type.value,
+        "parent": joint.parent,
+        "child": joint.child,
+        "pose": model_from_joint(model, joint).as_list(),
+        **(_NO_AXIS if joint.type in _WITHOUT_AXIS else _axis(joint.axis)),
+        "axis2": axis2["axis"],
+        "lower2": axis2["lower"],
+        "upper2": axis2["upper"],
+        "damping": 0.0 if joint.axis is None else joint.axis.damping,
+        "friction": 0.0 if joint.axis is None else joint.axis.friction,
+        "spring_reference": 0.0 if joint.axis is None else joint.axis.spring_reference,
+        "spring_stiffness": 0.0 if joint.axis is None else joint.axis.spring_stiffness,
+        "thread_pitch": joint.thread_pitch if joint.type is JointType.SCREW else None,
+        "mimic": None,
+    }
+
+
+def _axis(axis: JointAxis | None) -> dict[str, object]:
+    if axis is None:
+        return _NO_AXIS
+    return {
+        "axis": list(axis.direction),
+        "lower": _finite(axis.lower),
+        "upper": _finite(axis.upper),
+        "effort": _finite(axis.effort),
+        "velocity": _finite(axis.velocity),
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _world(world: World) -> dict[str, object]:
+    return {
+        "joints": [],
+        "frames": [],
+        "lights": [
+            {
+                "name": light.name,
+                "type": light.type,
+                "pose": light.world_from_light.as_list(),
+                "direction": list(light.direction),
+                "diffuse": list(light.diffuse),
+                "specular": list(light.specular),
+            }
+            for light in world.lights
+        ],
+        "gravity": list(world.physics.gravity),
+        "physics": {
+            "max_step_size": world.physics.max_step_size_s,
+            "real_time_update_rate": world.physics.real_time_update_rate_hz,
+        },
+    }
+
+
+def _urdf(robot: Robot) -> dict[str, object]:
+    poses = root_from_links(robot, {})
+    return {
+        "name": robot.name,
+        "root": robot.root,
+        "links": [{"name": link.name, "pose": poses[link.name].as_list()} for link in robot.links],
+        "joints": [
+            {"name": joint.name, "type": joint.type, "parent": joint.parent, "child": joint.child}
+            for joint in robot.joints
+        ],
+    }

@@ -1,0 +1,34 @@
+"""List what is wrong or not supported in a file: SDF, URDF, xacro or launch."""
+
+import argparse
+import json
+import os
+import sys
+from pathlib import Path
+
+EXAMPLES = """
+  trundle check model.sdf                             everything worth knowing, worst first
+  trundle check robot.urdf.xacro --strict             exit 1 on a warning, for continuous integration
+  trundle check world.sdf --json                      the resolved model as one JSON object
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("file", metavar="FILE|DIR|model://NAME", help="what to read; no command in it is run")
+    parser.add_argument("--strict", action="store_true", help="a warning is an error")
+    parser.add_argument("--json", action="store_true", help="print what was understood as one JSON object")
+
+
+def main(args: argparse.Namespace) -> int:
+    """Read, report, and return 1 where the file is refused."""
+    from trundle.bringup import check
+
+    outcome = check(args.file, dict(os.environ), start=Path.cwd())
+    warned = any(finding.severity == "warning" for finding in outcome.report.findings)
+    if args.json:
+        json.dump(outcome.as_json(), sys.stdout, allow_nan=False)
+        print()
+    else:
+        print(outcome.text())
+    return 1 if outcome.refused or (args.strict and warned) else 0

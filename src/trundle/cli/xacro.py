@@ -1,0 +1,41 @@
+"""Expand a xacro file."""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+EXAMPLES = """
+  trundle xacro robot.urdf.xacro                      the expanded XML on standard output
+  trundle xacro robot.urdf.xacro gripper:=true -o robot.urdf
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("file", type=Path, metavar="FILE", help="the file to expand")
+    parser.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help="arguments of the file")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="where to write to")
+    parser.add_argument("-i", "--inorder", action="store_true", help=argparse.SUPPRESS)  # every file is, by now
+
+
+def main(args: argparse.Namespace) -> int:
+    """Print the expanded file."""
+    from trundle.description import expand_xacro
+    from trundle.diagnostics import Diagnostics, UsageError
+    from trundle.packages import Packages
+
+    words = [word.partition(":=") for word in args.arguments]
+    for name, assigned, _ in words:
+        if not assigned:
+            raise UsageError(f"{name!r} is no argument; say NAME:=VALUE")
+    report = Diagnostics()
+    packages = Packages(dict(os.environ), start=args.file)
+    text = expand_xacro(args.file, {name: value for name, _, value in words}, packages=packages, report=report)
+    for finding in report.findings:
+        print(finding, file=sys.stderr)
+    if args.output is None:
+        print(text, end="")
+    else:
+        args.output.write_text(text)
+    return 0
