@@ -26,14 +26,15 @@ test-all: $(READY)  ## everything
 	$(BIN)/python -m pytest -n 2
 
 check: $(READY)  ## lint, types, layers
-	$(BIN)/ruff check src tests bench examples
-	$(BIN)/ruff format --check src tests bench examples
+	$(BIN)/ruff check src tests bench examples docs
+	$(BIN)/ruff format --check src tests bench examples docs
 	$(BIN)/pyright
 	$(BIN)/lint-imports
 
 format: $(READY)  ## rewrite the code in house style
-	$(BIN)/ruff check --fix src tests bench examples
-	$(BIN)/ruff format src tests bench examples
+	$(BIN)/ruff check --fix src tests bench examples docs
+	$(BIN)/ruff format src tests bench examples docs
+	$(BIN)/python docs/what_runs.py
 
 bench: $(READY)  ## figures, as ratios against a peer in the same run
 	$(BIN)/python -m bench

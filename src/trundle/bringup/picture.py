@@ -25,7 +25,7 @@ from .stage import set_stage
 DEFAULT_SIZE = (800, 600)
 _FOV = 0.6
 """A long lens: little distortion, as in a product picture [rad]."""
-_FROM = (math.radians(-50.0), math.radians(20.0))
+_FROM = (math.radians(42.0), math.radians(14.0))
 """Azimuth and elevation of a three-quarter view."""
 _MARGIN = 1.08
 _SAMPLES = 2

@@ -1,0 +1,112 @@
+"""What is wrong ends in one sentence that says where and what to do, and exit code 1."""
+
+import json
+import socket
+from pathlib import Path
+
+import pytest
+
+LINK = '<sdf version="1.6"><model name="m">\n<link name="a"/>\n{}\n</model></sdf>'
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "sentence"),
+    [
+        ("empty.sdf", "", "empty.sdf:1: error: the file is empty"),
+        ("words.sdf", "hello", "words.sdf:1: error: not well-formed XML: Start tag expected, '<' not found"),
+        ("other.sdf", "<html/>", "other.sdf:1: error: <html> starts neither an SDF (<sdf>) nor a URDF (<robot>)"),
+        (
+            "joint.sdf",
+            LINK.format('<joint name="hinge" type="revolute"><parent>a</parent><child>wheel</child></joint>'),
+            "joint.sdf:3: error: joint 'hinge': no link 'wheel'; links here: 'a'",
+        ),
+        ("no.urdf", '<robot name="r"/>', "no.urdf:1: error: the robot has no links; was a xacro macro never called?"),
+    ],
+)
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_a_bad_description_is_one_sentence(trundle, tmp_path: Path, command, name, text, sentence) -> None:
+    (tmp_path / name).write_text(text)
+
+    done = trundle(command, name, *(["--headless", "--no-ros"] if command == "run" else []))
+
+    assert done.returncode == 1
+    assert sentence in done.stderr + done.stdout
+    assert "Traceback" not in done.stderr
+
+
+def test_a_file_that_is_not_there(trundle) -> None:
+    done = trundle("run", "nowhere.sdf", "--headless")
+
+    assert (done.returncode, done.stderr) == (1, "nowhere.sdf: error: no such file or folder\n")
+
+
+def test_a_refused_file_is_still_json(trundle, tmp_path: Path) -> None:
+    (tmp_path / "empty.sdf").write_text("")
+
+    done = trundle("check", "empty.sdf", "--json")
+
+    assert done.returncode == 1
+    assert json.loads(done.stdout) == {
+        "kind": None,
+        "models": [],
+        "diagnostics": [{"severity": "error", "file": "empty.sdf", "line": 1, "message": "the file is empty"}],
+    }
+
+
+def test_a_missing_package_says_where_was_looked(trundle, tmp_path: Path) -> None:
+    done = trundle("launch", "no_such_package", "x.launch", ROS_PACKAGE_PATH=str(tmp_path))
+
+    assert done.returncode == 1
+    assert f"no package 'no_such_package'; looked below {tmp_path}" in done.stderr
+
+
+def test_a_launch_argument_that_is_not_there_names_those_that_are(trundle, tmp_path: Path) -> None:
+    (tmp_path / "a.launch").write_text('<launch>\n<arg name="gui" default="true"/>\n</launch>')
+
+    done = trundle("launch", "a.launch", "guy:=false")
+
+    assert done.returncode == 1
+    assert done.stderr == "a.launch:1: error: no argument 'guy' to set; the file's arguments: 'gui'\n"
+
+
+def test_a_page_port_that_is_taken_is_said_before_anything_runs(trundle, tmp_path: Path) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+
+        done = trundle("run", "model://rp2w", "--no-ros", "--port", str(port), "--duration", "1")
+
+    assert done.returncode == 1
+    assert str(port) in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_second_core_says_that_the_port_is_taken(start, trundle, master, until, env) -> None:
+    port = env["ROS_MASTER_URI"].rpartition(":")[2]
+    start("core", "-p", port)
+    until("the first core", lambda: master.call("getPid"))
+
+    done = trundle("core", "-p", port)
+
+    assert done.returncode == 1
+    assert port in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("words", [["run"], ["run", "x", "--speed", "fast"], ["fly"], ["topic", "fly"]])
+def test_wrong_usage_is_exit_code_two(trundle, words) -> None:
+    done = trundle(*words)
+
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+
+
+def test_a_broken_plugin_names_its_own_line_and_the_run_goes_on(trundle, tmp_path: Path) -> None:
+    (tmp_path / "model.sdf").write_text(LINK.format('<plugin name="p" filename="libp.so"/>'))
+    (tmp_path / "p.py").write_text("import math\n\n1 / 0\n")
+
+    done = trundle("run", "model.sdf", "--headless", "--no-ros", "--duration", "0.1", "--speed", "max")
+
+    assert done.returncode == 0
+    assert f"{tmp_path}/p.py:3: warning: plugin not loaded: ZeroDivisionError" in done.stderr
