@@ -3,6 +3,7 @@
 import importlib
 import sys
 
+from bench.peers import TABLE
 from bench.table import Row, print_table
 
 BENCHES = ("step", "images", "startup")
@@ -19,6 +20,7 @@ def main() -> int:
         print(f"bench: {name} …", file=sys.stderr)
         rows += importlib.import_module(f"bench.{name}").run()
     print_table(rows)
+    print(f"\nFor reading, not of this run:{TABLE}")
     return 0
 
 

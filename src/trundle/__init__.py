@@ -1,3 +1,31 @@
-"""Trundle runs the robots of the ROS 1 and Gazebo-classic world anywhere Python runs."""
+"""Trundle runs the robots of the ROS 1 and Gazebo-classic world anywhere Python runs.
+
+import trundle
+
+sim = trundle.load("model.sdf")
+sim.run(2.0)
+print(sim["my_robot"].joint("body_camera_base").position)
+"""
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from trundle.simulation import Simulation
 
 __version__ = "0.1.0"
+__all__ = ["__version__", "load"]
+
+
+def load(file: str, *, seed: int = 0) -> "Simulation":
+    """Read a robot or a world, ready to simulate; a robot alone is put on a ground plane under a sun.
+
+    Args:
+        file: SDF, URDF or xacro; a folder with model.config; or model://NAME.
+        seed: of everything random.
+
+    Raises:
+        TrundleError: one sentence with file and line. Warnings are in the simulation's `report`.
+    """
+    from trundle.bringup import load_simulation
+
+    return load_simulation(file, seed=seed)

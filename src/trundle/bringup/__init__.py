@@ -5,6 +5,7 @@ from .launch import LaunchOptions, launch
 from .outcome import Outcome
 from .picture import picture_of
 from .run import RunOptions, run
+from .stage import load_simulation
 from .view import ViewOptions, view
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "ViewOptions",
     "check",
     "launch",
+    "load_simulation",
     "picture_of",
     "run",
     "view",

@@ -31,6 +31,8 @@ from .ros_side import RosSide
 
 _FRAME_NS = 33_000_000
 """The page is fed 30 times a second of wall time."""
+_DRIVE_NS = 100_000_000
+"""10 Hz, as the tutorials' `rostopic pub -r 10`."""
 _SLIDER_RANGE = math.pi
 """Of a joint without limits [rad or m]."""
 _SLIDER_TORQUE = 10.0
@@ -47,9 +49,11 @@ class Page:
         self._viewer = viewer
         self._simulation = simulation
         self._ros = ros
-        self._joints = {f"{joint}": (model, joint) for model, joint in joints}
+        self._joints = dict(zip(_slider_names(joints), joints, strict=True))
         self._slider_indices = _joint_indices(simulation, joints)
         self._fed_ns = 0
+        self._command = (0.0, 0.0)
+        self._drive_due_ns: int | None = None
 
     @classmethod
     def open(
@@ -69,6 +73,7 @@ class Page:
         world = simulation.world
         movable = [(model.name, joint) for model in world.models if not model.static for joint in model.joints]
         movable = [(name, joint) for name, joint in movable if _is_movable(joint)]
+        names = _slider_names([(model, joint.name) for model, joint in movable])
         scene = ViewerScene(
             title=f"{world.name} · Trundle",
             scene=scene_of(world, simulation.report),
@@ -85,7 +90,7 @@ class Page:
                 )
                 for camera in cameras
             ),
-            joints=tuple(_slider(joint) for _, joint in movable),
+            joints=tuple(_slider(joint, name) for (_, joint), name in zip(movable, names, strict=True)),
             playback=True,
             drive=ros is not None,
             root_frame=WORLD_FRAME,
@@ -145,11 +150,20 @@ class Page:
                     model, joint = self._joints[name]
                     self._simulation[model].joint(joint).hold(position, max_effort=_SLIDER_TORQUE)
                 case Drive(linear, angular):
-                    if self._ros is not None:
-                        self._ros.drive(linear, angular)
+                    self._command = (linear, angular)
+                    self._drive_due_ns = 0
                 case _:
                     pass
+        self._keep_driving()
         return paused
+
+    def _keep_driving(self) -> None:
+        """Repeat a velocity that is not zero: many controllers stop a robot that hears no more."""
+        now = time.monotonic_ns()
+        if self._ros is None or self._drive_due_ns is None or now < self._drive_due_ns:
+            return
+        self._ros.drive(*self._command)
+        self._drive_due_ns = now + _DRIVE_NS if any(self._command) else None
 
     def close(self) -> None:
         """Take the page down."""
@@ -168,11 +182,17 @@ def _is_movable(joint: Joint) -> bool:
     return joint.type in _MOVABLE and joint.axis is not None and not joint.axis.is_rigid
 
 
-def _slider(joint: Joint) -> JointSlider:
+def _slider_names(joints: list[tuple[str, str]]) -> list[str]:
+    """The joints' own names; with their model's in front where there are several models."""
+    several = len({model for model, _ in joints}) > 1
+    return [f"{model}/{joint}" if several else joint for model, joint in joints]
+
+
+def _slider(joint: Joint, name: str) -> JointSlider:
     assert joint.axis is not None
     lower, upper = joint.axis.lower, joint.axis.upper
     return JointSlider(
-        joint.name,
+        name,
         lower if math.isfinite(lower) else -_SLIDER_RANGE,
         upper if math.isfinite(upper) else _SLIDER_RANGE,
     )

@@ -1,12 +1,15 @@
 """Puts what a file describes into a world that can be simulated."""
 
+import os
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from trundle.description import Loaded, load
 from trundle.diagnostics import Diagnostics
 from trundle.model import World
 from trundle.packages import Packages
 from trundle.robot import Robot
+from trundle.simulation import Simulation
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,6 +31,13 @@ def set_stage(file: str, packages: Packages, report: Diagnostics) -> Stage:
     loaded = load(file, report, packages=packages)
     world = loaded.world if loaded.kind == "world" else _on_the_ground(loaded, packages, report)
     return Stage(world=world, robot=loaded.robot, urdf=loaded.urdf)
+
+
+def load_simulation(file: str, *, seed: int = 0) -> Simulation:
+    """Read a file and compile it, with the process's environment; see `trundle.load`."""
+    report = Diagnostics()
+    stage = set_stage(file, Packages(dict(os.environ), start=Path.cwd()), report)
+    return Simulation(stage.world, report, seed=seed)
 
 
 def _on_the_ground(loaded: Loaded, packages: Packages, report: Diagnostics) -> World:

@@ -1,0 +1,60 @@
+"""How long a user waits: from the command to the first step, and to the car's first odometry."""
+
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from bench.table import Row
+from trundle.ros import GraphLoop, Node
+
+ROOT = Path(__file__).parents[1]
+SEEDS = ROOT.parent / "shared/seeds"
+_RUNS = 5
+_PATIENCE_S = 30.0
+
+
+def run() -> list[Row]:
+    """Whole processes, timed from outside; the peers' figures are in bench/peers.py."""
+    first_step = ("run", str(ROOT / "examples/rp2w"), "--headless", "--no-ros", "--no-sensors", "--duration", "0.001")
+    waits: dict[str, Callable[[], float]] = {
+        "trundle --version, start to exit": lambda: _command("--version"),
+        "RP2W, start to first step and exit": lambda: _command(*first_step),
+    }
+    if SEEDS.is_dir():
+        waits["smartcar, launch to first /odom"] = _first_odometry
+    return [
+        Row(name, statistics.median(measure() for _ in range(_RUNS)), "s", "", None) for name, measure in waits.items()
+    ]
+
+
+def _command(*arguments: str) -> float:
+    start = time.perf_counter()
+    subprocess.run([sys.executable, "-m", "trundle", *arguments], check=True, capture_output=True)
+    return time.perf_counter() - start
+
+
+def _first_odometry() -> float:
+    """Listen before the launch; its first message counts."""
+    came = threading.Event()
+    port = 11400 + os.getpid() % 500
+    uri = f"http://127.0.0.1:{port}"
+    env = {**os.environ, "ROS_MASTER_URI": uri, "ROS_PACKAGE_PATH": str(SEEDS)}
+    words = ("launch", "smartcar_description", "smartcar_display.rviz.launch", "--headless")
+    with GraphLoop() as loop, tempfile.TemporaryFile() as output:
+        listener = Node("/bench", loop=loop, master_uri=uri, rosout=False)
+        listener.subscribe("/odom", "nav_msgs/Odometry", lambda _: came.set())
+        start = time.perf_counter()
+        process = subprocess.Popen([sys.executable, "-m", "trundle", *words], env=env, stdout=output, stderr=output)
+        try:
+            if not came.wait(_PATIENCE_S):
+                raise RuntimeError(f"no /odom within {_PATIENCE_S:g} s")
+            return time.perf_counter() - start
+        finally:
+            process.terminate()
+            process.wait()

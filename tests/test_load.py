@@ -1,0 +1,34 @@
+"""The public API, on the published robot."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import trundle
+from trundle.spatial import Wrench
+
+
+@pytest.mark.parametrize(("force", "distance", "within"), [(15.0, 0.412, 0.412 * 0.02), (5.0, 0.0, 0.001)])
+def test_a_push_rolls_the_robot_or_not(shared: Path, force: float, distance: float, within: float) -> None:
+    """Rigid rolling of 6 kg with three wheels of 1 kg·m² against 0.3 N·m of friction in two: 0.4117 m for 15 N in
+    10 s; 5 N do not overcome the friction (2 · 0.3 N·m / 0.0635 m = 9.4 N).
+    """
+    sim = trundle.load(str(shared / "seeds/rp2w/model.sdf"))
+    chassis = sim["my_robot"].link("chassis")
+    start = chassis.pose.position[1]
+
+    chassis.apply_wrench(Wrench(force=(0.0, force, 0.0)), duration_s=10.0)
+    sim.run(10.0)
+
+    assert chassis.pose.position[1] - start == pytest.approx(distance, abs=within)
+
+
+def test_importing_it_loads_nothing_heavy() -> None:
+    """Light commands must answer at once."""
+    code = "import sys, trundle, trundle.cli; print(*sorted({'numpy', 'mujoco', 'viser', 'lxml'} & set(sys.modules)))"
+
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+
+    assert done.stdout.strip() == ""
