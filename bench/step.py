@@ -1,0 +1,46 @@
+"""Stepping the RP2W: what the simulation costs over the engine's bare loop on the same compiled model."""
+
+import statistics
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import mujoco
+
+import trundle
+from bench.table import Row
+
+ROBOT = Path(__file__).parents[1] / "examples/rp2w"
+_STEPS = 20_000
+_PAIRS = 7
+
+
+def run() -> list[Row]:
+    """Alternate the two, so that both see the machine at its fast and slow moments."""
+    sim = trundle.load(str(ROBOT))
+    model = sim.engine.compiled.model
+    bare = mujoco.MjData(model)
+
+    def ours() -> None:
+        sim.step(_STEPS)
+
+    def one_by_one() -> None:
+        for _ in range(_STEPS):
+            mujoco.mj_step(model, bare)
+
+    def in_one_call() -> None:
+        mujoco.mj_step(model, bare, nstep=_STEPS)
+
+    rows: list[Row] = []
+    for name, peer in (("mj_step in a loop", one_by_one), ("mj_step(nstep=…)", in_one_call)):
+        pairs = [(_rate(ours), _rate(peer)) for _ in range(_PAIRS)]
+        value = statistics.median(a for a, _ in pairs)
+        ratio = statistics.median(a / b for a, b in pairs)
+        rows.append(Row("RP2W at rest, no cameras", value, "steps/s", name, ratio))
+    return rows
+
+
+def _rate(work: Callable[[], None]) -> float:
+    start = time.perf_counter()
+    work()
+    return _STEPS / (time.perf_counter() - start)

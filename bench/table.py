@@ -1,0 +1,25 @@
+"""Rows of figures, printed as one table."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One figure."""
+
+    name: str
+    value: float
+    unit: str
+    against: str
+    """The peer, measured in the same run; empty where there is none."""
+    ratio: float | None
+    """Median of value over the peer's, pair by pair."""
+
+
+def print_table(rows: Sequence[Row]) -> None:
+    """Print one line a row."""
+    width = max(len(row.name) for row in rows)
+    for row in rows:
+        peer = "" if row.ratio is None else f"   {row.ratio:.3g} of {row.against}"
+        print(f"{row.name:<{width}}  {row.value:>12,.4g} {row.unit:<9}{peer}")
