@@ -119,16 +119,21 @@ class Engine:
 
     def joint_positions(self) -> NDArray[np.float64]:
         """(joints,) [rad or m]; joints without one axis of freedom read 0."""
-        return np.where(self._moves, self._data.qpos[self.compiled.joint_qpos], 0.0)
+        return self._of_joints(self._data.qpos, self.compiled.joint_qpos)
 
     def joint_velocities(self) -> NDArray[np.float64]:
         """(joints,) [rad/s or m/s]"""
-        return np.where(self._moves, self._data.qvel[self.compiled.joint_dof], 0.0)
+        return self._of_joints(self._data.qvel, self.compiled.joint_dof)
 
     def joint_efforts(self) -> NDArray[np.float64]:
         """(joints,) what motors and applied efforts exert [N·m or N]."""
-        dof = self.compiled.joint_dof
-        return np.where(self._moves, self._data.qfrc_applied[dof] + self._data.qfrc_actuator[dof], 0.0)
+        return self._of_joints(self._data.qfrc_applied + self._data.qfrc_actuator, self.compiled.joint_dof)
+
+    def _of_joints(self, values: NDArray[np.float64], places: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Each joint's number out of the engine's; the world may have none at all."""
+        found = np.zeros(len(places))
+        found[self._moves] = values[places[self._moves]]
+        return found
 
     def link_mass(self, link: int) -> float:
         """[kg]"""
