@@ -34,28 +34,24 @@ class CameraTopics:
             Transform(parent=carrier, child=self.frame, translation=optical.position, rotation=optical.quaternion)
         )
         base = f"/{ros_name(model.name)}/{ros_name(link.name)}/{ros_name(camera.name)}"
-        self._node = node
         self._image = node.advertise(f"{base}/image_raw", "sensor_msgs/Image", queue_size=2)
         self._info = node.advertise(f"{base}/camera_info", "sensor_msgs/CameraInfo", queue_size=2)
         self._calibration = _calibration(camera)
         camera.listen(self._publish, wanted=lambda: self._image.has_subscribers or self._info.has_subscribers)
 
     def _publish(self, reading: CameraReading) -> None:
-        header = {"stamp": self._node.stamp(), "frame_id": self.frame}
+        header = {"stamp": reading.time_ns, "frame_id": self.frame}
         height, width, _ = reading.rgb.shape
         if self._image.has_subscribers:
             self._image.publish(
-                self._node.new(
-                    "sensor_msgs/Image",
-                    {
-                        "header": header,
-                        "height": height,
-                        "width": width,
-                        "encoding": "rgb8",
-                        "step": 3 * width,
-                        "data": reading.rgb.reshape(-1),
-                    },
-                )
+                {
+                    "header": header,
+                    "height": height,
+                    "width": width,
+                    "encoding": "rgb8",
+                    "step": 3 * width,
+                    "data": reading.rgb.reshape(-1),
+                }
             )
         if self._info.has_subscribers:
             self._info.publish({**self._calibration, "header": header})
