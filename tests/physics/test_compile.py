@@ -1,0 +1,285 @@
+"""What the compile makes of a world: freedoms, mends, and who may touch whom."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from trundle import physics
+from trundle.diagnostics import Diagnostics, Source
+from trundle.model import (
+    Box,
+    Collision,
+    Geometry,
+    Inertial,
+    Joint,
+    JointAxis,
+    JointType,
+    Link,
+    MeshFile,
+    Model,
+    PhysicsSettings,
+    Plane,
+    Sphere,
+    Surface,
+    World,
+)
+from trundle.physics import CompiledWorld, compile_world
+from trundle.simulation import Simulation
+from trundle.spatial import Pose, Wrench
+
+AT = Source("inline.sdf", 1)
+X = JointAxis(direction=(1.0, 0.0, 0.0))
+LIGHT = Inertial(mass=1.0, moments=(0.01, 0.01, 0.01))
+
+
+def link(name: str, *, x: float = 0.0, geometry: Geometry | None = None, surface: Surface | None = None) -> Link:
+    shape = Collision(name="c", geometry=geometry or Sphere(0.1), at=AT, surface=surface or Surface())
+    return Link(name=name, at=AT, model_from_link=Pose((x, 0.0, 1.0)), inertial=LIGHT, collisions=(shape,))
+
+
+def hinge(parent: str, child: str, axis: JointAxis = X, *, line: int = 7) -> Joint:
+    name = f"{parent}_{child}"
+    return Joint(name=name, type=JointType.REVOLUTE, parent=parent, child=child, at=Source("j.sdf", line), axis=axis)
+
+
+def model(*links: Link, joints: tuple[Joint, ...] = (), name: str = "m", **rest: bool) -> Model:
+    return Model(name=name, at=AT, links=links, joints=joints, **rest)
+
+
+def floor(surface: Surface | None = None) -> Model:
+    return model(link("l", geometry=Plane((0.0, 0.0, 1.0), (9.0, 9.0)), surface=surface), name="floor", static=True)
+
+
+def compiled(*models: Model, report: Diagnostics | None = None) -> CompiledWorld:
+    return compile_world(World(name="w", at=AT, models=models), report or Diagnostics(strict=True))
+
+
+def pairs(world: CompiledWorld) -> set[frozenset[str]]:
+    """Which shapes may touch, by name."""
+    m = world.model
+    return {frozenset((m.geom(m.pair_geom1[i]).name, m.geom(m.pair_geom2[i]).name)) for i in range(m.npair)}
+
+
+def test_the_front_door_exports_in_order() -> None:
+    assert physics.__all__ == sorted(physics.__all__)
+    assert all(hasattr(physics, name) for name in physics.__all__)
+
+
+def test_a_joint_between_0_and_0_leaves_no_freedom_and_is_said_once() -> None:
+    report = Diagnostics(strict=True)
+    stuck = hinge("a", "b", replace(X, lower=0.0, upper=0.0))
+    world = compiled(model(link("a"), link("b"), joints=(stuck,)), report=report)
+    assert world.model.nv == 6
+    assert world.joint_qpos.tolist() == world.joint_dof.tolist() == world.joint_actuators.tolist() == [-1]
+    assert [str(f) for f in report.findings] == [
+        "j.sdf:7: info: joint 'a_b': lower = upper = 0 leaves no freedom; rigid"
+    ]
+
+
+def test_names_and_numbers_are_in_file_order_whatever_the_tree_is() -> None:
+    # The root is last in the file; MuJoCo numbers bodies from the root.
+    world = compiled(
+        model(link("leaf"), link("middle"), link("root"), joints=(hinge("middle", "leaf"), hinge("root", "middle")))
+    )
+    assert world.link_names == ("m::leaf", "m::middle", "m::root")
+    assert world.joint_names == ("m::middle_leaf", "m::root_middle")
+    assert [world.model.body(b).name for b in world.link_bodies] == list(world.link_names)
+    parents = {name: world.model.body(world.model.body(name).parentid[0]).name for name in world.link_names}
+    assert parents == {"m::leaf": "m::middle", "m::middle": "m::root", "m::root": "world"}
+    assert [world.model.joint(int(world.model.dof_jntid[d])).name for d in world.joint_dof] == list(world.joint_names)
+
+
+def test_the_order_of_joints_in_the_file_changes_nothing() -> None:
+    parts = (link("a"), link("b", x=0.5), link("c", x=1.0))
+    joints = (hinge("a", "b", JointAxis(direction=(0.0, 1.0, 0.0))), hinge("b", "c"))
+    ends = []
+    for order in (joints, joints[::-1]):
+        sim = Simulation(World(name="w", at=AT, models=(model(*parts, joints=order),)), Diagnostics(strict=True))
+        sim["m"].joint("a_b").set_effort(0.05)
+        sim.run(0.5)
+        ends.append(sim.snapshot().poses)
+    assert ends[0].tobytes() == ends[1].tobytes()
+
+
+def test_a_joint_to_the_world_holds_the_model_where_it_is() -> None:
+    arm = model(link("arm", x=0.5), joints=(hinge("world", "arm"),))
+    sim = Simulation(
+        World(name="w", at=AT, models=(replace(arm, world_from_model=Pose((0.0, 3.0, 0.0))),)), Diagnostics()
+    )
+    assert sim.engine.compiled.model.nv == 1
+    sim.run(0.5)
+    assert sim["m"].link("arm").pose.position == pytest.approx((0.5, 3.0, 1.0))
+
+
+def test_a_static_model_has_no_freedom_and_its_joints_do_not_move() -> None:
+    frozen = model(link("a"), link("b", x=0.3), joints=(hinge("a", "b"),), static=True)
+    sim = Simulation(World(name="w", at=AT, models=(frozen,)), Diagnostics(strict=True))
+    assert sim.engine.compiled.model.nv == 0
+    sim["m"].link("b").apply_wrench(Wrench(force=(50.0, 50.0, 50.0)))
+    sim.run(0.1)
+    assert sim.snapshot().poses[1, :3] == pytest.approx((0.3, 0.0, 1.0))
+
+
+def test_a_second_joint_on_a_link_is_named_and_left_out() -> None:
+    report = Diagnostics()
+    double = (hinge("a", "c"), hinge("b", "c", line=9))
+    world = compiled(model(link("a"), link("b"), link("c"), joints=double), report=report)
+    assert world.joint_dof.tolist()[1] == -1
+    assert report.warnings == [
+        "j.sdf:9: warning: joint 'b_c' closes a loop of links, which is not simulated; it is left out"
+    ]
+
+
+def test_a_ring_of_links_is_opened_where_the_file_closes_it() -> None:
+    report = Diagnostics()
+    ring = (hinge("a", "b"), hinge("b", "c"), hinge("c", "a", line=9))
+    world = compiled(model(link("a"), link("b"), link("c"), joints=ring), report=report)
+    assert world.model.nv == 6 + 2
+    assert [w.split(":")[1] for w in report.warnings] == ["9"]
+
+
+def test_a_thickness_of_zero_is_mended_aloud_at_its_source() -> None:
+    report = Diagnostics()
+    flat = Collision(name="plate", geometry=Box((0.2, 0.0, 0.3)), at=Source("robot.sdf", 42))
+    world = compiled(model(Link(name="a", at=AT, inertial=LIGHT, collisions=(flat,))), report=report)
+    assert report.warnings == ["robot.sdf:42: warning: collision 'plate': y of zero thickness; physics uses 0.1 mm"]
+    assert world.model.geom("m::a::plate").size == pytest.approx([0.1, 0.5e-4, 0.15])
+
+
+def test_moments_that_belong_to_no_body_are_mended_aloud() -> None:
+    report = Diagnostics()
+    odd = Link(name="a", at=Source("robot.sdf", 5), inertial=Inertial(mass=1.0, moments=(1.0, 1.0, 4.0)))
+    world = compiled(model(odd), report=report)
+    assert report.warnings == [
+        "robot.sdf:5: warning: link 'a': principal moments 1, 1, 4 kg·m² belong to no body "
+        "(the largest exceeds the sum of the others); physics raises the two smaller by 1"
+    ]
+    assert sorted(world.model.body("m::a").inertia) == pytest.approx([2.0, 2.0, 4.0])
+
+
+def test_a_plausible_inertia_is_taken_as_written_whatever_its_axes() -> None:
+    tilted = Inertial(mass=2.0, link_from_com=Pose((0.1, 0.2, 0.3)), moments=(2.0, 2.0, 3.0), products=(0.5, 0.0, 0.0))
+    world = compiled(model(Link(name="a", at=AT, inertial=tilted)))
+    body = world.model.body("m::a")
+    assert sorted(body.inertia) == pytest.approx([1.5, 2.5, 3.0])
+    assert body.ipos == pytest.approx([0.1, 0.2, 0.3])
+    w, x, y, z = body.iquat
+    rotation = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+    tensor = rotation @ np.diag(body.inertia) @ rotation.T
+    assert tensor == pytest.approx(np.array([[2.0, 0.5, 0.0], [0.5, 2.0, 0.0], [0.0, 0.0, 3.0]]), abs=1e-9)
+
+
+@pytest.mark.parametrize("mass", [0.0, -1.0, float("nan")])
+def test_a_mass_that_cannot_move_is_mended_aloud(mass: float) -> None:
+    report = Diagnostics()
+    compiled(model(Link(name="a", at=AT, inertial=replace(LIGHT, mass=mass))), report=report)
+    assert [w for w in report.warnings if f"mass {mass:g} kg cannot move" in w]
+
+
+def test_a_mesh_that_cannot_be_read_leaves_its_collision_out_aloud(tmp_path: Path) -> None:
+    report = Diagnostics()
+    lost = MeshFile(path=tmp_path / "lost.stl", uri="model://m/lost.stl")
+    world = compiled(model(link("a", geometry=lost)), report=report)
+    assert world.model.ngeom == 0
+    assert len(report.warnings) == 1
+    assert "lost.stl" in report.warnings[0]
+    assert "the collision is left out" in report.warnings[0]
+
+
+def test_links_of_one_model_touch_only_where_it_says_so_and_never_across_a_joint() -> None:
+    parts = (link("a"), link("b", x=0.5), link("c", x=1.0))
+    joints = (hinge("a", "b"), hinge("b", "c"))
+    assert pairs(compiled(model(*parts, joints=joints))) == set()
+    assert pairs(compiled(model(*parts, joints=joints, self_collide=True))) == {frozenset(("m::a::c", "m::c::c"))}
+
+
+def test_a_link_may_speak_for_itself_about_touching_its_own_model() -> None:
+    a, b, c = link("a"), link("b", x=0.5), link("c", x=1.0)
+    willing = model(replace(a, self_collide=True), replace(b, self_collide=True), c)
+    assert pairs(compiled(willing)) == {frozenset(("m::a::c", "m::b::c"))}
+    shy = model(replace(a, self_collide=False), b, c, self_collide=True)
+    assert pairs(compiled(shy)) == {frozenset(("m::b::c", "m::c::c"))}
+
+
+def test_two_static_models_never_meet() -> None:
+    world = compiled(floor(), model(link("a"), static=True))
+    assert pairs(world) == set()
+
+
+def test_the_smaller_friction_of_two_surfaces_wins_whichever_comes_first() -> None:
+    rough, smooth = Surface(mu=0.9, mu2=0.8), Surface(mu=0.2, mu2=100.0)
+    for first, second in ((rough, smooth), (smooth, rough)):
+        world = compiled(floor(first), model(link("a", surface=second)))
+        assert world.model.pair_friction[0, :2] == pytest.approx([0.2, 0.8])
+
+
+def test_a_friction_of_zero_slides_and_a_negative_one_holds() -> None:
+    ice = compiled(floor(Surface(mu=0.0, mu2=0.0)), model(link("a")))
+    assert ice.model.pair_dim[0] == 1
+    glue = compiled(floor(Surface(mu=-1.0, mu2=-1.0)), model(link("a", surface=Surface(mu=-1.0, mu2=-1.0))))
+    assert glue.model.pair_dim[0] == 3
+    assert glue.model.pair_friction[0, 0] >= 10.0
+
+
+def test_shapes_meet_only_where_their_bitmasks_share_a_bit() -> None:
+    a, b, c = (link("a", surface=Surface(collide_bitmask=bits)) for bits in (0b01, 0b10, 0b11))
+    models = [model(part, name=name) for part, name in ((a, "one"), (b, "two"), (c, "both"))]
+    met = pairs(compiled(*models))
+    assert met == {frozenset(("one::a::c", "both::a::c")), frozenset(("two::a::c", "both::a::c"))}
+
+
+def test_a_crowd_meets_by_search_by_the_same_rules() -> None:
+    # 70 balls are 2415 pairs: more than are listed one by one.
+    crowd = [model(link("l", x=3.0 * i), name=f"b{i}") for i in range(68)]
+    low = model(link("l", x=-3.0, surface=Surface(mu=0.3, mu2=0.3)), name="low")
+    high = replace(model(link("l", x=-3.0), name="high"), world_from_model=Pose((0.0, 0.0, 0.2)))
+    ground = replace(floor(), world_from_model=Pose((0.0, 0.0, -0.1)))
+    sim = Simulation(World(name="w", at=AT, models=(*crowd, low, high, ground)), Diagnostics(strict=True))
+    engine = sim.engine.compiled.model
+    assert engine.npair == 70
+    sim.run(0.1)
+    heights = {m.name: m.pose.position[2] for m in sim.models}
+    assert heights["b0"] == pytest.approx(0.0, abs=1e-3)
+    assert heights["high"] == pytest.approx(0.2, abs=2e-3)
+    assert engine.geom("low::l::c").priority[0] > engine.geom("high::l::c").priority[0]
+
+
+def test_step_and_gravity_are_the_worlds() -> None:
+    settings = PhysicsSettings(max_step_size_s=0.002, gravity=(1.0, 2.0, -3.0))
+    world = compile_world(World(name="w", at=AT, physics=settings), Diagnostics(strict=True))
+    assert world.model.opt.timestep == 0.002
+    assert world.model.opt.gravity.tolist() == [1.0, 2.0, -3.0]
+
+
+def test_a_link_without_gravity_floats() -> None:
+    sim = Simulation(
+        World(name="w", at=AT, models=(model(replace(link("a"), gravity=False)),)), Diagnostics(strict=True)
+    )
+    sim.run(1.0)
+    assert sim["m"].link("a").pose.position == pytest.approx((0.0, 0.0, 1.0), abs=1e-9)
+
+
+def test_a_joint_that_is_not_simulated_is_named_and_rigid() -> None:
+    report = Diagnostics()
+    screw = replace(hinge("a", "b"), type=JointType.SCREW)
+    world = compiled(model(link("a"), link("b"), joints=(screw,)), report=report)
+    assert world.model.nv == 6
+    assert report.warnings == ["j.sdf:7: warning: joint 'a_b': screw joints are not simulated yet; it is rigid"]
+
+
+def test_a_block_fixed_to_the_world_may_stand_in_the_floor() -> None:
+    post = Joint(name="post", type=JointType.FIXED, parent="world", child="a", at=AT)
+    sunk = model(link("a"), joints=(post,))
+    sim = Simulation(
+        World(name="w", at=AT, models=(replace(sunk, world_from_model=Pose((0.0, 0.0, -1.0))), floor())), Diagnostics()
+    )
+    sim.run(0.1)
+    assert sim["m"].link("a").pose.position == pytest.approx((0.0, 0.0, 0.0))
