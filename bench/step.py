@@ -1,5 +1,7 @@
 """Stepping the RP2W: what the simulation costs over the engine's bare loop on the same compiled model."""
 
+import contextlib
+import io
 import statistics
 import time
 from collections.abc import Callable
@@ -9,6 +11,8 @@ import mujoco
 
 import trundle
 from bench.table import Row
+from trundle.bringup import RunOptions
+from trundle.bringup import run as launch_run
 
 ROBOT = Path(__file__).parents[1] / "examples/rp2w"
 _STEPS = 20_000
@@ -31,7 +35,23 @@ def run() -> list[Row]:
     def in_one_call() -> None:
         mujoco.mj_step(model, bare, nstep=_STEPS)
 
-    rows: list[Row] = []
+    def as_the_command() -> float:
+        """`trundle run --headless --speed max --no-sensors`, ROS graph on, from its first step to its last."""
+        options = RunOptions(headless=True, speed=None, sensors=False, duration_s=_STEPS / 1000)
+        with contextlib.redirect_stderr(io.StringIO()):
+            outcome = launch_run(str(ROBOT), options, {"HOME": str(Path.home())})
+        return outcome.steps / outcome.wall_s
+
+    pairs = [(as_the_command(), _rate(one_by_one)) for _ in range(_PAIRS)]
+    rows = [
+        Row(
+            "trundle run, RP2W at rest, plugin and graph on",
+            statistics.median(a for a, _ in pairs),
+            "steps/s",
+            "mj_step in a loop",
+            statistics.median(a / b for a, b in pairs),
+        )
+    ]
     for name, peer in (("mj_step in a loop", one_by_one), ("mj_step(nstep=…)", in_one_call)):
         pairs = [(_rate(ours), _rate(peer)) for _ in range(_PAIRS)]
         value = statistics.median(a for a, _ in pairs)

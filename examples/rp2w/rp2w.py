@@ -71,7 +71,8 @@ class Rp2w(Plugin):
         self.tf = TransformBroadcaster(node)
         x_forward = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
         StaticTransformBroadcaster(node).send(Transform(parent="world", child="odom", rotation=x_forward))
-        sim.add_hook(JointStates(node, model), period_ns=JointStates.period_ns)
+        states = JointStates(node, model)
+        sim.add_hook(states, period_ns=states.period_ns, wanted=states.wanted)
         node.subscribe("/cmd_vel", "geometry_msgs/Twist", self.take)
         node.subscribe("/camera/pan", "std_msgs/Float64", lambda message: self.look(self.pan, message.data))
         # The tilt joint's axis is the model's +x, to the right: turning about it lifts the view.
@@ -99,9 +100,9 @@ class Rp2w(Plugin):
         left, right = (then - now for now, then in zip(self.turned, before, strict=True))
         distance, turn = self.odometry.roll(left, right)
         if self.node is not None:
-            self.publish(self.node, snapshot.time_ns, distance / PERIOD_S, turn / PERIOD_S)
+            self.publish(snapshot.time_ns, distance / PERIOD_S, turn / PERIOD_S)
 
-    def publish(self, node: Node, time_ns: int, speed: float, turning: float) -> None:
+    def publish(self, time_ns: int, speed: float, turning: float) -> None:
         here = self.odometry
         qw, qz = math.cos(here.yaw / 2), math.sin(here.yaw / 2)
         self.tf.send(
@@ -114,11 +115,10 @@ class Rp2w(Plugin):
             )
         )
         if self.odom.has_subscribers:
-            stamp = node.stamp()
             position, turned = {"x": here.x, "y": here.y}, {"z": qz, "w": qw}
             self.odom.publish(
                 {
-                    "header": {"stamp": stamp, "frame_id": "odom"},
+                    "header": {"stamp": time_ns, "frame_id": "odom"},
                     "child_frame_id": self.frame,
                     "pose": {"pose": {"position": position, "orientation": turned}},
                     "twist": {"twist": {"linear": {"x": speed}, "angular": {"z": turning}}},

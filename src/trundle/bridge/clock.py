@@ -1,6 +1,6 @@
 """Publishes simulation time on /clock."""
 
-from trundle.ros import Node, SimClock
+from trundle.ros import Node
 from trundle.simulation import Snapshot
 
 
@@ -9,19 +9,13 @@ class ClockTopic:
 
     period_ns = 10_000_000
 
-    def __init__(self, node: Node, clock: SimClock) -> None:
-        """Advertise.
+    def __init__(self, node: Node) -> None:
+        self._publisher = node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=1)
 
-        Args:
-            node: publishes.
-            clock: the clock of the nodes in this process, moved directly.
-        """
-        self._publisher = node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=1, latch=True)
-        self._node = node
-        self._clock = clock
+    def wanted(self) -> bool:
+        """Whether anybody listens."""
+        return self._publisher.has_subscribers
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell the time."""
-        self._clock.set(snapshot.time_ns)
-        if self._publisher.has_subscribers:
-            self._publisher.publish(self._node.new("rosgraph_msgs/Clock", {"clock": self._node.stamp()}))
+        self._publisher.publish({"clock": snapshot.time_ns})

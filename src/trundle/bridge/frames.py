@@ -34,11 +34,14 @@ class SimulationFrames:
         poses = relative_poses(start.poses, _parents(fixed), _children(fixed))
         still.send(*_transforms(fixed, poses, start.time_ns))
 
+    def wanted(self) -> bool:
+        """Whether anything moves and anybody listens."""
+        return bool(self._moving) and self._broadcaster.has_subscribers
+
     def after_step(self, snapshot: Snapshot) -> None:
         """Send every frame that moves."""
-        if self._moving and self._broadcaster.has_subscribers:
-            poses = relative_poses(snapshot.poses, self._parents, self._children)
-            self._broadcaster.send(*_transforms(self._moving, poses, snapshot.time_ns))
+        poses = relative_poses(snapshot.poses, self._parents, self._children)
+        self._broadcaster.send(*_transforms(self._moving, poses, snapshot.time_ns))
 
 
 def _children(frames: list[LinkFrame]) -> NDArray[np.intp]:

@@ -21,21 +21,20 @@ class JointStates:
         movable = [handle for handle in model.joints if handle.joint.type in _MOVABLE]
         self._names = [ros_name(handle.name) for handle in movable]
         self._joints = np.array([handle.index for handle in movable], dtype=np.intp)
-        self._node = node
         self._publisher = node.advertise(topic, "sensor_msgs/JointState", queue_size=5)
 
+    def wanted(self) -> bool:
+        """Whether anybody listens."""
+        return self._publisher.has_subscribers
+
     def after_step(self, snapshot: Snapshot) -> None:
-        """Publish, if anybody listens."""
-        if not self._publisher.has_subscribers:
-            return
-        message = self._node.new(
-            "sensor_msgs/JointState",
+        """Publish."""
+        self._publisher.publish(
             {
-                "header": {"stamp": self._node.stamp()},
+                "header": {"stamp": snapshot.time_ns},
                 "name": self._names,
                 "position": snapshot.joint_positions[self._joints],
                 "velocity": snapshot.joint_velocities[self._joints],
                 "effort": snapshot.joint_efforts[self._joints],
-            },
+            }
         )
-        self._publisher.publish(message)

@@ -11,6 +11,8 @@ NS = 1_000_000_000
 
 _STRIDE_WALL_NS = 20_000_000
 """How long the simulation runs before requests are looked at again, as wall time."""
+_STRIDE_FLAT_OUT_NS = 50_000_000
+"""Simulation time of a stride when nothing waits for the wall: fixed, so that runs repeat."""
 _LAG_FORGIVEN_NS = 200_000_000
 """A run that cannot keep up does not hurry after more than this of lost time: it is slow, not jerky."""
 
@@ -58,7 +60,7 @@ class Pacer:
         now = self._wall_ns()
         self._recent.append((now, time_ns))
         if self._speed is None:
-            return time_ns + _STRIDE_WALL_NS
+            return time_ns + _STRIDE_FLAT_OUT_NS
         if self._anchor is None:
             self._anchor = (now, time_ns)
         wall_0, sim_0 = self._anchor

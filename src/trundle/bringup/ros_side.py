@@ -5,7 +5,7 @@ from types import TracebackType
 from typing import Self
 
 from trundle.bridge import CameraTopics, ClockTopic, JointStates, SimulationFrames
-from trundle.ros import Node, SimClock, StaticTransformBroadcaster
+from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor
 from trundle.simulation import Simulation
 
@@ -15,27 +15,40 @@ from .stage import Stage
 NODE_NAME = "/trundle"
 
 
+class RunningClock(SimClock):
+    """The simulation's own time, exact at every instant; who sleeps is woken when a stride is over."""
+
+    def __init__(self, loop: GraphLoop, simulation: Simulation) -> None:
+        super().__init__(loop)
+        self._simulation = simulation
+
+    def now_ns(self) -> int:
+        """Simulation time [ns]."""
+        return self._simulation.time_ns
+
+
 class RosSide:
     """Everything of one simulation that other ROS nodes see."""
 
     def __init__(self, graph: Graph, simulation: Simulation, cameras: Sequence[CameraSensor], stage: Stage) -> None:
         self._graph = graph
         self._simulation = simulation
-        self.clock = SimClock(graph.loop)
+        self.clock = RunningClock(graph.loop, simulation)
         self.node = self.make_node(NODE_NAME)
         loop = graph.loop
         loop.run(self.node.ready())
         loop.run(self.node.set_param("/use_sim_time", True))
-        simulation.add_hook(ClockTopic(self.node, self.clock), period_ns=ClockTopic.period_ns)
+        clock = ClockTopic(self.node)
+        simulation.add_hook(clock, period_ns=clock.period_ns, wanted=clock.wanted)
         still = StaticTransformBroadcaster(self.node)
         frames = SimulationFrames(self.node, still, stage.world, simulation.snapshot())
-        simulation.add_hook(frames, period_ns=SimulationFrames.period_ns)
+        simulation.add_hook(frames, period_ns=frames.period_ns, wanted=frames.wanted)
         for camera in cameras:
             CameraTopics(self.node, still, camera, stage.world)
         if stage.urdf is not None:
             loop.run(self.node.set_param("/robot_description", stage.urdf))
             states = JointStates(self.node, simulation.models[0])
-            simulation.add_hook(states, period_ns=JointStates.period_ns)
+            simulation.add_hook(states, period_ns=states.period_ns, wanted=states.wanted)
         self._cmd_vel = None
 
     @classmethod
@@ -73,13 +86,16 @@ class RosSide:
             host=self._graph.host,
         )
 
-    def settle(self) -> None:
-        """Wait until every message published so far has reached the nodes of this process.
+    def tick(self, *, wait: bool) -> None:
+        """Let the nodes here know that a stride is over.
 
-        Flat-out runs call it after each stride, so that who hears what before which step does not depend on
-        how fast the machine is.
+        Args:
+            wait: until every message published so far has reached the nodes of this process. Flat-out runs do, so
+                that who hears what before which step does not depend on how fast the machine is.
         """
-        self._graph.loop.settle()
+        self.clock.set(self._simulation.time_ns)
+        if wait:
+            self._graph.loop.settle()
 
     def drive(self, linear: float, angular: float) -> None:
         """Publish a velocity command [m/s, rad/s], as the page's drive pad asks."""

@@ -66,7 +66,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         if not options.sensors:
             cameras.clear()
         for camera in cameras:
-            simulation.add_hook(camera, period_ns=camera.period_ns)
+            simulation.add_hook(camera, period_ns=camera.period_ns, wanted=camera.wanted)
         show.findings()
         ros = None
         if options.ros:
@@ -107,6 +107,6 @@ def _drive(simulation: Simulation, ros: RosSide | None, page: Page | None, optio
             continue
         target_ns = pacer.next_target(simulation.time_ns)
         simulation.advance(target_ns if end_ns is None else min(target_ns, end_ns))
-        if ros is not None and pacer.speed is None:
-            ros.settle()
+        if ros is not None:
+            ros.tick(wait=pacer.speed is None)
     return time.monotonic() - started

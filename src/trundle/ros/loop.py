@@ -35,6 +35,8 @@ class GraphLoop:
         """Address → node that listens there."""
         self._deliveries = 0
         """Batches of published messages being handed on, by which `settle` knows that there are more."""
+        self._unsettled = False
+        """Whether anything was handed on since `settle` was last called."""
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._work, name="trundle-graph", daemon=True)
         self._tasks: set[asyncio.Task[Any]] = set()
@@ -111,6 +113,7 @@ class GraphLoop:
             self._deliveries += 1
             function()
 
+        self._unsettled = True
         self.call_soon(count)
 
     def settle(self, timeout_s: float = 5.0) -> None:
@@ -119,7 +122,9 @@ class GraphLoop:
         Callbacks of nodes with `deliver` have then been handed over, not yet called. For flat-out runs, between
         two strides.
         """
-        self.run(self._quiet(), timeout_s)
+        if self._unsettled:
+            self._unsettled = False
+            self.run(self._quiet(), timeout_s)
 
     async def _quiet(self) -> None:
         calm, seen = 0, self._deliveries

@@ -74,14 +74,16 @@ class CameraSensor:
         """Have a function called with each picture; while nobody wants one, none is taken."""
         self._listeners.append(_Listener(call, wanted))
 
+    def wanted(self) -> bool:
+        """Whether the sensor is always on, or anybody wants its pictures."""
+        return self.sensor.always_on or any(listener.wanted() for listener in self._listeners)
+
     def after_step(self, snapshot: Snapshot) -> None:
-        """Take a picture, if the sensor is always on or anybody wants it."""
-        listeners = [listener for listener in self._listeners if listener.wanted()]
-        if not listeners and not self.sensor.always_on:
-            return
+        """Take a picture."""
         reading = self.take(snapshot)
-        for listener in listeners:
-            listener.call(reading)
+        for listener in self._listeners:
+            if listener.wanted():
+                listener.call(reading)
 
     def take(self, snapshot: Snapshot) -> CameraReading:
         """Take a picture of this instant."""

@@ -49,17 +49,22 @@ class Alarm:
 
     def rings(self, step: int) -> bool:
         """Whether it is due; if so, it is set to its next time."""
-        if self.step > step:
+        late_ns = step * self._step_ns - self._next_ns
+        if late_ns < 0:
             return False
-        while self.step <= step:
-            self._next_ns += self._period_ns
+        self._next_ns += (late_ns // self._period_ns + 1) * self._period_ns
         return True
 
 
 class ScheduledHook:
     """A hook and its alarms: it acts at once and then every period, and looks after the first period."""
 
-    def __init__(self, hook: object, period_ns: int, step_ns: int, *, now_ns: int) -> None:
+    def __init__(
+        self, hook: object, period_ns: int, step_ns: int, *, now_ns: int, wanted: Callable[[], bool] | None
+    ) -> None:
+        self.wanted = wanted
+        self.awake = True
+        """Whether it was wanted at the last look."""
         self.before: Callable[[Simulation], None] | None = getattr(hook, "before_step", None)
         self.after: Callable[[Snapshot], None] | None = getattr(hook, "after_step", None)
         assert self.before or self.after, f"{hook!r} has neither before_step nor after_step"
@@ -72,6 +77,15 @@ class ScheduledHook:
         now_ns = step * step_ns
         self.before_alarm.restart(-(-now_ns // self._period_ns) * self._period_ns)
         self.after_alarm.restart((now_ns // self._period_ns + 1) * self._period_ns)
+
+    def wakes(self, step: int, step_ns: int) -> bool:
+        """Whether it is to be called at all; one that was not wanted for a while starts anew from this step."""
+        if self.wanted is None:
+            return True
+        was_awake, self.awake = self.awake, self.wanted()
+        if self.awake and not was_awake:
+            self.restart(step, step_ns)
+        return self.awake
 
     @property
     def next_step(self) -> int:

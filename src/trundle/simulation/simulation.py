@@ -90,31 +90,35 @@ class Simulation:
         target = -(-until_ns // self.step_ns)
         while self.steps < target:
             self._drain()
-            for hook in self._hooks:
+            hooks = [hook for hook in self._hooks if hook.wakes(self.steps, self.step_ns)]
+            for hook in hooks:
                 if hook.before is not None and hook.before_alarm.rings(self.steps):
                     hook.before(self)
-            stop = min([target, *(hook.next_step for hook in self._hooks), *self._wrench_ends.values()])
+            stop = min([target, *(hook.next_step for hook in hooks), *self._wrench_ends.values()])
             self.engine.step(stop - self.steps)
             self.steps = stop
             self._end_wrenches()
-            self._look()
+            self._look(hooks)
         self._drain()
 
-    def _look(self) -> None:
-        due = [hook.after for hook in self._hooks if hook.after is not None and hook.after_alarm.rings(self.steps)]
+    def _look(self, hooks: list[ScheduledHook]) -> None:
+        due = [hook.after for hook in hooks if hook.after is not None and hook.after_alarm.rings(self.steps)]
         if due:
             snapshot = self.snapshot()
             for after in due:
                 after(snapshot)
 
-    def add_hook(self, hook: BeforeStep | AfterStep, *, period_ns: int = 0) -> None:
+    def add_hook(
+        self, hook: BeforeStep | AfterStep, *, period_ns: int = 0, wanted: Callable[[], bool] | None = None
+    ) -> None:
         """Have a hook called as time passes.
 
         Args:
             hook: an object with before_step(simulation), after_step(snapshot) or both.
             period_ns: how often [ns]; 0: at every step, which costs Python at every step.
+            wanted: asked before each stride; while it says no, the hook costs no stride.
         """
-        self._hooks.append(ScheduledHook(hook, period_ns, self.step_ns, now_ns=self.time_ns))
+        self._hooks.append(ScheduledHook(hook, period_ns, self.step_ns, now_ns=self.time_ns, wanted=wanted))
 
     # -- state
 
