@@ -43,3 +43,10 @@ def apply_settings(spec: mujoco.MjSpec) -> None:
     spec.compiler.fusestatic = False
     spec.compiler.discardvisual = False
     spec.compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
+
+
+def silence_log() -> None:
+    """Keep MuJoCo from writing MUJOCO_LOG.TXT where the user stands; the engine reads its warnings."""
+    config = mujoco.MjLogConfig.get()
+    config.logto_file = config.logto_console = False
+    config.set()
