@@ -94,10 +94,9 @@ class JointHandle:
 
     def hold(self, position: float, *, max_effort: float = math.inf) -> None:
         """Go to a position [rad or m] and stay, with at most so much effort; limits are respected."""
-        axis = self.joint.axis
+        driven, axis = self._driven(), self.joint.axis
         assert axis is not None
-        target = min(max(position, axis.lower), axis.upper)
-        self._simulation.engine.hold(self._driven(), target, max_effort)
+        self._simulation.engine.hold(driven, min(max(position, axis.lower), axis.upper), max_effort)
 
     def set_position(self, position: float) -> None:
         """Put the joint there at once [rad or m], at rest."""
