@@ -1,0 +1,198 @@
+"""Who is called when, as simulation time passes."""
+
+from dataclasses import dataclass, field
+
+import pytest
+
+from trundle import simulation
+from trundle.diagnostics import Diagnostics, Source
+from trundle.model import PhysicsSettings, World
+from trundle.simulation import Simulation, Snapshot
+
+MS = 1_000_000
+
+
+def empty_world(step_s: float = 0.001) -> Simulation:
+    settings = PhysicsSettings(max_step_size_s=step_s)
+    return Simulation(World(name="w", at=Source("w.sdf"), physics=settings), Diagnostics(strict=True))
+
+
+@dataclass
+class Track:
+    """What was called, in order: (when [ns], what)."""
+
+    calls: list[tuple[int, str]] = field(default_factory=list)
+
+    def times_ns(self, what: str) -> list[int]:
+        return [time for time, called in self.calls if called == what]
+
+
+@dataclass
+class Acts:
+    """A hook that only acts."""
+
+    track: Track
+    name: str = "acts"
+
+    def before_step(self, sim: Simulation) -> None:
+        self.track.calls.append((sim.time_ns, self.name))
+
+
+@dataclass
+class Looks:
+    """A hook that only looks."""
+
+    track: Track
+    name: str = "looks"
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        self.track.calls.append((snapshot.time_ns, self.name))
+
+
+@dataclass
+class Both:
+    """A hook that does both."""
+
+    track: Track
+
+    def before_step(self, sim: Simulation) -> None:
+        self.track.calls.append((sim.time_ns, "acts"))
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        self.track.calls.append((snapshot.time_ns, "looks"))
+
+
+def test_the_front_door_exports_in_order() -> None:
+    assert simulation.__all__ == sorted(simulation.__all__)
+    assert all(hasattr(simulation, name) for name in simulation.__all__)
+
+
+def test_a_hook_acts_at_once_and_then_every_period() -> None:
+    sim, track = empty_world(), Track()
+    sim.add_hook(Acts(track), period_ns=20 * MS)
+    sim.run(0.1)
+    assert track.times_ns("acts") == [0, 20 * MS, 40 * MS, 60 * MS, 80 * MS]
+
+
+def test_a_hook_looks_after_the_first_period_and_at_the_end() -> None:
+    sim, track = empty_world(), Track()
+    sim.add_hook(Looks(track), period_ns=20 * MS)
+    sim.run(0.1)
+    assert track.times_ns("looks") == [20 * MS, 40 * MS, 60 * MS, 80 * MS, 100 * MS]
+
+
+def test_thirty_a_second_are_three_hundred_in_ten_seconds_never_early_nor_late_by_a_step() -> None:
+    sim, track = empty_world(), Track()
+    period_ns = round(1e9 / 30)
+    sim.add_hook(Looks(track), period_ns=period_ns)
+    sim.run(10.0)
+    times = track.times_ns("looks")
+    assert len(times) == 300
+    assert all(0 <= time - (i + 1) * period_ns < MS for i, time in enumerate(times))
+
+
+def test_the_count_does_not_depend_on_how_time_is_cut() -> None:
+    whole, cut = Track(), Track()
+    for track, strides in ((whole, [1.0]), (cut, [0.007] * 100 + [0.1] * 3)):
+        sim = empty_world()
+        sim.add_hook(Both(track), period_ns=round(1e9 / 30))
+        for stride in strides:
+            sim.run(stride)
+    assert whole.calls == cut.calls
+
+
+def test_a_period_of_zero_is_every_step() -> None:
+    sim, track = empty_world(0.002), Track()
+    sim.add_hook(Both(track))
+    sim.step(3)
+    assert track.times_ns("acts") == [0, 2 * MS, 4 * MS]
+    assert track.times_ns("looks") == [2 * MS, 4 * MS, 6 * MS]
+
+
+def test_a_period_shorter_than_a_step_is_every_step() -> None:
+    sim, track = empty_world(0.01), Track()
+    sim.add_hook(Looks(track), period_ns=3 * MS)
+    sim.run(0.05)
+    assert track.times_ns("looks") == [10 * MS * i for i in range(1, 6)]
+
+
+def test_at_one_instant_who_looks_comes_before_who_acts_each_in_the_order_added() -> None:
+    sim, track = empty_world(), Track()
+    for hook in (Acts(track, "act 1"), Looks(track, "look 1"), Acts(track, "act 2"), Looks(track, "look 2")):
+        sim.add_hook(hook, period_ns=10 * MS)
+    sim.run(0.015)
+    at_ten = [what for time, what in track.calls if time == 10 * MS]
+    assert at_ten == ["look 1", "look 2", "act 1", "act 2"]
+
+
+def test_hooks_that_are_due_together_look_at_the_same_snapshot() -> None:
+    seen: list[Snapshot] = []
+
+    class Keeps:
+        def after_step(self, snapshot: Snapshot) -> None:
+            seen.append(snapshot)
+
+    sim = empty_world()
+    sim.add_hook(Keeps(), period_ns=10 * MS)
+    sim.add_hook(Keeps(), period_ns=20 * MS)
+    sim.run(0.02)
+    assert len(seen) == 3
+    assert seen[1] is seen[2]
+
+
+def test_a_hook_added_later_counts_from_then() -> None:
+    sim, track = empty_world(), Track()
+    sim.run(0.005)
+    sim.add_hook(Both(track), period_ns=10 * MS)
+    sim.run(0.02)
+    assert track.times_ns("acts") == [5 * MS, 15 * MS]
+    assert track.times_ns("looks") == [15 * MS, 25 * MS]
+
+
+def test_hooks_start_anew_after_a_reset() -> None:
+    sim, track = empty_world(), Track()
+    sim.add_hook(Both(track), period_ns=10 * MS)
+    sim.run(0.025)
+    first = list(track.calls)
+    track.calls.clear()
+    sim.reset()
+    sim.run(0.025)
+    assert track.calls == first
+
+
+def test_hooks_are_due_after_a_restore_as_they_were_after_the_save() -> None:
+    sim, track = empty_world(), Track()
+    sim.add_hook(Both(track), period_ns=round(1e9 / 30))
+    sim.run(0.05)
+    saved = sim.save()
+    track.calls.clear()
+    sim.run(0.2)
+    first = list(track.calls)
+    track.calls.clear()
+    sim.restore(saved)
+    sim.run(0.2)
+    assert track.calls == first
+
+
+def test_an_object_that_can_neither_act_nor_look_is_no_hook() -> None:
+    with pytest.raises(AssertionError, match="neither before_step nor after_step"):
+        empty_world().add_hook(object())  # type: ignore[arg-type]
+
+
+def test_a_hook_nobody_wants_is_not_called_and_does_not_cut_the_stride() -> None:
+    sim, track, listening = empty_world(), Track(), [False]
+    sim.add_hook(Both(track), period_ns=10 * MS, wanted=lambda: listening[0])
+    strides: list[int] = []
+    step = sim.engine.step
+
+    def counted(count: int) -> None:
+        strides.append(count)
+        step(count)
+
+    sim.engine.step = counted  # type: ignore[method-assign]
+    sim.run(0.1)
+    assert (track.calls, strides) == ([], [100])
+    listening[0] = True
+    sim.run(0.03)
+    # It does not make up for what it missed.
+    assert track.times_ns("looks") == [110 * MS, 120 * MS, 130 * MS]
