@@ -17,13 +17,23 @@ from trundle.spatial import Pose, Vector3
 
 from .shapes import THINNEST, upright
 
-_NO_GROUPS = np.ones(mujoco.mjNGROUP, dtype=np.uint8)
+_Indices = NDArray[np.intp]
+_PLANE_GROUP = 1
+_SOLIDS = np.array([group != _PLANE_GROUP for group in range(mujoco.mjNGROUP)], dtype=np.uint8)
 _AXES: tuple[Vector3, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+_BOX = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+"""A box's corners, in half lengths."""
+_EDGES = np.array([(i, i | bit) for i in range(8) for bit in (1, 2, 4) if not i & bit])
+"""Its twelve edges, as pairs of corners."""
 _DEFAULT_LIGHT = (-0.3, 0.5, -0.8)
 
 
 class RayRenderer:
-    """Implements `render.Renderer` with `mj_multiRay`."""
+    """Implements `render.Renderer` with `mj_multiRay`.
+
+    Rays are cast only through the pixels that a shape's bounding box may cover; endless ground, which fills most of
+    most pictures, is one division a pixel.
+    """
 
     def __init__(self, scene: Scene) -> None:
         """Build the ray model of a scene."""
@@ -35,11 +45,14 @@ class RayRenderer:
             _add_geom(spec, carriers[shape.body], shape, f"shape{i}")
         self._model = spec.compile()
         self._data = mujoco.MjData(self._model)
+        is_plane = self._model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE
+        self._planes, self._solids = np.flatnonzero(is_plane), np.flatnonzero(~is_plane)
+        boxes = self._model.geom_aabb[self._solids]
+        self._corners = boxes[:, None, :3] + _BOX * boxes[:, None, 3:]
         colours = np.array([shape.rgba[:3] for shape in drawn], dtype=np.float32).reshape(-1, 3)
         self._ambient = colours * np.float32(255.0) * np.array(scene.ambient[:3], dtype=np.float32)
-        lights = scene.lights or ()
-        directions = [light.direction for light in lights] or [_DEFAULT_LIGHT]
-        strengths = [light.diffuse[:3] for light in lights] or [(0.8, 0.8, 0.8)]
+        directions = [light.direction for light in scene.lights] or [_DEFAULT_LIGHT]
+        strengths = [light.diffuse[:3] for light in scene.lights] or [(0.8, 0.8, 0.8)]
         self._to_lights = -np.array(directions, dtype=np.float64)
         self._lit = [colours * np.float32(255.0) * np.array(s, dtype=np.float32) for s in strengths]
         self._background = np.array([round(255 * c) for c in scene.background[:3]], dtype=np.uint8)
@@ -53,40 +66,110 @@ class RayRenderer:
 
     def render(self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False) -> Picture:
         """See `Renderer.render`."""
-        rays, cosines = _rays(intrinsics)
+        rays = _rays(intrinsics)
         axes = np.array([world_from_camera.direction(axis) for axis in _AXES])
-        directions = rays @ axes
-        count = len(directions)
-        geoms = np.empty(count, dtype=np.int32)
-        distances = np.empty(count)
-        normals = np.empty((count, 3))
         origin = np.array(world_from_camera.position)
+        rgb = np.empty((len(rays), 3), dtype=np.uint8)
+        rgb[:] = self._background
+        ranges = np.full(len(rays), np.inf)
+        for plane in self._planes:
+            self._draw_plane(int(plane), origin, axes, rays, intrinsics, rgb, ranges)
+        pixels = self._covered(origin, axes, intrinsics)
+        if len(pixels):
+            self._draw_solids(pixels, origin, axes, rays, intrinsics, rgb, ranges)
+        shape = (intrinsics.height_px, intrinsics.width_px)
+        picture = rgb.reshape(*shape, 3)
+        return Picture(picture, ranges.astype(np.float32).reshape(shape) if depth else None)
+
+    def _draw_plane(
+        self,
+        geom: int,
+        origin: NDArray[np.float64],
+        axes: NDArray[np.float64],
+        rays: NDArray[np.float64],
+        intrinsics: Intrinsics,
+        rgb: NDArray[np.uint8],
+        ranges: NDArray[np.float64],
+    ) -> None:
+        """Draw one plane, seen from its front only, as MuJoCo's rays do; its light is the same everywhere."""
+        frame = self._data.geom_xmat[geom].reshape(3, 3)
+        seen_from = frame.T @ (origin - self._data.geom_xpos[geom])
+        if seen_from[2] <= 0.0:
+            return
+        # Rays have length 1 along the view axis, so what divides out here is the depth.
+        falls = rays @ (axes @ frame[:, 2])
+        with np.errstate(divide="ignore"):
+            depths = np.where(falls < 0.0, -seen_from[2] / falls, np.inf)
+        hit = (depths >= intrinsics.near_m) & (depths <= intrinsics.far_m) & (depths < ranges)
+        half = self._model.geom_size[geom]
+        if half[0] > 0 or half[1] > 0:
+            inside = np.flatnonzero(hit)
+            across = rays[inside] @ (axes @ frame[:, :2]) * depths[inside, None] + seen_from[:2]
+            hit[inside] = (np.abs(across) <= np.where(half[:2] > 0, half[:2], np.inf)).all(axis=1)
+        rgb[hit] = self._shade(np.array([geom]), frame[:, 2][None])[0]
+        ranges[hit] = depths[hit]
+
+    def _covered(self, origin: NDArray[np.float64], axes: NDArray[np.float64], intrinsics: Intrinsics) -> _Indices:
+        """The pixels that some solid may be seen in: the rectangles around their boxes, cut off at the near plane."""
+        rotations = self._data.geom_xmat[self._solids].reshape(-1, 3, 3)
+        world = np.einsum("nij,nkj->nki", rotations, self._corners) + self._data.geom_xpos[self._solids][:, None]
+        corners = (world - origin) @ axes.T
+        near = intrinsics.near_m
+        a, b = corners[:, _EDGES[:, 0]], corners[:, _EDGES[:, 1]]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = (near - a[..., :1]) / (b[..., :1] - a[..., :1])
+            cuts = a + share * (b - a)
+            points = np.concatenate([corners, cuts], axis=1)
+            points[~((points[..., 0] >= near * (1 - 1e-9)) & np.isfinite(points).all(axis=-1))] = np.nan
+            cut_outside = ~((share[..., 0] >= 0.0) & (share[..., 0] <= 1.0))
+            points[:, 8:][cut_outside] = np.nan
+            slopes = points[..., 1:] / points[..., :1]
+        seen = ~np.isnan(slopes[..., 0]).all(axis=1)
+        width, height, focal = intrinsics.width_px, intrinsics.height_px, intrinsics.focal_px
+        middle = np.array([width / 2, height / 2])
+        first = middle - focal * np.nanmax(slopes[seen], axis=1) - 1.0
+        last = middle - focal * np.nanmin(slopes[seen], axis=1) + 2.0
+        bounds = np.clip(np.hstack([first, last]), 0, [width, height, width, height]).astype(int)
+        mask = np.zeros((height, width), dtype=bool)
+        for left, top, right, bottom in bounds.tolist():
+            mask[top:bottom, left:right] = True
+        return np.flatnonzero(mask)
+
+    def _draw_solids(
+        self,
+        pixels: _Indices,
+        origin: NDArray[np.float64],
+        axes: NDArray[np.float64],
+        rays: NDArray[np.float64],
+        intrinsics: Intrinsics,
+        rgb: NDArray[np.uint8],
+        ranges: NDArray[np.float64],
+    ) -> None:
+        """Draw what the rays through these pixels meet, where it is nearer than what is drawn."""
+        directions = rays[pixels] @ axes
+        count = len(pixels)
+        geoms = np.empty(count, dtype=np.int32)
+        depths = np.empty(count)
+        normals = np.empty((count, 3))
         mujoco.mj_multiRay(
             self._model,
             self._data,
             origin,
             directions.reshape(-1),
-            _NO_GROUPS,
+            _SOLIDS,
             True,
             -1,
             geoms,
-            distances,
+            depths,
             normals.reshape(-1),
             count,
-            intrinsics.far_m * 2.0,
+            mujoco.mjMAXVAL,
         )
-        along_axis = distances * cosines
-        seen = (geoms >= 0) & (along_axis >= intrinsics.near_m) & (along_axis <= intrinsics.far_m)
-        rgb = np.empty((count, 3), dtype=np.uint8)
-        rgb[:] = self._background
-        rgb[seen] = self._shade(geoms[seen], normals[seen])
-        shape = (intrinsics.height_px, intrinsics.width_px)
-        if not depth:
-            return Picture(rgb.reshape(*shape, 3))
-        ranges = np.where(seen, along_axis, np.inf).astype(np.float32)
-        return Picture(rgb.reshape(*shape, 3), ranges.reshape(shape))
+        nearer = (geoms >= 0) & (depths >= intrinsics.near_m) & (depths <= intrinsics.far_m) & (depths < ranges[pixels])
+        rgb[pixels[nearer]] = self._shade(geoms[nearer], normals[nearer])
+        ranges[pixels[nearer]] = depths[nearer]
 
-    def _shade(self, geoms: NDArray[np.int32], normals: NDArray[np.float64]) -> NDArray[np.uint8]:
+    def _shade(self, geoms: NDArray[np.int32] | _Indices, normals: NDArray[np.float64]) -> NDArray[np.uint8]:
         """Lambert's law for each light, over the ambient light."""
         colour = self._ambient[geoms]
         for to_light, lit in zip(self._to_lights, self._lit, strict=True):
@@ -101,15 +184,13 @@ def _is_drawn(shape: Shape) -> bool:
 
 
 @lru_cache(maxsize=16)
-def _rays(intrinsics: Intrinsics) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Unit directions through the pixels' centres in the camera frame (N, 3), row by row, and their cosines (N,)."""
+def _rays(intrinsics: Intrinsics) -> NDArray[np.float64]:
+    """Directions through the pixels' centres in the camera frame, (pixels, 3) row by row, each of length 1 along x."""
     focal = intrinsics.focal_px
     columns = (np.arange(intrinsics.width_px) + 0.5 - intrinsics.width_px / 2) / focal
     rows = (np.arange(intrinsics.height_px) + 0.5 - intrinsics.height_px / 2) / focal
     y, z = np.meshgrid(-columns, -rows)
-    directions = np.stack([np.ones_like(y), y, z], axis=-1).reshape(-1, 3)
-    lengths = np.linalg.norm(directions, axis=1)
-    return directions / lengths[:, None], 1.0 / lengths
+    return np.stack([np.ones_like(y), y, z], axis=-1).reshape(-1, 3).astype(np.float64)
 
 
 def _add_geom(spec: mujoco.MjSpec, body: mujoco.MjsBody, shape: Shape, name: str) -> None:
@@ -131,6 +212,7 @@ def _add_geom(spec: mujoco.MjSpec, body: mujoco.MjsBody, shape: Shape, name: str
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_ELLIPSOID, [max(r, THINNEST) for r in radii]
         case Plane(normal, (width, height)):
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_PLANE, [width / 2, height / 2, 1]
+            geom.group = _PLANE_GROUP
             geom.quat = (pose @ Pose(quaternion=upright(normal))).quaternion
         case Mesh(vertices, faces):
             spec.add_mesh(
