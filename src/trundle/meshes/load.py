@@ -1,5 +1,6 @@
 """Reads mesh files through trimesh and pycollada."""
 
+import logging
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,10 @@ from .mesh import Mesh
 _MOST_BYTES = 256 * 1024 * 1024
 _FORMATS = frozenset({".dae", ".stl", ".obj", ".glb"})
 _Y_UP = frozenset({".glb"})
-"""glTF is y up by its standard; .dae says so itself, .stl and .obj are taken as z up, as Gazebo takes them."""
+"""glTF is y up by its standard. The others are taken as z up, .dae too whatever its <up_axis> says: Gazebo
+(gazebo-classic#1305) and RViz (rviz#1045) never read that tag, and published robots are made to look right in them."""
+
+logging.getLogger("trimesh").addHandler(logging.NullHandler())  # else it prints a traceback for a missing texture
 
 
 class MeshError(TrundleError):
@@ -23,7 +27,9 @@ class MeshError(TrundleError):
 
 @lru_cache(maxsize=256)
 def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -> Mesh:
-    """Read a mesh file into one list of triangles, in its own units of metres.
+    """Read a mesh file into one list of triangles.
+
+    The numbers of a file are metres, but for .dae, which states its own unit.
 
     Args:
         path: .dae, .stl, .obj or .glb.
@@ -54,6 +60,8 @@ def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -
     faces = np.concatenate([f + offset for (_, f, _), offset in zip(parts, offsets, strict=True)])
     if len(faces) == 0 or not np.isfinite(vertices).all():
         raise MeshError(f"{path}: no triangles, or vertices that are not finite")
+    if suffix == ".dae":
+        vertices = vertices * _metres_per_unit(scene)
     if suffix in _Y_UP:
         vertices = vertices[:, [0, 2, 1]] * (1.0, -1.0, 1.0)
     if center:
@@ -88,6 +96,12 @@ def _parts(scene: Any, submesh: str | None, path: Path) -> list[_Part]:
     if not parts:
         raise MeshError(f"{path}: no triangles")
     return parts
+
+
+def _metres_per_unit(scene: Any) -> float:
+    """COLLADA's <unit meter="…">, which trimesh hands on as the text `0.01 * meters`."""
+    number, _, unit = str(scene.units or "").rpartition("*")
+    return float(number) if number and unit.strip() == "meters" else 1.0
 
 
 def _colour(geometry: Any) -> tuple[float, float, float, float] | None:
