@@ -1,0 +1,198 @@
+"""Reading mesh files of the four formats, and saying what is wrong with the others."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import collada  # type: ignore[import-untyped]
+import numpy as np
+import pytest
+import trimesh
+from collada import geometry, scene, source  # type: ignore[import-untyped]
+from numpy.typing import NDArray
+
+from trundle import meshes
+from trundle.meshes import Mesh, MeshError, load_mesh
+
+SIZE = (0.4, 0.6, 0.8)
+CENTRE = np.array([1.0, 2.0, 3.0])
+
+
+def block() -> trimesh.Trimesh:
+    """A box away from the origin, unlike along its three axes."""
+    made = trimesh.creation.box(extents=SIZE)
+    made.apply_translation(CENTRE)
+    return made
+
+
+def write_dae(path: Path, *, up: str = "Z_UP", metre: float = 1.0) -> None:
+    """The same box as COLLADA, its numbers in units of `metre`."""
+    document = collada.Collada()
+    document.assetInfo.upaxis = up
+    document.assetInfo.unitmeter = metre
+    document.assetInfo.unitname = "unit"
+    box = block()
+    points = source.FloatSource("points", np.asarray(box.vertices).ravel(), ("X", "Y", "Z"))
+    shape = geometry.Geometry(document, "block", "block", [points])
+    inputs = source.InputList()
+    inputs.addInput(0, "VERTEX", "#points")
+    shape.primitives.append(shape.createTriangleSet(np.asarray(box.faces).ravel(), inputs, "none"))
+    document.geometries.append(shape)
+    node = scene.Node("node", children=[scene.GeometryNode(shape)])
+    document.scenes.append(scene.Scene("scene", [node]))
+    document.scene = document.scenes[0]
+    with path.open("wb") as file:
+        document.write(file)
+
+
+def bounds(mesh: Mesh) -> NDArray[np.float64]:
+    return np.array([mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)], dtype=np.float64)
+
+
+def volume(mesh: Mesh) -> float:
+    """Signed: positive where the faces look outwards."""
+    a, b, c = (mesh.vertices[mesh.faces[:, i]].astype(float) for i in range(3))
+    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
+
+
+EXPECTED = np.array([CENTRE - np.array(SIZE) / 2, CENTRE + np.array(SIZE) / 2])
+
+
+def test_the_front_door_exports_in_order() -> None:
+    assert meshes.__all__ == sorted(meshes.__all__)
+    assert all(hasattr(meshes, name) for name in meshes.__all__)
+
+
+@pytest.mark.parametrize("suffix", [".stl", ".obj", ".STL"])
+def test_a_file_without_an_up_axis_is_read_as_it_is(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"block{suffix}"
+    path.write_bytes(_exported(suffix))
+    mesh = load_mesh(path)
+    assert bounds(mesh) == pytest.approx(EXPECTED, abs=1e-6)
+    assert volume(mesh) == pytest.approx(0.4 * 0.6 * 0.8, rel=1e-5)
+    assert mesh.vertices.dtype == np.float32
+    assert mesh.faces.dtype == np.int32
+
+
+def _exported(suffix: str) -> bytes:
+    data = block().export(file_type=suffix[1:].lower())
+    return data if isinstance(data, bytes) else data.encode()
+
+
+def test_an_stl_in_letters_is_read_too(tmp_path: Path) -> None:
+    path = tmp_path / "block.stl"
+    path.write_text(block().export(file_type="stl_ascii"))
+    assert bounds(load_mesh(path)) == pytest.approx(EXPECTED, abs=1e-6)
+
+
+def test_gltf_is_y_up_and_stands_upright_here(tmp_path: Path) -> None:
+    path = tmp_path / "block.glb"
+    path.write_bytes(trimesh.Scene(block()).export(file_type="glb"))
+    x, y, z = EXPECTED.T
+    upright = np.array([[x[0], -z[1], y[0]], [x[1], -z[0], y[1]]])
+    mesh = load_mesh(path)
+    assert bounds(mesh) == pytest.approx(upright, abs=1e-6)
+    assert volume(mesh) > 0
+
+
+@pytest.mark.parametrize("up", ["Z_UP", "Y_UP"])
+def test_collada_is_z_up_whatever_it_says_as_in_gazebo_and_rviz(tmp_path: Path, up: str) -> None:
+    write_dae(tmp_path / "block.dae", up=up)
+    assert bounds(load_mesh(tmp_path / "block.dae")) == pytest.approx(EXPECTED, abs=1e-6)
+
+
+def test_collada_says_itself_how_long_its_unit_is(tmp_path: Path) -> None:
+    write_dae(tmp_path / "cm.dae", metre=0.01)
+    assert bounds(load_mesh(tmp_path / "cm.dae")) == pytest.approx(EXPECTED * 0.01, abs=1e-7)
+
+
+def test_a_scale_stretches_along_the_axes(tmp_path: Path) -> None:
+    path = tmp_path / "block.stl"
+    path.write_bytes(_exported(".stl"))
+    mesh = load_mesh(path)
+    assert bounds(mesh.scaled((2.0, 1.0, 0.5))) == pytest.approx(EXPECTED * (2.0, 1.0, 0.5), abs=1e-6)
+    assert mesh.scaled((1.0, 1.0, 1.0)) is mesh
+    assert bounds(mesh) == pytest.approx(EXPECTED, abs=1e-6)
+
+
+@pytest.mark.parametrize("scale", [(-1.0, 1.0, 1.0), (1.0, -1.0, 1.0), (-1.0, -1.0, -1.0), (-1.0, -1.0, 1.0)])
+def test_a_mirrored_mesh_keeps_its_outside_outside(tmp_path: Path, scale: tuple[float, float, float]) -> None:
+    path = tmp_path / "block.stl"
+    path.write_bytes(_exported(".stl"))
+    mirrored = load_mesh(path).scaled(scale)
+    corners = EXPECTED * scale
+    assert bounds(mirrored) == pytest.approx(np.array([corners.min(axis=0), corners.max(axis=0)]), abs=1e-6)
+    assert volume(mirrored) == pytest.approx(0.4 * 0.6 * 0.8, rel=1e-5)
+
+
+def two_parts(path: Path) -> None:
+    parts = trimesh.Scene()
+    wheel = trimesh.creation.icosphere(subdivisions=1, radius=0.5)
+    parts.add_geometry(block(), geom_name="hull", node_name="hull_node")
+    parts.add_geometry(wheel, geom_name="wheel", transform=trimesh.transformations.translation_matrix([9.0, 0.0, 0.0]))
+    path.write_bytes(parts.export(file_type="glb"))
+
+
+def test_parts_are_joined_where_the_file_places_them(tmp_path: Path) -> None:
+    two_parts(tmp_path / "cart.glb")
+    mesh = load_mesh(tmp_path / "cart.glb")
+    assert len(mesh.faces) == 12 + 80
+    assert mesh.faces.max() == len(mesh.vertices) - 1
+    assert bounds(mesh)[1, 0] == pytest.approx(9.5, abs=1e-5)
+
+
+def test_one_part_can_be_asked_for_and_centred(tmp_path: Path) -> None:
+    two_parts(tmp_path / "cart.glb")
+    hull = load_mesh(tmp_path / "cart.glb", submesh="hull")
+    assert len(hull.faces) == 12
+    centred = load_mesh(tmp_path / "cart.glb", submesh="hull", center=True)
+    x, y, z = SIZE
+    half = np.array([x, z, y]) / 2
+    assert bounds(centred) == pytest.approx(np.array([-half, half]), abs=1e-6)
+
+
+def test_a_part_that_is_not_there_is_answered_with_the_parts_there_are(tmp_path: Path) -> None:
+    two_parts(tmp_path / "cart.glb")
+    with pytest.raises(MeshError, match=r"cart\.glb: no part 'door'; parts there: "):
+        load_mesh(tmp_path / "cart.glb", submesh="door")
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [
+        ("a.stl", b"", "no triangles|not readable"),
+        ("a.stl", b"\x00\xff garbage that is no mesh" * 9, "no triangles|not readable"),
+        ("a.obj", b"v 0 0 0\nv 1 0 0\n", "no triangles|not readable"),
+        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "not readable"),
+        ("a.obj", b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "not finite|not readable"),
+        ("a.dae", b"<COLLADA>", "not readable"),
+        ("a.dae", b"", "not readable"),
+        ("a.glb", b"glTF\x02\x00\x00\x00", "not readable"),
+        ("a.ply", b"ply", r"\.ply meshes are not read; \.dae, \.glb, \.obj, \.stl are"),
+        ("mesh", b"", "files without ending meshes are not read"),
+    ],
+)
+def test_a_file_that_cannot_be_used_is_one_sentence_that_names_it(
+    tmp_path: Path, name: str, content: bytes, said: str
+) -> None:
+    path = tmp_path / name
+    path.write_bytes(content)
+    with pytest.raises(MeshError, match=said) as caught:
+        load_mesh(path)
+    assert str(caught.value).startswith(f"{path}: ")
+    assert "\n" not in str(caught.value)
+
+
+def test_a_file_that_is_not_there_is_one_sentence(tmp_path: Path) -> None:
+    with pytest.raises(MeshError, match=r"lost\.stl: not readable as \.stl: .*No such file"):
+        load_mesh(tmp_path / "lost.stl")
+
+
+def test_a_texture_that_is_missing_prints_nothing(tmp_path: Path) -> None:
+    (tmp_path / "a.obj").write_text("mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (tmp_path / "a.mtl").write_text("newmtl m\nKd 1 0 0\nmap_Kd lost.png\n")
+    code = "import sys, pathlib; from trundle.meshes import load_mesh; load_mesh(pathlib.Path(sys.argv[1]))"
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path / "a.obj")], capture_output=True, text=True, check=True, timeout=120
+    )
+    assert (done.stdout, done.stderr) == ("", "")
