@@ -3,6 +3,7 @@
 import asyncio
 import os
 import sys
+import time
 from collections.abc import Callable, Coroutine
 from pathlib import Path
 from typing import Any
@@ -161,8 +162,21 @@ def test_a_deaf_program_and_its_children_are_killed(tmp_path: Path) -> None:
     stage = on_stage(tmp_path, play, Patience(interrupt_s=0.1, terminate_s=0.1))
     assert stage.supervisor.exit_codes() == {"a": -9}
     child = int(stage.lines[0][1])
-    status = Path(f"/proc/{child}/stat")
-    assert not status.exists() or status.read_text().rpartition(")")[2].split()[0] == "Z"
+    wait_for_end(Path(f"/proc/{child}/stat"))
+
+
+def wait_for_end(status: Path) -> None:
+    """A killed process takes a moment; whoever inherited it may leave it a zombie."""
+    end = time.monotonic() + TIMEOUT_S
+    while True:
+        try:
+            state = status.read_text().rpartition(")")[2].split()[0]
+        except (FileNotFoundError, ProcessLookupError):
+            return
+        if state == "Z":
+            return
+        assert time.monotonic() < end, f"still there: {state}"
+        time.sleep(0.01)
 
 
 def test_endless_lines_do_not_fill_the_memory(tmp_path: Path) -> None:

@@ -36,7 +36,7 @@ class GraphLoop:
         self._deliveries = 0
         """Batches of published messages being handed on, by which `settle` knows that there are more."""
         self._unsettled = False
-        """Whether anything was handed on since `settle` was last called."""
+        """Whether the loop was given anything to do since `settle` was last called."""
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._work, name="trundle-graph", daemon=True)
         self._tasks: set[asyncio.Task[Any]] = set()
@@ -98,6 +98,7 @@ class GraphLoop:
 
     def call_soon(self, function: Callable[[], object]) -> None:
         """Have the loop call a function, from any thread; ignored once the loop has ended."""
+        self._unsettled = True
         if self.is_this_thread:
             self._loop.call_soon(function)
             return
@@ -113,7 +114,6 @@ class GraphLoop:
             self._deliveries += 1
             function()
 
-        self._unsettled = True
         self.call_soon(count)
 
     def settle(self, timeout_s: float = 5.0) -> None:
@@ -123,8 +123,8 @@ class GraphLoop:
         two strides.
         """
         if self._unsettled:
-            self._unsettled = False
             self.run(self._quiet(), timeout_s)
+            self._unsettled = False
 
     async def _quiet(self) -> None:
         calm, seen = 0, self._deliveries
