@@ -19,7 +19,7 @@ from trundle.spatial import Pose
 from .contacts import add_contacts
 from .inertia import principal_inertia
 from .settings import SOLIMP, apply_settings, contact_solref, friction_solref
-from .shapes import ShapeEntry, add_shape
+from .shapes import ShapeEntry, add_shape, name_unsupported
 
 _SIMULATED = frozenset({JointType.REVOLUTE, JointType.PRISMATIC, JointType.FIXED, JointType.BALL, JointType.UNIVERSAL})
 
@@ -109,6 +109,7 @@ class _Compiler:
         for link in model.links:
             body = place(link)
             for collision in link.collisions:
+                name_unsupported(collision, self.report)
                 name = f"{model.name}::{link.name}::{collision.name}"
                 geom = add_shape(self.spec, body, collision, name, self.report)
                 if geom is not None:

@@ -66,6 +66,25 @@ def add_shape(
     return geom
 
 
+def name_unsupported(collision: Collision, report: Diagnostics) -> None:
+    """Say what of a surface the contacts made here do not have."""
+    surface, default = collision.surface, Surface()
+    lacking: list[str] = []
+    if surface.restitution > 0.0:
+        lacking.append("restitution")
+    if surface.fdir1 != default.fdir1:
+        lacking.append("fdir1")
+    if surface.collide_without_contact:
+        lacking.append("collide_without_contact")
+    if lacking:
+        report.warn(collision.at, f"collision {collision.name!r}: {', '.join(lacking)} not simulated yet; ignored")
+    if (surface.kp, surface.kd) != (default.kp, default.kd):
+        report.info(
+            collision.at,
+            f"collision {collision.name!r}: kp and kd are ODE's; MuJoCo's contacts are stiff in proportion to mass",
+        )
+
+
 def _mended(collision: Collision, report: Diagnostics) -> Geometry:
     def thick(lengths: Vector3, names: str) -> Vector3:
         thin = [n for n, length in zip(names.split(), lengths, strict=False) if not length >= THINNEST]

@@ -3,11 +3,12 @@
 from collections.abc import Callable
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import World
+from trundle.model import CameraOptics, Sensor, World
 from trundle.render import Renderer
 
 from .camera import CameraSensor
 
+_RGB = ("R8G8B8", "RGB_INT8")
 SIMULATED = frozenset({"camera"})
 """SDF's sensor types that measure."""
 
@@ -29,7 +30,18 @@ def mount_cameras(world: World, renderer: Callable[[], Renderer], report: Diagno
                 if sensor.type not in SIMULATED or sensor.camera is None:
                     report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")
                     continue
+                _name_unsupported(sensor, sensor.camera, report)
                 shared = shared or renderer()
                 cameras.append(CameraSensor(model, link, sensor, link_index=index, renderer=shared))
             index += 1
     return cameras
+
+
+def _name_unsupported(sensor: Sensor, optics: CameraOptics, report: Diagnostics) -> None:
+    who = f"sensor {sensor.name!r}"
+    if optics.format not in _RGB:
+        report.warn(sensor.at, f"{who}: image format {optics.format} is not made yet; R8G8B8 is")
+    if sensor.topic:
+        report.warn(sensor.at, f"{who}: <topic> is not heeded yet; its topics are <model>/<link>/<sensor>/…")
+    for plugin in sensor.plugins:
+        report.warn(plugin.at, f"{who}: plugin {plugin.filename} is not supported yet; the sensor has topics without")
