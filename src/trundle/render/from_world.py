@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from trundle.diagnostics import Diagnostics, Source
-from trundle.meshes import MeshError, load_mesh
-from trundle.model import Collision, Geometry, MeshFile, Rgba, Visual, World
+from trundle.meshes import Mesh, MeshError, load_mesh
+from trundle.model import GREY, Collision, Geometry, MeshFile, Rgba, Visual, World
 
 from .scene import Scene, SceneLight, Shape, ShapeGeometry
 
@@ -44,7 +44,8 @@ def _shapes(items: tuple[Visual, ...] | tuple[Collision, ...], body: int, report
             pose, rgba = item.link_from_collision, _COLLISION
         else:
             pose = item.link_from_visual
-            r, g, b, a = item.material.diffuse
+            own = geometry.rgba if isinstance(geometry, Mesh) and item.material is GREY else None
+            r, g, b, a = own or item.material.diffuse
             rgba = (r, g, b, a * (1.0 - item.transparency))
         if rgba[3] > _BARELY_THERE:
             yield Shape(name=item.name, body=body, geometry=geometry, body_from_shape=pose, rgba=rgba)
