@@ -188,11 +188,8 @@ def test_a_file_that_is_not_there_is_one_sentence(tmp_path: Path) -> None:
         load_mesh(tmp_path / "lost.stl")
 
 
-def test_a_texture_that_is_missing_prints_nothing(tmp_path: Path) -> None:
-    (tmp_path / "a.obj").write_text("mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    (tmp_path / "a.mtl").write_text("newmtl m\nKd 1 0 0\nmap_Kd lost.png\n")
-    code = "import sys, pathlib; from trundle.meshes import load_mesh; load_mesh(pathlib.Path(sys.argv[1]))"
-    done = subprocess.run(
-        [sys.executable, "-c", code, str(tmp_path / "a.obj")], capture_output=True, text=True, check=True, timeout=120
-    )
+def test_what_the_reader_mutters_to_its_log_does_not_reach_the_user() -> None:
+    # trimesh logs a traceback for each missing bump map.
+    code = "import logging, trundle.meshes; logging.getLogger('trimesh').warning('no texture')"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120)
     assert (done.stdout, done.stderr) == ("", "")

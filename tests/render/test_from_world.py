@@ -1,0 +1,126 @@
+"""What of a world is drawn, where, and in which colour."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+import trimesh
+
+from trundle import render
+from trundle.diagnostics import Diagnostics, Source
+from trundle.meshes import Mesh
+from trundle.model import Box, Collision, Geometry, Light, Link, Material, MeshFile, Model, Sphere, Visual, World
+from trundle.render import Intrinsics, Scene, scene_of
+from trundle.spatial import Pose
+
+AT = Source("w.sdf", 3)
+RED = Material(diffuse=(1.0, 0.0, 0.0, 1.0))
+
+
+def visual(name: str = "v", geometry: Geometry | None = None, **rest: object) -> Visual:
+    made = Visual(name=name, geometry=geometry or Sphere(0.1), at=AT, material=RED)
+    return replace(made, **rest)  # type: ignore[arg-type]
+
+
+def world(*visuals: Visual, lights: tuple[Light, ...] = ()) -> World:
+    link = Link(name="l", at=AT, visuals=visuals)
+    return World(name="w", at=AT, models=(Model(name="m", at=AT, links=(link,)),), lights=lights)
+
+
+def drawn(*visuals: Visual) -> Scene:
+    return scene_of(world(*visuals), Diagnostics(strict=True))
+
+
+def test_the_front_door_exports_in_order() -> None:
+    assert render.__all__ == sorted(render.__all__)
+    assert all(hasattr(render, name) for name in render.__all__)
+
+
+def test_bodies_are_the_links_of_all_models_in_file_order() -> None:
+    def model(name: str, *links: str) -> Model:
+        return Model(name=name, at=AT, links=tuple(Link(name=l_, at=AT, visuals=(visual(l_),)) for l_ in links))
+
+    both = World(name="w", at=AT, models=(model("one", "b", "a"), model("two", "c")))
+    scene = scene_of(both, Diagnostics(strict=True))
+    assert scene.bodies == ("one::b", "one::a", "two::c")
+    assert [(shape.name, shape.body) for shape in scene.shapes] == [("b", 0), ("a", 1), ("c", 2)]
+
+
+def test_a_shape_has_the_visuals_geometry_place_and_colour() -> None:
+    pose = Pose((1.0, 2.0, 3.0))
+    (shape,) = drawn(visual(geometry=Box((1.0, 2.0, 3.0)), link_from_visual=pose)).shapes
+    assert (shape.geometry, shape.body_from_shape, shape.rgba) == (Box((1.0, 2.0, 3.0)), pose, (1.0, 0.0, 0.0, 1.0))
+
+
+def test_transparency_takes_from_the_opacity_and_the_invisible_is_left_out() -> None:
+    shapes = drawn(visual("half", transparency=0.5), visual("none", transparency=1.0)).shapes
+    assert [(shape.name, shape.rgba[3]) for shape in shapes] == [("half", 0.5)]
+
+
+def test_collision_shapes_can_be_drawn_instead() -> None:
+    touched = Collision(name="c", geometry=Box((1.0, 1.0, 1.0)), at=AT, link_from_collision=Pose((0.0, 0.0, 1.0)))
+    link = Link(name="l", at=AT, visuals=(visual(),), collisions=(touched,))
+    made = World(name="w", at=AT, models=(Model(name="m", at=AT, links=(link,)),))
+    (shape,) = scene_of(made, Diagnostics(strict=True), collisions=True).shapes
+    assert (shape.name, shape.body_from_shape) == ("c", Pose((0.0, 0.0, 1.0)))
+    assert shape.rgba[3] < 1.0
+
+
+def test_a_directional_light_shines_along_its_own_direction_turned_by_its_pose() -> None:
+    down = Light(
+        name="sun", type="directional", at=AT, world_from_light=Pose.from_rpy(0, 0, 9, 3.141592653589793, 0, 0)
+    )
+    scene = scene_of(world(lights=(down,)), Diagnostics(strict=True))
+    assert scene.lights[0].direction == pytest.approx((0.0, 0.0, 1.0))
+
+
+def test_a_light_that_is_not_drawn_is_named() -> None:
+    report = Diagnostics()
+    lamp = Light(name="lamp", type="spot", at=AT)
+    assert scene_of(world(lights=(lamp,)), report).lights == ()
+    assert report.warnings == [
+        "w.sdf:3: warning: light 'lamp': spot lights are not drawn yet; only directional ones are"
+    ]
+
+
+def test_the_sky_is_the_worlds() -> None:
+    sky = replace(world(), background=(0.1, 0.2, 0.3, 1.0))
+    assert scene_of(sky, Diagnostics()).background == (0.1, 0.2, 0.3, 1.0)
+
+
+def mesh_file(folder: Path) -> MeshFile:
+    """A red box of 2 m."""
+    box = trimesh.creation.box(extents=(2.0, 2.0, 2.0))
+    box.visual = trimesh.visual.TextureVisuals(
+        material=trimesh.visual.material.PBRMaterial(baseColorFactor=[255, 0, 0, 255])
+    )
+    (folder / "box.glb").write_bytes(trimesh.Scene(box).export(file_type="glb"))
+    return MeshFile(path=folder / "box.glb", uri="model://m/box.glb")
+
+
+def test_a_mesh_is_loaded_and_scaled(tmp_path: Path) -> None:
+    (shape,) = drawn(visual(geometry=replace(mesh_file(tmp_path), scale=(0.5, 1.0, 2.0)))).shapes
+    assert isinstance(shape.geometry, Mesh)
+    assert shape.geometry.vertices.max(axis=0) == pytest.approx([0.5, 1.0, 2.0])
+
+
+def test_a_mesh_has_its_own_colour_unless_the_visual_gives_it_one(tmp_path: Path) -> None:
+    plain = Visual(name="plain", geometry=mesh_file(tmp_path), at=AT)
+    blue = replace(plain, name="blue", material=Material(diffuse=(0.0, 0.0, 1.0, 1.0)))
+    assert [shape.rgba[:3] for shape in drawn(plain, blue).shapes] == [(1.0, 0.0, 0.0), (0.0, 0.0, 1.0)]
+
+
+def test_a_mesh_that_cannot_be_read_is_left_out_aloud(tmp_path: Path) -> None:
+    report = Diagnostics()
+    lost = MeshFile(path=tmp_path / "lost.dae", uri="model://m/lost.dae")
+    scene = scene_of(world(visual("gone", lost), visual("here")), report)
+    assert [shape.name for shape in scene.shapes] == ["here"]
+    (said,) = report.warnings
+    assert said.startswith("w.sdf:3: warning: ")
+    assert said.endswith("; the shape is left out")
+    assert "lost.dae" in said
+
+
+def test_the_focal_length_is_that_of_gazebo_ros() -> None:
+    # camera_info of a 320 px wide camera of 1.047 rad in Gazebo: K[0] = 277.19.
+    assert Intrinsics(width_px=320, height_px=240, horizontal_fov_rad=1.047).focal_px == pytest.approx(277.19, abs=0.01)
