@@ -2,12 +2,12 @@
 
 from dataclasses import replace
 
-from trundle.diagnostics import DescriptionError
+from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import Joint, Link, Model
 from trundle.spatial import Pose
 from trundle.xmlnode import XmlNode
 
-from .context import Context, read_pose
+from .context import Context, RawPose, read_pose
 from .frames import MODEL, FrameGraph
 from .joint import read_joint
 from .link import read_link
@@ -30,15 +30,19 @@ def read_model(node: XmlNode, context: Context, *, name: str | None = None, pose
     """
     own_name = node.required_attribute("name")
     report = context.report
-    graph, links, joints = FrameGraph(), dict[str, XmlNode](), list[XmlNode]()
+    graph, links = FrameGraph(), dict[str, XmlNode]()
     _collect(node, context, graph, links)
-    for joint in node.all("joint"):
-        joints.append(joint)
-        child = _link_name(joint, "child", links, allow_world=context.version < (1, 7))
-        graph.add(joint.required_attribute("name"), read_pose(joint, context), joint.at, default=child)
-    read_links = [read_link(n, k, graph.pose(k, n.at), context) for k, n in links.items()]
-    read_joints = [_read_joint(joint, links, graph, context) for joint in joints]
     nested = [_read_nested(child, graph, context) for child in node.all("model")]
+    known = [*links, *(link.name for inner in nested for link in inner.links)]
+    for inner in nested:
+        for link in inner.links:
+            graph.add(link.name, RawPose(link.model_from_link), link.at)
+    joints = [joint for joint in node.all("joint") if not _reaches_nothing(joint, known, report)]
+    for joint in joints:
+        child = _link_name(joint, "child", known)
+        graph.add(_joint_frame(joint, links), read_pose(joint, context), joint.at, default=child)
+    read_links = [read_link(n, k, graph.pose(k, n.at), context) for k, n in links.items()]
+    read_joints = [_read_joint(joint, links, known, graph, context) for joint in joints]
     for inner in nested:
         read_links += inner.links
         read_joints += inner.joints
@@ -74,24 +78,38 @@ def _collect(node: XmlNode, context: Context, graph: FrameGraph, links: dict[str
         graph.add(name, read_pose(frame, context), frame.at, default=attached_to or MODEL)
 
 
-def _link_name(joint: XmlNode, tag: str, links: dict[str, XmlNode], *, allow_world: bool) -> str:
+def _reaches_nothing(joint: XmlNode, known: list[str], report: Diagnostics) -> bool:
+    """Whether a joint names a link of a nested model that is not there, as where an <include> was left out."""
+    lost = [name for name in (joint.string("parent"), joint.string("child")) if "::" in name and name not in known]
+    if lost:
+        report.warn(joint.at, f"joint {joint.attribute('name')!r}: no link {lost[0]!r}; the joint is left out")
+    return bool(lost)
+
+
+def _joint_frame(joint: XmlNode, links: dict[str, XmlNode]) -> str:
+    """A joint's name among the frames; before SDF 1.7 it may be a link's too, and then it is no frame to refer to."""
+    name = joint.required_attribute("name")
+    return f"joint {name}" if name in links else name
+
+
+def _link_name(joint: XmlNode, tag: str, known: list[str]) -> str:
     name = joint.string(tag)
     who = f"joint {joint.attribute('name')!r}"
     if not name:
         raise DescriptionError(joint.at, f"{who} has no <{tag}>")
-    nested = "::" in name
-    if name in links or nested or (name == WORLD and allow_world):
+    if name in known or (name == WORLD and tag == "parent"):
         return name
-    there = ", ".join(map(repr, links)) or "none"
+    there = ", ".join(map(repr, known)) or "none"
     raise DescriptionError(joint.at, f"{who}: no link {name!r}; links here: {there}")
 
 
-def _read_joint(node: XmlNode, links: dict[str, XmlNode], graph: FrameGraph, context: Context) -> Joint:
-    name = node.required_attribute("name")
-    parent = _link_name(node, "parent", links, allow_world=True)
-    child = _link_name(node, "child", links, allow_world=False)
+def _read_joint(
+    node: XmlNode, links: dict[str, XmlNode], known: list[str], graph: FrameGraph, context: Context
+) -> Joint:
+    name = _joint_frame(node, links)
+    parent, child = _link_name(node, "parent", known), _link_name(node, "child", known)
     if parent == child:
-        raise DescriptionError(node.at, f"joint {name!r} joins link {child!r} to itself")
+        raise DescriptionError(node.at, f"joint {node.attribute('name')!r} joins link {child!r} to itself")
 
     def frame(expressed_in: str, at: XmlNode) -> Pose:
         return graph.pose(expressed_in or name, at.at)
