@@ -5,6 +5,7 @@ holds. A joint whose limits leave no freedom (the 0..0 of many published robots)
 """
 
 import math
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -12,8 +13,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.diagnostics import Diagnostics
-from trundle.model import Joint, JointAxis, JointType, Link, Model, World
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.model import Joint, JointAxis, JointType, Link, Model, Plane, World
 from trundle.spatial import Pose
 
 from .contacts import add_contacts
@@ -21,6 +22,8 @@ from .inertia import principal_inertia
 from .settings import SOLIMP, apply_settings, contact_solref, friction_solref
 from .shapes import ShapeEntry, add_shape, name_unsupported
 
+_NO_EFFORT = 1e-9
+"""[N·m or N] What an effort limit of zero becomes: MuJoCo wants a range that is not empty."""
 _SIMULATED = frozenset({JointType.REVOLUTE, JointType.PRISMATIC, JointType.FIXED, JointType.BALL, JointType.UNIVERSAL})
 
 
@@ -44,7 +47,11 @@ class CompiledWorld:
 
 
 def compile_world(world: World, report: Diagnostics) -> CompiledWorld:
-    """Compile; what the engine cannot use as written is mended, aloud."""
+    """Compile; what the engine cannot use as written is mended, aloud.
+
+    Raises:
+        DescriptionError: the engine refuses what is left.
+    """
     return _Compiler(world, report).compile()
 
 
@@ -58,6 +65,7 @@ class _Compiler:
         self.spec.option.timestep = world.physics.max_step_size_s
         self.spec.option.gravity = world.physics.gravity
         self.shapes: list[ShapeEntry] = []
+        self.shape_names: set[str] = set()
         self.moving_joints: set[str] = set()
 
     def compile(self) -> CompiledWorld:
@@ -66,7 +74,7 @@ class _Compiler:
         add_contacts(self.spec, self.shapes, self.world.models)
         for name in sorted(self.moving_joints):
             self._add_motor(name)
-        compiled = self.spec.compile()
+        compiled = self._compile_spec()
         joints = [f"{m.name}::{j.name}" for m in self.world.models for j in m.joints]
         links = [f"{m.name}::{link.name}" for m in self.world.models for link in m.links]
         mj_joints = [compiled.joint(name) if name in self.moving_joints else None for name in joints]
@@ -83,6 +91,19 @@ class _Compiler:
                 dtype=np.intp,
             ),
         )
+
+    def _compile_spec(self) -> mujoco.MjModel:
+        """Hand the world to MuJoCo; its own checks speak in its own words."""
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            try:
+                compiled = self.spec.compile()
+            except ValueError as error:
+                what = " ".join(str(error).split())
+                raise DescriptionError(self.world.at, f"the engine cannot simulate this: {what}") from None
+        for warning in caught:
+            self.report.warn(self.world.at, f"the engine is in doubt: {' '.join(str(warning.message).split())}")
+        return compiled
 
     def _add_model(self, index: int, model: Model) -> None:
         links = {link.name: link for link in model.links}
@@ -110,11 +131,22 @@ class _Compiler:
             body = place(link)
             for collision in link.collisions:
                 name_unsupported(collision, self.report)
-                name = f"{model.name}::{link.name}::{collision.name}"
+                name = self._shape_name(f"{model.name}::{link.name}::{collision.name}")
+                if isinstance(collision.geometry, Plane) and not model.static:
+                    self.report.warn(collision.at, f"collision {collision.name!r}: a plane cannot move; it is left out")
+                    continue
                 geom = add_shape(self.spec, body, collision, name, self.report)
                 if geom is not None:
                     entry = ShapeEntry(geom, name, index, link.name, model.static, collision.surface)
                     self.shapes.append(entry)
+
+    def _shape_name(self, name: str) -> str:
+        """The name, made unique: collisions of one link may share theirs."""
+        unique, number = name, 2
+        while unique in self.shape_names:
+            unique, number = f"{name}#{number}", number + 1
+        self.shape_names.add(unique)
+        return unique
 
     def _holding_joints(self, model: Model, links: Mapping[str, Link]) -> dict[str, Joint]:
         """The one joint that holds each link; a second one, or one that closes a ring, is named and left out."""
@@ -189,7 +221,8 @@ class _Compiler:
             hinge.limited = mujoco.mjtLimited.mjLIMITED_FALSE
         if math.isfinite(axis.effort) and axis.effort >= 0:
             hinge.actfrclimited = mujoco.mjtLimited.mjLIMITED_TRUE
-            hinge.actfrcrange = [-axis.effort, axis.effort]
+            effort = max(axis.effort, _NO_EFFORT)
+            hinge.actfrcrange = [-effort, effort]
 
     def _add_motor(self, joint: str) -> None:
         """A motor that does nothing until it is told to: every gain is zero."""
