@@ -1,0 +1,122 @@
+"""Pictures and calibrations as ROS nodes receive them."""
+
+import math
+import time
+from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from trundle.bridge import CameraTopics
+from trundle.bridge.camera import CAMERA_FROM_OPTICAL
+from trundle.diagnostics import Source
+from trundle.model import CameraOptics, Link, Model, Sensor, World
+from trundle.render import Intrinsics, Picture
+from trundle.ros import Core, GraphLoop, Node, StaticTransformBroadcaster
+from trundle.sensors import CameraSensor
+from trundle.simulation import Snapshot
+from trundle.spatial import Pose
+
+AT = Source("robot.sdf", 1)
+PATIENCE_S = 20.0
+
+
+class Ramp:
+    """Draws a picture whose every byte is known."""
+
+    def update(self, poses: Any) -> None:
+        """Nothing moves."""
+
+    def render(self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False) -> Picture:
+        """Count up, row by row."""
+        assert (world_from_camera.position, depth) == ((0.1, 0.0, 0.2), False)
+        shape = (intrinsics.height_px, intrinsics.width_px, 3)
+        return Picture(np.arange(math.prod(shape), dtype=np.uint8).reshape(shape))
+
+
+def snapshot(time_ns: int) -> Snapshot:
+    none = np.zeros(0)
+    poses = np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]])
+    return Snapshot(
+        time_ns=time_ns,
+        poses=poses,
+        twists=np.zeros((1, 6)),
+        joint_positions=none,
+        joint_velocities=none,
+        joint_efforts=none,
+    )
+
+
+def until(condition: Any) -> None:
+    end = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.002)
+
+
+@pytest.fixture
+def stage(monkeypatch: pytest.MonkeyPatch) -> Iterator[SimpleNamespace]:
+    """A camera on a robot given alone, on a graph of its own."""
+    for variable in ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE"):
+        monkeypatch.delenv(variable, raising=False)
+    optics = CameraOptics(width_px=4, height_px=3, horizontal_fov_rad=1.0)
+    sensor = Sensor(name="my eye", type="camera", at=AT, link_from_sensor=Pose((0.1, 0.0, 0.2)), camera=optics)
+    link = Link(name="head", at=AT, sensors=(sensor,))
+    model = Model(name="bot", at=AT, links=(link,))
+    camera = CameraSensor(model, link, sensor, link_index=0, renderer=Ramp())
+    with GraphLoop() as loop:
+        core = Core(loop, port=0)
+        loop.run(core.start(), PATIENCE_S)
+        loop.run(core.ready(), PATIENCE_S)
+        node = Node("sim", loop=loop, master_uri=core.uri)
+        viewer = Node("viewer", loop=loop, master_uri=core.uri)
+        world = World(name="w", at=AT, models=(model,))
+        topics = CameraTopics(node, StaticTransformBroadcaster(node), camera, world)
+        loop.run(node.ready(), PATIENCE_S)
+        yield SimpleNamespace(camera=camera, viewer=viewer, loop=loop, topics=topics)
+        for one in (viewer, node):
+            loop.run(one.shutdown(), PATIENCE_S)
+        loop.run(core.stop(), PATIENCE_S)
+
+
+def test_a_camera_without_subscribers_is_not_wanted(stage: SimpleNamespace) -> None:
+    assert not stage.camera.wanted()
+
+
+def test_a_picture_arrives_with_its_bytes_its_instant_and_its_frame(stage: SimpleNamespace) -> None:
+    images: list[Any] = []
+    stage.viewer.subscribe("/bot/head/my_eye/image_raw", "sensor_msgs/Image", images.append)
+    until(stage.camera.wanted)
+    stage.camera.after_step(snapshot(12_034_000_000))
+    until(lambda: images)
+    (image,) = images
+    # 12.034 s is no multiple of the clock topic's period: the stamp is the picture's own instant.
+    assert (image.header.stamp.sec, image.header.stamp.nanosec) == (12, 34_000_000)
+    assert image.header.frame_id == stage.topics.frame
+    assert image.header.frame_id.endswith("my_eye_optical")
+    assert (image.height, image.width, image.encoding, image.step) == (3, 4, "rgb8", 12)
+    assert bytes(image.data) == bytes(range(36))
+
+
+def test_the_calibration_is_that_of_gazebo_ros_and_comes_with_the_picture(stage: SimpleNamespace) -> None:
+    infos: list[Any] = []
+    stage.viewer.subscribe("/bot/head/my_eye/camera_info", "sensor_msgs/CameraInfo", infos.append)
+    until(stage.camera.wanted)
+    stage.camera.after_step(snapshot(1_500_000_000))
+    until(lambda: infos)
+    (info,) = infos
+    f = 4 / (2 * math.tan(0.5))
+    assert (info.header.stamp.sec, info.header.stamp.nanosec) == (1, 500_000_000)
+    assert info.header.frame_id == stage.topics.frame
+    assert list(info.K) == pytest.approx([f, 0, 2.5, 0, f, 2.0, 0, 0, 1])
+    assert list(info.P) == pytest.approx([f, 0, 2.5, 0, 0, f, 2.0, 0, 0, 0, 1, 0])
+    assert list(info.D) == [0.0] * 5
+    assert (info.width, info.height, info.distortion_model) == (4, 3, "plumb_bob")
+
+
+def test_an_optical_frame_has_z_ahead_x_to_the_right_and_y_down() -> None:
+    assert CAMERA_FROM_OPTICAL.direction((0.0, 0.0, 1.0)) == pytest.approx((1.0, 0.0, 0.0))
+    assert CAMERA_FROM_OPTICAL.direction((1.0, 0.0, 0.0)) == pytest.approx((0.0, -1.0, 0.0))
+    assert CAMERA_FROM_OPTICAL.direction((0.0, 1.0, 0.0)) == pytest.approx((0.0, 0.0, -1.0))
