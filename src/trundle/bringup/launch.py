@@ -20,6 +20,7 @@ from trundle.ros import Node, follow_time
 from trundle.supervisor import Event, Supervisor
 from trundle.viewer import GraphPage
 
+from .exposure import warn_of_exposure
 from .graph import Graph
 from .launch_nodes import NodeStarter
 from .launch_words import read_words
@@ -82,6 +83,7 @@ def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[st
     if options.only == "params":
         print(yaml.safe_dump({param.name: param.value for param in params}, sort_keys=True).rstrip())
         return 0
+    warn_of_exposure(options.host, show.line)
     with stop_flag() as stop, ExitStack() as open_things:
         graph = open_things.enter_context(Graph.open(env, host=options.host, any_port=False))
         show.line(graph.story)

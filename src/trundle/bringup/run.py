@@ -16,6 +16,7 @@ from trundle.render import scene_of
 from trundle.sensors import mount_cameras
 from trundle.simulation import Simulation
 
+from .exposure import warn_of_exposure
 from .outcome import Outcome
 from .pace import NS, Pacer
 from .page import Page
@@ -59,6 +60,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
     env = dict(os.environ if environment is None else environment)
     report = Diagnostics(strict=options.strict)
     show = Showing(sys.stderr, report)
+    warn_of_exposure(options.host, show.line)
     with stop_flag() as stop, ExitStack() as open_things:
         stage = set_stage(file, Packages(env, start=Path.cwd()), report)
         simulation = Simulation(stage.world, report, seed=options.seed)

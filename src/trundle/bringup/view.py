@@ -13,6 +13,7 @@ from trundle.packages import Packages
 from trundle.ros import GraphLoop, MasterProxy, MasterUnreachableError, Node, follow_time, master_uri_from_env
 from trundle.viewer import GraphPage
 
+from .exposure import warn_of_exposure
 from .showing import Showing
 from .signals import stop_flag
 
@@ -45,6 +46,7 @@ def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> 
         ) from None
     report = Diagnostics()
     show = Showing(sys.stderr, report)
+    warn_of_exposure(options.host, show.line)
     with stop_flag() as stop, ExitStack() as open_things:
         loop = open_things.enter_context(GraphLoop())
         node = Node("/rviz", loop=loop, master_uri=uri, host=options.host)
