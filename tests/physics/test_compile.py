@@ -44,8 +44,10 @@ def hinge(parent: str, child: str, axis: JointAxis = X, *, line: int = 7) -> Joi
     return Joint(name=name, type=JointType.REVOLUTE, parent=parent, child=child, at=Source("j.sdf", line), axis=axis)
 
 
-def model(*links: Link, joints: tuple[Joint, ...] = (), name: str = "m", **rest: bool) -> Model:
-    return Model(name=name, at=AT, links=links, joints=joints, **rest)
+def model(
+    *links: Link, joints: tuple[Joint, ...] = (), name: str = "m", static: bool = False, self_collide: bool = False
+) -> Model:
+    return Model(name=name, at=AT, links=links, joints=joints, static=static, self_collide=self_collide)
 
 
 def floor(surface: Surface | None = None) -> Model:

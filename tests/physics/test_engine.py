@@ -32,7 +32,7 @@ WEIGHTLESS = PhysicsSettings(gravity=(0.0, 0.0, 0.0))
 def wheel(axis: JointAxis | None = None, *, damping: float = 0.0) -> Simulation:
     """One wheel of 0.01 kg·m² on a hinge in the world, balanced."""
     axis = axis or JointAxis(direction=(0.0, 0.0, 1.0), damping=damping)
-    rim = Link(name="rim", at=AT, inertial=Inertial(mass=1.0, moments=(INERTIA,) * 3))
+    rim = Link(name="rim", at=AT, inertial=Inertial(mass=1.0, moments=(INERTIA, INERTIA, INERTIA)))
     joint = Joint(name="hub", type=JointType.REVOLUTE, parent="world", child="rim", at=AT, axis=axis)
     model = Model(name="wheel", at=AT, links=(rim,), joints=(joint,))
     return Simulation(World(name="w", at=AT, models=(model,)), Diagnostics(strict=True))
@@ -235,7 +235,7 @@ def test_a_reset_world_is_a_new_world() -> None:
 
 def ball(name: str, x: float) -> Model:
     shape = Collision(name="c", geometry=Sphere(0.1), at=AT)
-    link = Link(name="l", at=AT, inertial=Inertial(mass=1.0, moments=(0.004,) * 3), collisions=(shape,))
+    link = Link(name="l", at=AT, inertial=Inertial(mass=1.0, moments=(0.004, 0.004, 0.004)), collisions=(shape,))
     return Model(name=name, at=AT, world_from_model=Pose((x, 0.0, 0.1)), links=(link,))
 
 

@@ -42,7 +42,7 @@ def camera(name: str = "eye", **rest: object) -> Sensor:
 
 def world(*sensors_: Sensor) -> World:
     """Two links that float and drift, the second with sensors."""
-    still = Inertial(mass=1.0, moments=(0.1,) * 3)
+    still = Inertial(mass=1.0, moments=(0.1, 0.1, 0.1))
     links = (
         Link(name="base", at=AT, inertial=still),
         Link(name="head", at=AT, model_from_link=Pose((0.0, 0.0, 2.0)), inertial=still, sensors=sensors_),
