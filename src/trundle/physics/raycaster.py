@@ -179,8 +179,14 @@ class RayRenderer:
 
 
 def _is_drawn(shape: Shape) -> bool:
-    """Glass is looked through: rays know no half-seen shapes."""
-    return shape.rgba[3] >= 0.5
+    """Glass is looked through, as rays know no half-seen shapes; a mesh without any area is nothing to see."""
+    return shape.rgba[3] >= 0.5 and not (isinstance(shape.geometry, Mesh) and _area(shape.geometry) == 0.0)
+
+
+def _area(mesh: Mesh) -> float:
+    """[m²]"""
+    a, b, c = (mesh.vertices[mesh.faces[:, i]].astype(float) for i in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
 
 
 @lru_cache(maxsize=16)
@@ -215,6 +221,8 @@ def _add_geom(spec: mujoco.MjSpec, body: mujoco.MjsBody, shape: Shape, name: str
             geom.group = _PLANE_GROUP
             geom.quat = (pose @ Pose(quaternion=upright(normal))).quaternion
         case Mesh(vertices, faces):
+            # MuJoCo wants four corners at least, though a triangle has three.
+            vertices = np.concatenate([vertices, vertices[: max(0, 4 - len(vertices))]])
             spec.add_mesh(
                 name=name,
                 uservert=vertices.reshape(-1).astype(float),

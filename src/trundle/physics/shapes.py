@@ -4,6 +4,8 @@ import math
 from dataclasses import dataclass
 
 import mujoco
+import numpy as np
+from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
 from trundle.meshes import MeshError, load_mesh
@@ -55,15 +57,26 @@ def add_shape(
                 report.warn(collision.at, f"{error}; the collision is left out")
                 spec.delete(geom)
                 return None
-            mesh = mesh.scaled(geometry.scale)
-            spec.add_mesh(
-                name=name,
-                uservert=mesh.vertices.reshape(-1).astype(float),
-                userface=mesh.faces.reshape(-1),
-                inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX,
-            )
+            corners = _thick_hull(mesh.scaled(geometry.scale).vertices.astype(float), collision, report)
+            # Without faces: meshes touch by their convex hulls, which MuJoCo makes of the corners.
+            spec.add_mesh(name=name, uservert=corners.reshape(-1), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
             geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, name
     return geom
+
+
+def _thick_hull(corners: NDArray[np.float64], collision: Collision, report: Diagnostics) -> NDArray[np.float64]:
+    """A mesh's corners (N, 3) [m]; across what is flat or a line, a second layer of them, as a hull needs a volume."""
+    centred = corners - corners.mean(axis=0)
+    axes = np.linalg.eigh(centred.T @ centred)[1].T
+    thin = [axis for axis in axes if np.ptp(centred @ axis) < THINNEST]
+    for axis in thin:
+        corners = np.concatenate([corners - axis * THINNEST / 2, corners + axis * THINNEST / 2])
+    if thin:
+        report.warn(
+            collision.at,
+            f"collision {collision.name!r}: a mesh of zero thickness; physics uses {THINNEST * 1000:g} mm",
+        )
+    return corners
 
 
 def name_unsupported(collision: Collision, report: Diagnostics) -> None:
