@@ -196,6 +196,31 @@ def test_a_mesh_that_cannot_be_read_leaves_its_collision_out_aloud(tmp_path: Pat
     assert "the collision is left out" in report.warnings[0]
 
 
+FLAT = "v 1 1 0\nv -1 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\nf 1 3 4\n"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [FLAT, "v 1 1 0\nv -1 1 0\nv 0 -1 0\nf 1 2 3\n", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"],
+    ids=["quad", "triangle", "line"],
+)
+def test_a_mesh_without_thickness_is_mended_aloud(tmp_path: Path, text: str) -> None:
+    (tmp_path / "flat.obj").write_text(text)
+    report = Diagnostics()
+    world = compiled(model(link("a", geometry=MeshFile(path=tmp_path / "flat.obj", uri="flat.obj"))), report=report)
+    assert world.model.nmesh == 1
+    assert report.warnings == ["inline.sdf:1: warning: collision 'c': a mesh of zero thickness; physics uses 0.1 mm"]
+
+
+def test_a_ball_rests_on_a_flat_mesh(tmp_path: Path) -> None:
+    (tmp_path / "flat.obj").write_text(FLAT)
+    table = link("top", geometry=MeshFile(path=tmp_path / "flat.obj", uri="flat.obj"))
+    ball = replace(model(link("l"), name="ball"), world_from_model=Pose((0.2, 0.3, 0.1)))
+    sim = Simulation(World(name="w", at=AT, models=(model(table, static=True), ball)), Diagnostics())
+    sim.run(0.5)
+    assert sim["ball"].pose.position == pytest.approx((0.2, 0.3, 0.1), abs=1e-3)
+
+
 def test_links_of_one_model_touch_only_where_it_says_so_and_never_across_a_joint() -> None:
     parts = (link("a"), link("b", x=0.5), link("c", x=1.0))
     joints = (hinge("a", "b"), hinge("b", "c"))

@@ -153,6 +153,16 @@ def cube(size: float) -> Mesh:
     return Mesh(corners, np.array(faces, dtype=np.int32))
 
 
+def test_a_single_triangle_is_drawn_and_one_without_area_is_not() -> None:
+    corners = np.array([[4, -1, -1], [4, 1, -1], [4, 0, 1]], dtype=np.float32)
+    face = np.array([[0, 1, 2]], dtype=np.int32)
+    seen = is_red(renderer(shape(Mesh(corners, face))).render(Pose(), WIDE).rgb)
+    # 2 m² at 4 m.
+    assert seen.sum() == pytest.approx(2.0 * (WIDE.focal_px / 4.0) ** 2, rel=0.02)
+    nothing = Mesh(np.zeros((3, 3), dtype=np.float32), face)
+    assert (renderer(shape(nothing)).render(Pose(), WIDE).rgb == (51, 102, 153)).all()
+
+
 def test_a_mesh_is_drawn_where_its_triangles_are() -> None:
     # Off centre and turned: the engine moves a mesh to its own principal axes, which must not show.
     offset = Mesh(cube(0.5).vertices + np.array([0.0, 0.7, 0.3], dtype=np.float32), cube(0.5).faces)
