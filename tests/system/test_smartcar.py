@@ -61,9 +61,10 @@ def test_the_real_rostopic_pub_drives_the_car(car, env, trundle, until, tmp_path
         echo.wait()
 
     start_ns = next(int(r["%time"]) for r in rows if float(r["field.twist.twist.linear.x"]) > 0)
-    x, y = _at(rows, start_ns + 10 * 10**9)
+    x, y, yaw = _at(rows, start_ns + 10 * 10**9)
     assert -0.949 - 0.05 <= x <= -0.938 + 0.05
-    assert 0.716 - 0.05 <= y <= 0.800 + 0.05
+    assert 0.770 - 0.05 <= y <= 0.800 + 0.05
+    assert 4.95 - 0.1 <= yaw % math.tau <= 4.98 + 0.1
 
 
 def _rows(log: Path) -> list[dict[str, str]]:
@@ -81,8 +82,8 @@ def _rows_until_moving_for(log: Path, seconds: float, until) -> list[dict[str, s
     return _rows(log)
 
 
-def _at(rows: list[dict[str, str]], time_ns: int) -> tuple[float, float]:
-    """Position at an instant, between the two messages around it."""
+def _at(rows: list[dict[str, str]], time_ns: int) -> tuple[float, float, float]:
+    """x, y and yaw at an instant, between the two messages around it; the yaw goes on from the first at 0.5 rad/s."""
     after = next(i for i, r in enumerate(rows) if int(r["%time"]) >= time_ns)
     a, b = rows[after - 1], rows[after]
     share = (time_ns - int(a["%time"])) / (int(b["%time"]) - int(a["%time"]))
@@ -90,7 +91,10 @@ def _at(rows: list[dict[str, str]], time_ns: int) -> tuple[float, float]:
     def between(name: str) -> float:
         return float(a[name]) + share * (float(b[name]) - float(a[name]))
 
-    return between("field.pose.pose.position.x"), between("field.pose.pose.position.y")
+    z, w = float(a["field.pose.pose.orientation.z"]), float(a["field.pose.pose.orientation.w"])
+    turned = 0.5 * share * (int(b["%time"]) - int(a["%time"])) / 1e9
+    x, y = between("field.pose.pose.position.x"), between("field.pose.pose.position.y")
+    return x, y, 2 * math.atan2(z, w) + turned
 
 
 def test_parameters_are_those_of_the_original(trundle, shared, packages) -> None:

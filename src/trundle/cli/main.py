@@ -46,7 +46,13 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code: 0 success, 1 bad input, 2 wrong usage, 130 on Ctrl-C."""
-    arguments = list(sys.argv[1:] if argv is None else argv)
+    try:
+        return _main(list(sys.argv[1:] if argv is None else argv))
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
+
+
+def _main(arguments: list[str]) -> int:
     if "_ARGCOMPLETE" in os.environ:
         _complete()
     if not arguments or arguments[0] in ("-h", "--help", "help"):
@@ -72,8 +78,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # `trundle topic echo … | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return EXIT_OK
-    except KeyboardInterrupt:
-        return EXIT_INTERRUPTED
 
 
 def _names_a_place(message: str) -> bool:
