@@ -6,6 +6,8 @@ import os
 import sys
 from pathlib import Path
 
+from .main import quiet_imports
+
 EXAMPLES = """
   trundle check model.sdf                             everything worth knowing, worst first
   trundle check robot.urdf.xacro --strict             exit 1 on a warning, for continuous integration
@@ -22,7 +24,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Read, report, and return 1 where the file is refused."""
-    from trundle.bringup import check
+    with quiet_imports():
+        from trundle.bringup import check
 
     outcome = check(args.file, dict(os.environ), start=Path.cwd())
     warned = any(finding.severity == "warning" for finding in outcome.report.findings)

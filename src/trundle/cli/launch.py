@@ -2,6 +2,8 @@
 
 import argparse
 
+from .main import quiet_imports
+
 EXAMPLES = """
   trundle launch smartcar_description smartcar_display.rviz.launch
                                                       a package on ROS_PACKAGE_PATH and a file in it
@@ -28,7 +30,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Launch until the duration is over, a required node dies, or Ctrl-C."""
-    from trundle.bringup import LaunchOptions, launch
+    with quiet_imports():
+        from trundle.bringup import LaunchOptions, launch
 
     options = LaunchOptions(
         headless=args.headless,

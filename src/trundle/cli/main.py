@@ -7,8 +7,10 @@ A command is a module `trundle.cli.<name>`: the first line of its docstring is i
 import argparse
 import importlib
 import os
+import signal
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
+from contextlib import contextmanager
 from typing import Protocol, cast
 
 from trundle import __version__
@@ -80,12 +82,23 @@ def _main(arguments: list[str]) -> int:
         return EXIT_OK
 
 
+@contextmanager
+def quiet_imports() -> Generator[None]:
+    """Let Ctrl-C end the process without a word while modules are loaded: some turn it into errors of their own."""
+    before = signal.signal(signal.SIGINT, signal.SIG_DFL)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 def _names_a_place(message: str) -> bool:
     return ": error: " in message
 
 
 def _command(name: str) -> Command:
-    return cast(Command, importlib.import_module(f"trundle.cli.{name}"))
+    with quiet_imports():
+        return cast(Command, importlib.import_module(f"trundle.cli.{name}"))
 
 
 def _parser(name: str, parser: argparse.ArgumentParser | None = None) -> argparse.ArgumentParser:

@@ -4,6 +4,8 @@ import argparse
 import json
 import sys
 
+from .main import quiet_imports
+
 EXAMPLES = """
   trundle run model://rp2w                            a robot that Gazebo would find, or that we ship
   trundle run my_robot/model.sdf                      a file; a folder with model.config works too
@@ -33,7 +35,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Simulate until the duration is over or Ctrl-C."""
-    from trundle.bringup import RunOptions, run
+    with quiet_imports():
+        from trundle.bringup import RunOptions, run
 
     options = RunOptions(
         headless=args.headless,

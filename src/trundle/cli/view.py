@@ -2,6 +2,8 @@
 
 import argparse
 
+from .main import quiet_imports
+
 EXAMPLES = """
   trundle view                                        the graph that ROS_MASTER_URI names
   trundle view -f odom                                seen from the frame odom
@@ -19,6 +21,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Show until Ctrl-C."""
-    from trundle.bringup import ViewOptions, view
+    with quiet_imports():
+        from trundle.bringup import ViewOptions, view
 
     return view(ViewOptions(config=args.display_config, fixed_frame=args.fixed_frame, host=args.host, port=args.port))
