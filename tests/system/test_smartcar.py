@@ -53,8 +53,8 @@ def test_the_real_rostopic_pub_drives_the_car(car, env, master, until, tmp_path)
     started: list[subprocess.Popen[bytes]] = []
 
     def rostopic(*words: str, into: Path | None = None) -> None:
-        out = subprocess.DEVNULL if into is None else into.open("wb")
-        started.append(subprocess.Popen([REAL_ROSTOPIC, *words], env=real, stdout=out))
+        with (into or tmp_path / "rostopic.log").open("wb") as out:
+            started.append(subprocess.Popen([REAL_ROSTOPIC, *words], env=real, stdout=out, stderr=subprocess.DEVNULL))
 
     def last_ns() -> int:
         rows = _rows(odometry_log)
