@@ -1,0 +1,222 @@
+"""One rule of a format at a time."""
+
+from pathlib import Path
+
+import pytest
+
+import trundle.description
+import trundle.packages
+import trundle.robot
+from trundle.description import Loaded, expand_xacro, load
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.model import Model
+from trundle.packages import Packages
+from trundle.spatial import Pose
+
+TURNED = '<link name="a"/><link name="b"><pose>0 0 0 0 0 1.5707963267948966</pose></link>'
+HINGE = '<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz{}>1 0 0</xyz>{}</axis></joint>'
+
+
+def read(folder: Path, text: str, report: Diagnostics | None = None, *, name: str = "x.sdf") -> Loaded:
+    (folder / name).write_text(text)
+    return load(str(folder / name), report or Diagnostics(), packages=Packages({}, start=folder))
+
+
+def sdf(folder: Path, version: str, body: str, report: Diagnostics | None = None) -> Model:
+    return read(folder, f'<sdf version="{version}"><model name="m">{body}</model></sdf>', report).world.models[0]
+
+
+@pytest.mark.parametrize(
+    ("version", "attribute", "extra", "axis"),
+    [
+        ("1.4", "", "", (1, 0, 0)),
+        ("1.5", "", "", (0, 1, 0)),
+        ("1.6", "", "<use_parent_model_frame>1</use_parent_model_frame>", (1, 0, 0)),
+        ("1.7", "", "", (0, 1, 0)),
+        ("1.7", ' expressed_in="__model__"', "", (1, 0, 0)),
+        ("1.9", ' expressed_in="a"', "", (1, 0, 0)),
+    ],
+)
+def test_the_version_says_in_which_frame_an_axis_is_written(tmp_path, version, attribute, extra, axis) -> None:
+    model = sdf(tmp_path, version, TURNED + HINGE.format(attribute, extra))
+
+    found = model.joints[0].axis
+    assert found is not None
+    assert found.direction == pytest.approx(axis, abs=1e-12)
+
+
+def test_poses_are_resolved_through_relative_to(tmp_path: Path) -> None:
+    body = (
+        '<link name="a"><pose>1 0 0 0 0 1.5707963267948966</pose></link>'
+        '<frame name="f" attached_to="a"><pose>1 0 0 0 0 0</pose></frame>'
+        '<link name="b"><pose relative_to="f">1 0 0 0 0 0</pose></link>'
+    )
+
+    assert sdf(tmp_path, "1.9", body).link("b").model_from_link.position == pytest.approx((1, 2, 0))
+
+
+def test_a_frame_placed_relative_to_itself_is_refused(tmp_path: Path) -> None:
+    body = '<link name="a"><pose relative_to="b"/></link><link name="b"><pose relative_to="a"/></link>'
+
+    with pytest.raises(DescriptionError, match="is placed relative to itself"):
+        sdf(tmp_path, "1.9", body)
+
+
+def test_an_included_model_takes_the_name_and_pose_it_is_given(tmp_path: Path) -> None:
+    text = (
+        '<sdf version="1.6"><world name="w"><include><uri>model://ground_plane</uri><name>floor</name>'
+        "<pose>0 0 1 0 0 0</pose></include></world></sdf>"
+    )
+
+    (model,) = read(tmp_path, text).world.models
+
+    assert (model.name, model.static, model.world_from_model) == ("floor", True, Pose((0.0, 0.0, 1.0)))
+
+
+def test_what_is_not_supported_is_named_with_its_line(tmp_path: Path) -> None:
+    report = Diagnostics()
+
+    sdf(tmp_path, "1.6", '<link name="a">\n<battery name="b"/></link>\n<gripper name="g"/>', report)
+
+    assert [w.partition("x.sdf")[2] for w in report.warnings] == [
+        ":2: warning: <battery> in <link> is not supported; it is ignored",
+        ":3: warning: <gripper> in <model> is not supported; it is ignored",
+    ]
+
+
+def test_a_bad_number_falls_back_aloud(tmp_path: Path) -> None:
+    report = Diagnostics()
+
+    model = sdf(tmp_path, "1.6", '<link name="a"><inertial><mass>heavy</mass></inertial></link>', report)
+
+    assert model.link("a").inertial.mass == 1.0
+    assert any("<mass> wants one number, got 'heavy'; 1 is used" in w for w in report.warnings)
+
+
+def test_strict_makes_a_warning_an_error(tmp_path: Path) -> None:
+    with pytest.raises(DescriptionError, match="<mass> wants one number"):
+        sdf(tmp_path, "1.6", '<link name="a"><inertial><mass>x</mass></inertial></link>', Diagnostics(strict=True))
+
+
+def test_a_description_reads_nothing_outside_its_own_folders(tmp_path: Path) -> None:
+    folder = tmp_path / "robot"
+    folder.mkdir()
+    (tmp_path / "secret.stl").write_text("solid")
+    report = Diagnostics()
+    mesh = "<visual name='v'><geometry><mesh><uri>../secret.stl</uri></mesh></geometry></visual>"
+
+    model = sdf(folder, "1.6", f'<link name="a">{mesh}</link>', report)
+
+    assert model.link("a").visuals == ()
+    assert any("a description reads only below its own folders" in w for w in report.warnings)
+
+
+URDF = """<robot name="r">
+<link name="base"><inertial><mass value="2"/>
+  <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="arm"><inertial><origin xyz="1 0 0"/><mass value="2"/>
+  <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="weld" type="fixed"><parent link="base"/><child link="arm"/><origin xyz="1 0 0"/></joint>
+{}</robot>"""
+
+
+def test_a_fixed_joint_lumps_its_links_by_the_parallel_axis_theorem(tmp_path: Path) -> None:
+    """Two 2 kg bodies 2 m apart: the middle at 1 m, and 2 · 2 kg · (1 m)² more about the axes across."""
+    (model,) = read(tmp_path, URDF.format(""), name="r.urdf").world.models
+
+    (link,) = model.links
+    assert link.inertial.mass == 4.0
+    assert link.inertial.link_from_com.position == (1.0, 0.0, 0.0)
+    assert link.inertial.moments == pytest.approx((2.0, 6.0, 6.0))
+
+
+def test_a_link_without_mass_falls_away_with_all_below_it(tmp_path: Path) -> None:
+    report = Diagnostics()
+    more = (
+        '<link name="ghost"/><link name="tip"><inertial><mass value="1"/>'
+        '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>'
+        '<joint name="j1" type="continuous"><parent link="base"/><child link="ghost"/></joint>'
+        '<joint name="j2" type="continuous"><parent link="ghost"/><child link="tip"/></joint>'
+    )
+
+    (model,) = read(tmp_path, URDF.format(more), report, name="r.urdf").world.models
+
+    assert ([link.name for link in model.links], model.joints) == (["base"], ())
+    assert any("link 'ghost' has no mass" in w and "with 'tip' below it" in w for w in report.warnings)
+
+
+@pytest.mark.parametrize(
+    ("more", "sentence"),
+    [
+        ('<link name="lost"/>', "more than one root link: 'base', 'lost'"),
+        ('<link name="base"/>', "a second link 'base'"),
+        (
+            '<link name="l"/><joint name="j" type="revolute"><parent link="base"/><child link="l"/></joint>',
+            "joint 'j': a revolute joint needs <limit effort= velocity=>",
+        ),
+        (
+            '<joint name="j" type="fixed"><parent link="base"/><child link="x"/></joint>',
+            "joint 'j': no child link 'x'; links here: 'base', 'arm'",
+        ),
+    ],
+)
+def test_a_urdf_that_is_no_tree_is_refused_with_what_is_wrong(tmp_path, more, sentence) -> None:
+    with pytest.raises(DescriptionError) as error:
+        read(tmp_path, URDF.format(more), name="r.urdf")
+
+    assert sentence in str(error.value)
+
+
+XACRO = '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">{}</robot>'
+
+
+def expand(folder: Path, body: str, report: Diagnostics | None = None, **arguments: str) -> str:
+    path = folder / "r.urdf.xacro"
+    path.write_text(XACRO.format(body))
+    return expand_xacro(path, arguments, packages=Packages({}, start=path), report=report or Diagnostics())
+
+
+def test_bare_macros_of_indigo_are_expanded_and_said(tmp_path: Path) -> None:
+    report = Diagnostics()
+
+    text = expand(tmp_path, '<macro name="wheel" params="n"><link name="${n}"/></macro><wheel n="left"/>', report)
+
+    assert '<link name="left"/>' in text
+    assert "wheel n=" not in text
+    assert len(report.warnings) == 2
+
+
+def test_plain_xml_of_a_core_tag_s_name_is_left_alone(tmp_path: Path) -> None:
+    assert "<include><uri>x</uri></include>" in expand(tmp_path, "<include><uri>x</uri></include>").replace(
+        "\n", ""
+    ).replace(" ", "")
+
+
+def test_arguments_reach_the_file_and_do_not_stay(tmp_path: Path) -> None:
+    body = '<xacro:arg name="n" default="a"/><link name="$(arg n)"/>'
+
+    assert 'name="b"' in expand(tmp_path, body, n="b")
+    assert 'name="a"' in expand(tmp_path, body)
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ("<xacro:nothing/>", "unknown macro name: xacro:nothing"),
+        ("${1 +}", "invalid syntax"),
+        ("${__import__('os').getcwd()}", "Use of invalid name"),
+        ("$(find no_such_package)", r"\$\(find no_such_package\): no package 'no_such_package'"),
+        ('<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', "without end"),
+    ],
+)
+def test_what_xacro_refuses_is_one_sentence(tmp_path, body, words) -> None:
+    with pytest.raises(DescriptionError, match=words) as error:
+        expand(tmp_path, body)
+
+    assert error.value.at.file.endswith("r.urdf.xacro")
+
+
+@pytest.mark.parametrize("room", [trundle.description, trundle.packages, trundle.robot])
+def test_the_front_doors_are_what_they_say(room) -> None:
+    assert room.__all__ == sorted(room.__all__)
+    assert all(hasattr(room, name) for name in room.__all__)

@@ -1,0 +1,58 @@
+"""The XML tree: lines, what nobody read, and hostile text."""
+
+import pytest
+
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.xmlnode import parse_xml
+
+
+def test_an_element_knows_its_line_below_blank_lines() -> None:
+    """Blank lines before <?xml …?> are common in tutorials, and Gazebo accepts them."""
+    node = parse_xml("\n\n<?xml version='1.0'?>\n<a>\n<b/></a>", name="x.xml")
+
+    assert node.children[0].at == Source("x.xml", 5)
+
+
+def test_what_nobody_read_is_named_once() -> None:
+    node = parse_xml("<a known='1' odd='2'>\n<b/>\n<c/>\n<c/></a>", name="x.xml")
+    node.attribute("known")
+    node.find("b")
+    report = Diagnostics()
+
+    node.report_unread(report)
+
+    assert report.warnings == [
+        "x.xml:3: warning: <c> in <a> is not supported; it is ignored",
+        "x.xml:1: warning: attribute 'odd' of <a> is not supported; it is ignored",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "x.xml:1: error: the file is empty"),
+        ("hello", "x.xml:1: error: not well-formed XML: Start tag expected, '<' not found"),
+        ("<a>\n<b></a>", "x.xml:2: error: not well-formed XML: Opening and ending tag mismatch: b line 2 and a"),
+        ("<a>" * 100_000, "x.xml:1: error: not well-formed XML: Excessive depth in document: 256"),
+        ('<!DOCTYPE a [<!ENTITY x SYSTEM "file:///etc/passwd">]><a>&x;</a>', "Entity 'x' not defined"),
+    ],
+)
+def test_text_that_is_no_document_is_one_sentence(text: str, sentence: str) -> None:
+    with pytest.raises(DescriptionError) as error:
+        parse_xml(text, name="x.xml")
+
+    assert sentence in str(error.value)
+
+
+def test_an_entity_bomb_is_refused_before_it_grows() -> None:
+    entities = "".join(f'<!ENTITY e{i + 1} "{f"&e{i};" * 10}">' for i in range(12))
+
+    with pytest.raises(DescriptionError, match="not well-formed XML"):
+        parse_xml(f'<!DOCTYPE a [<!ENTITY e0 "x">{entities}]><a>&e12;</a>', name="x.xml")
+
+
+@pytest.mark.parametrize(("text", "value"), [("nan", 7.0), ("1e400", 7.0), ("two", 7.0), (" 2.5 ", 2.5)])
+def test_a_number_is_finite_or_the_default(text: str, value: float) -> None:
+    node = parse_xml(f"<a><n>{text}</n></a>", name="x.xml")
+
+    assert node.number("n", default=7.0, report=Diagnostics()) == value
