@@ -310,3 +310,15 @@ def test_a_block_fixed_to_the_world_may_stand_in_the_floor() -> None:
     )
     sim.run(0.1)
     assert sim["m"].link("a").pose.position == pytest.approx((0.0, 0.0, 0.0))
+
+
+def test_a_joint_held_at_an_angle_stands_there() -> None:
+    """lower = upper = a quarter turn: the child, and what hangs on it, stands turned."""
+    quarter = np.pi / 2
+    held = hinge("a", "b", replace(X, lower=quarter, upper=quarter))
+    arm = model(link("a"), link("b", x=1.0), link("c", x=2.0), joints=(held, hinge("b", "c")))
+
+    poses = Simulation(World(name="w", at=AT, models=(arm,)), Diagnostics()).snapshot().poses
+
+    assert Pose(quaternion=tuple(poses[1, 3:])).rpy == pytest.approx((quarter, 0.0, 0.0))
+    assert Pose(quaternion=tuple(poses[2, 3:])).rpy == pytest.approx((quarter, 0.0, 0.0))

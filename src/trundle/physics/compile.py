@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.model import Joint, JointAxis, JointType, Link, Model, Plane, World
+from trundle.model import Joint, JointAxis, JointType, Link, Model, Plane, World, model_from_links
 from trundle.spatial import Pose
 
 from .contacts import add_contacts
@@ -109,16 +109,19 @@ class _Compiler:
         links = {link.name: link for link in model.links}
         held = self._holding_joints(model, links)
         bodies: dict[str, mujoco.MjsBody] = {}
+        # A joint without freedom stands where its limits hold it, which need not be zero.
+        held_at = {j.name: j.axis.lower for j in model.joints if j.axis is not None and j.axis.is_rigid}
+        model_from_link = model_from_links(model, held_at)
 
         def place(link: Link) -> mujoco.MjsBody:
             if link.name in bodies:
                 return bodies[link.name]
             joint = held.get(link.name)
             if joint is None or joint.parent == "world":
-                parent, pose = self.spec.worldbody, model.world_from_model @ link.model_from_link
+                parent, pose = self.spec.worldbody, model.world_from_model @ model_from_link[link.name]
             else:
                 above = links[joint.parent]
-                parent, pose = place(above), above.model_from_link.inverse() @ link.model_from_link
+                parent, pose = place(above), model_from_link[above.name].inverse() @ model_from_link[link.name]
             body = self._add_body(parent, f"{model.name}::{link.name}", link, pose, fixed=model.static)
             if joint is not None and not model.static:
                 self._add_joint(body, model, link, joint)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import TrundleError
-from trundle.spatial import Pose, Vector3, Wrench
+from trundle.spatial import Vector3, Wrench
 
 from .compile import CompiledWorld
 from .settings import silence_log
@@ -167,10 +167,6 @@ class Engine:
         found[self._moves] = values[places[self._moves]]
         return found
 
-    def link_mass(self, link: int) -> float:
-        """[kg]"""
-        return float(self._model.body_mass[self.compiled.link_bodies[link]])
-
     # -- writing
 
     def set_wrench(self, link: int, wrench: Wrench) -> None:
@@ -213,15 +209,6 @@ class Engine:
         """Put a joint to a position [rad or m], at rest."""
         self._data.qpos[self.compiled.joint_qpos[joint]] = position
         self._data.qvel[self.compiled.joint_dof[joint]] = 0.0
-        self._fresh = False
-
-    def set_link_pose(self, link: int, world_from_link: Pose) -> None:
-        """Put a link that moves freely somewhere else, at rest."""
-        body = self.compiled.link_bodies[link]
-        start = self._model.jnt_qposadr[self._model.body_jntadr[body]]
-        self._data.qpos[start : start + 7] = [*world_from_link.position, *world_from_link.quaternion]
-        dof = self._model.body_dofadr[body]
-        self._data.qvel[dof : dof + 6] = 0.0
         self._fresh = False
 
     def center_of_mass(self, link: int) -> Vector3:
