@@ -21,7 +21,7 @@ class Running:
     """A `trundle` process that goes on by itself."""
 
     def __init__(self, arguments: Sequence[str], env: Mapping[str, str], cwd: Path) -> None:
-        self.log = cwd / "trundle.log"
+        self.log = cwd / f"{arguments[0]}.log"
         with self.log.open("wb") as log:
             self.process = subprocess.Popen(
                 [sys.executable, "-m", "trundle", *arguments], env=dict(env), cwd=cwd, stdout=log, stderr=log

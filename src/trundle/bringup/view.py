@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from trundle.diagnostics import Diagnostics, UsageError
+from trundle.names import anonymous_name
 from trundle.packages import Packages
 from trundle.ros import GraphLoop, MasterProxy, MasterUnreachableError, Node, follow_time, master_uri_from_env
 from trundle.viewer import GraphPage
@@ -49,7 +50,8 @@ def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> 
     warn_of_exposure(options.host, show.line)
     with stop_flag() as stop, ExitStack() as open_things:
         loop = open_things.enter_context(GraphLoop())
-        node = Node("/rviz", loop=loop, master_uri=uri, host=options.host)
+        # Anonymous, as the original's: a launch may have a node called rviz, which a second one would shut down.
+        node = Node(anonymous_name("/rviz"), loop=loop, master_uri=uri, host=options.host)
         loop.run(follow_time(node))
         packages = Packages(env, start=Path.cwd())
         page = GraphPage(packages=packages, report=report, host=options.host, port=options.port)
