@@ -51,7 +51,7 @@ def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> 
     with stop_flag() as stop, ExitStack() as open_things:
         loop = open_things.enter_context(GraphLoop())
         # Anonymous, as the original's: a launch may have a node called rviz, which a second one would shut down.
-        node = Node(anonymous_name("/rviz"), loop=loop, master_uri=uri, host=options.host)
+        node = Node(anonymous_name("rviz"), loop=loop, master_uri=uri, host=options.host)
         loop.run(follow_time(node))
         packages = Packages(env, start=Path.cwd())
         page = GraphPage(packages=packages, report=report, host=options.host, port=options.port)
