@@ -4,7 +4,7 @@ import asyncio
 import contextlib
 import logging
 import threading
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Mapping
 from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
@@ -150,8 +150,17 @@ class GraphLoop:
         try:
             self._loop.run_forever()
         finally:
+            self._loop.run_until_complete(self._close_transports())
             self._loop.run_until_complete(self._loop.shutdown_asyncgens())
             self._loop.close()
+
+    async def _close_transports(self) -> None:
+        """Close what came in while everything wound down; asyncio keeps the list to itself before Python 3.12."""
+        transports: Mapping[int, asyncio.Transport] = getattr(self._loop, "_transports", {})
+        for transport in list(transports.values()):
+            transport.abort()
+        for _ in range(_CALM_PASSES):
+            await asyncio.sleep(0)
 
 
 def _copy(task: "asyncio.Task[_T]", future: "Future[_T]") -> None:
