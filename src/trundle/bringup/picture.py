@@ -30,6 +30,8 @@ _FROM = (math.radians(42.0), math.radians(14.0))
 _MARGIN = 1.08
 _SAMPLES = 2
 """Pictures are drawn twice as large and averaged: smooth edges."""
+_MOST_PX = 3840 * 2160
+"""A picture of that many pixels takes 3.3 GB to draw, measured; memory grows in proportion."""
 
 
 def picture_of(
@@ -55,7 +57,7 @@ def picture_of(
 
     Raises:
         DescriptionError: the file is at fault.
-        UsageError: no such camera.
+        UsageError: no such camera, or a picture too large to draw.
     """
     stage = set_stage(file, Packages(environment, start=start), report)
     simulation = Simulation(stage.world, report)
@@ -72,6 +74,9 @@ def picture_of(
         width, height = size or DEFAULT_SIZE
         intrinsics = Intrinsics(width_px=width, height_px=height, horizontal_fov_rad=_FOV, near_m=0.01, far_m=1000.0)
         view = _good_side(scene, poses, intrinsics)
+    if intrinsics.width_px * intrinsics.height_px > _MOST_PX:
+        asked = f"{intrinsics.width_px}x{intrinsics.height_px}"
+        raise UsageError(f"a picture of {asked} is too large; it may have {_MOST_PX} pixels, as 3840x2160 has")
     renderer.update(poses)
     if depth:
         ranges = renderer.render(view, intrinsics, depth=True).depth

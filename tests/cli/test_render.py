@@ -1,0 +1,133 @@
+"""`trundle render`: a file becomes a picture."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+
+from trundle.cli import main
+
+BOX = """<sdf version="1.6"><model name="m"><static>true</static><link name="l">
+<visual name="v"><pose>3 1 0.5 0 0 0</pose><geometry><box><size>1 1 1</size></box></geometry>
+<material><ambient>1 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material></visual>
+<sensor name="eye" type="camera"><pose>0 0 0.5 0 0 0</pose><camera><horizontal_fov>1.2</horizontal_fov>
+<image><width>120</width><height>80</height></image><clip><near>0.1</near><far>20</far></clip></camera></sensor>
+</link></model></sdf>"""
+FOCAL_PX = 60 / np.tan(0.6)
+
+
+@pytest.fixture
+def box(tmp_path: Path) -> Path:
+    """A red cube ahead and to the left of a camera; its near face is 2.5 m away."""
+    file = tmp_path / "box.sdf"
+    file.write_text(BOX)
+    return file
+
+
+def _red(file: Path) -> NDArray[np.bool_]:
+    pixels = np.asarray(Image.open(file).convert("RGB")).astype(int)
+    return pixels[..., 0] > pixels[..., 1] + 60
+
+
+def test_the_view_of_everything_holds_all_of_it_in_the_middle(box: Path, tmp_path: Path) -> None:
+    out = tmp_path / "all.png"
+
+    assert main(["render", str(box), "-o", str(out), "--size", "200x150"]) == 0
+
+    red = _red(out)
+    assert red.shape == (150, 200)
+    rows, columns = np.nonzero(red)
+    assert rows.min() > 0
+    assert rows.max() < 149
+    assert columns.min() > 0
+    assert columns.max() < 199
+    assert abs((rows.min() + rows.max()) / 2 - 74.5) < 15
+    assert abs((columns.min() + columns.max()) / 2 - 99.5) < 15
+    assert rows.max() - rows.min() > 75
+
+
+def test_a_camera_of_the_file_draws_what_it_sees_in_its_own_size(box: Path, tmp_path: Path) -> None:
+    out = tmp_path / "eye.png"
+
+    assert main(["render", str(box), "-o", str(out), "--camera", "eye"]) == 0
+
+    red = _red(out)
+    assert red.shape == (80, 120)
+    columns = np.nonzero(red.any(axis=0))[0]
+    # y runs from 0.5 to 1.5 m: the left edge is the near face's, the right one that of the far face, 3.5 m away.
+    assert columns.min() == pytest.approx(60 - FOCAL_PX * 1.5 / 2.5, abs=1.5)
+    assert columns.max() == pytest.approx(60 - FOCAL_PX * 0.5 / 3.5, abs=1.5)
+
+
+def test_depth_is_in_millimetres_along_the_view_and_zero_where_nothing_is(box: Path, tmp_path: Path) -> None:
+    out = tmp_path / "depth.png"
+
+    assert main(["render", str(box), "-o", str(out), "--camera", "eye", "--depth"]) == 0
+
+    depth = np.asarray(Image.open(out))
+    assert depth.dtype == np.uint16
+    row, column = 40, int(60 - FOCAL_PX / 2.5)
+    assert depth[row, column] == pytest.approx(2500, abs=1)
+    assert depth[0, 119] == 0
+
+
+def test_the_same_file_is_the_same_picture(box: Path, tmp_path: Path) -> None:
+    outs = [tmp_path / "one.png", tmp_path / "two.png"]
+
+    for out in outs:
+        assert main(["render", str(box), "-o", str(out), "--size", "90x60"]) == 0
+
+    assert outs[0].read_bytes() == outs[1].read_bytes()
+
+
+def test_a_camera_that_is_not_there_is_answered_with_those_that_are(
+    box: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "no.png"
+
+    assert main(["render", str(box), "-o", str(out), "--camera", "nose"]) != 0
+
+    assert "no camera 'nose'; cameras there: 'eye'" in capsys.readouterr().err
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("name", ["folder/that/is/not/there.png", "picture.xyz"])
+def test_a_place_that_cannot_be_written_is_one_sentence(
+    box: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
+    assert main(["render", str(box), "-o", str(tmp_path / name), "--size", "20x20"]) != 0
+
+    text = capsys.readouterr().err
+    assert f"cannot write {tmp_path / name}" in text
+    assert "Traceback" not in text
+    assert not (tmp_path / name).exists()
+
+
+@pytest.mark.parametrize("size", ["800", "0x600", "-1x5", "axb", "99999x1", "1e3x2"])
+def test_a_size_that_is_none_is_wrong_usage(
+    box: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], size: str
+) -> None:
+    try:
+        code = main(["render", str(box), "-o", str(tmp_path / "a.png"), f"--size={size}"])
+    except SystemExit as end:
+        code = end.code
+
+    assert code == 2
+    assert "is no size; say WIDTHxHEIGHT" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("where", ["command line", "file"])
+def test_a_picture_that_no_memory_holds_is_refused_in_one_sentence(
+    box: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], where: str
+) -> None:
+    arguments = ["render", str(box), "-o", str(tmp_path / "huge.png"), "--camera", "eye"]
+    if where == "file":
+        box.write_text(BOX.replace(">120<", ">16384<").replace(">80<", ">16384<"))
+    else:
+        arguments += ["--size", "16384x16384"]
+
+    assert main(arguments) != 0
+
+    assert "a picture of 16384x16384 is too large" in capsys.readouterr().err
