@@ -225,6 +225,16 @@ def test_shapes_ride_on_their_bodies() -> None:
     assert centroid(is_red(after))[0] > 160
 
 
+@pytest.mark.parametrize("geometry", [Sphere(0.5), cube(1.0), Plane((0.0, 0.0, 1.0), (0.0, 0.0))])
+def test_a_body_that_is_nowhere_is_not_seen(geometry: ShapeGeometry) -> None:
+    """A body without a pose has NaN for one."""
+    made = RayRenderer(scene(shape(geometry)))
+    made.update(np.full((1, 7), np.nan))
+    picture = made.render(Pose((0.0, 0.0, 1.0)), WIDE, depth=True)
+    assert picture.depth is not None
+    assert np.isinf(picture.depth).all()
+
+
 def test_light_comes_from_where_it_comes_from() -> None:
     lit_from_left = Scene(
         bodies=("b",),

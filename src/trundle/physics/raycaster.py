@@ -94,7 +94,7 @@ class RayRenderer:
         """Draw one plane, seen from its front only, as MuJoCo's rays do; its light is the same everywhere."""
         frame = self._data.geom_xmat[geom].reshape(3, 3)
         seen_from = frame.T @ (origin - self._data.geom_xpos[geom])
-        if seen_from[2] <= 0.0:
+        if not seen_from[2] > 0.0:  # nor where a body is nowhere (NaN)
             return
         # Rays have length 1 along the view axis, so what divides out here is the depth.
         falls = rays @ (axes @ frame[:, 2])
