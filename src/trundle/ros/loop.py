@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 _T = TypeVar("_T")
 _log = logging.getLogger(__name__)
+_LAST_CALLBACK_S = 8.0
+"""How much longer a callback that is still at work may hold the thread: a loop that is left behind leaks its sockets."""
 _CALM_PASSES = 5
 """Passes of the loop without a delivery after which `settle` calls it quiet; coroutine callbacks that wait for
 nothing outside the process get this many steps."""
@@ -54,7 +56,7 @@ class GraphLoop:
         except TimeoutError:
             _log.warning("nodes did not shut down within %.1f s", timeout_s)
         self._loop.call_soon_threadsafe(self._loop.stop)
-        self._thread.join(timeout_s)
+        self._thread.join(timeout_s + _LAST_CALLBACK_S)
 
     def __enter__(self) -> Self:
         self.start()
