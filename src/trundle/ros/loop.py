@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _T = TypeVar("_T")
 _log = logging.getLogger(__name__)
 _LAST_CALLBACK_S = 8.0
-"""How much longer a callback that is still at work may hold the thread: a loop that is left behind leaks its sockets."""
+"""How much longer a callback at work may hold the thread: a loop that is left behind leaks its sockets."""
 _CALM_PASSES = 5
 """Passes of the loop without a delivery after which `settle` calls it quiet; coroutine callbacks that wait for
 nothing outside the process get this many steps."""
