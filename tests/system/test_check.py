@@ -1,0 +1,53 @@
+"""`trundle check` and `trundle xacro` on the published robots."""
+
+import json
+
+import pytest
+
+
+def test_the_published_robot_is_understood_and_its_oddities_are_named(trundle, shared) -> None:
+    done = trundle("check", str(shared / "seeds/rp2w/model.sdf"), "--json")
+
+    assert done.returncode == 0
+    result = json.loads(done.stdout)
+    (model,) = result["models"]
+    assert (result["kind"], result["sdf_version"], model["canonical_link"]) == ("model", "1.4", "chassis")
+    assert [len(model[part]) for part in ("links", "joints", "plugins")] == [7, 6, 1]
+    wheel = next(joint for joint in model["joints"] if joint["name"] == "chassis_left_wheel")
+    assert wheel["axis"] == [1.0, 0.0, 0.0]
+    assert (wheel["lower"], wheel["upper"], wheel["friction"]) == (None, None, 0.3)
+    assert model["links"][0]["inertia"] == [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
+    said = " ".join(finding["message"] for finding in result["diagnostics"])
+    for oddity in ("z of zero thickness", "turns like 1 kg·m²", "leaves no freedom", "read in the model frame"):
+        assert oddity in said
+
+
+def test_strict_turns_a_warning_into_exit_code_one(trundle, shared) -> None:
+    assert trundle("check", str(shared / "seeds/rp2w"), "--strict").returncode == 1
+
+
+def test_a_urdf_shows_both_its_trees(trundle, shared) -> None:
+    file = shared / "seeds/smartcar_description/urdf/smartcar.urdf.xacro"
+    result = json.loads(trundle("check", str(file), "--json").stdout)
+
+    assert result["urdf"]["links"][0]["name"] == result["urdf"]["root"] == "base_link"
+    assert (len(result["urdf"]["links"]), len(result["models"][0]["links"])) == (6, 5)
+
+
+def test_a_launch_file_is_read_and_no_command_in_it_is_run(trundle, shared) -> None:
+    file = shared / "seeds/smartcar_description/launch/smartcar_display.rviz.launch"
+    result = json.loads(trundle("check", str(file), "--json").stdout)
+
+    assert result["kind"] == "launch"
+    assert len(result["nodes"]) == 6
+    assert "smartcar.urdf.xacro" in result["params"]["/robot_description"]["command"]
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "said"), [((), 0, 'link name="base_link"'), (("oops",), 1, "say NAME:=VALUE")]
+)
+def test_xacro_expands_a_file(trundle, shared, words, code, said) -> None:
+    done = trundle("xacro", str(shared / "seeds/smartcar_description/urdf/smartcar.urdf.xacro"), *words)
+
+    assert done.returncode == code
+    assert said in done.stdout + done.stderr
