@@ -7,8 +7,7 @@ sim.run(2.0)
 print(sim["my_robot"].joint("body_camera_base").position)
 """
 
-from typing import TYPE_CHECKING
-
+TYPE_CHECKING = False  # not from `typing`: its import is half of a light command's start
 if TYPE_CHECKING:
     from trundle.simulation import Simulation
 

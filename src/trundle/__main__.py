@@ -1,8 +1,21 @@
-"""`python -m trundle` is the `trundle` command."""
+"""`trundle` and `python -m trundle`: the way in."""
 
 import sys
 
-from trundle.cli import main
+
+def main() -> int:
+    """Run the command; Ctrl-C before it could begin ends the process without a word."""
+    try:
+        import signal
+
+        before = signal.signal(signal.SIGINT, signal.SIG_DFL)
+    except KeyboardInterrupt:
+        return 130
+    from trundle.cli import main as command
+
+    signal.signal(signal.SIGINT, before)
+    return command()
+
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -74,6 +74,29 @@ def test_a_ten_hertz_controller_in_a_twenty_hertz_loop_falls_short() -> None:
     assert 6.8 < len(node.sent("/odom")) / 30.0 < 9.5
 
 
+@pytest.mark.parametrize("phase_ms", range(0, 150, 10))
+def test_ten_seconds_of_a_command_end_alike_wherever_in_the_cycle_it_comes(phase_ms: int) -> None:
+    """Within 5 cm of the real driver's −0.938…−0.949, 0.770…0.800 (docs/decisions/0006)."""
+    jitter = random.Random(phase_ms)
+    command_ns, end_ns = 3 * S + phase_ms * 1_000_000, 13 * S + phase_ms * 1_000_000
+    clock = FakeClock(end_ns=end_ns)
+    node = FakeNode(clock, SMARTCAR)
+
+    def late_ns() -> int:
+        if clock.ns >= command_ns and not node.sent("/odom")[-1].twist.twist.linear.x:
+            woken_ns, clock.ns = clock.ns, command_ns
+            node.hear("/cmd_vel", {"linear": {"x": 0.5}, "angular": {"z": 0.5}}, "geometry_msgs/Twist")
+            clock.ns = woken_ns
+        return jitter.randrange(200_000, 1_200_000)
+
+    clock._late_ns = late_ns  # pyright: ignore[reportPrivateUsage]
+    run_to_end(ArbotixDriver(node, [], Host()).run())  # pyright: ignore[reportArgumentType]
+
+    position = node.sent("/odom")[-1].pose.pose.position
+    assert -0.999 <= position.x <= -0.888
+    assert 0.720 <= position.y <= 0.850
+
+
 def test_the_base_keeps_moving_when_nobody_commands_it_any_more() -> None:
     node = drive(
         {**SMARTCAR, "controllers": {"b": {**SMARTCAR["controllers"]["base_controller"], "timeout": 0.1}}}, seconds=5.0

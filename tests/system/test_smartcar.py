@@ -78,9 +78,8 @@ def test_the_real_rostopic_pub_drives_the_car(car, env, master, until, tmp_path)
     row = [r for r in _rows(odometry_log) if int(r["%time"]) <= first_ns() + 10 * 10**9][-1]
     x, y = float(row["field.pose.pose.position.x"]), float(row["field.pose.pose.position.y"])
     yaw = 2 * math.atan2(float(row["field.pose.pose.orientation.z"]), float(row["field.pose.pose.orientation.w"]))
-    # Where in the driver's cycle the first command comes is chance: one cycle of 0.15 s is 7.5 cm and 0.075 rad.
-    assert -0.949 - 0.075 <= x <= -0.938 + 0.075
-    assert 0.770 - 0.075 <= y <= 0.800 + 0.075
+    assert -0.949 - 0.05 <= x <= -0.938 + 0.05
+    assert 0.770 - 0.05 <= y <= 0.800 + 0.05
     assert 4.95 - 0.1 <= yaw % math.tau <= 4.98 + 0.1
 
 

@@ -63,16 +63,26 @@ class DiffController:
         node.log_info(f"Started DiffController ({name}). Geometry: {base_width}m wide, {ticks_meter} ticks/m.")
 
     def _command(self, twist: Message) -> None:
-        self._base.speed = float(twist.linear.x)
-        self._base.turn_rate = float(twist.angular.z)
+        """Go by the new speeds from now on.
+
+        The original gives the whole interval since its last update to the new speeds, up to 0.15 s before they were
+        sent: where in that interval a command falls would move the base by up to 7.5 cm (docs/decisions/0006).
+        """
+        speed, turn_rate = float(twist.linear.x), float(twist.angular.z)
+        if (speed, turn_rate) != (self._base.speed, self._base.turn_rate):
+            self._integrate(self._node.clock.now_ns())
+            self._base.speed, self._base.turn_rate = speed, turn_rate
+
+    def _integrate(self, now_ns: int) -> None:
+        self._base.advance(max(0, now_ns - self._then_ns) / 1e9)
+        self._then_ns = now_ns
 
     def update(self) -> None:
         """Integrate and publish, where it is time to."""
         now = self._node.clock.now_ns()
         if not self._cadence.due():
             return
-        self._base.advance(max(0, now - self._then_ns) / 1e9)
-        self._then_ns = now
+        self._integrate(now)
         half = self._base.heading / 2.0
         self._broadcaster.send(
             Transform(
