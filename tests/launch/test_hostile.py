@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.launch import read_launch_text
+from trundle.launch import LaunchPlan, read_launch, read_launch_text
 
 
 class OnePackage:
@@ -72,3 +72,26 @@ def test_anything_becomes_a_plan_or_a_sentence(elements: list[str]) -> None:
 def test_what_python_itself_refuses_is_refused_in_a_sentence(body: str) -> None:
     with pytest.raises(DescriptionError, match=r"t\.launch:1: error: "):
         read_launch_text(f"<launch>{body}</launch>", name="t.launch", packages=OnePackage(), report=Diagnostics())
+
+
+def read(body: str) -> LaunchPlan:
+    return read_launch_text(f"<launch>{body}</launch>", name="t", packages=OnePackage(), report=Diagnostics())
+
+
+def test_a_file_that_includes_itself_is_refused(tmp_path: Path) -> None:
+    file = tmp_path / "again.launch"
+    file.write_text(f'<launch><include file="{file}"/></launch>')
+    with pytest.raises(DescriptionError, match="it may include itself"):
+        read_launch(file, packages=OnePackage(), report=Diagnostics())
+
+
+def test_yaml_of_a_few_lines_that_stands_for_billions_of_values_is_refused() -> None:
+    lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
+    lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 10)}]" for n in range(1, 10)]
+    with pytest.raises(DescriptionError, match="aliases stand for more than"):
+        read("<rosparam>\n" + "\n".join(lines) + "\n</rosparam>")
+
+
+def test_yaml_that_contains_itself_is_refused() -> None:
+    with pytest.raises(DescriptionError, match="a value contains itself"):
+        read("<rosparam>a: &a [*a]</rosparam>")

@@ -321,3 +321,17 @@ def test_declared_arguments_are_listed_for_the_command_line() -> None:
     plan = plan_of('<arg name="a"/><arg name="b" default="1" doc="how many"/><arg name="c" value="2"/>')
     listed = [(a.name, a.default, a.doc, a.required) for a in plan.arguments]
     assert listed == [("a", None, "", True), ("b", "1", "how many", False), ("c", None, "", False)]
+
+
+def test_a_default_machine_is_that_of_the_nodes_behind_it() -> None:
+    plan = plan_of(
+        '<node pkg="p" type="t" name="before"/><machine name="m" address="a" default="true"/>'
+        '<machine name="never" address="a" default="never"/>'
+        '<node pkg="p" type="t" name="after"/><node pkg="p" type="t" name="own" machine="localhost"/>'
+    )
+    assert {node.name: node.machine for node in plan.nodes} == {"before": "", "after": "m", "own": "localhost"}
+
+
+def test_a_machine_that_is_perhaps_the_default_is_refused() -> None:
+    with pytest.raises(DescriptionError, match="default 'maybe' is no true, false or never"):
+        plan_of('<machine name="m" address="a" default="maybe"/>')

@@ -27,7 +27,8 @@ def read_words(words: Sequence[str], packages: Packages) -> LaunchRequest:
     for word in words:
         name, assigned, value = word.partition(":=")
         if assigned:
-            arguments[name] = value
+            if name and value:  # roslaunch does not hear an empty one: the file's default holds
+                arguments[name] = value
         else:
             rest.append(word)
     if not rest:

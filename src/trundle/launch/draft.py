@@ -17,6 +17,8 @@ class Draft:
         self._report = report
         self.arguments: list[LaunchArgument] = []
         self.machines = {"", "localhost"}
+        self.default_machine = ""
+        """That of the nodes that follow and name none."""
         self._nodes: dict[str, LaunchNode] = {}
         self._tests: list[LaunchNode] = []
         self._params: dict[str, LaunchParam] = {}

@@ -82,7 +82,7 @@ def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: Dr
         required=required,
         cwd=_cwd(attributes),
         launch_prefix=attributes.text("launch-prefix") or "",
-        machine=attributes.text("machine") or "",
+        machine=attributes.text("machine") or draft.default_machine,
         at=node.at,
     )
     if is_test:

@@ -209,4 +209,11 @@ class _Reader:
         if attributes.apply:
             name, address = attributes.required("name"), attributes.required("address")
             self.draft.machines.add(name)
+            match (attributes.text("default") or "false").lower():
+                case "true":
+                    self.draft.default_machine = name
+                case "false" | "never":
+                    pass
+                case other:
+                    raise DescriptionError(node.at, f"machine {name!r}: default {other!r} is no true, false or never")
             self._report.warn(node.at, f"machine {name!r} at {address!r}: nothing runs remotely; its nodes run here")

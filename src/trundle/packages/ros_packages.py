@@ -1,6 +1,7 @@
 """Where ROS packages live: by the name in package.xml, and by the name of the folder."""
 
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
@@ -12,6 +13,7 @@ _DEEPEST = 8
 """How far below a package path packages are looked for; rospack has no bound, real workspaces need five."""
 _PARTS = ("launch", "urdf", "meshes")
 _NOT_CRAWLED = frozenset({"build", "node_modules", "__pycache__"})
+_NAME = re.compile(r"<name>\s*([\w.-]+)\s*</name>")
 _IGNORED_BY = ("CATKIN_IGNORE", "AMENT_IGNORE", "rospack_nosubdirs")
 
 
@@ -71,11 +73,19 @@ def _package_name(folder: Path) -> str:
     for manifest in MANIFESTS[:1]:
         try:
             name = read_xml(folder / manifest).string("name")
-        except DescriptionError:
-            continue
+        except DescriptionError:  # rospack's own reader minds less
+            name = _named_in(folder / manifest)
         if name:
             return name
     return folder.name  # manifest.xml (rosbuild) has no name: the folder is the name
+
+
+def _named_in(manifest: Path) -> str:
+    try:
+        found = _NAME.search(manifest.read_text(errors="replace"))
+    except OSError:
+        return ""
+    return found[1] if found else ""
 
 
 def _around(start: Path) -> Iterable[Path]:
