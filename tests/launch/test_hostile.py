@@ -86,12 +86,12 @@ def test_a_file_that_includes_itself_is_refused(tmp_path: Path) -> None:
 
 
 def test_yaml_of_a_few_lines_that_stands_for_billions_of_values_is_refused() -> None:
-    lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
-    lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 10)}]" for n in range(1, 10)]
+    lines = ["a0: &amp;a0 [x, x, x, x, x, x, x, x, x, x]"]
+    lines += [f"a{n}: &amp;a{n} [{', '.join([f'*a{n - 1}'] * 10)}]" for n in range(1, 10)]
     with pytest.raises(DescriptionError, match="aliases stand for more than"):
         read("<rosparam>\n" + "\n".join(lines) + "\n</rosparam>")
 
 
 def test_yaml_that_contains_itself_is_refused() -> None:
     with pytest.raises(DescriptionError, match="a value contains itself"):
-        read("<rosparam>a: &a [*a]</rosparam>")
+        read("<rosparam>a: &amp;a [*a]</rosparam>")
