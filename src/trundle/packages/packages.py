@@ -43,6 +43,10 @@ class Packages:
         """The folder of a ROS package, or None."""
         return self._ros.find(name)
 
+    def ros_packages(self) -> Mapping[str, Path]:
+        """Every ROS package there is, by name."""
+        return self._ros.all()
+
     def why_not_found(self, name: str) -> str:
         """One sentence for a package that is not there."""
         looked = ", ".join(str(folder) for folder in self._ros.searched())

@@ -30,11 +30,15 @@ class RosPackages:
 
     def find(self, name: str) -> Path | None:
         """The folder of a package: by its manifest's name, else by the folder's own name."""
+        return self.all().get(name) or self._folders.get(name)
+
+    def all(self) -> Mapping[str, Path]:
+        """Every package that has a manifest, by name; the first of a name wins."""
         if self._by_name is None:
             self._by_name = {}
             for root in [*self.roots, *self._around]:
                 self._crawl(root)
-        return self._by_name.get(name) or self._folders.get(name)
+        return self._by_name
 
     def searched(self) -> list[Path]:
         """Where `find` looks, in order."""

@@ -83,6 +83,18 @@ class Messages:
         """Name the type of a message."""
         return _ros(message.__msgtype__)
 
+    def type_names(self) -> list[str]:
+        """Every message type there is: of the library, shipped, and on the package path; those of services left out."""
+        with self._lock:
+            self._definitions.load_all()
+            return self._names()
+
+    def service_names(self) -> list[str]:
+        """Every service type there is."""
+        with self._lock:
+            self._definitions.load_all()
+            return sorted(self._definitions.services)
+
     def fields(self, type_name: str) -> dict[str, str]:
         """Field names with their ROS types, in order: {'name': 'string[]', 'stamp': 'time', …}."""
         return {name: _type_text(desc) for name, desc in fields_of(self._store, self._key(type_name))}
@@ -98,7 +110,7 @@ class Messages:
         self._definitions.services.setdefault(type_name, text)
 
     def add_package(self, name: str, folder: Path) -> None:
-        """Add the types of a package; its `msg/` and `srv/` are read when one of them is asked for."""
+        """Add the types of a package; `msg/`, `srv/` and `action/` are read when one is asked for."""
         self._definitions.folders.setdefault(name, folder)
 
     def add_definition(self, type_name: str, definition: str) -> None:
@@ -208,24 +220,34 @@ class Messages:
         if key in self._store.types:
             return key
         with self._lock:
-            self._load(package)
-            if key not in self._store.types and _ros(key) in self._definitions.messages:
-                self._register(_ros(key))
-            service = _ros(key).removesuffix("Request").removesuffix("Response")
-            if service != _ros(key) and service in self._definitions.services and service not in self._services:
-                self.service(service)
+            for load in (self._definitions.load_package, self._definitions.load_from_path):
+                load(package)
+                if key not in self._store.types and _ros(key) in self._definitions.messages:
+                    self._register(_ros(key))
+                service = _ros(key).removesuffix("Request").removesuffix("Response")
+                if service != _ros(key) and service in self._definitions.services and service not in self._services:
+                    self.service(service)
+                if key in self._store.types:
+                    return key
         if key not in self._store.types:
             if not slash:
                 raise MessageError(
                     f"{type_name!r} is no message type; types are written package/Name, like std_msgs/String"
                 )
-            known = sorted(_ros(other) for other in self._store.types if other.startswith(f"{package}/"))
+            known = [other for other in self._names() if other.startswith(f"{package}/")]
             raise MessageError(f"no message type {type_name!r}{_instead('messages', package, known)}")
         return key
 
+    def _names(self) -> list[str]:
+        names = {_ros(key) for key in self._store.types if key not in _BUILTIN} | self._definitions.messages.keys()
+        halves = {half for kind in self._services.values() for half in (kind.request, kind.response)}
+        return sorted(names - halves)
+
     def _read_service(self, type_name: str) -> ServiceType:
         package = type_name.partition("/")[0]
-        self._load(package)
+        self._definitions.load_package(package)
+        if type_name not in self._definitions.services:
+            self._definitions.load_from_path(package)
         text = self._definitions.services.get(type_name)
         if text is None:
             known = sorted(name for name in self._definitions.services if name.startswith(f"{package}/"))
@@ -238,11 +260,6 @@ class Messages:
         md5sum = hashlib.md5(both.encode()).hexdigest()
         self._services[type_name] = ServiceType(type=type_name, md5sum=md5sum, request=request, response=response)
         return self._services[type_name]
-
-    def _load(self, package: str) -> None:
-        for type_name in self._definitions.load_package(package):
-            if f"{package}/msg/{type_name.partition('/')[2]}" not in self._store.types:
-                self._register(type_name)
 
     def _register(self, type_name: str) -> None:
         from rosbags.typesys import TypesysError, get_types_from_msg

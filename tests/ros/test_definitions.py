@@ -1,0 +1,63 @@
+"""Definitions that are shipped, and those of packages on the package path."""
+
+from pathlib import Path
+
+import pytest
+
+from trundle.ros import MessageError, Messages
+
+SUMS = Path(__file__).parent / "data" / "md5sums.txt"
+"""Type and md5 sum, as genmsg computes it from the original definitions of ROS Noetic."""
+
+
+def test_every_sum_is_the_originals(messages: Messages) -> None:
+    wanted = dict(line.split() for line in SUMS.read_text().splitlines())
+    ours = {name: messages.md5(name) if messages.has(name) else messages.service(name).md5sum for name in wanted}
+    assert ours == wanted
+
+
+def test_whatever_is_shipped_can_be_read(messages: Messages) -> None:
+    for name in messages.type_names():
+        assert messages.serialize(messages.new(name)) is not None
+    for name in messages.service_names():
+        assert messages.service(name).type == name
+    assert {"gazebo_msgs/LinkStates", "control_msgs/FollowJointTrajectoryActionGoal"} <= set(messages.type_names())
+    assert {"gazebo_msgs/SpawnModel", "dynamic_reconfigure/Reconfigure"} <= set(messages.service_names())
+
+
+@pytest.fixture
+def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A package of a user's own, with a message, a service and an action."""
+    package = tmp_path / "my_robot_msgs"
+    for folder in ("msg", "srv", "action"):
+        (package / folder).mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>my_robot_msgs</name></package>")
+    (package / "msg" / "Wheel.msg").write_text("# a wheel\nHeader header\nfloat64 SPAN=1.50 # m\nfloat64 rpm\n")
+    (package / "msg" / "Base.msg").write_text("Wheel[2] wheels\ngeometry_msgs/Pose pose\n")
+    (package / "srv" / "Stop.srv").write_text("Wheel wheel\n---\nbool done\n")
+    (package / "action" / "Dock.action").write_text("Base base\n---\nbool docked\n---\nfloat32 distance\n")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    return package
+
+
+def test_a_users_own_definitions_are_found_on_the_package_path(workspace: Path) -> None:
+    messages = Messages()
+    base = messages.new("my_robot_msgs/Base", {"wheels": [{"rpm": 1.0}, {"rpm": 2.0}]})
+    again = messages.deserialize(messages.serialize(base), "my_robot_msgs/Base")
+    assert [wheel.rpm for wheel in again.wheels] == [1.0, 2.0]
+    assert messages.fields("my_robot_msgs/DockActionFeedback") == {
+        "header": "std_msgs/Header",
+        "status": "actionlib_msgs/GoalStatus",
+        "feedback": "my_robot_msgs/DockFeedback",
+    }
+    assert Messages().service("my_robot_msgs/Stop").request == "my_robot_msgs/StopRequest"
+    assert "my_robot_msgs/DockGoal" in Messages().type_names()
+    assert "my_robot_msgs/Stop" in Messages().service_names()
+
+
+def test_a_type_that_is_nowhere_is_named_with_what_there_is(workspace: Path) -> None:
+    with pytest.raises(MessageError, match=r"messages of my_robot_msgs: Base, DockAction, .*Wheel"):
+        Messages().md5("my_robot_msgs/Whel")
+    (workspace / "msg" / "Bad.msg").write_text("float64[\n")
+    with pytest.raises(MessageError, match="the definition of my_robot_msgs/Bad cannot be read"):
+        Messages().md5("my_robot_msgs/Bad")
