@@ -9,7 +9,20 @@ import trimesh
 from trundle import render
 from trundle.diagnostics import Diagnostics, Source
 from trundle.meshes import Mesh
-from trundle.model import Box, Collision, Geometry, Light, Link, Material, MeshFile, Model, Sphere, Visual, World
+from trundle.model import (
+    Box,
+    Collision,
+    Geometry,
+    Light,
+    Link,
+    Material,
+    MeshFile,
+    Model,
+    SceneSettings,
+    Sphere,
+    Visual,
+    World,
+)
 from trundle.render import Intrinsics, Scene, scene_of
 from trundle.spatial import Pose
 
@@ -84,7 +97,7 @@ def test_a_light_that_is_not_drawn_is_named() -> None:
 
 
 def test_the_sky_is_the_worlds() -> None:
-    sky = replace(world(), background=(0.1, 0.2, 0.3, 1.0))
+    sky = replace(world(), scene=SceneSettings(background=(0.1, 0.2, 0.3, 1.0)))
     assert scene_of(sky, Diagnostics()).background == (0.1, 0.2, 0.3, 1.0)
 
 

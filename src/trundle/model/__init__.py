@@ -1,26 +1,49 @@
 """World, Model, Link, Joint, …: frozen dataclasses with SDF's meaning, the narrow waist of Trundle."""
 
-from .geometry import Box, Capsule, Cylinder, Ellipsoid, Geometry, MeshFile, Plane, Sphere
+from .environment import Atmosphere, Fog, Light, PhysicsSettings, SceneSettings, SphericalCoordinates
+from .flatten import flattened
+from .geometry import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Empty,
+    Geometry,
+    Heightmap,
+    MeshFile,
+    Plane,
+    Polyline,
+    Solid,
+    Sphere,
+)
 from .inertial import Inertial
-from .joint import UNLIMITED, Joint, JointAxis, JointType
+from .joint import UNLIMITED, Joint, JointAxis, JointType, Mimic
 from .kinematics import model_from_joint, model_from_links
 from .link import Collision, Link, Visual
 from .material import GREY, Material, Rgba
+from .model import Frame, Model
 from .plugin import PluginTag
 from .sensor import CameraOptics, Sensor
 from .surface import Surface
-from .world import Light, Model, PhysicsSettings, World
+from .world import World
 
 __all__ = [
     "GREY",
     "UNLIMITED",
+    "Atmosphere",
     "Box",
     "CameraOptics",
     "Capsule",
     "Collision",
+    "Cone",
     "Cylinder",
     "Ellipsoid",
+    "Empty",
+    "Fog",
+    "Frame",
     "Geometry",
+    "Heightmap",
     "Inertial",
     "Joint",
     "JointAxis",
@@ -29,16 +52,22 @@ __all__ = [
     "Link",
     "Material",
     "MeshFile",
+    "Mimic",
     "Model",
     "PhysicsSettings",
     "Plane",
     "PluginTag",
+    "Polyline",
     "Rgba",
+    "SceneSettings",
     "Sensor",
+    "Solid",
     "Sphere",
+    "SphericalCoordinates",
     "Surface",
     "Visual",
     "World",
+    "flattened",
     "model_from_joint",
     "model_from_links",
 ]

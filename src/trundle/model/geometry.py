@@ -62,11 +62,52 @@ class Plane:
 
 
 @dataclass(frozen=True, slots=True)
+class Cone:
+    """A cone along z, its tip up, centred at half its height."""
+
+    radius: float
+    """Of the base [m]."""
+    length: float
+    """[m]"""
+
+
+@dataclass(frozen=True, slots=True)
+class Polyline:
+    """Closed outlines in the x-y plane, extruded along +z from z = 0; outlines inside others are holes."""
+
+    outlines: tuple[tuple[tuple[float, float], ...], ...]
+    """Corners of each [m]."""
+    height: float
+    """[m]"""
+
+
+@dataclass(frozen=True, slots=True)
+class Heightmap:
+    """Terrain from a grey image: black is the lowest, white the highest."""
+
+    path: Path | None
+    """Where the image is; None: nowhere, which was said."""
+    uri: str
+    """As the author wrote it."""
+    size: Vector3 = (1.0, 1.0, 1.0)
+    """Lengths of the whole [m]."""
+    position: Vector3 = (0.0, 0.0, 0.0)
+    """Of its centre [m]."""
+    sampling: int = 2
+    """Samples per pixel and axis."""
+
+
+@dataclass(frozen=True, slots=True)
+class Empty:
+    """No shape at all, as written or for want of one that is known."""
+
+
+@dataclass(frozen=True, slots=True)
 class MeshFile:
     """Triangles from a file."""
 
-    path: Path
-    """Where the file is; `uri` is resolved once, when the description is read."""
+    path: Path | None
+    """Where the file is; `uri` is resolved once, when the description is read. None: nowhere, which was said."""
     uri: str
     """As the author wrote it."""
     scale: Vector3 = (1.0, 1.0, 1.0)
@@ -76,4 +117,7 @@ class MeshFile:
     """Move that part's bounding box to the origin."""
 
 
-Geometry: TypeAlias = Box | Cylinder | Capsule | Sphere | Ellipsoid | Plane | MeshFile
+Solid: TypeAlias = Box | Cylinder | Capsule | Sphere | Ellipsoid | Plane
+"""What a few numbers describe."""
+
+Geometry: TypeAlias = Solid | Cone | MeshFile | Polyline | Heightmap | Empty

@@ -7,6 +7,8 @@ from enum import Enum
 from trundle.diagnostics import Source
 from trundle.spatial import Pose, Vector3
 
+from .sensor import Sensor
+
 
 class JointType(Enum):
     """SDF's joint types; URDF's others are lowered to these."""
@@ -23,6 +25,20 @@ class JointType(Enum):
 
 UNLIMITED = 1e16
 """SDF's own word for no limit; anything this large or larger is none."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mimic:
+    """A joint axis that follows another: multiplier · (leader − reference) + offset."""
+
+    joint: str
+    axis: int = 0
+    """Which axis of the leader: 0 or 1."""
+    multiplier: float = 1.0
+    offset: float = 0.0
+    """[rad] or [m]"""
+    reference: float = 0.0
+    """[rad] or [m]"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,6 +62,11 @@ class JointAxis:
     """[rad] or [m]"""
     spring_stiffness: float = 0.0
     """[N·m/rad] or [N/m]"""
+    stop_stiffness: float = 1e8
+    """Of its limits [N·m/rad] or [N/m]."""
+    stop_dissipation: float = 1.0
+    """Of its limits [N·m·s/rad] or [N·s/m]."""
+    mimic: Mimic | None = None
 
     @property
     def is_rigid(self) -> bool:
@@ -60,13 +81,22 @@ class Joint:
     name: str
     type: JointType
     parent: str
-    """Link name, or "world"."""
+    """Link name, or "world"; links of nested models by `model::link`."""
     child: str
+    """Likewise."""
     at: Source
+    parent_frame: str | None = None
+    """The frame that the file names where a link is wanted; None: the link itself."""
+    child_frame: str | None = None
+    """Likewise."""
     child_from_joint: Pose = Pose()
+    """In the child link's frame."""
     axis: JointAxis | None = None
     """None for fixed and ball joints."""
     axis2: JointAxis | None = None
     """Of universal, revolute2 and gearbox joints."""
     thread_pitch: float = 1.0
-    """Of screw joints."""
+    """Of screw joints, as Gazebo has it [rad/m], the sign opposite to a right-hand thread."""
+    gearbox_ratio: float = 1.0
+    gearbox_reference_body: str | None = None
+    sensors: tuple[Sensor, ...] = ()

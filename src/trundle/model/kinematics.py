@@ -6,12 +6,22 @@ from collections.abc import Mapping
 from trundle.spatial import Pose, Vector3
 
 from .joint import Joint, JointType
-from .world import Model
+from .model import Model
 
 
 def model_from_joint(model: Model, joint: Joint) -> Pose:
     """The joint's frame in the model frame with every joint at zero."""
-    return model.link(joint.child).model_from_link @ joint.child_from_joint
+    return _model_from_link(model, joint.child) @ joint.child_from_joint
+
+
+def _model_from_link(model: Model, name: str) -> Pose:
+    if name == "world":
+        return model.world_from_model.inverse()
+    inner, is_nested, rest = name.partition("::")
+    if is_nested and all(link.name != name for link in model.links):
+        nested = next(nested for nested in model.models if nested.name == inner)
+        return nested.world_from_model @ _model_from_link(nested, rest)
+    return model.link(name).model_from_link
 
 
 def joint_motion(joint: Joint, position: float) -> Pose:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from trundle.diagnostics import Source
 from trundle.spatial import Pose
 
+from .environment import Light
 from .geometry import Geometry
 from .inertial import Inertial
 from .material import GREY, Material
@@ -24,6 +25,8 @@ class Visual:
     transparency: float = 0.0
     """0 opaque to 1 invisible."""
     cast_shadows: bool = True
+    laser_retro: float = 0.0
+    """What a laser gets back, as its intensity."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,6 +38,8 @@ class Collision:
     at: Source
     link_from_collision: Pose = Pose()
     surface: Surface = Surface()
+    laser_retro: float = 0.0
+    """What a laser gets back, as its intensity."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,3 +60,8 @@ class Link:
     kinematic: bool = False
     linear_decay: float = 0.0
     angular_decay: float = 0.0
+    enable_wind: bool | None = None
+    """None: as the model says."""
+    lights: tuple[Light, ...] = ()
+    fixed: bool = False
+    """Held by the world: a link of a static model within one that is not."""

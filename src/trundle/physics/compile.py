@@ -125,7 +125,7 @@ class _Compiler:
             body = self._add_body(parent, f"{model.name}::{link.name}", link, pose, fixed=model.static)
             if joint is not None and not model.static:
                 self._add_joint(body, model, link, joint)
-            elif not model.static:
+            elif not model.static and not link.fixed:
                 body.add_freejoint(name=f"{model.name}::{link.name}::free")
             bodies[link.name] = body
             return body

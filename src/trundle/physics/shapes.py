@@ -9,7 +9,22 @@ from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
 from trundle.meshes import MeshError, load_mesh
-from trundle.model import Box, Capsule, Collision, Cylinder, Ellipsoid, Geometry, MeshFile, Plane, Sphere, Surface
+from trundle.model import (
+    Box,
+    Capsule,
+    Collision,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Empty,
+    Geometry,
+    Heightmap,
+    MeshFile,
+    Plane,
+    Polyline,
+    Sphere,
+    Surface,
+)
 from trundle.spatial import IDENTITY_QUATERNION, Pose, Quaternion, Vector3
 
 THINNEST = 1e-4
@@ -50,9 +65,17 @@ def add_shape(
         case Plane(normal, _):
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_PLANE, [0, 0, 1]
             geom.quat = (pose @ Pose(quaternion=upright(normal))).quaternion
-        case MeshFile():
+        case MeshFile(path=None) | Empty():
+            spec.delete(geom)
+            return None
+        case Cone() | Polyline() | Heightmap():
+            what = type(geometry).__name__.lower()
+            report.warn(collision.at, f"collision {collision.name!r}: a {what} is not simulated yet; it is left out")
+            spec.delete(geom)
+            return None
+        case MeshFile(path=path):
             try:
-                mesh = load_mesh(geometry.path, submesh=geometry.submesh, center=geometry.center_submesh)
+                mesh = load_mesh(path, submesh=geometry.submesh, center=geometry.center_submesh)
             except MeshError as error:
                 report.warn(collision.at, f"{error}; the collision is left out")
                 spec.delete(geom)

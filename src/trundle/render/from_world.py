@@ -4,7 +4,19 @@ from collections.abc import Iterator
 
 from trundle.diagnostics import Diagnostics, Source
 from trundle.meshes import Mesh, MeshError, load_mesh
-from trundle.model import GREY, Collision, Geometry, MeshFile, Rgba, Visual, World
+from trundle.model import (
+    GREY,
+    Collision,
+    Cone,
+    Empty,
+    Geometry,
+    Heightmap,
+    MeshFile,
+    Polyline,
+    Rgba,
+    Visual,
+    World,
+)
 
 from .scene import Scene, SceneLight, Shape, ShapeGeometry
 
@@ -32,7 +44,7 @@ def scene_of(world: World, report: Diagnostics, *, collisions: bool = False) -> 
             report.warn(
                 light.at, f"light {light.name!r}: {light.type} lights are not drawn yet; only directional ones are"
             )
-    return Scene(bodies=tuple(bodies), shapes=tuple(shapes), lights=lights, background=world.background)
+    return Scene(bodies=tuple(bodies), shapes=tuple(shapes), lights=lights, background=world.scene.background)
 
 
 def _shapes(items: tuple[Visual, ...] | tuple[Collision, ...], body: int, report: Diagnostics) -> Iterator[Shape]:
@@ -52,10 +64,18 @@ def _shapes(items: tuple[Visual, ...] | tuple[Collision, ...], body: int, report
 
 
 def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeometry | None:
-    if not isinstance(geometry, MeshFile):
-        return geometry
+    match geometry:
+        case MeshFile(path=None) | Empty():
+            return None
+        case Cone() | Polyline() | Heightmap():
+            report.warn(at, f"a {type(geometry).__name__.lower()} is not drawn yet; it is left out")
+            return None
+        case MeshFile(path=path):
+            pass
+        case _:
+            return geometry
     try:
-        mesh = load_mesh(geometry.path, submesh=geometry.submesh, center=geometry.center_submesh)
+        mesh = load_mesh(path, submesh=geometry.submesh, center=geometry.center_submesh)
     except MeshError as error:
         report.warn(at, f"{error}; the shape is left out")
         return None

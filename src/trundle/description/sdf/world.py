@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from trundle.diagnostics import DescriptionError, UsageError
-from trundle.model import Light, Model, PhysicsSettings, World
+from trundle.model import Light, Model, PhysicsSettings, SceneSettings, World
 from trundle.packages import model_file
 from trundle.spatial import normalized
 from trundle.xmlnode import XmlNode, read_xml
@@ -48,7 +48,8 @@ def read_world(node: XmlNode, context: Context) -> World:
         physics=_read_physics(node, context),
     )
     if scene is not None:
-        world = replace(world, background=read_colour(scene, "background", world.background, context))
+        background = read_colour(scene, "background", world.scene.background, context)
+        world = replace(world, scene=SceneSettings(background=background))
         for tag in ("ambient", "shadows", "grid", "sky", "origin_visual", "fog"):
             scene.find(tag)
         scene.report_unread(context.report)

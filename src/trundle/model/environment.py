@@ -1,0 +1,104 @@
+"""What is around the models: light, time and pull, air and earth."""
+
+from dataclasses import dataclass
+
+from trundle.diagnostics import Source
+from trundle.spatial import Pose, Vector3
+
+from .material import Rgba
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Light:
+    """A source of light."""
+
+    name: str
+    type: str
+    """directional, point or spot."""
+    at: Source
+    world_from_light: Pose = Pose()
+    """Of a light on a link: in the link's frame."""
+    direction: Vector3 = (0.0, 0.0, -1.0)
+    """Unit, in the light's frame."""
+    diffuse: Rgba = (1.0, 1.0, 1.0, 1.0)
+    specular: Rgba = (0.1, 0.1, 0.1, 1.0)
+    intensity: float = 1.0
+    range_m: float = 10.0
+    """Beyond it nothing is lit, by point and spot lights."""
+    constant: float = 1.0
+    linear: float = 1.0
+    quadratic: float = 0.0
+    """Brightness at distance d [m] is 1 / (constant + linear d + quadratic d²)."""
+    inner_angle_rad: float = 0.0
+    """Of a spot's full brightness, from rim to rim."""
+    outer_angle_rad: float = 0.0
+    """Of a spot's whole cone."""
+    falloff: float = 0.0
+    """How a spot dims from the inner to the outer cone; 1 is linear."""
+    cast_shadows: bool = False
+    added: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PhysicsSettings:
+    """How time passes and what pulls."""
+
+    max_step_size_s: float = 0.001
+    real_time_factor: float = 1.0
+    """As written; the update rate decides, as in Gazebo."""
+    real_time_update_rate_hz: float = 1000.0
+    """Steps per second of wall time that Gazebo aims at; 0: as fast as possible."""
+    gravity: Vector3 = (0.0, 0.0, -9.8)
+    """[m/s²] SDF's default, not 9.81."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SphericalCoordinates:
+    """Where on Earth the world's origin is."""
+
+    latitude_deg: float = 0.0
+    longitude_deg: float = 0.0
+    elevation: float = 0.0
+    """[m]"""
+    heading_deg: float = 0.0
+    """From east to the world's x axis."""
+    surface_model: str = "EARTH_WGS84"
+    world_frame_orientation: str = "ENU"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Atmosphere:
+    """Air that thins with height, adiabatically."""
+
+    temperature: float = 288.15
+    """At the ground [K]."""
+    pressure: float = 101325.0
+    """At the ground [Pa]."""
+    temperature_gradient: float = -0.0065
+    """[K/m]"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fog:
+    """Haze that hides what is far."""
+
+    type: str = "none"
+    """none, linear, quadratic or exponential."""
+    colour: Rgba = (1.0, 1.0, 1.0, 1.0)
+    start_m: float = 1.0
+    end_m: float = 100.0
+    density: float = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SceneSettings:
+    """How the world looks where nothing else says."""
+
+    ambient: Rgba = (0.4, 0.4, 0.4, 1.0)
+    background: Rgba = (0.7, 0.7, 0.7, 1.0)
+    """Gazebo's grey."""
+    shadows: bool = True
+    sky: bool = False
+    grid: bool = True
+    origin_visual: bool = True
+    fog: Fog = Fog()

@@ -1,0 +1,66 @@
+"""Models within models, as one: what physics, sensors and the graph see."""
+
+from dataclasses import replace
+
+from trundle.spatial import Pose
+
+from .joint import Joint, JointAxis
+from .link import Link
+from .model import Model
+from .plugin import PluginTag
+from .world import World
+
+WORLD = "world"
+
+
+def flattened(world: World) -> World:
+    """The same world without nested models: their links and joints are called `inner::name`."""
+    return replace(world, models=tuple(map(flat_model, world.models)))
+
+
+def flat_model(model: Model) -> Model:
+    """One model with everything nested in it."""
+    if not model.models:
+        return model
+    links, joints, plugins = list(model.links), list(model.joints), list(model.plugins)
+    for nested in model.models:
+        inner = flat_model(nested)
+        links += [_moved_link(link, inner, outer=model) for link in inner.links]
+        joints += [_moved_joint(joint, inner) for joint in inner.joints]
+        plugins += inner.plugins
+    return replace(model, links=tuple(links), joints=tuple(joints), models=(), plugins=tuple[PluginTag, ...](plugins))
+
+
+def _moved_link(link: Link, inner: Model, *, outer: Model) -> Link:
+    return replace(
+        link,
+        name=f"{inner.name}::{link.name}",
+        model_from_link=inner.world_from_model @ link.model_from_link,
+        self_collide=inner.self_collide if link.self_collide is None else link.self_collide,
+        fixed=link.fixed or (inner.static and not outer.static),
+    )
+
+
+def _moved_joint(joint: Joint, inner: Model) -> Joint:
+    def named(link: str) -> str:
+        return link if link == WORLD else f"{inner.name}::{link}"
+
+    return replace(
+        joint,
+        name=f"{inner.name}::{joint.name}",
+        parent=named(joint.parent),
+        child=named(joint.child),
+        axis=_turned(joint.axis, inner.world_from_model, inner.name),
+        axis2=_turned(joint.axis2, inner.world_from_model, inner.name),
+    )
+
+
+def _turned(axis: JointAxis | None, outer_from_inner: Pose, name: str) -> JointAxis | None:
+    if axis is None:
+        return None
+    mimic = axis.mimic
+    return replace(
+        axis,
+        direction=outer_from_inner.direction(axis.direction),
+        mimic=None if mimic is None else replace(mimic, joint=f"{name}::{mimic.joint}"),
+    )
