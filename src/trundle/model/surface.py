@@ -15,6 +15,12 @@ class Surface:
     """Along the second."""
     fdir1: Vector3 = ZERO
     """First friction direction in the collision's frame; zero: left to the engine."""
+    torsional_coefficient: float = 1.0
+    """Friction against turning on the spot, for a patch of contact as large as the next two say."""
+    patch_radius: float = 0.0
+    """Of the patch [m]; 0: none."""
+    surface_radius: float = 0.0
+    """Curvature [m] that the patch grows from, where the file wants that in place of `patch_radius`; 0: none."""
     kp: float = 1e12
     """Contact stiffness [N/m]."""
     kd: float = 1.0
@@ -28,4 +34,6 @@ class Surface:
     bounce_threshold: float = 100000.0
     """[m/s]"""
     collide_bitmask: int = 0xFFFF
+    category_bitmask: int = 0xFFFF
+    """Two collisions meet where the category of one has a bit of the other's collide_bitmask."""
     collide_without_contact: bool = False
