@@ -1,8 +1,10 @@
 """A ROS graph for the commands that look at one."""
 
+import subprocess
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -57,3 +59,34 @@ def graph(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -
 @pytest.fixture
 def no_master(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_MASTER_URI", "http://127.0.0.1:9/")
+
+
+@pytest.fixture
+def original(graph: Graph, tmp_path: Path) -> Callable[..., str]:
+    """Debian's own ROS 1 tools on the same graph: `original("rostopic", "list")` is what they print."""
+    if not Path("/usr/bin/rostopic").exists():
+        pytest.skip("Debian's ROS 1 tools are not installed")
+    environment = {
+        "PATH": "/usr/bin:/bin",
+        "HOME": str(tmp_path),
+        "ROS_MASTER_URI": graph.core.uri,
+        "ROS_IP": "127.0.0.1",
+        "ROS_DISTRO": "noetic",
+        "PYTHONUNBUFFERED": "1",
+        "PYTHONWARNINGS": "ignore",
+    }
+
+    def run(command: str, *arguments: str, typed: str | None = None, path: Path | None = None) -> str:
+        done = subprocess.run(
+            [f"/usr/bin/{command}", *arguments],
+            env={**environment, **({"ROS_PACKAGE_PATH": str(path)} if path else {})},
+            input=typed,
+            capture_output=True,
+            text=True,
+            timeout=100,
+            check=False,
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout
+
+    return run

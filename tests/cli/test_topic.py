@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 
 import trundle.cli.topic_pub as topic_pub
-from trundle.ros import WallClock
+from trundle.cli.topic_rate import Delay
+from trundle.ros import Messages, WallClock
 
 STRING = "std_msgs/String"
 
@@ -83,8 +84,10 @@ def test_a_topic_is_described(graph: Any) -> None:
 
 def test_types_are_told_and_found(graph: Any, latched: Any) -> None:
     assert graph.trundle("topic", "type", "/twist")[1] == "geometry_msgs/Twist\n"
-    assert graph.trundle("topic", "type", "/tree/transforms")[1] == "geometry_msgs/TransformStamped[]\n"
-    assert graph.trundle("topic", "type", "/tree/transforms[0]/header/stamp")[1] == "time\n"
+    assert graph.trundle("topic", "type", "/tree/transforms")[1] == (
+        "tf2_msgs/TFMessage transforms geometry_msgs/TransformStamped[]\n"
+    )
+    assert graph.trundle("topic", "type", "/tree/transforms[0]/header/stamp")[1].endswith("header/stamp time\n")
     assert graph.trundle("topic", "find", "geometry_msgs/Twist")[1] == "/twist\n"
     code, _, error = graph.trundle("topic", "type", "/twist/linear/q")
     assert (code, error) == (1, "ERROR: no field named q in geometry_msgs/Vector3; fields here: x, y, z\n")
@@ -211,13 +214,17 @@ def test_what_cannot_be_published_is_one_sentence(graph: Any, arguments: list[st
     assert complaint in error
 
 
-@pytest.mark.parametrize(("command", "first"), [("hz", r"average rate: "), ("bw", r"average: ")], ids=["rate", "bytes"])
+@pytest.mark.parametrize(
+    ("command", "first"),
+    [("hz", r"average rate: "), ("bw", r"average: "), ("delay", r"average delay: ")],
+    ids=["rate", "bytes", "delay"],
+)
 def test_messages_are_measured_until_ctrl_c(graph: Any, command: str, first: str) -> None:
-    publisher = graph.node("n").advertise("/tick", STRING)
+    publisher = graph.node("n").advertise("/tick", "geometry_msgs/PointStamped")
 
     async def tick() -> None:
         while True:
-            publisher.publish({"data": "x"})
+            publisher.publish({"header": "auto"})
             await WallClock().sleep(0.01)
 
     ticking = graph.loop.spawn(tick())
@@ -228,6 +235,34 @@ def test_messages_are_measured_until_ctrl_c(graph: Any, command: str, first: str
         process.send_signal(signal.SIGINT)
         assert process.wait(20) == 130
     ticking.cancel()
+
+
+class _Standing(WallClock):
+    """A clock that is set by hand."""
+
+    now = 0
+
+    def now_ns(self) -> int:
+        return self.now
+
+
+def test_delays_are_measured_by_the_headers_stamp() -> None:
+    clock, messages = _Standing(), Messages()
+    delay = Delay(clock, -1)
+    assert delay.text() is None
+    for now, stamp in ((100.0, 99.0), (101.0, 100.75), (102.0, 101.25)):
+        clock.now = round(now * 1e9)
+        delay.take(messages.new("nav_msgs/Odometry", {"header": {"stamp": round(stamp * 1e9)}}))
+    assert delay.text() == "average delay: 0.500\n\tmin: 0.250s max: 0.750s std dev: 0.25000s window: 3"
+    assert delay.text() == "no new messages"
+
+
+def test_a_topic_without_stamps_has_no_delay(graph: Any, latched: Any) -> None:
+    assert graph.trundle("topic", "delay", "/twist") == (
+        1,
+        "",
+        "ERROR: geometry_msgs/Twist has no header, so its messages do not say when they were made\n",
+    )
 
 
 def test_wrong_usage_is_exit_code_two(graph: Any) -> None:

@@ -27,6 +27,9 @@ COMMANDS: dict[str, str] = {
     "topic": "list, print, measure and publish topics",
     "node": "list, describe and ping nodes",
     "param": "read and write parameters",
+    "service": "list, describe and call services",
+    "msg": "show message types",
+    "srv": "show service types",
 }
 """Name and one line of help; the order of `trundle --help`."""
 

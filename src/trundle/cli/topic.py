@@ -59,6 +59,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("--wall-time", action="store_true", help="measure by the wall's time, not simulated time")
     add.add_argument("--tcpnodelay", action="store_true", help="ask publishers for small delays")
     add.set_defaults(run=_rate)
+    add = commands.add_parser("delay", help="how old messages are when they come, by their header's stamp")
+    add.add_argument("topics", nargs=1, metavar="topic")
+    add.add_argument("-w", "--window", type=int, default=-1, help="messages to average over")
+    add.add_argument("--tcpnodelay", action="store_true", help="ask publishers for small delays")
+    add.set_defaults(run=_rate)
     add = commands.add_parser("bw", help="how many bytes come")
     add.add_argument("topics", nargs=1, metavar="topic")
     add.add_argument("-w", "--window", type=int, default=100, help="messages to average over")
@@ -209,7 +214,7 @@ def _type(args: argparse.Namespace) -> int:
     if found is None:
         raise UsageError(f"unknown topic type [{name}]")
     topic, path = found
-    print(field_type(types[topic], path))
+    print(f"{types[topic]} {path} {field_type(types[topic], path)}")
     return 0
 
 

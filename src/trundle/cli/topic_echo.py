@@ -6,11 +6,12 @@ import sys
 from typing import Any
 
 from trundle.diagnostics import UsageError
-from trundle.ros import MessagePrinter, Messages, RawMessage, follow_time, ns_of
+from trundle.ros import MessagePrinter, Messages, RawMessage, WallClock, follow_time, ns_of
 
 from .graph import global_name, master, running_node
 from .topic_field import field_type, value_at, wait_for_topic
 
+_FIRST_S = 2.0
 _WAITING = 1000
 """Messages kept for a terminal that is slower than the topic; the oldest go."""
 
@@ -32,6 +33,8 @@ def main(args: argparse.Namespace) -> int:
         arrived: list[Any] = []
         node.subscribe(field.topic, field.type if known else "*", arrived.append, queue_size=_WAITING)
         printed = 0
+        if not isinstance(clock, WallClock):
+            _wait_for_first(inbox)
         while args.count is None or printed < args.count:
             inbox.get()()
             for message in arrived:
@@ -45,6 +48,18 @@ def main(args: argparse.Namespace) -> int:
                     printed += 1
             arrived.clear()
     return 0
+
+
+def _wait_for_first(inbox: "queue.Queue[Any]") -> None:
+    """Say what the reason may be when no message comes at first: a simulation that stands still."""
+    try:
+        inbox.put(inbox.get(timeout=_FIRST_S))
+    except queue.Empty:
+        print(
+            "WARNING: no messages received and simulated time is active.\nIs /clock being published?",
+            file=sys.stderr,
+            flush=True,
+        )
 
 
 def compiled(expression: str | None) -> Any:

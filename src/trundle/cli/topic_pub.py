@@ -3,13 +3,13 @@
 import argparse
 import sys
 import time
-from collections.abc import Iterator
 from typing import Any
 
 from trundle.diagnostics import UsageError
 from trundle.ros import MessageError, MessagePrinter, Node, Publisher, WallClock, follow_time
 
 from .graph import global_name, running_node
+from .yaml_input import piped_documents, yaml_file, yaml_value
 
 _ONCE_S = 3.0
 _PIPED_HZ = 10.0
@@ -25,7 +25,7 @@ def main(args: argparse.Namespace) -> int:
         raise UsageError("rate must be greater than zero")
     if args.values and args.file:
         raise UsageError("args conflict with -f setting")
-    values = [_yaml(text) for text in args.values]
+    values = [yaml_value(text) for text in args.values]
     with running_node("rostopic") as (loop, node):
         takes_values = bool(loop.messages.fields(args.type))
         is_piped = not values and takes_values
@@ -76,7 +76,7 @@ def _publish_values(args: argparse.Namespace, node: Node, publisher: Publisher, 
 def _publish_documents(args: argparse.Namespace, node: Node, publisher: Publisher) -> None:
     """Publish each YAML document of a file or of standard input."""
     rate = args.rate or (None if args.latch or args.once else _PIPED_HZ)
-    documents = list(_file(args.file)) if args.file else _piped()
+    documents = list(yaml_file(args.file)) if args.file else piped_documents()
     until = time.monotonic() + _SUBSCRIBER_S
     while not publisher.has_subscribers and time.monotonic() < until:
         time.sleep(0.01)
@@ -111,36 +111,3 @@ def _say(args: argparse.Namespace, node: Node, message: Any) -> None:
 
 def _text(node: Node, type_name: str, message: Any) -> str:
     return MessagePrinter(messages=node.messages).text(message, type_name)
-
-
-def _yaml(text: str) -> Any:
-    import yaml
-
-    try:
-        return yaml.safe_load(text)
-    except yaml.YAMLError as error:
-        raise UsageError(f"Argument error: {error}") from None
-
-
-def _file(path: str) -> Iterator[Any]:
-    import yaml
-
-    try:
-        with open(path, encoding="utf-8") as file:
-            yield from (document for document in yaml.safe_load_all(file) if document is not None)
-    except OSError as error:
-        raise UsageError(f"file cannot be read: {path}: {error.strerror}") from None
-    except yaml.YAMLError as error:
-        raise UsageError(f"invalid YAML in file {path}: {error}") from None
-
-
-def _piped() -> Iterator[Any]:
-    """Yield documents from standard input, each as soon as the `---` after it is there."""
-    lines: list[str] = []
-    for line in sys.stdin:
-        if line.strip() != "---":
-            lines.append(line)
-            continue
-        document, lines = _yaml("".join(lines)), []
-        if document is not None:
-            yield document

@@ -1,4 +1,4 @@
-"""`trundle topic hz` and `trundle topic bw`: measure what comes, once a second."""
+"""`trundle topic hz`, `bw` and `delay`: measure what comes, once a second."""
 
 import argparse
 import math
@@ -9,7 +9,8 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
-from trundle.ros import Clock, RawMessage, WallClock, follow_time
+from trundle.diagnostics import UsageError
+from trundle.ros import Clock, RawMessage, WallClock, follow_time, ns_of
 
 from .graph import global_name, master, running_node
 from .topic_echo import compiled
@@ -21,24 +22,29 @@ _MAX_WINDOW = 50_000
 
 def main(args: argparse.Namespace) -> int:
     """Measure until Ctrl-C."""
-    is_rate = args.command == "hz"
+    is_rate, is_delay = args.command == "hz", args.command == "delay"
     with running_node("rostopic") as (loop, node):
-        clock = loop.run(follow_time(node)) if is_rate and not args.wall_time else WallClock()
-        meters: dict[str, Rate | Bandwidth] = {}
+        clock = loop.run(follow_time(node)) if is_delay or (is_rate and not args.wall_time) else WallClock()
+        meters: dict[str, Rate | Bandwidth | Delay] = {}
         for name in args.topics:
             field = wait_for_topic(master("rostopic"), global_name(name, "rostopic"))
             if is_rate:
-                meter: Rate | Bandwidth = Rate(clock, args.window)
+                meter: Rate | Bandwidth | Delay = Rate(clock, args.window)
                 wanted = compiled(args.filter)
                 callback = meter.take if wanted is None else _filtered(meter.take, wanted, field.topic)
                 kind = "*" if wanted is None else field.type
                 node.subscribe(field.topic, kind, callback, queue_size=None, tcp_nodelay=args.tcpnodelay)
+            elif is_delay:
+                if "header" not in loop.messages.fields(field.type):
+                    raise UsageError(f"{field.type} has no header, so its messages do not say when they were made")
+                meter = Delay(clock, args.window)
+                node.subscribe(field.topic, field.type, meter.take, queue_size=None, tcp_nodelay=args.tcpnodelay)
             else:
                 meter = Bandwidth(args.window)
                 node.subscribe(field.topic, "*", meter.take, queue_size=None)
             meters[name] = meter
             print(f"subscribed to [{field.topic}]", flush=True)
-        if is_rate and not isinstance(clock, WallClock):
+        if not isinstance(clock, WallClock):
             print("WARNING: may be using simulated time", file=sys.stderr, flush=True)
         while True:
             time.sleep(1.0)
@@ -86,6 +92,49 @@ class Rate:
             return 1 / mean if mean > 0 else 0.0, min(self._times), max(self._times), deviation, count + 1
 
 
+class Delay:
+    """Ages of the messages of one topic when they come."""
+
+    def __init__(self, clock: Clock, window: int) -> None:
+        self._clock = clock
+        self._last = -1.0
+        self._delays: deque[float] = deque(maxlen=(window if window > 1 else _MAX_WINDOW) - 1)
+        self._is_new = False
+        self._lock = threading.Lock()
+
+    def take(self, message: Any) -> None:
+        """Note a message's age; the first one only starts the measurement."""
+        now = self._clock.now_ns() / 1e9
+        with self._lock:
+            if now == 0.0:
+                if self._delays:
+                    print("time has reset, resetting counters")
+                self._delays.clear()
+                return
+            if self._last < 0 or self._last > now:
+                self._delays.clear()
+            else:
+                self._delays.append(now - ns_of(message.header.stamp) / 1e9)
+                self._is_new = True
+            self._last = now
+
+    def text(self) -> str | None:
+        """Delays as rostopic writes them; None before there is one."""
+        with self._lock:
+            if not self._delays:
+                return None
+            if not self._is_new:
+                return "no new messages"
+            self._is_new = False
+            count = len(self._delays)
+            mean = sum(self._delays) / count
+            deviation = math.sqrt(sum((d - mean) ** 2 for d in self._delays) / count)
+            return (
+                f"average delay: {mean:.3f}\n\tmin: {min(self._delays):.3f}s max: {max(self._delays):.3f}s "
+                f"std dev: {deviation:.5f}s window: {count + 1}"
+            )
+
+
 class Bandwidth:
     """Sizes of the messages of one topic."""
 
@@ -112,11 +161,11 @@ class Bandwidth:
         return f"average: {total}/s\n\tmean: {mean} min: {least} max: {most} window: {len(sizes)}"
 
 
-def report(meters: "dict[str, Rate | Bandwidth]") -> str | None:
+def report(meters: "dict[str, Rate | Bandwidth | Delay]") -> str | None:
     """Write what was measured during the last second."""
     rows: list[list[str]] = []
     for name, meter in meters.items():
-        if isinstance(meter, Bandwidth):
+        if not isinstance(meter, Rate):
             return meter.text()
         numbers = meter.statistics()
         if numbers is None:

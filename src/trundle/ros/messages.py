@@ -99,6 +99,23 @@ class Messages:
         """Field names with their ROS types, in order: {'name': 'string[]', 'stamp': 'time', …}."""
         return {name: _type_text(desc) for name, desc in fields_of(self._store, self._key(type_name))}
 
+    def constants(self, type_name: str) -> dict[str, tuple[str, str]]:
+        """Constants in order: name → (type, value as written)."""
+        key = self._key(type_name)
+        written = constant_texts(self._texts.get(key, ""))
+        return {
+            name: (kind, written.get(name, _constant(value))) for name, kind, value in self._store.fielddefs[key][0]
+        }
+
+    def text(self, type_name: str) -> str:
+        """Return the text of a type alone; of the library's types, constants and fields only."""
+        return self._text(self._key(type_name))
+
+    def service_text(self, type_name: str) -> str:
+        """Return the text of a service type."""
+        self.service(type_name)
+        return self._definitions.services[type_name]
+
     def add(self, type_name: str, text: str) -> None:
         """Add a message type from its .msg text; a type that is already known stays as it is."""
         if not self.has(type_name):
@@ -290,16 +307,14 @@ class Messages:
     def _text(self, key: str) -> str:
         if key in self._texts:
             return self._texts[key]
-        constants, fields = self._store.fielddefs[key][0], fields_of(self._store, key)
-        lines = [f"{kind} {name}={_constant(value)}\n" for name, kind, value in constants]
+        lines = [f"{kind} {name}={text}\n" for name, (kind, text) in self.constants(_ros(key)).items()]
+        fields = fields_of(self._store, key)
         return "".join([*lines, *(f"{_type_text(desc)} {name}\n" for name, desc in fields)])
 
     def _canonical(self, key: str) -> str:
         """Write the text the md5 sum is taken of: constants, then fields, with types replaced by their own sums."""
-        constants, fields = self._store.fielddefs[key][0], fields_of(self._store, key)
-        written = constant_texts(self._texts.get(key, ""))
-        lines = [f"{kind} {name}={written.get(name, _constant(value))}" for name, kind, value in constants]
-        for name, desc in fields:
+        lines = [f"{kind} {name}={text}" for name, (kind, text) in self.constants(_ros(key)).items()]
+        for name, desc in fields_of(self._store, key):
             reference = _reference(desc)
             if reference is None or reference in _BUILTIN:
                 lines.append(f"{_type_text(desc)} {name}")

@@ -112,7 +112,12 @@ class NodeCalls:
         return list(await self.ask("getParamNames"))
 
     async def call_service(
-        self, name: str, type_name: str, request: Message | dict[str, Any] | None = None, *, timeout_s: float = 10.0
+        self,
+        name: str,
+        type_name: str,
+        request: Message | dict[str, Any] | None = None,
+        *,
+        timeout_s: float | None = 10.0,
     ) -> Message:
         """Call a service.
 

@@ -162,7 +162,7 @@ async def call_service(
     except (OSError, WireError, asyncio.IncompleteReadError) as error:
         raise ServiceError(f"{name} at {uri} cannot be called: {error or type(error).__name__}") from None
     if not well:
-        raise ServiceError(f"{name} answers: {data.decode('utf-8', 'replace')}")
+        raise ServiceError(f"service [{name}] responded with an error: {data.decode('utf-8', 'replace')}")
     try:
         return messages.deserialize(data, kind.response)
     except MessageError as error:

@@ -1,0 +1,134 @@
+"""What `trundle msg` and `trundle srv` share: types by name, as rosmsg and rossrv print them."""
+
+import argparse
+import sys
+from collections.abc import Iterator
+
+from trundle.diagnostics import UsageError
+from trundle.ros import MessageError, Messages
+
+
+def configure(parser: argparse.ArgumentParser, what: str) -> None:
+    """Declare the arguments.
+
+    Args:
+        parser: the command's.
+        what: "message" or "service".
+    """
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for name, help_ in (("show", "fields and constants of a type"), ("info", "the same as show")):
+        add = commands.add_parser(name, help=help_)
+        add.add_argument("type", nargs="?", help=f"{what} type, with or without its package; piped in if left out")
+        add.add_argument("-r", "--raw", action="store_true", help="the text of the definition, comments and all")
+        add.set_defaults(run=_show)
+    add = commands.add_parser("list", help=f"names of all {what} types")
+    add.set_defaults(run=_list)
+    add = commands.add_parser("md5", help="the sum that peers compare")
+    add.add_argument("type", nargs="?", help="with or without its package; piped in if left out")
+    add.set_defaults(run=_md5)
+    add = commands.add_parser("package", help=f"{what} types of a package")
+    add.add_argument("package", nargs="?", help="piped in if left out")
+    add.add_argument("-s", dest="single_line", action="store_true", help="on one line")
+    add.set_defaults(run=_package)
+    add = commands.add_parser("packages", help=f"packages that have {what} types")
+    add.add_argument("-s", dest="single_line", action="store_true", help="on one line")
+    add.set_defaults(run=_packages)
+
+
+def run(args: argparse.Namespace, what: str) -> int:
+    """Run the subcommand for messages or services."""
+    return int(args.run(args, _Types(what)))
+
+
+class _Types:
+    """Message types or service types, seen alike."""
+
+    def __init__(self, what: str) -> None:
+        self.what = what
+        self._messages = Messages()
+        self._is_service = what == "service"
+
+    def names(self) -> list[str]:
+        """All of them."""
+        return self._messages.service_names() if self._is_service else self._messages.type_names()
+
+    def named(self, name: str) -> list[str]:
+        """Full names of a type written with or without its package.
+
+        Raises:
+            MessageError: there is none.
+        """
+        name = name.removesuffix(".srv" if self._is_service else ".msg")
+        if "::" in name or "." in name:
+            raise UsageError(f"invalid {self.what} type {name!r}; types are written package_name/Type")
+        found = [name] if "/" in name else [each for each in self.names() if each.partition("/")[2] == name]
+        if not found:
+            raise MessageError(f"no {self.what} type {name!r} in any package")
+        return found
+
+    def md5(self, name: str) -> str:
+        """The sum of a type."""
+        return self._messages.service(name).md5sum if self._is_service else self._messages.md5(name)
+
+    def raw(self, name: str) -> str:
+        """The definition as written."""
+        return self._messages.service_text(name) if self._is_service else self._messages.text(name)
+
+    def text(self, name: str) -> str:
+        """Constants and fields, those of inner types indented below them."""
+        if not self._is_service:
+            return "".join(self._lines(name, ""))
+        kind = self._messages.service(name)
+        return "".join([*self._lines(kind.request, ""), "---\n", *self._lines(kind.response, "")])
+
+    def _lines(self, name: str, indent: str) -> Iterator[str]:
+        for constant, (kind, text) in self._messages.constants(name).items():
+            yield f"{indent}{kind} {constant}={text}\n"
+        for field, kind in self._messages.fields(name).items():
+            yield f"{indent}{kind} {field}\n"
+            if "/" in kind:
+                yield from self._lines(kind.partition("[")[0], indent + "  ")
+
+
+def _show(args: argparse.Namespace, types: _Types) -> int:
+    name = args.type or _piped()
+    for found in types.named(name):
+        if "/" not in name:
+            print(f"[{found}]:")
+        print(types.raw(found) if args.raw else types.text(found))
+    return 0
+
+
+def _md5(args: argparse.Namespace, types: _Types) -> int:
+    name = args.type or _piped()
+    for found in types.named(name):
+        print(types.md5(found) if "/" in name else f"[{found}]: {types.md5(found)}")
+    return 0
+
+
+def _list(_: argparse.Namespace, types: _Types) -> int:
+    print("\n".join(types.names()))
+    return 0
+
+
+def _package(args: argparse.Namespace, types: _Types) -> int:
+    package = args.package or _piped()
+    found = [name for name in types.names() if name.startswith(f"{package}/")]
+    if not found:
+        raise UsageError(f"no {types.what} types of a package {package!r}")
+    print((" " if args.single_line else "\n").join(found))
+    return 0
+
+
+def _packages(args: argparse.Namespace, types: _Types) -> int:
+    packages = dict.fromkeys(name.partition("/")[0] for name in types.names())
+    print((" " if args.single_line else "\n").join(packages))
+    return 0
+
+
+def _piped() -> str:
+    """The first line of standard input that is not empty."""
+    for line in sys.stdin:
+        if line.strip():
+            return line.strip()
+    raise UsageError("name a type, as an argument or on standard input")

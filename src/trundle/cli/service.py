@@ -1,0 +1,201 @@
+"""List, describe and call services, as rosservice does."""
+
+import argparse
+import asyncio
+import sys
+import time
+from collections.abc import Iterable
+from typing import Any
+
+from trundle.diagnostics import UsageError
+from trundle.ros import (
+    GraphLoop,
+    MasterError,
+    MasterProxy,
+    MessageError,
+    MessagePrinter,
+    Messages,
+    Node,
+    RosError,
+    ServiceError,
+    follow_time,
+    probe_service,
+)
+
+from .graph import global_name, master, original_errors, running_node
+from .yaml_input import piped_documents, yaml_value
+
+EXAMPLES = """
+  trundle service list
+  trundle service info /gazebo/pause_physics
+  trundle service call /gazebo/pause_physics
+  trundle service call /gazebo/get_model_state '{model_name: rp2w}'
+"""
+_SCRIPT = "rosservice"
+_POLL_S = 0.1
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    add = commands.add_parser("list", help="names of all services")
+    add.add_argument("namespace", nargs="?", help="only this one and those below it")
+    add.add_argument("-n", "--nodes", action="store_true", help="with the nodes that provide them")
+    add.set_defaults(run=_list)
+    add = commands.add_parser("call", help="call a service and print its answer")
+    add.add_argument("service")
+    add.add_argument("values", nargs="*", help="the request as YAML; or each of its fields; or piped in")
+    add.add_argument("-v", dest="verbose", action="store_true", help="print the request, too")
+    add.add_argument("--wait", action="store_true", help="wait until the service is there")
+    add.set_defaults(run=_call)
+    for name, run, help_ in (
+        ("info", _info, "node, address, type and arguments of a service"),
+        ("type", _type, "type of a service"),
+        ("uri", _uri, "address of a service"),
+        ("node", _node, "node that provides a service"),
+        ("args", _args, "names of a service's arguments"),
+    ):
+        add = commands.add_parser(name, help=help_)
+        add.add_argument("service")
+        add.set_defaults(run=run)
+    add = commands.add_parser("find", help="services of a type")
+    add.add_argument("type")
+    add.set_defaults(run=_find)
+
+
+@original_errors
+def main(args: argparse.Namespace) -> int:
+    """Run the subcommand."""
+    return int(args.run(args))
+
+
+def _list(args: argparse.Namespace) -> int:
+    services = sorted(_services(master(_SCRIPT)))
+    if args.namespace:
+        name = global_name(args.namespace, _SCRIPT)
+        services = [row for row in services if row[0] == name or row[0].startswith(name.rstrip("/") + "/")]
+    for name, nodes in services:
+        print(f"{name} {','.join(nodes)}" if args.nodes else name)
+    return 0
+
+
+def _info(args: argparse.Namespace) -> int:
+    proxy, name = master(_SCRIPT), global_name(args.service, _SCRIPT)
+    print(f"Node: {_provider(proxy, name)}")
+    print(f"URI: {_address(proxy, name)}")
+    kind = _type_of(proxy, name)
+    print(f"Type: {kind}")
+    print(f"Args: {_arguments(Messages(), kind)}")
+    return 0
+
+
+def _type(args: argparse.Namespace) -> int:
+    print(_type_of(master(_SCRIPT), global_name(args.service, _SCRIPT)))
+    return 0
+
+
+def _uri(args: argparse.Namespace) -> int:
+    print(_address(master(_SCRIPT), global_name(args.service, _SCRIPT)))
+    return 0
+
+
+def _node(args: argparse.Namespace) -> int:
+    print(_provider(master(_SCRIPT), global_name(args.service, _SCRIPT)))
+    return 0
+
+
+def _args(args: argparse.Namespace) -> int:
+    print(_arguments(Messages(), _type_of(master(_SCRIPT), global_name(args.service, _SCRIPT))))
+    return 0
+
+
+def _find(args: argparse.Namespace) -> int:
+    proxy = master(_SCRIPT)
+    found: list[str] = []
+    for name, _ in _services(proxy):
+        try:
+            if _type_of(proxy, name) == args.type:
+                found.append(name)
+        except RosError:  # gone, or does not answer
+            continue
+    print("\n".join(found))
+    return 0
+
+
+def _call(args: argparse.Namespace) -> int:
+    name = global_name(args.service, _SCRIPT)
+    values = [yaml_value(text or "''") for text in args.values]
+    proxy = master(_SCRIPT)
+    while args.wait and not any(name == service for service, _ in _services(proxy)):
+        time.sleep(_POLL_S)
+    kind = _type_of(proxy, name)
+    with running_node("rosservice") as (loop, node):
+        requests: Iterable[Any] = [values]
+        if not values and loop.messages.fields(loop.messages.service(kind).request):
+            if sys.stdin.isatty():
+                raise UsageError(f"Please specify service arguments: {_arguments(loop.messages, kind)}")
+            requests = (each if isinstance(each, list) else [each] for each in piped_documents())
+        loop.run(follow_time(node))
+        for request in requests:
+            _call_once(loop, node, name, kind, request, verbose=args.verbose)
+    return 0
+
+
+def _call_once(loop: GraphLoop, node: Node, name: str, kind: str, values: list[Any], *, verbose: bool) -> None:
+    types = loop.messages.service(kind)
+    printer = MessagePrinter(messages=loop.messages)
+    try:
+        request = node.new(types.request, values[0] if len(values) == 1 and isinstance(values[0], dict) else values)
+    except MessageError as error:
+        given = "\n".join(f" * {value} (type {type(value).__name__})" for value in values)
+        raise MessageError(
+            f"Incompatible arguments to call service:\n{error}\nProvided arguments are:\n{given}\n\n"
+            f"Service arguments are: [{_arguments(loop.messages, kind)}]"
+        ) from None
+    response = loop.run(node.call_service(name, kind, request, timeout_s=None), None)
+    if verbose:
+        print(f"{printer.text(request, types.request)}\n---")
+    print(printer.text(response, types.response), flush=True)
+
+
+def _services(proxy: MasterProxy) -> list[tuple[str, list[str]]]:
+    return [(name, nodes) for name, nodes in proxy.call("getSystemState")[2]]
+
+
+def _provider(proxy: MasterProxy, name: str) -> str:
+    for service, nodes in _services(proxy):
+        if service == name and nodes:
+            return nodes[0]
+    raise ServiceError(f"Unknown service: {name}")
+
+
+def _address(proxy: MasterProxy, name: str) -> str:
+    try:
+        return str(proxy.call("lookupService", name))
+    except MasterError:
+        raise ServiceError(f"Unknown service: {name}") from None
+
+
+def _type_of(proxy: MasterProxy, name: str) -> str:
+    """Ask a provider for the type of its service; the master does not know it."""
+    try:
+        uri = str(proxy.call("lookupService", name))
+    except MasterError:
+        raise ServiceError(f"Service [{name}] is not available.") from None
+    kind = asyncio.run(probe_service(uri, name, f"/{_SCRIPT}")).get("type")
+    if not kind:
+        raise ServiceError(f"Unable to determine type of service [{name}].")
+    return kind.removesuffix("Request")  # as some roscpp versions say
+
+
+def _arguments(messages: Messages, kind: str) -> str:
+    """Name a request's fields, those inside others with dots."""
+    return " ".join(_leaves(messages, messages.service(kind).request, ""))
+
+
+def _leaves(messages: Messages, type_name: str, prefix: str) -> Iterable[str]:
+    for field, text in messages.fields(type_name).items():
+        if "/" in text and "[" not in text:
+            yield from _leaves(messages, text, f"{prefix}{field}.")
+        else:
+            yield f"{prefix}{field}"

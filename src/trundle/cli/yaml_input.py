@@ -1,0 +1,42 @@
+"""YAML from the command line, a file or standard input."""
+
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+from trundle.diagnostics import UsageError
+
+
+def yaml_value(text: str) -> Any:
+    """Read one YAML value from the command line."""
+    import yaml
+
+    try:
+        return yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise UsageError(f"Argument error: {error}") from None
+
+
+def yaml_file(path: str) -> Iterator[Any]:
+    """Yield the documents of a file that are not empty."""
+    import yaml
+
+    try:
+        with open(path, encoding="utf-8") as file:
+            yield from (document for document in yaml.safe_load_all(file) if document is not None)
+    except OSError as error:
+        raise UsageError(f"file cannot be read: {path}: {error.strerror}") from None
+    except yaml.YAMLError as error:
+        raise UsageError(f"invalid YAML in file {path}: {error}") from None
+
+
+def piped_documents() -> Iterator[Any]:
+    """Yield documents from standard input, each as soon as the `---` after it is there."""
+    lines: list[str] = []
+    for line in sys.stdin:
+        if line.strip() != "---":
+            lines.append(line)
+            continue
+        document, lines = yaml_value("".join(lines)), []
+        if document is not None:
+            yield document
