@@ -60,7 +60,10 @@ def differences(case: Case, plan: LaunchPlan) -> list[str]:
     root = str(case.root)
     compare("files", {_here(str(f), root) for f in plan.files}, {_here(f, root) for f in theirs["files"]})
     compare("clear", sorted(plan.clear_params), sorted(n.rstrip("/") for n in theirs["clear_params"]))
-    for what, ours, refs in (("nodes", plan.nodes, theirs["nodes"]), ("tests", plan.tests, theirs["tests"])):
+    for what, ours, refs in (
+        ("nodes", plan.nodes, theirs["nodes"]),
+        ("tests", [test.node for test in plan.tests], theirs["tests"]),
+    ):
         mine = sorted((_node(node, root) for node in ours), key=repr)
         compare(f"number of {what}", len(mine), len(refs))
         for a, b in zip(mine, sorted((_reference_node(n, root) for n in refs), key=repr), strict=False):

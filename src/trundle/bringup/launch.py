@@ -1,37 +1,39 @@
 """`trundle launch`: a launch file's parameters set and its nodes running, until they end or Ctrl-C."""
 
-import asyncio
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
+from threading import Event
 from typing import Literal
 
-import yaml
-
 from trundle.description import expand_xacro
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.launch import LaunchParam, LaunchPlan, read_launch, resolve_params
+from trundle.diagnostics import Diagnostics
+from trundle.launch import LaunchParam, LaunchPlan, read_arguments, read_launch, resolve_params
 from trundle.nodes import Host
 from trundle.packages import Packages
-from trundle.ros import Node, follow_time
-from trundle.supervisor import Event, Supervisor
+from trundle.ros import MasterProxy, MasterUnreachableError, Node, follow_time, master_uri_from_env
+from trundle.supervisor import Patience
 from trundle.viewer import GraphPage
 
+from . import launch_print
 from .exposure import warn_of_exposure
 from .graph import Graph
+from .launch_logs import log_folder
 from .launch_nodes import NodeStarter
-from .launch_words import read_words
+from .launch_params import set_params
+from .launch_running import RunningNodes, what_runs
+from .launch_words import LaunchRequest, read_words
 from .showing import Showing
 from .signals import stop_flag
 
 NS = 1_000_000_000
 _START_S = 60.0
 """Starting programs takes its time on a busy machine."""
-_STOP_S = 30.0
-"""roslaunch's patience with a program: 15 s to obey SIGINT, 2 s to obey SIGTERM."""
+_LAST_S = 13.0
+"""What stopping may take beyond the patience with each program."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,10 +46,20 @@ class LaunchOptions:
     master_port: int | None = None
     view_port: int | None = None
     host: str = "127.0.0.1"
-    screen: bool = False
+    output: Literal["screen", "log"] | None = None
+    """Of every node, whatever the file says."""
+    all_required: bool = False
+    wait_for_master: bool = False
+    summary: bool = True
+    verbose: bool = False
+    core_only: bool = False
+    pid_file: Path | None = None
+    patience: Patience = Patience()
     strict: bool = False
-    only: Literal["nodes", "arguments", "params"] | None = None
+    only: Literal["nodes", "files", "find-node", "args", "arguments", "params"] | None = None
     """Print these and start nothing."""
+    node: str = ""
+    """Which node `find-node` and `args` are about."""
 
 
 def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[str, str] | None = None) -> int:
@@ -67,12 +79,20 @@ def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[st
     report = Diagnostics(strict=options.strict)
     show = Showing(sys.stderr, report)
     packages = Packages(env, start=Path.cwd())
-    request = read_words(words, packages)
-    packages = packages.around(request.files[0])
-    plan = read_launch(request.files, packages=packages, report=report, arguments=request.arguments, env=env)
+    request = LaunchRequest() if options.core_only else read_words(words, packages)
+    if request.files:
+        packages = packages.around(request.files[0])
+    if options.only == "arguments":
+        for file in request.files:
+            declared = read_arguments(file, packages=packages, report=report, arguments=request.arguments, env=env)
+            print(launch_print.arguments(declared))
+        return 0
+    plan = read_launch(
+        request.files, packages=packages, report=report, arguments=request.arguments, texts=request.texts, env=env
+    )
     show.findings()
-    if options.only in ("nodes", "arguments"):
-        print(_nodes(plan) if options.only == "nodes" else _arguments(plan))
+    if options.only is not None and options.only != "params":
+        print(_printed(options, plan, packages, env))
         return 0
 
     def expand(file: Path, arguments: Mapping[str, str]) -> str:
@@ -81,112 +101,107 @@ def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[st
     params = resolve_params(plan, report, expand_xacro=expand, env=env)
     show.findings()
     if options.only == "params":
-        print(yaml.safe_dump({param.name: param.value for param in params}, sort_keys=True).rstrip())
+        print(launch_print.parameters(params))
         return 0
     warn_of_exposure(options.host, show.line)
-    with stop_flag() as stop, ExitStack() as open_things:
+    if options.verbose:
+        _tell_everything(plan, params, show.line)
+    with stop_flag() as stop:
+        if options.wait_for_master and not _wait_for_master(env, stop, show.line):
+            return 130
+        return _run(plan, params, packages, env, options, show, report, stop)
+
+
+def _run(
+    plan: LaunchPlan,
+    params: Sequence[LaunchParam],
+    packages: Packages,
+    env: Mapping[str, str],
+    options: LaunchOptions,
+    show: Showing,
+    report: Diagnostics,
+    stop: Event,
+) -> int:
+    with ExitStack() as open_things:
+        if options.pid_file is not None:
+            options.pid_file.expanduser().write_text(str(os.getpid()))
         graph = open_things.enter_context(Graph.open(env, host=options.host, any_port=False))
         show.line(graph.story)
         launcher = Node("/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False)
-        graph.loop.run(_set_params(launcher, plan, params))
+        if options.summary and not options.core_only:
+            known = {
+                name: graph.loop.run(launcher.get_param(name, "")).strip() for name in ("/rosdistro", "/rosversion")
+            }
+            print(launch_print.summary(plan, {**known, **{p.name: p.value for p in params}}), flush=True)
+        graph.loop.run(set_params(launcher, plan, params), timeout_s=_START_S)
         clock = graph.loop.run(follow_time(launcher))
         page = None
         if not options.headless:
             page = GraphPage(packages=packages, report=report, host=options.host, port=options.view_port)
             open_things.callback(page.close)
         starter = NodeStarter(
-            graph=graph, packages=packages, env=env, report=report, host=Host(display=page), log_folder=_logs(env)
+            graph=graph,
+            packages=packages,
+            env=env,
+            report=report,
+            host=Host(display=page),
+            log_folder=log_folder(env, graph.loop.run(launcher.get_param("/run_id", ""))),
+            output=options.output,
+            all_required=options.all_required,
         )
-        running = _Running(starter, plan, show, screen=options.screen)
+        running = RunningNodes(starter, plan.nodes, patience=options.patience)
         try:
             graph.loop.run(running.start(), timeout_s=_START_S)
             show.findings()
+            if running.launched:
+                print(what_runs(running.launched), flush=True)
             end_ns = None if options.duration_s is None else clock.now_ns() + round(options.duration_s * NS)
-            while not stop.wait(0.05) and not running.over and (end_ns is None or clock.now_ns() < end_ns):
+            over = False
+            while not stop.wait(0.05) and not over and (end_ns is None or clock.now_ns() < end_ns):
                 show.findings()
+                over = running.over and not options.core_only
         finally:
-            graph.loop.run(running.stop(), timeout_s=_STOP_S)
+            patience_s = options.patience.interrupt_s + options.patience.terminate_s
+            graph.loop.run(running.stop(), timeout_s=patience_s + _LAST_S)
         if stop.is_set():
             return 130
         return 1 if running.required_died else 0
 
 
-class _Running:
-    """The nodes of one launch under their supervisor, on the graph's loop."""
-
-    def __init__(self, starter: NodeStarter, plan: LaunchPlan, show: Showing, *, screen: bool) -> None:
-        self._starter = starter
-        self._plan = plan
-        self._show = show
-        self._screen = screen
-        self._supervisor: Supervisor | None = None
-        self._waiting: asyncio.Task[str | None] | None = None
-
-    async def start(self) -> None:
-        self._supervisor = Supervisor(self._tell)
-        for node in self._plan.nodes:
-            job = self._starter.job(node, screen=self._screen, show=self._show_output)
-            if job is not None:
-                await self._supervisor.start(job, self._starter.policy(node))
-        self._waiting = asyncio.create_task(self._supervisor.wait())
-
-    async def stop(self) -> None:
-        if self._supervisor is not None:
-            await self._supervisor.stop()
-
-    @property
-    def over(self) -> bool:
-        """Whether every node has ended, or a required one."""
-        return self._waiting is not None and self._waiting.done()
-
-    @property
-    def required_died(self) -> bool:
-        return self.over and self._waiting is not None and self._waiting.result() is not None
-
-    def _tell(self, event: Event) -> None:
-        self._show.line(f"[{event.name}] {event.text}")
-
-    def _show_output(self, name: str, line: str) -> None:
-        del name  # the original prints a node's own lines as they are
-        self._show.line(line)
+def _printed(options: LaunchOptions, plan: LaunchPlan, packages: Packages, env: Mapping[str, str]) -> str:
+    match options.only:
+        case "nodes":
+            return launch_print.node_names(plan)
+        case "files":
+            return launch_print.file_names(plan)
+        case "find-node":
+            return launch_print.node_file(plan, options.node)
+        case _:
+            return launch_print.node_command(plan, options.node, packages, env)
 
 
-async def _set_params(node: Node, plan: LaunchPlan, params: Sequence[LaunchParam]) -> None:
-    """Clear, set, then dump and delete, in roslaunch's order; all before any node starts."""
-    await node.ready()
-    for namespace in plan.clear_params:
-        if await node.has_param(namespace):
-            await node.delete_param(namespace)
+def _tell_everything(plan: LaunchPlan, params: Sequence[LaunchParam], say: Callable[[str], None]) -> None:
+    for file in plan.files:
+        say(f"... loading XML file [{file}]")
     for param in params:
-        await node.set_param(param.name, param.value)
-    for step in plan.steps:
-        if step.command == "delete":
-            if await node.has_param(step.name):
-                await node.delete_param(step.name)
-            continue
+        say(f"Added parameter [{param.name}]")
+    for node in plan.nodes:
+        say(f"Added node of type [{node.package}/{node.type}] in namespace [{node.namespace}]")
+
+
+def _wait_for_master(env: Mapping[str, str], stop: Event, say: Callable[[str], None]) -> bool:
+    """Wait until a master answers; False: somebody asked to stop first."""
+    proxy = MasterProxy(env.get("ROS_MASTER_URI") or master_uri_from_env(), timeout_s=2.0)
+    said = False
+    while True:
         try:
-            Path(step.file).write_text(yaml.safe_dump(await node.get_param(step.name)))
-        except OSError as error:
-            raise DescriptionError(step.at, f"rosparam dump to {step.file!r}: {error.strerror}") from None
-
-
-def _logs(env: Mapping[str, str]) -> Path:
-    """Where programs log to, by ROS_LOG_DIR and ROS_HOME as in ROS."""
-    home = Path(env.get("ROS_HOME") or Path(env.get("HOME", "/tmp")) / ".ros")
-    return Path(env["ROS_LOG_DIR"]) if env.get("ROS_LOG_DIR") else home / "log"
-
-
-def _nodes(plan: LaunchPlan) -> str:
-    return "\n".join(node.full_name for node in plan.nodes)
-
-
-def _arguments(plan: LaunchPlan) -> str:
-    required = [a for a in plan.arguments if a.required]
-    optional = [a for a in plan.arguments if not a.required and a.default is not None]
-    lines: list[str] = []
-    if required:
-        lines += ["Required Arguments:", *(f"  {a.name}: {a.doc or 'undocumented'}" for a in required)]
-    if optional:
-        lines += ["Optional Arguments:"]
-        lines += [f'  {a.name} (default "{a.default}"): {a.doc or "undocumented"}' for a in optional]
-    return "\n".join(lines) or "No arguments."
+            proxy.call("getPid")
+        except MasterUnreachableError:
+            if not said:
+                say("roscore/master is not yet running, will wait for it to start")
+            said = True
+        else:
+            say("master has started, initiating launch")
+            return True
+        if stop.wait(0.1):
+            return False

@@ -2,8 +2,9 @@
 
 import shlex
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Literal
 
 import yaml
 
@@ -16,6 +17,23 @@ from trundle.ros import Node
 from trundle.supervisor import Command, Job, Policy, ProcessJob, TaskJob
 
 from .graph import Graph
+from .launch_logs import ros_home
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Launched:
+    """What became of one node of a launch."""
+
+    node: LaunchNode
+    kind: Literal["process", "stand-in", "missing", "failed"]
+    what: str
+    """The program, what is stood in for, or why there is neither."""
+    job: Job | None = None
+    log_files: str = ""
+
+    def failed(self) -> "Launched":
+        """The same, when it could not be started after all."""
+        return replace(self, kind="failed", job=None)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,29 +47,44 @@ class NodeStarter:
     host: Host
     """What stand-ins may use."""
     log_folder: Path
+    output: Literal["screen", "log"] | None = None
+    """Overrides what the launch file says."""
+    all_required: bool = False
 
-    def job(self, node: LaunchNode, *, screen: bool, show: Callable[[str, str], None]) -> Job | None:
-        """The job that runs a node; None, after a warning, where nothing can.
+    def prepare(self, node: LaunchNode, label: str, *, show: Callable[[str, str], None]) -> Launched:
+        """Find what runs a node; where nothing can, a warning says so.
+
+        Args:
+            node: to be run.
+            label: what messages call it.
+            show: takes the label and a line of output.
 
         Raises:
             DescriptionError: nothing can run it, and the launch requires it.
         """
-        env = {**self.env, **dict(node.env), "ROS_MASTER_URI": self.graph.master_uri, "ROS_NAMESPACE": node.namespace}
+        env = {**self.env, **dict(node.env), "ROS_MASTER_URI": self.graph.master_uri}
+        if node.namespace != "/":
+            env["ROS_NAMESPACE"] = node.namespace
+        name = label.replace("/", "-")
         match find_node(node.package, node.type, self.packages.find_package, env=env):
             case Executable(path):
-                return ProcessJob(self._command(node, path, env, screen=screen), show)
+                job = ProcessJob(self._command(node, label, path, env), show)
+                logs = f"{self.log_folder / name}*.log"
+                return Launched(node=node, kind="process", what=str(path), job=job, log_files=logs)
             case Replacement() as stand_in:
-                return TaskJob(node.full_name, lambda: self._run(node, stand_in))
+                job = TaskJob(label, lambda: self._run(node, stand_in))
+                return Launched(node=node, kind="stand-in", what=f"{node.package}/{node.type}", job=job)
             case Missing(why):
                 what = f"node {node.full_name}: {why}"
-                if node.required:
+                if self.policy(node).required:
                     raise DescriptionError(node.at, f"{what}; the launch requires it")
                 self.report.warn(node.at, f"{what}; the launch goes on without it")
-                return None
+                return Launched(node=node, kind="missing", what=why)
 
     def policy(self, node: LaunchNode) -> Policy:
         """What the node's end means."""
-        return Policy(respawn=node.respawn, respawn_delay_s=node.respawn_delay_s, required=node.required)
+        required = node.required or self.all_required
+        return Policy(respawn=node.respawn, respawn_delay_s=node.respawn_delay_s, required=required)
 
     async def _run(self, node: LaunchNode, stand_in: Replacement) -> int:
         given = parse_arguments(shlex.split(node.arguments))
@@ -66,24 +99,32 @@ class NodeStarter:
         )
         return await run_stand_in(stand_in, ros_node, list(given.rest), self.host)
 
-    def _command(self, node: LaunchNode, program: Path, env: Mapping[str, str], *, screen: bool) -> Command:
-        log = self.log_folder / f"{node.full_name.strip('/').replace('/', '-')}.log"
-        self.log_folder.mkdir(parents=True, exist_ok=True)
+    def _command(self, node: LaunchNode, label: str, program: Path, env: Mapping[str, str]) -> Command:
+        log = self.log_folder / label.replace("/", "-")
         return Command(
-            name=node.full_name,
+            name=label,
             argv=(
-                *shlex.split(node.launch_prefix),
+                *_split(node.launch_prefix, node),
                 str(program),
-                *shlex.split(node.arguments),
+                *_split(node.arguments, node),
                 *(f"{there}:={here}" for there, here in node.remappings),
                 f"__name:={node.name}",
-                f"__log:={log}",
+                f"__log:={log}.log",
             ),
             env=env,
-            cwd=program.parent if node.cwd == "node" else Path(env.get("ROS_HOME", Path.home() / ".ros")),
-            output="screen" if screen else node.output,
-            log_file=log,
+            cwd=program.parent if node.cwd == "node" else ros_home(env),
+            output=self.output or node.output,
+            log_file=log.with_name(f"{log.name}-stdout.log"),
         )
+
+
+def _split(text: str, node: LaunchNode) -> list[str]:
+    try:
+        return shlex.split(text)
+    except ValueError as error:
+        raise DescriptionError(
+            node.at, f"node {node.full_name}: {text!r} cannot be split into words: {error}"
+        ) from None
 
 
 def _value(text: str) -> bool | int | float | str | list[object] | dict[str, object]:

@@ -1,8 +1,10 @@
 """What `trundle launch` was asked for: which files, with which arguments."""
 
+import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TextIO
 
 from trundle.diagnostics import UsageError
 from trundle.packages import Packages
@@ -12,12 +14,14 @@ from trundle.packages import Packages
 class LaunchRequest:
     """Launch files and the `name:=value` of the command line."""
 
-    files: tuple[Path, ...]
-    arguments: dict[str, str]
+    files: tuple[Path, ...] = ()
+    arguments: dict[str, str] = field(default_factory=dict[str, str])
+    texts: tuple[tuple[str, str], ...] = ()
+    """(name, XML) of what came in on standard input."""
 
 
-def read_words(words: Sequence[str], packages: Packages) -> LaunchRequest:
-    """Tell `PKG FILE` from `FILE…`, as roslaunch does: a first word that is a file is one.
+def read_words(words: Sequence[str], packages: Packages, *, stdin: TextIO = sys.stdin) -> LaunchRequest:
+    """Tell `PKG FILE` from `FILE…`, as roslaunch does: a first word that is a file is one; `-` is standard input.
 
     Raises:
         UsageError: no such file or package, with what there is instead.
@@ -33,11 +37,15 @@ def read_words(words: Sequence[str], packages: Packages) -> LaunchRequest:
             rest.append(word)
     if not rest:
         raise UsageError("no launch file; say PKG FILE or a path, such as: trundle launch robot.launch")
-    if Path(rest[0]).is_file():
-        missing = [word for word in rest if not Path(word).is_file()]
+    if rest[0] == "-" or Path(rest[0]).is_file():
+        files = [word for word in rest if word != "-"]
+        missing = [word for word in files if not Path(word).is_file()]
         if missing:
             raise UsageError(f"no such file: {', '.join(missing)}")
-        return LaunchRequest(files=tuple(Path(word) for word in rest), arguments=arguments)
+        if len(rest) - len(files) > 1:
+            raise UsageError("standard input ('-') can be read only once")
+        texts = (("<stdin>", stdin.read()),) if "-" in rest else ()
+        return LaunchRequest(files=tuple(Path(word) for word in files), arguments=arguments, texts=texts)
     if len(rest) == 1:
         raise UsageError(f"no such file: {rest[0]}")
     package = packages.find_package(rest[0])

@@ -1,6 +1,9 @@
 """Start a ROS 1 launch file."""
 
 import argparse
+from pathlib import Path
+
+from trundle.diagnostics import UsageError
 
 from .main import quiet_imports
 
@@ -15,32 +18,70 @@ EXAMPLES = """
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("words", nargs="+", metavar="[PKG] FILE [ARG:=VALUE]", help="what to launch, and its arguments")
-    parser.add_argument("--headless", action="store_true", help="no browser page; rviz idles")
-    parser.add_argument("--duration", type=float, metavar="S", help="end after so many seconds of ROS time")
-    parser.add_argument("-p", "--port", type=int, metavar="N", help="the master's port (that of ROS_MASTER_URI, 11311)")
-    parser.add_argument("--view-port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
-    parser.add_argument("--host", default="127.0.0.1", help="address that everything binds (127.0.0.1)")
-    parser.add_argument("--screen", action="store_true", help="show the output of every node")
-    parser.add_argument("--nodes", action="store_true", help="list the nodes and end")
-    parser.add_argument("--ros-args", action="store_true", help="list the file's arguments and end")
-    parser.add_argument("--dump-params", action="store_true", help="print the parameters as YAML and end")
-    parser.add_argument("--strict", action="store_true", help="a warning about the file is an error")
+    add = parser.add_argument
+    add("words", nargs="*", metavar="[PKG] FILE [ARG:=VALUE]", help="what to launch ('-': standard input), and how")
+    add("--headless", action="store_true", help="no browser page; rviz idles")
+    add("--duration", type=float, metavar="S", help="end after so many seconds of ROS time")
+    add("-p", "--port", type=int, metavar="N", help="the master's port (that of ROS_MASTER_URI, 11311)")
+    add("--view-port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
+    add("--host", default="127.0.0.1", help="address that everything binds (127.0.0.1)")
+    add("--strict", action="store_true", help="a warning about the file is an error")
+    output = parser.add_mutually_exclusive_group()
+    output.add_argument("--screen", action="store_true", help="show the output of every node")
+    output.add_argument("--log", action="store_true", help="log the output of every node")
+    add("--required", action="store_true", help="the end of any node ends everything")
+    add("--wait", action="store_true", help="wait until a master runs")
+    add("--local", action="store_true", help="no remote nodes; there never are any here")
+    add("--core", action="store_true", help="master, parameter server and rosout only")
+    add("--pid", type=Path, metavar="FILE", help="write the process id there")
+    add("-v", dest="verbose", action="store_true", help="say which files are read and what is set")
+    add("--no-summary", action="store_true", help="do not show parameters and nodes at the start")
+    add("--sigint-timeout", type=float, default=15.0, metavar="S", help="patience with a node after SIGINT (15)")
+    add("--sigterm-timeout", type=float, default=2.0, metavar="S", help="patience with it after SIGTERM (2)")
+    only = parser.add_argument_group("print and end").add_mutually_exclusive_group()
+    only.add_argument("--nodes", action="store_const", dest="only", const="nodes", help="the names of the nodes")
+    only.add_argument("--find-node", metavar="NODE", help="the launch file that a node stands in")
+    only.add_argument("--args", metavar="NODE", help="the command line of a node")
+    only.add_argument(
+        "--files", action="store_const", dest="only", const="files", help="every launch file that is read"
+    )
+    only.add_argument("--ros-args", action="store_const", dest="only", const="arguments", help="the file's arguments")
+    only.add_argument("--dump-params", action="store_const", dest="only", const="params", help="the parameters as YAML")
+    # What scripts in the wild pass, and what has no meaning here.
+    for option in ("--skip-log-check", "--disable-title"):
+        add(option, action="store_true", help=argparse.SUPPRESS)
+    for option in ("-w", "--numworkers", "-t", "--timeout", "--master-logger-level"):
+        add(option, dest=f"unused_{option.strip('-')}", metavar="X", help=argparse.SUPPRESS)
+    for option in ("-c", "--child", "-u", "--server_uri", "--run_id"):
+        add(option, dest="child", metavar="X", help=argparse.SUPPRESS)
 
 
 def main(args: argparse.Namespace) -> int:
     """Launch until the duration is over, a required node dies, or Ctrl-C."""
+    if args.child is not None:
+        raise UsageError("--child, --server_uri and --run_id start nodes for another machine, which is not supported")
+    if args.core and args.words:
+        raise UsageError("--core launches no files")
     with quiet_imports():
         from trundle.bringup import LaunchOptions, launch
+        from trundle.supervisor import Patience
 
     options = LaunchOptions(
-        headless=args.headless,
+        headless=args.headless or args.core,
         duration_s=args.duration,
         master_port=args.port,
         view_port=args.view_port,
         host=args.host,
-        screen=args.screen,
+        output="screen" if args.screen else "log" if args.log else None,
+        all_required=args.required,
+        wait_for_master=args.wait,
+        summary=not args.no_summary,
+        verbose=args.verbose,
+        core_only=args.core,
+        pid_file=args.pid,
+        patience=Patience(interrupt_s=args.sigint_timeout, terminate_s=args.sigterm_timeout),
         strict=args.strict,
-        only="nodes" if args.nodes else "arguments" if args.ros_args else "params" if args.dump_params else None,
+        only="find-node" if args.find_node else "args" if args.args else args.only,
+        node=args.find_node or args.args or "",
     )
     return launch(args.words, options)

@@ -7,12 +7,13 @@ from .plan import (
     LaunchNode,
     LaunchParam,
     LaunchPlan,
+    LaunchTest,
     ParamCommand,
     ParamStep,
     ParamType,
     ParamValue,
 )
-from .reader import read_launch, read_launch_text
+from .reader import read_arguments, read_launch, read_launch_text
 
 __all__ = [
     "CommandRunner",
@@ -20,12 +21,14 @@ __all__ = [
     "LaunchNode",
     "LaunchParam",
     "LaunchPlan",
+    "LaunchTest",
     "PackageFinder",
     "ParamCommand",
     "ParamStep",
     "ParamType",
     "ParamValue",
     "XacroExpander",
+    "read_arguments",
     "read_launch",
     "read_launch_text",
     "resolve_params",

@@ -5,7 +5,7 @@ from pathlib import Path
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.names import canonical_name
 
-from .plan import LaunchArgument, LaunchNode, LaunchParam, LaunchPlan, ParamCommand, ParamStep, ParamValue
+from .plan import LaunchArgument, LaunchNode, LaunchParam, LaunchPlan, LaunchTest, ParamCommand, ParamStep, ParamValue
 
 _MAX_PARAMS = 200_000
 
@@ -20,7 +20,7 @@ class Draft:
         self.default_machine = ""
         """That of the nodes that follow and name none."""
         self._nodes: dict[str, LaunchNode] = {}
-        self._tests: list[LaunchNode] = []
+        self._tests: list[LaunchTest] = []
         self._params: dict[str, LaunchParam] = {}
         self._clear: dict[str, None] = {}
         self._steps: list[ParamStep] = []
@@ -41,7 +41,7 @@ class Draft:
             self._report.warn(node.at, f"node {node.name!r}: no machine {node.machine!r}; it runs here")
         self._nodes[node.full_name] = node
 
-    def add_test(self, test: LaunchNode) -> None:
+    def add_test(self, test: LaunchTest) -> None:
         self._tests.append(test)
 
     def add_step(self, step: ParamStep) -> None:

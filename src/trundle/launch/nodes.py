@@ -9,7 +9,7 @@ from trundle.xmlnode import XmlNode
 from .attributes import Attributes
 from .draft import Draft
 from .params import PARAM_ATTRIBUTES, read_param, read_rosparam
-from .plan import LaunchNode
+from .plan import LaunchNode, LaunchTest
 from .scope import PrivateParam, Scope
 from .settings import read_env, read_remap
 from .substitution import Substitution
@@ -86,11 +86,12 @@ def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: Dr
         at=node.at,
     )
     if is_test:
-        if attributes.number("time-limit", default=60.0) <= 0.0:
-            raise DescriptionError(node.at, "time-limit must be > 0 s")
-        attributes.number("retry", default=0.0)
-        draft.add_test(read)
-        report.info(node.at, f"test {name!r} is not run: only rostest runs tests")
+        limit_s = attributes.number("time-limit", default=60.0)
+        if not limit_s > 0.0:
+            raise DescriptionError(node.at, f"time-limit must be > 0 s, got {limit_s:g}")
+        test_name, retries = attributes.required("test-name"), int(attributes.number("retry", default=0.0))
+        draft.add_test(LaunchTest(name=test_name, node=read, time_limit_s=limit_s, retries=retries))
+        report.info(node.at, f"test {name!r} is not run: only `trundle test` runs tests")
     else:
         draft.add_node(read)
 

@@ -1,6 +1,6 @@
 """What a launch asks for: nodes, parameters and commands, resolved, with nothing started."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeAlias
 
@@ -64,6 +64,17 @@ class LaunchNode:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LaunchTest:
+    """A `<test>`: a node that only `trundle test` runs, and what it may take."""
+
+    name: str
+    """The attribute `test-name`."""
+    node: LaunchNode
+    time_limit_s: float = 60.0
+    retries: int = 0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ParamStep:
     """A `<rosparam command="dump|delete">`: done after all parameters are set, before any node starts."""
 
@@ -98,5 +109,4 @@ class LaunchPlan:
     arguments: tuple[LaunchArgument, ...] = ()
     files: tuple[Path, ...] = ()
     """Every launch file read, in order of first reading."""
-    tests: tuple[LaunchNode, ...] = field(default=())
-    """`<test>` nodes: only rostest runs them."""
+    tests: tuple[LaunchTest, ...] = ()

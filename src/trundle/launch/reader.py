@@ -30,12 +30,14 @@ def read_launch(
     report: Diagnostics,
     arguments: Mapping[str, str] | None = None,
     env: Mapping[str, str] | None = None,
+    texts: Sequence[tuple[str, str]] = (),
     namespace: str = "/",
 ) -> LaunchPlan:
     """Read launch files as one launch; nothing is started and no command is run.
 
     Args:
         files: one or several, read in order.
+        texts: (name, XML) of launch files that are none, such as standard input; read after the files.
         packages: answers `$(find …)`.
         report: takes warnings: unknown tags and attributes, deprecations, what is read but not supported.
         arguments: `name:=value` of the command line.
@@ -48,6 +50,8 @@ def read_launch(
     reader = _Reader(packages=packages, report=report, env=env or {})
     for file in [files] if isinstance(files, Path) else files:
         reader.read_root(read_xml(file), file, arguments or {}, namespace)
+    for name, text in texts:
+        reader.read_root(parse_xml(text, name=name), Path(name), arguments or {}, namespace)
     return reader.draft.plan()
 
 
@@ -61,14 +65,32 @@ def read_launch_text(
     arguments: Mapping[str, str] | None = None,
     env: Mapping[str, str] | None = None,
 ) -> LaunchPlan:
-    """Read a launch file's text, such as that of standard input; `name` is how messages call it.
+    """Read a launch file's text; `name` is how messages call it.
 
     Raises:
         DescriptionError: as `read_launch`.
     """
+    texts = [(name, text)]
+    return read_launch([], packages=packages, report=report, arguments=arguments, env=env, texts=texts)
+
+
+def read_arguments(
+    file: Path,
+    /,
+    *,
+    packages: PackageFinder,
+    report: Diagnostics,
+    arguments: Mapping[str, str] | None = None,
+    env: Mapping[str, str] | None = None,
+) -> tuple[LaunchArgument, ...]:
+    """Read the arguments that a launch file itself declares, and nothing else of it.
+
+    Raises:
+        DescriptionError: the file is no launch file, or an argument cannot be read.
+    """
     reader = _Reader(packages=packages, report=report, env=env or {})
-    reader.read_root(parse_xml(text, name=name), Path(name), arguments or {}, "/")
-    return reader.draft.plan()
+    reader.read_declared(read_xml(file), file, arguments or {})
+    return tuple(reader.draft.arguments)
 
 
 class _Reader:
@@ -88,9 +110,17 @@ class _Reader:
             known = ", ".join(map(repr, sorted(scope.declared))) or "none"
             raise DescriptionError(root.at, f"no argument {unknown[0]!r} to set; the file's arguments: {known}")
 
+    def read_declared(self, root: XmlNode, file: Path, arguments: Mapping[str, str]) -> None:
+        """Read the arguments of a file; one that is required and was not given counts as empty."""
+        _check_root(root)
+        scope = Scope(namespace="/", file=str(file), arguments=dict(arguments))
+        for node in root.all("arg"):
+            self._arg(node, scope, scope, top=True)
+            for name in scope.declared:
+                scope.arguments.setdefault(name, "")
+
     def _launch(self, root: XmlNode, scope: Scope, *, depth: int) -> None:
-        if root.tag != "launch":
-            raise DescriptionError(root.at, f"a launch file starts with <launch>, not <{root.tag}>")
+        _check_root(root)
         self.draft.add_file(Path(scope.file))
         for name in root.attributes():
             if name != "deprecated":
@@ -217,3 +247,8 @@ class _Reader:
                 case other:
                     raise DescriptionError(node.at, f"machine {name!r}: default {other!r} is no true, false or never")
             self._report.warn(node.at, f"machine {name!r} at {address!r}: nothing runs remotely; its nodes run here")
+
+
+def _check_root(root: XmlNode) -> None:
+    if root.tag != "launch":
+        raise DescriptionError(root.at, f"a launch file starts with <launch>, not <{root.tag}>")

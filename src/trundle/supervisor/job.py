@@ -31,7 +31,7 @@ class Job(Protocol):
         ...
 
     async def start(self) -> str:
-        """Start, and return how to speak of what runs now: 'pid [4711]'.
+        """Start, and return how to speak of what runs now: 'with pid [4711]'.
 
         Raises:
             JobError: it cannot be started.

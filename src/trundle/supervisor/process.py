@@ -72,7 +72,7 @@ class ProcessJob:
             asyncio.create_task(self._read(self._process.stdout, to_screen=command.output == "screen")),
             asyncio.create_task(self._read(self._process.stderr, to_screen=True)),
         ]
-        return f"pid [{self._process.pid}]"
+        return f"with pid [{self._process.pid}]"
 
     async def wait(self) -> int:
         assert self._process is not None, "a job is started before it is waited for"

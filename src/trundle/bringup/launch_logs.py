@@ -1,0 +1,34 @@
+"""Where the programs of a launch log to, as in ROS: a folder for each run, and `latest` that leads to the last."""
+
+import contextlib
+from collections.abc import Mapping
+from pathlib import Path
+
+from trundle.diagnostics import UsageError
+
+
+def ros_home(env: Mapping[str, str]) -> Path:
+    """ROS_HOME, or ~/.ros; programs start there."""
+    return Path(env.get("ROS_HOME") or Path(env.get("HOME", "/tmp")) / ".ros")
+
+
+def log_folder(env: Mapping[str, str], run_id: str) -> Path:
+    """Make the folder of one run, by ROS_LOG_DIR and ROS_HOME.
+
+    Raises:
+        UsageError: it cannot be made.
+    """
+    parent = Path(env.get("ROS_LOG_DIR") or ros_home(env) / "log")
+    folder = parent / (run_id or "trundle")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        ros_home(env).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(
+            f"no log folder {folder}: {error.strerror}; set ROS_LOG_DIR to one that can be written"
+        ) from None
+    with contextlib.suppress(OSError):  # a file system without links, or a folder that somebody else owns
+        latest = parent / "latest"
+        latest.unlink(missing_ok=True)
+        latest.symlink_to(folder)
+    return folder

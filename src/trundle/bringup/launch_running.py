@@ -1,0 +1,80 @@
+"""The nodes of one launch under their supervisor, and what the terminal says of them."""
+
+import asyncio
+from collections.abc import Sequence
+
+from trundle.launch import LaunchNode
+from trundle.supervisor import Event, Patience, Supervisor
+
+from .launch_nodes import Launched, NodeStarter
+
+_RULE = "=" * 80
+
+
+class RunningNodes:
+    """Starts, watches and stops; on the graph's loop."""
+
+    def __init__(self, starter: NodeStarter, nodes: Sequence[LaunchNode], *, patience: Patience) -> None:
+        self._starter = starter
+        self._nodes = nodes
+        self._patience = patience
+        self._supervisor: Supervisor | None = None
+        self._waiting: asyncio.Task[str | None] | None = None
+        self._logs: dict[str, str] = {}
+        self.launched: list[Launched] = []
+        """What became of each node, in the file's order."""
+
+    async def start(self) -> None:
+        """Start everything that can be started."""
+        self._supervisor = Supervisor(self._tell, patience=self._patience)
+        for number, node in enumerate(self._nodes, start=1):
+            label = f"{node.full_name.strip('/')}-{number}"
+            launched = self._starter.prepare(node, label, show=_show_output)
+            if launched.job is not None:
+                self._logs[label] = launched.log_files
+                if not await self._supervisor.start(launched.job, self._starter.policy(node)):
+                    launched = launched.failed()
+            self.launched.append(launched)
+        self._waiting = asyncio.create_task(self._supervisor.wait())
+
+    async def stop(self) -> None:
+        """Stop everything, the last started first."""
+        if self._supervisor is not None:
+            await self._supervisor.stop()
+
+    @property
+    def over(self) -> bool:
+        """Whether every node has ended, or a required one."""
+        return self._waiting is not None and self._waiting.done()
+
+    @property
+    def required_died(self) -> bool:
+        """Whether it was a required one's end that ended the launch."""
+        return self.over and self._waiting is not None and self._waiting.result() is not None
+
+    def _tell(self, event: Event) -> None:
+        name = event.name
+        match event.kind:
+            case "started":
+                text = f"process[{name}]: {event.text}"
+            case "finished" | "died":
+                log = self._logs[name]
+                text = f"[{name}] process {event.text}{log and f'{chr(10)}log file: {log}'}"
+            case "required":
+                text = f"{_RULE}\nREQUIRED process [{name}] has died!\nInitiating shutdown!\n{_RULE}"
+            case _:
+                text = f"[{name}] {event.text}"
+        print(text, flush=True)
+
+
+def what_runs(launched: Sequence[Launched]) -> str:
+    """A short table: what runs as a process, what here in place of the original, and what is missing."""
+    rows = [(entry.kind, entry.node.full_name, entry.what) for entry in launched]
+    widths = [max((len(row[column]) for row in rows), default=0) for column in (0, 1)]
+    return "\n".join(
+        ["WHAT RUNS", *(f"  {kind:<{widths[0]}}  {name:<{widths[1]}}  {what}" for kind, name, what in rows)]
+    )
+
+
+def _show_output(_name: str, line: str) -> None:
+    print(line, flush=True)  # the original prints a node's own lines as they are

@@ -1,0 +1,200 @@
+"""`trundle launch` as people use roslaunch: options, logs, respawn, required nodes."""
+
+import re
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+REAL_ROSLAUNCH = "/usr/bin/roslaunch"
+_MANIFEST = """<package><name>p</name><version>1.0.0</version><description>d</description>
+<maintainer email="a@b.c">m</maintainer><license>x</license></package>"""
+_TALK = """#!/bin/sh
+echo "hello $* in $(pwd) $GREETING"
+case "$1" in [0-9]*) sleep "$1";; *) sleep 1000;; esac
+case "$2" in [0-9]*) exit "$2";; esac
+"""
+_MAIN = """<launch>
+  <arg name="who" default="bob" doc="whom to greet"/><arg name="need"/><arg name="fixed" value="3"/>
+  <arg name="empty" default=""/>
+  <param name="greeting" value="hi $(arg who)"/><param name="x" value="1.5"/><param name="t" value="true"/>
+  <param name="long" value="a very long string that is cut in the summary because it is long"/>
+  <rosparam>{a: {b: [1, 2, {c: d}], s: "x\\ny"}}</rosparam>
+  <group ns="sub">
+    <node pkg="p" type="talk" name="one" args="5 0 'x y'" output="screen">
+      <remap from="a" to="b"/><env name="GREETING" value="1 2"/><param name="q" value="1"/>
+    </node>
+  </group>
+  <node pkg="p" type="talk" name="two" launch-prefix="nice -n 5" args="0"/>
+  <include file="$(dirname)/more.launch"/>
+  <test test-name="tt" pkg="p" type="talk" name="tt"/>
+</launch>"""
+_MORE = '<launch><node pkg="p" type="talk" name="five" args="0"/></launch>'
+
+Launch = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A package with a program that talks and sleeps."""
+    folder = tmp_path / "ws" / "p"
+    for name, text in (("package.xml", _MANIFEST), ("main.launch", _MAIN), ("more.launch", _MORE), ("talk", _TALK)):
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    (folder / "talk").chmod(0o755)
+    return folder
+
+
+@pytest.fixture
+def launch(trundle, package: Path) -> Launch:
+    def call(*words: str, **more: str) -> subprocess.CompletedProcess[str]:
+        return trundle("launch", *words, ROS_PACKAGE_PATH=str(package.parent), **more)
+
+    return call
+
+
+@pytest.mark.real_ros
+@pytest.mark.parametrize(
+    "option",
+    ["--nodes", "--files", "--find-node=/five", "--args=/sub/one", "--args=/two", "--ros-args", "--dump-params"],
+)
+def test_what_is_printed_is_line_for_line_what_roslaunch_prints(
+    launch: Launch, package: Path, env: dict[str, str], option: str
+) -> None:
+    if not Path(REAL_ROSLAUNCH).exists():
+        pytest.skip("Debian's roslaunch is not installed (make system)")
+    words = (option, str(package / "main.launch"), "need:=1")
+    real_env = {**env, "PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": str(package.parent)}
+    real = subprocess.run([REAL_ROSLAUNCH, *words], env=real_env, capture_output=True, text=True, check=True)
+
+    ours = launch(*words).stdout
+    if option == "--files":  # roslaunch's order is that of a set
+        assert sorted(ours.splitlines()) == sorted(real.stdout.splitlines())
+    else:
+        assert ours == real.stdout
+
+
+@pytest.mark.real_ros
+def test_the_summary_is_that_of_roslaunch(launch: Launch, package: Path, env: dict[str, str]) -> None:
+    if not Path(REAL_ROSLAUNCH).exists():
+        pytest.skip("Debian's roslaunch is not installed (make system)")
+
+    def parts(output: str) -> list[str]:
+        summary = output[output.index("SUMMARY") : output.index("process[") if "process[" in output else None]
+        kept = [line for line in summary.splitlines() if not re.match(r" \* /ros(distro|version)|auto-starting", line)]
+        return [line for line in kept if line]
+
+    words = (str(package / "main.launch"), "need:=1")
+    real_env = {**env, "PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": str(package.parent)}
+    with subprocess.Popen([REAL_ROSLAUNCH, *words], env=real_env, stdout=subprocess.PIPE, text=True) as real:
+        assert real.stdout is not None
+        lines: list[str] = []
+        while "process[" not in (line := real.stdout.readline()):
+            lines.append(line)
+        real.terminate()
+        real.communicate()
+    ours = launch(*words, "--headless", "--duration", "0.1").stdout
+
+    assert parts(ours) == parts("".join(lines).replace("\033[1m", ""))
+
+
+def test_arguments_are_listed_without_being_given(launch: Launch, package: Path) -> None:
+    listed = launch("--ros-args", "p", "main.launch")
+
+    assert listed.stdout.splitlines() == [
+        "Required Arguments:",
+        "  empty: undocumented",
+        "  need: undocumented",
+        "Optional Arguments:",
+        '  who (default "bob"): whom to greet',
+    ]
+
+
+def test_output_goes_to_the_screen_or_to_a_log_file(launch: Launch, package: Path, tmp_path: Path) -> None:
+    (package / "main.launch").write_text(
+        '<launch><node pkg="p" type="talk" name="seen" args="0" output="screen" cwd="node"/>'
+        '<node pkg="p" type="talk" name="kept" args="0" ns="deep"/></launch>'
+    )
+    done = launch("p", "main.launch", "--headless", ROS_LOG_DIR=str(tmp_path / "logs"))
+
+    assert done.returncode == 0
+    log = tmp_path / "logs/latest/deep-kept-2-stdout.log"
+    assert log.read_text().startswith(f"hello 0 __name:=kept __log:={log.resolve().parent}/deep-kept-2.log in ")
+    assert f"in {package}" in done.stdout
+    assert "__name:=kept" not in done.stdout
+    assert "[deep/kept-2] process has finished cleanly\nlog file: " in done.stdout
+    assert re.search(r"process\[seen-1\]: started with pid \[\d+\]", done.stdout)
+
+
+def test_a_required_node_ends_everything_with_exit_code_1(launch: Launch, package: Path) -> None:
+    (package / "main.launch").write_text(
+        '<launch><node pkg="p" type="talk" name="stays"/>'
+        '<node pkg="p" type="talk" name="ends" args="0 3" required="true"/></launch>'
+    )
+    done = launch("p", "main.launch", "--headless")
+
+    assert done.returncode == 1
+    assert "[ends-2] process has died [exit code 3]" in done.stdout
+    assert "REQUIRED process [ends-2] has died!" in done.stdout
+    assert "[stays-1] killing on exit" in done.stdout
+
+
+def test_a_node_that_dies_again_and_again_is_started_ever_more_slowly(start, until, package: Path) -> None:
+    (package / "main.launch").write_text(
+        '<launch><node pkg="p" type="talk" name="n" args="0 1" respawn="true"/></launch>'
+    )
+    running = start("launch", "p", "main.launch", "--headless", ROS_PACKAGE_PATH=str(package.parent))
+
+    until("the third start", lambda: running.output().count("started with pid") == 3)
+    assert "[n-1] respawning in 0.2 s" in running.output()
+    assert "[n-1] respawning in 0.4 s" in running.output()
+    assert running.interrupt() == 130
+
+
+def test_what_runs_is_said_in_a_table(launch: Launch, package: Path) -> None:
+    (package / "main.launch").write_text(
+        '<launch><node pkg="p" type="talk" name="a" args="0"/><node pkg="p" type="gone" name="b"/>'
+        '<node pkg="tf2_ros" type="static_transform_publisher" name="c" args="0 0 0 0 0 0 x y"/></launch>'
+    )
+    done = launch("p", "main.launch", "--headless", "--duration", "0.1")
+
+    table = done.stdout[done.stdout.index("WHAT RUNS") :].splitlines()[1:4]
+    assert table == [
+        f"  process   /a  {package}/talk",
+        f"  missing   /b  no executable 'gone' in {package}, and no stand-in for p/gone",
+        "  stand-in  /c  tf2_ros/static_transform_publisher",
+    ]
+    assert "node /b: no executable 'gone'" in done.stderr
+
+
+def test_a_launch_file_may_come_in_on_standard_input(env: dict[str, str], package: Path) -> None:
+    import sys
+
+    done = subprocess.run(
+        [sys.executable, "-m", "trundle", "launch", "-", "--nodes"],
+        input='<launch><node pkg="p" type="talk" name="n"/></launch>',
+        env={**env, "ROS_PACKAGE_PATH": str(package.parent)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (0, "/n\n")
+
+
+def test_a_launch_can_wait_for_a_master(start, until, env: dict[str, str], package: Path, tmp_path: Path) -> None:
+    pid = tmp_path / "pid"
+    words = ("launch", "p", "main.launch", "need:=1", "--headless", "--wait", "--pid", str(pid))
+    running = start(*words, ROS_PACKAGE_PATH=str(package.parent))
+    until("it to wait", lambda: "will wait for it to start" in running.output())
+    start("core", "--port", env["ROS_MASTER_URI"].rpartition(":")[2])
+    until("a node", lambda: "started with pid" in running.output())
+
+    assert int(pid.read_text()) == running.process.pid
+    assert running.interrupt() == 130
+
+
+def test_remote_children_are_refused(launch: Launch) -> None:
+    done = launch("-c", "name", "-u", "http://x", "--run_id", "1")
+    assert done.returncode == 1
+    assert "not supported" in done.stderr
