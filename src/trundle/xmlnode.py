@@ -20,8 +20,10 @@ _POSITION = re.compile(r", line \d+, column \d+$")
 """libxml2 repeats the place, which every message of ours starts with."""
 
 
-def parse_xml(text: str | bytes, *, name: str) -> "XmlNode":
+def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None) -> "XmlNode":
     """Parse a document; `name` is how messages call it.
+
+    With a report, slips that Gazebo's and ROS's old XML readers let pass are named there and let pass too.
 
     Raises:
         DescriptionError: not XML, empty, or larger or deeper than any honest file.
@@ -33,27 +35,77 @@ def parse_xml(text: str | bytes, *, name: str) -> "XmlNode":
         raise DescriptionError(Source(name, 1), "the file is empty")
     # Tutorials and xacro templates often carry blank lines before <?xml …?>, which Gazebo and ROS accept.
     blank_lines = data[: len(data) - len(data.lstrip())].count(b"\n")
-    parser = etree.XMLParser(
+    try:
+        root = etree.fromstring(data.lstrip(), _parser())
+    except etree.XMLSyntaxError as error:
+        line = (error.lineno or 1) + blank_lines
+        what = _POSITION.sub("", error.msg or "no element found")
+        at = Source(name, line)
+        root = None if report is None else _recovered(data.lstrip())
+        if root is None or report is None:
+            raise DescriptionError(at, f"not well-formed XML: {what}") from None
+        report.warn(at, f"not well-formed XML: {what}; read as Gazebo reads it")
+    except ValueError as error:  # "Unicode strings with encoding declaration": only bytes come here
+        raise DescriptionError(Source(name, 1), f"not readable as XML: {error}") from None
+    return XmlNode(root, file=name, first_line=blank_lines)
+
+
+_SLIPS = frozenset(
+    {  # of attributes, only what `_with_quotes` does not mend
+        etree.ErrorTypes.ERR_ENTITYREF_NO_NAME,
+        etree.ErrorTypes.ERR_ENTITYREF_SEMICOL_MISSING,
+        etree.ErrorTypes.ERR_UNDECLARED_ENTITY,
+        etree.ErrorTypes.WAR_UNDECLARED_ENTITY,
+        etree.ErrorTypes.ERR_HYPHEN_IN_COMMENT,
+        etree.ErrorTypes.ERR_DOCUMENT_END,
+        etree.ErrorTypes.ERR_NAME_REQUIRED,
+        etree.ErrorTypes.ERR_RESERVED_XML_NAME,
+        etree.ErrorTypes.NS_ERR_UNDEFINED_NAMESPACE,
+    }
+)
+"""What TinyXML let pass: a bare &, `--` in a comment, text after the root, an unquoted value, a prefix nobody declared.
+A document that ends too soon or closes what it did not open is none of these."""
+
+
+_START_TAG = re.compile(rb"<[A-Za-z_][^<>]*>")
+_ATTRIBUTE = re.compile(rb"""(\s*)([\w:.-]+)(\s*=\s*)("[^"]*"|'[^']*'|[^\s"'<>]+?(?=[\s>]|/>))""")
+
+
+def _with_quotes(tag: re.Match[bytes]) -> bytes:
+    """A start tag with every value in quotes and a space before every attribute; lines stay where they are."""
+
+    def mended(attribute: re.Match[bytes]) -> bytes:
+        space, name, equals, value = attribute.groups()
+        quoted = value if value[:1] in b"\"'" else b'"' + value + b'"'
+        return (space or b" ") + name + equals + quoted
+
+    return _ATTRIBUTE.sub(mended, tag[0])
+
+
+def _parser(*, recover: bool = False) -> etree.XMLParser:
+    return etree.XMLParser(
         resolve_entities="internal",  # pyright: ignore[reportArgumentType]  # lxml-stubs knows only bool
         no_network=True,
         load_dtd=False,
         huge_tree=False,
         remove_comments=True,
         remove_pis=True,
+        recover=recover,
     )
+
+
+def _recovered(data: bytes) -> etree._Element | None:  # pyright: ignore[reportPrivateUsage]
+    """The tree of a document whose faults are all slips, or None."""
+    parser = _parser(recover=True)
     try:
-        root = etree.fromstring(data.lstrip(), parser)
-    except etree.XMLSyntaxError as error:
-        line = (error.lineno or 1) + blank_lines
-        what = _POSITION.sub("", error.msg or "no element found")
-        raise DescriptionError(Source(name, line), f"not well-formed XML: {what}") from None
-    except ValueError as error:  # "Unicode strings with encoding declaration": only bytes come here
-        raise DescriptionError(Source(name, 1), f"not readable as XML: {error}") from None
-    return XmlNode(root, file=name, first_line=blank_lines)
+        root = etree.fromstring(_START_TAG.sub(_with_quotes, data), parser)
+    except (etree.XMLSyntaxError, ValueError):
+        return None
+    return root if all(entry.type in _SLIPS for entry in parser.error_log) else None
 
 
-def read_xml(path: Path) -> "XmlNode":
-    """Parse a file.
+def read_xml(path: Path, *, report: Diagnostics | None = None) -> "XmlNode":
+    """Parse a file; `report` as for `parse_xml`.
 
     Raises:
         DescriptionError: as `parse_xml`, or the file cannot be read.
@@ -68,7 +120,7 @@ def read_xml(path: Path) -> "XmlNode":
         raise DescriptionError(Source(str(path)), "is a folder, not a file") from None
     except OSError as error:
         raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}") from None
-    return parse_xml(data, name=str(path))
+    return parse_xml(data, name=str(path), report=report)
 
 
 class XmlNode:

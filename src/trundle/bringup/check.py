@@ -8,6 +8,7 @@ from pathlib import Path
 from trundle.description import Loaded, load
 from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError
 from trundle.launch import LaunchPlan, ParamCommand, read_launch
+from trundle.model import flattened
 from trundle.packages import Packages
 from trundle.physics import compile_world
 from trundle.sensors import SIMULATED
@@ -68,7 +69,7 @@ def check(file: str, environment: Mapping[str, str], *, start: Path) -> CheckOut
             loaded = read_launch(Path(file), packages=around, report=report, env=environment)
         else:
             loaded = load(file, report, packages=packages)
-            compile_world(loaded.world, report)
+            compile_world(flattened(loaded.world), report)
             _name_silent_sensors(loaded, report)
     except DescriptionError as error:
         loaded = None
@@ -79,7 +80,7 @@ def check(file: str, environment: Mapping[str, str], *, start: Path) -> CheckOut
 
 
 def _name_silent_sensors(loaded: Loaded, report: Diagnostics) -> None:
-    for model in loaded.world.models:
+    for model in flattened(loaded.world).models:
         for link in model.links:
             for sensor in link.sensors:
                 if sensor.type not in SIMULATED:
@@ -92,7 +93,7 @@ def _understood(loaded: Loaded | LaunchPlan | None) -> str:
         to_run = f", {commands} of them by a command" if commands else ""
         return f"a launch of {len(loaded.nodes)} nodes with {len(loaded.params)} parameters{to_run}"
     assert loaded is not None
-    models = loaded.world.models
+    models = flattened(loaded.world).models
     links = sum(len(model.links) for model in models)
     joints = sum(len(model.joints) for model in models)
     sensors = sum(len(link.sensors) for model in models for link in model.links)

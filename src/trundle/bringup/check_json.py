@@ -5,10 +5,11 @@ from the file, before physics mends anything.
 """
 
 import math
+from collections.abc import Iterator
 
 from trundle.description import Loaded
 from trundle.launch import LaunchPlan, ParamCommand
-from trundle.model import Joint, JointAxis, JointType, Link, Model, World, model_from_joint
+from trundle.model import Frame, Joint, JointAxis, JointType, Link, Mimic, Model, World, model_from_joint
 from trundle.robot import Robot, root_from_links
 
 _WITHOUT_AXIS = frozenset({JointType.FIXED, JointType.BALL})
@@ -75,13 +76,20 @@ def _model(model: Model) -> dict[str, object]:
         "pose": model.world_from_model.as_list(),
         "static": model.static,
         "self_collide": model.self_collide,
-        "canonical_link": model.canonical_link or (model.links[0].name if model.links else None),
+        "canonical_link": model.canonical_link,
         "links": [_link(link) for link in model.links],
-        "joints": [_joint(model, joint) for joint in model.joints],
-        "frames": [],
-        "models": [],
+        "joints": [_joint(model, joint) | {"name": name} for joint, name in _named_joints(model)],
+        "frames": [_frame(frame) for frame in model.frames],
+        "models": [_model(nested) for nested in model.models],
         "plugins": [{"name": plugin.name, "filename": plugin.filename} for plugin in model.plugins],
     }
+
+
+def _named_joints(model: Model) -> Iterator[tuple[Joint, str]]:
+    """Joints by names of their own: one called like a link, as SDF before 1.7 allows, gets `_joint` behind it."""
+    taken = {link.name for link in model.links}
+    for joint in model.joints:
+        yield joint, f"{joint.name}_joint" if joint.name in taken else joint.name
 
 
 def _link(link: Link) -> dict[str, object]:
@@ -103,8 +111,8 @@ def _joint(model: Model, joint: Joint) -> dict[str, object]:
     return {
         "name": joint.name,
         "type": joint.type.value,
-        "parent": joint.parent,
-        "child": joint.child,
+        "parent": joint.parent_frame or joint.parent,
+        "child": joint.child_frame or joint.child,
         "pose": model_from_joint(model, joint).as_list(),
         **(_NO_AXIS if joint.type in _WITHOUT_AXIS else _axis(joint.axis)),
         "axis2": axis2["axis"],
@@ -115,8 +123,24 @@ def _joint(model: Model, joint: Joint) -> dict[str, object]:
         "spring_reference": 0.0 if joint.axis is None else joint.axis.spring_reference,
         "spring_stiffness": 0.0 if joint.axis is None else joint.axis.spring_stiffness,
         "thread_pitch": joint.thread_pitch if joint.type is JointType.SCREW else None,
-        "mimic": None,
+        "mimic": None if joint.axis is None else _mimic(joint.axis.mimic),
     }
+
+
+def _mimic(mimic: Mimic | None) -> dict[str, object] | None:
+    if mimic is None:
+        return None
+    return {
+        "joint": mimic.joint,
+        "axis": "axis2" if mimic.axis else "axis",
+        "multiplier": mimic.multiplier,
+        "offset": mimic.offset,
+        "reference": mimic.reference,
+    }
+
+
+def _frame(frame: Frame) -> dict[str, object]:
+    return {"name": frame.name, "attached_to": frame.attached_to, "pose": frame.model_from_frame.as_list()}
 
 
 def _axis(axis: JointAxis | None) -> dict[str, object]:
@@ -137,8 +161,8 @@ def _finite(value: float) -> float | None:
 
 def _world(world: World) -> dict[str, object]:
     return {
-        "joints": [],
-        "frames": [],
+        "joints": [_joint(_whole(world), joint) for joint in world.joints],
+        "frames": [_frame(frame) for frame in world.frames],
         "lights": [
             {
                 "name": light.name,
@@ -156,6 +180,11 @@ def _world(world: World) -> dict[str, object]:
             "real_time_update_rate": world.physics.real_time_update_rate_hz,
         },
     }
+
+
+def _whole(world: World) -> Model:
+    """The world as a model, for joints between its models."""
+    return Model(name=world.name, at=world.at, models=world.models)
 
 
 def _urdf(robot: Robot) -> dict[str, object]:

@@ -1,11 +1,12 @@
 """Where a run ended: the final state and how fast it got there."""
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NotRequired, TypedDict
 
 from trundle.diagnostics import DiagnosticJson, Diagnostics
-from trundle.model import World
+from trundle.model import Joint, Link, Model, World
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
@@ -30,6 +31,7 @@ class ModelJson(TypedDict):
     pose: list[float]
     links: list[_LinkJson]
     joints: list[_JointJson]
+    models: list["ModelJson"]
     added: NotRequired[bool]
 
 
@@ -82,38 +84,8 @@ class Outcome:
         }
 
     def _models(self) -> list[ModelJson]:
-        snapshot = self.snapshot
-        link, joint = 0, 0
-        models: list[ModelJson] = []
-        for model in self.world.models:
-            links: list[_LinkJson] = []
-            for each in model.links:
-                pose = pose_of(snapshot.poses[link])
-                links.append(
-                    {"name": each.name, "pose": pose.as_list(), "twist": [float(v) for v in snapshot.twists[link]]}
-                )
-                link += 1
-            joints: list[_JointJson] = []
-            for each in model.joints:
-                joints.append(
-                    {
-                        "name": each.name,
-                        "position": float(snapshot.joint_positions[joint]),
-                        "velocity": float(snapshot.joint_velocities[joint]),
-                        "effort": float(snapshot.joint_efforts[joint]),
-                    }
-                )
-                joint += 1
-            if model.links:
-                first = pose_of(snapshot.poses[link - len(model.links)])
-                pose = first @ model.links[0].model_from_link.inverse()
-            else:
-                pose = model.world_from_model
-            entry: ModelJson = {"name": model.name, "pose": pose.as_list(), "links": links, "joints": joints}
-            if model.added:
-                entry["added"] = True
-            models.append(entry)
-        return models
+        state = _State(self.snapshot)
+        return [state.model(model, Pose())[0] for model in self.world.models]
 
     def summary(self) -> str:
         """A few lines for a person: time, speed, images, and where each robot stands."""
@@ -130,6 +102,51 @@ class Outcome:
                     f"roll {roll:.3f}, pitch {pitch:.3f}, yaw {yaw:.3f} rad"
                 )
         return "\n".join(lines)
+
+
+class _State:
+    """Reads a snapshot off in its own order: a model's links and joints, then those of the models nested in it."""
+
+    def __init__(self, snapshot: Snapshot) -> None:
+        self._snapshot = snapshot
+        self._link = itertools.count()
+        self._joint = itertools.count()
+
+    def model(self, model: Model, world_from_outer: Pose) -> tuple[ModelJson, Pose]:
+        """A model's state, and where its frame is."""
+        links = [self._link_state(link) for link in model.links]
+        joints = [self._joint_state(joint) for joint in model.joints]
+        world_from_model = world_from_outer @ model.world_from_model
+        if model.links:
+            first = Pose.from_rpy(*links[0]["pose"])
+            world_from_model = first @ model.links[0].model_from_link.inverse()
+        nested = [self.model(inner, world_from_model) for inner in model.models]
+        if nested and not model.links:  # it rides on the first link of the models in it
+            world_from_model = nested[0][1] @ model.models[0].world_from_model.inverse()
+        entry: ModelJson = {
+            "name": model.name,
+            "pose": world_from_model.as_list(),
+            "links": links,
+            "joints": joints,
+            "models": [state for state, _ in nested],
+        }
+        if model.added:
+            entry["added"] = True
+        return entry, world_from_model
+
+    def _link_state(self, link: Link) -> _LinkJson:
+        index = next(self._link)
+        pose, twist = pose_of(self._snapshot.poses[index]), self._snapshot.twists[index]
+        return {"name": link.name, "pose": pose.as_list(), "twist": [float(v) for v in twist]}
+
+    def _joint_state(self, joint: Joint) -> _JointJson:
+        index = next(self._joint)
+        return {
+            "name": joint.name,
+            "position": float(self._snapshot.joint_positions[index]),
+            "velocity": float(self._snapshot.joint_velocities[index]),
+            "effort": float(self._snapshot.joint_efforts[index]),
+        }
 
 
 def pose_of(row: Sequence[float]) -> Pose:

@@ -83,7 +83,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         wall_s = _drive(simulation, ros, page, options, stop)
         show.findings()
         return Outcome(
-            world=stage.world,
+            world=stage.written,
             snapshot=simulation.snapshot(),
             steps=simulation.steps,
             wall_s=wall_s,

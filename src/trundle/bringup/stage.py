@@ -6,7 +6,7 @@ from pathlib import Path
 
 from trundle.description import Loaded, load
 from trundle.diagnostics import Diagnostics
-from trundle.model import World
+from trundle.model import World, flattened
 from trundle.packages import Packages
 from trundle.robot import Robot
 from trundle.simulation import Simulation
@@ -17,6 +17,9 @@ class Stage:
     """A world ready to compile, and the URDF it came from, if it came from one."""
 
     world: World
+    """Nested models are part of the outer ones, as everything that simulates wants it."""
+    written: World
+    """The same, nested as in the file."""
     robot: Robot | None
     urdf: str | None
     """The expanded XML, what goes on the parameter /robot_description."""
@@ -30,7 +33,7 @@ def set_stage(file: str, packages: Packages, report: Diagnostics) -> Stage:
     """
     loaded = load(file, report, packages=packages)
     world = loaded.world if loaded.kind == "world" else _on_the_ground(loaded, packages, report)
-    return Stage(world=world, robot=loaded.robot, urdf=loaded.urdf)
+    return Stage(world=flattened(world), written=world, robot=loaded.robot, urdf=loaded.urdf)
 
 
 def load_simulation(file: str, *, seed: int = 0) -> Simulation:

@@ -32,7 +32,7 @@ def load(what: str, report: Diagnostics, *, packages: Packages) -> Loaded:
     if is_xacro(path):
         text = expand_xacro(path, {}, packages=packages, report=report)
         return _from_urdf(text, f"{path} (expanded)", path, packages, report)
-    root = read_xml(path)
+    root = read_xml(path, report=report)
     if root.tag == "robot":
         text = path.read_text(encoding="utf-8", errors="replace")
         if "xmlns:xacro" in text:
@@ -52,7 +52,9 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics)
     version = read_version(root, report)
     if root.tag == "gazebo" or version < (1, 3):
         report.warn(root.at, f"SDF {version} wrote values as attributes, which is not supported yet; read as 1.3")
-    context = Context(version=version, folder=path.parent, packages=packages, report=report, including=(path,))
+    context = Context(
+        version=version, folder=path.parent, packages=packages, report=report, including=(path.resolve(),)
+    )
     world, has_world = read_root(root, context)
     return Loaded(kind="world" if has_world else "model", world=world)
 

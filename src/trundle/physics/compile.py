@@ -71,6 +71,9 @@ class _Compiler:
     def compile(self) -> CompiledWorld:
         for index, model in enumerate(self.world.models):
             self._add_model(index, model)
+        for joint in self.world.joints:
+            what = f"joint {joint.name!r}: joints between models are not simulated yet; it is left out"
+            self.report.warn(joint.at, what)
         add_contacts(self.spec, self.shapes, self.world.models)
         for name in sorted(self.moving_joints):
             self._add_motor(name)
@@ -219,7 +222,11 @@ class _Compiler:
         hinge.solref_limit, hinge.solimp_limit = contact_solref(h), SOLIMP
         if math.isfinite(axis.lower) or math.isfinite(axis.upper):
             hinge.limited = mujoco.mjtLimited.mjLIMITED_TRUE
-            hinge.range = [max(axis.lower, -1e10), min(axis.upper, 1e10)]
+            lower, upper = sorted((axis.lower, axis.upper))
+            if lower != axis.lower:
+                what = f"joint {joint.name!r}: lower {upper:g} is above upper {lower:g}; physics swaps them"
+                self.report.warn(joint.at, what)
+            hinge.range = [max(lower, -1e10), min(upper, 1e10)]
         else:
             hinge.limited = mujoco.mjtLimited.mjLIMITED_FALSE
         if math.isfinite(axis.effort) and axis.effort >= 0:

@@ -128,12 +128,17 @@ class ModelHandle:
         return self.model.name
 
     @property
+    def _canonical(self) -> LinkHandle:
+        named = (link for link in self.links if link.name == self.model.canonical_link)
+        return next(named, self.links[0])
+
+    @property
     def pose(self) -> Pose:
-        """The model's frame in the world; it rides on the model's first link, as in Gazebo."""
+        """The model's frame in the world; it rides on the model's canonical link, as in Gazebo."""
         if not self.links:
             return self.model.world_from_model
-        first = self.links[0]
-        return first.pose @ first.link.model_from_link.inverse()
+        link = self._canonical
+        return link.pose @ link.link.model_from_link.inverse()
 
     def link(self, name: str) -> LinkHandle:
         """The link of that name.
@@ -152,8 +157,8 @@ class ModelHandle:
         return _named(name, self.joints, f"model {self.name!r} has no joint")
 
     def apply_wrench(self, wrench: Wrench, *, duration_s: float | None = None) -> None:
-        """Push and twist the model's first link at its centre of mass, in world axes."""
-        self.links[0].apply_wrench(wrench, duration_s=duration_s)
+        """Push and twist the model's canonical link at its centre of mass, in world axes."""
+        self._canonical.apply_wrench(wrench, duration_s=duration_s)
 
 
 def _named(name: str, there: Iterable[_Named], none: str) -> _Named:

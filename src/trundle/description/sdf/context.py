@@ -1,9 +1,10 @@
 """What every reader of one SDF file needs to know."""
 
+import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from trundle.diagnostics import Diagnostics
+from trundle.diagnostics import Diagnostics, Source
 from trundle.packages import Packages
 from trundle.spatial import Pose
 from trundle.xmlnode import XmlNode
@@ -32,22 +33,19 @@ class Context:
 class RawPose:
     """A <pose> as written: where, and seen from which frame."""
 
-    pose: Pose
+    pose: Pose = Pose()
     relative_to: str | None = None
+    at: Source | None = None
 
 
 def read_pose(node: XmlNode, context: Context) -> RawPose:
-    """Read an element's <pose>; absent, it is the identity."""
+    """Read an element's <pose>; absent, it is the identity where the element is by default."""
     child = node.find("pose")
     if child is None:
-        return RawPose(Pose())
-    relative_to = child.attribute("relative_to")
-    if relative_to is None:
-        # 1.5 and 1.6 parsed `frame`, and Gazebo never looked at it; the 1.7 converter renames it.
-        frame = child.attribute("frame")
-        if frame:
-            context.report.warn(child.at, f"pose frame={frame!r}: Gazebo ignored it before SDF 1.7; so do we")
-    return RawPose(_numbers(child, context), relative_to or None)
+        return RawPose()
+    # 1.5 and 1.6 called it `frame`; Gazebo 11 converts it to `relative_to` before it reads on.
+    relative_to = child.attribute("relative_to") or child.attribute("frame")
+    return RawPose(_numbers(child, context), relative_to or None, child.at)
 
 
 def _numbers(child: XmlNode, context: Context) -> Pose:
@@ -57,7 +55,7 @@ def _numbers(child: XmlNode, context: Context) -> Pose:
         if values is None:
             return Pose()
         x, y, z, qx, qy, qz, qw = values
-        length = (qw * qw + qx * qx + qy * qy + qz * qz) ** 0.5
+        length = math.hypot(qw, qx, qy, qz)
         if length == 0.0:
             context.report.warn(child.at, "<pose>: a quaternion of zero length turns nothing; no rotation is used")
             return Pose((x, y, z))
@@ -67,6 +65,5 @@ def _numbers(child: XmlNode, context: Context) -> Pose:
     values = child.as_numbers(6, report=context.report, fallback="the identity is used")
     if values is None:
         return Pose()
-    turn = 3.141592653589793 / 180.0
-    x, y, z, roll, pitch, yaw = values
-    return Pose.from_rpy(x, y, z, roll * turn, pitch * turn, yaw * turn)
+    x, y, z, *turns = values
+    return Pose.from_rpy(x, y, z, *map(math.radians, turns))

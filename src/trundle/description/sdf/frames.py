@@ -1,53 +1,169 @@
-"""Where the frames of a model are: each is written relative to another, and the chain must end at the model."""
+"""Where the frames of a model or world are: each is written relative to another, and the chain ends at the root."""
 
 from dataclasses import dataclass, field
 
-from trundle.diagnostics import DescriptionError, Source
+from trundle.diagnostics import Diagnostics, Source
 from trundle.spatial import Pose
 
 from .context import RawPose
 
 MODEL = "__model__"
+WORLD = "world"
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """The frames of a model that has been read, by the names its surroundings use after `model::`."""
+
+    poses: dict[str, Pose]
+    """model_from_frame"""
+    links: dict[str, str]
+    """Frame → the link it moves with."""
+
+    def inside(self, model: str) -> "Scope":
+        """What is in one of its nested models."""
+        start = f"{model}::"
+        return Scope(
+            {
+                k.removeprefix(start): self.poses[model].inverse() @ v
+                for k, v in self.poses.items()
+                if k.startswith(start)
+            },
+            {
+                k.removeprefix(start): v.removeprefix(start)
+                for k, v in self.links.items()
+                if k.startswith(start) and v.startswith(start)
+            },
+        )
+
+
+@dataclass(slots=True)
+class _Entry:
+    raw: RawPose
+    at: Source
+    default: str
+    attached_to: str
 
 
 @dataclass(slots=True)
 class FrameGraph:
-    """The frames of one model: links, joints, <frame>s and nested models, by name."""
+    """Links, joints, <frame>s and nested models of one model, or everything in a world, by name."""
 
-    _raw: dict[str, tuple[RawPose, str, Source]] = field(default_factory=dict[str, tuple[RawPose, str, Source]])
+    root: str
+    """`__model__` or `world`."""
+    report: Diagnostics
+    _entries: dict[str, _Entry] = field(default_factory=dict[str, _Entry])
+    _scopes: dict[str, Scope] = field(default_factory=dict[str, Scope])
     _found: dict[str, Pose] = field(default_factory=dict[str, Pose])
 
-    def add(self, name: str, raw: RawPose, at: Source, *, default: str = MODEL) -> None:
+    def add(
+        self, name: str, raw: RawPose, at: Source, *, default: str | None = None, attached_to: str | None = None
+    ) -> None:
         """Add a frame.
 
         Args:
-            name: unique among the model's links, joints, frames and models.
+            name: unique among its siblings.
             raw: as written.
             at: where.
-            default: what the pose is relative to where it names nothing.
+            default: what the pose is relative to where it names nothing; None: the root.
+            attached_to: the frame it moves with; None: itself, as a link.
         """
-        self._raw[name] = (raw, default, at)
+        self._entries[name] = _Entry(raw, at, default or self.root, name if attached_to is None else attached_to)
 
-    def pose(self, name: str, at: Source) -> Pose:
-        """model_from_frame.
+    def add_scope(self, name: str, scope: Scope) -> None:
+        """Make what is in a nested model known as `name::frame`; the model itself is added by `add`."""
+        self._scopes[name] = scope
 
-        Raises:
-            DescriptionError: no such frame, or it is written relative to itself.
-        """
-        if name == MODEL:
-            return Pose()
+    def __contains__(self, name: str) -> bool:
+        return name == self.root or name in self._entries or self._scoped(name) is not None
+
+    def names(self) -> str:
+        """Everything there is, for a message."""
+        return ", ".join(map(repr, self._entries)) or "none"
+
+    def pose(self, name: str) -> Pose:
+        """root_from_frame of a name that is there; a chain that leads nowhere is named and cut."""
         chain: list[str] = []
-        while name not in self._found and name != MODEL:
-            if name not in self._raw:
-                there = ", ".join(map(repr, self._raw)) or "none"
-                raise DescriptionError(at, f"no frame {name!r}; frames here: {there}")
+        base = Pose()
+        while name != self.root:
+            if name in self._found:
+                base = self._found[name]
+                break
+            entry = self._entries.get(name)
+            if entry is None:
+                scoped = self._scoped(name)
+                if scoped is not None:
+                    model, inner = scoped
+                    base = self.pose(model) @ self._scopes[model].poses[inner]
+                else:
+                    last = self._entries[chain[-1]]
+                    self._cut(chain[-1], f"no frame {name!r}; frames here: {self.names()}", last)
+                break
             if name in chain:
-                raise DescriptionError(at, f"frame {name!r} is placed relative to itself, by {' → '.join(chain)}")
+                self._cut(chain[0], f"it is placed relative to itself, by {' → '.join([*chain, name])}", entry)
+                break
             chain.append(name)
-            raw, default, at = self._raw[name]
-            name = raw.relative_to or default
-        base = Pose() if name == MODEL else self._found[name]
-        for link in reversed(chain):
-            base = base @ self._raw[link][0].pose
-            self._found[link] = base
+            name = entry.raw.relative_to or entry.default
+        for each in reversed(chain):
+            base = base @ self._entries[each].raw.pose
+            self._found[each] = base
         return base
+
+    def within(self, name: str, raw: RawPose, at: Source) -> Pose:
+        """frame_from_thing of something mounted on a frame, whose pose may be seen from another."""
+        if raw.relative_to is None:
+            return raw.pose
+        if raw.relative_to not in self:
+            what = f"no frame {raw.relative_to!r}; frames here: {self.names()}; the pose is read relative to {name!r}"
+            self.report.warn(raw.at or at, what)
+            return raw.pose
+        return self.pose(name).inverse() @ self.pose(raw.relative_to) @ raw.pose
+
+    def link(self, name: str) -> str | None:
+        """The link that a frame moves with; `world` and the root stand for themselves; None: there is none."""
+        seen: set[str] = set()
+        while name not in (self.root, WORLD):
+            if name in seen:
+                return None
+            seen.add(name)
+            entry = self._entries.get(name)
+            if entry is None or name in self._scopes:
+                return self._scoped_link(name)
+            if entry.attached_to == name:
+                return name
+            name = entry.attached_to
+        return name
+
+    def scope(self, canonical_link: str | None) -> Scope:
+        """Everything here, for the surroundings; what is attached to nothing moves with the canonical link."""
+        poses = {self.root: Pose(), **{name: self.pose(name) for name in self._entries}}
+        links = {name: link for name in poses if (link := self.link(name)) is not None}
+        links = {name: canonical_link if link == self.root else link for name, link in links.items()}
+        links = {name: link for name, link in links.items() if link is not None}
+        for model, inner in self._scopes.items():
+            for name, pose in inner.poses.items():
+                poses[f"{model}::{name}"] = poses[model] @ pose
+            for name, link in inner.links.items():
+                links[f"{model}::{name}"] = f"{model}::{link}"
+        return Scope(poses, links)
+
+    def _scoped(self, name: str) -> tuple[str, str] | None:
+        model, is_scoped, inner = name.partition("::")
+        if is_scoped and model in self._scopes and inner in self._scopes[model].poses:
+            return model, inner
+        return None
+
+    def _scoped_link(self, name: str) -> str | None:
+        """`model::frame`, or the name of a nested model, which stands for its own frame."""
+        if name in self._scopes:
+            inner = self._scopes[name].links.get(MODEL)
+            return None if inner is None else f"{name}::{inner}"
+        scoped = self._scoped(name)
+        if scoped is None:
+            return None
+        model, inner = scoped
+        link = self._scopes[model].links.get(inner)
+        return None if link is None else f"{model}::{link}"
+
+    def _cut(self, name: str, why: str, entry: _Entry) -> None:
+        self.report.warn(entry.raw.at or entry.at, f"frame {name!r}: {why}; {self.root} is taken instead")

@@ -1,62 +1,84 @@
 """Reads <geometry>."""
 
+from collections.abc import Callable
+from pathlib import Path
+
 from trundle.diagnostics import DescriptionError
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Geometry, MeshFile, Plane, Sphere
+from trundle.model import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Empty,
+    Geometry,
+    Heightmap,
+    MeshFile,
+    Plane,
+    Polyline,
+    Sphere,
+)
 from trundle.spatial import normalized
 from trundle.xmlnode import XmlNode
 
 from .context import Context
 
-_KNOWN = ("box", "cylinder", "sphere", "capsule", "ellipsoid", "plane", "mesh")
-_UNSUPPORTED = ("heightmap", "polyline", "image", "cone", "voxel_grid")
+_UNSUPPORTED = ("image", "voxel_grid")
 
 
-def read_geometry(owner: XmlNode, context: Context) -> Geometry | None:
-    """The shape of a visual or collision; None, after a warning, where it is none we have."""
+def read_geometry(owner: XmlNode, context: Context) -> Geometry:
+    """The shape of a visual or collision; none, after a warning, where it is none we have."""
     node = owner.find("geometry")
     report = context.report
     if node is None:
-        report.warn(owner.at, f"<{owner.tag}> without <geometry>; it is left out")
-        return None
-    node.find("empty")
+        report.warn(owner.at, f"<{owner.tag}> without <geometry>; it has no shape")
+        return Empty()
+    geometry: Geometry = Empty()
     for tag in _UNSUPPORTED:
+        if node.find(tag) is not None:
+            report.warn(node.at, f"<{tag}> is not supported; this <{owner.tag}> has no shape")
+    polylines = node.all("polyline")
+    if polylines:
+        geometry = _polyline(polylines, context)
+    for tag, read in _READERS.items():
         shape = node.find(tag)
         if shape is not None:
-            report.warn(shape.at, f"<{tag}> is not supported; this <{owner.tag}> is left out")
-            shape.mark_all_read()
-            return None
-    for tag in _KNOWN:
-        shape = node.find(tag)
-        if shape is not None:
-            geometry = _shape(tag, shape, context)
+            geometry = read(shape, context)
             shape.report_unread(report)
-            node.report_unread(report)
-            return geometry
+            break
+    if geometry == Empty() and node.find("empty") is None and not list(node.children):
+        report.warn(node.at, f"<geometry> names no shape; this <{owner.tag}> has none")
     node.report_unread(report)
-    return None
+    return geometry
 
 
-def _shape(tag: str, shape: XmlNode, context: Context) -> Geometry | None:
+def _box(shape: XmlNode, context: Context) -> Box:
+    return Box(shape.vector("size", default=(1.0, 1.0, 1.0), report=context.report))
+
+
+def _cylinder(shape: XmlNode, context: Context) -> Cylinder:
+    return Cylinder(*_radius_length(shape, 1.0, context))
+
+
+def _cone(shape: XmlNode, context: Context) -> Cone:
+    return Cone(*_radius_length(shape, 0.5, context))
+
+
+def _capsule(shape: XmlNode, context: Context) -> Capsule:
+    return Capsule(*_radius_length(shape, 0.5, context))
+
+
+def _radius_length(shape: XmlNode, radius: float, context: Context) -> tuple[float, float]:
     report = context.report
-    match tag:
-        case "box":
-            return Box(shape.vector("size", default=(1.0, 1.0, 1.0), report=report))
-        case "cylinder":
-            return Cylinder(
-                shape.number("radius", default=1.0, report=report), shape.number("length", default=1.0, report=report)
-            )
-        case "capsule":
-            return Capsule(
-                shape.number("radius", default=0.5, report=report), shape.number("length", default=1.0, report=report)
-            )
-        case "sphere":
-            return Sphere(shape.number("radius", default=1.0, report=report))
-        case "ellipsoid":
-            return Ellipsoid(shape.vector("radii", default=(1.0, 1.0, 1.0), report=report))
-        case "plane":
-            return _plane(shape, context)
-        case _:
-            return _mesh(shape, context)
+    return shape.number("radius", default=radius, report=report), shape.number("length", default=1.0, report=report)
+
+
+def _sphere(shape: XmlNode, context: Context) -> Sphere:
+    return Sphere(shape.number("radius", default=1.0, report=context.report))
+
+
+def _ellipsoid(shape: XmlNode, context: Context) -> Ellipsoid:
+    return Ellipsoid(shape.vector("radii", default=(1.0, 1.0, 1.0), report=context.report))
 
 
 def _plane(shape: XmlNode, context: Context) -> Plane:
@@ -70,18 +92,63 @@ def _plane(shape: XmlNode, context: Context) -> Plane:
     return Plane(normal, (1.0, 1.0) if values is None else (values[0], values[1]))
 
 
-def _mesh(shape: XmlNode, context: Context) -> MeshFile | None:
-    uri = shape.string("uri")
+def _mesh(shape: XmlNode, context: Context) -> Geometry:
+    uri = shape.string("uri") or shape.string("filename")
     if not uri:
-        context.report.warn(shape.at, "<mesh> without <uri>; it is left out")
-        return None
+        context.report.warn(shape.at, "<mesh> without <uri>; it has no shape")
+        return Empty()
     scale = shape.vector("scale", default=(1.0, 1.0, 1.0), report=context.report)
     part = shape.find("submesh")
     name = part.string("name") if part is not None else None
     center = part.flag("center", default=False, report=context.report) if part is not None else False
-    try:
-        path = context.packages.resolve(uri, beside=context.folder, at=shape.at)
-    except DescriptionError as error:
-        context.report.warn(error.at, f"{error.what}; the mesh is left out")
-        return None
+    path = _path(uri, shape, context, "the mesh is left out")
     return MeshFile(path=path, uri=uri, scale=scale, submesh=name or None, center_submesh=center)
+
+
+def _heightmap(shape: XmlNode, context: Context) -> Geometry:
+    uri, report = shape.string("uri"), context.report
+    if not uri:
+        report.warn(shape.at, "<heightmap> without <uri>; it has no shape")
+        return Empty()
+    for tag in ("texture", "blend"):
+        shape.all(tag)
+    shape.find("use_terrain_paging")
+    return Heightmap(
+        path=_path(uri, shape, context, "the terrain is left out"),
+        uri=uri,
+        size=shape.vector("size", default=(1.0, 1.0, 1.0), report=report),
+        position=shape.vector("pos", default=(0.0, 0.0, 0.0), report=report),
+        sampling=shape.integer("sampling", default=1 if context.version >= (1, 8) else 2, report=report),
+    )
+
+
+def _polyline(shapes: list[XmlNode], context: Context) -> Geometry:
+    outlines: list[tuple[tuple[float, float], ...]] = []
+    heights: list[float] = []
+    for shape in shapes:
+        corners = [point.as_numbers(2, report=context.report) for point in shape.all("point")]
+        outlines.append(tuple((corner[0], corner[1]) for corner in corners if corner is not None))
+        heights.append(shape.number("height", default=1.0, report=context.report))
+        shape.report_unread(context.report)
+    return Polyline(tuple(outlines), heights[0])
+
+
+def _path(uri: str, shape: XmlNode, context: Context, otherwise: str) -> Path | None:
+    try:
+        return context.packages.resolve(uri, beside=context.folder, at=shape.at)
+    except DescriptionError as error:
+        context.report.warn(error.at, f"{error.what}; {otherwise}")
+        return None
+
+
+_READERS: dict[str, Callable[[XmlNode, Context], Geometry]] = {
+    "box": _box,
+    "cylinder": _cylinder,
+    "sphere": _sphere,
+    "capsule": _capsule,
+    "ellipsoid": _ellipsoid,
+    "cone": _cone,
+    "plane": _plane,
+    "mesh": _mesh,
+    "heightmap": _heightmap,
+}

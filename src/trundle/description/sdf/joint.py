@@ -4,16 +4,21 @@
 
 import math
 from collections.abc import Callable
+from typing import TypeAlias
 
 from trundle.diagnostics import DescriptionError
-from trundle.model import UNLIMITED, Joint, JointAxis, JointType
+from trundle.model import UNLIMITED, Joint, JointAxis, JointType, Mimic
 from trundle.spatial import Pose, Vector3, normalized
 from trundle.xmlnode import XmlNode
 
 from .context import Context
+from .frames import FrameGraph
+from .sensor import read_sensor
 
 _WITHOUT_AXIS = frozenset({JointType.FIXED, JointType.BALL})
 _TWO_AXES = frozenset({JointType.UNIVERSAL, JointType.REVOLUTE2, JointType.GEARBOX})
+FrameOf: TypeAlias = Callable[[str], Pose | None]
+"""model_from_frame by name; "" is the joint's own frame."""
 
 
 def read_joint(
@@ -22,7 +27,8 @@ def read_joint(
     parent: str,
     child: str,
     child_from_joint: Pose,
-    frame: Callable[[str, XmlNode], Pose],
+    frame: FrameOf,
+    graph: FrameGraph,
     context: Context,
 ) -> Joint:
     """Read one joint whose links and pose have been found.
@@ -32,12 +38,14 @@ def read_joint(
         parent: link, or "world".
         child: link.
         child_from_joint: the joint's frame.
-        frame: model_from_frame by name, for `expressed_in`; "" is the joint's own frame.
+        frame: for `expressed_in`.
+        graph: for the poses of its sensors.
         context: the file.
 
     Raises:
         DescriptionError: no type, or one that no SDF has.
     """
+    report = context.report
     name = node.required_attribute("name")
     type_ = _read_type(node, name)
     axis, axis2 = node.find("axis"), node.find("axis2")
@@ -50,12 +58,15 @@ def read_joint(
         child_from_joint=child_from_joint,
         axis=None if type_ in _WITHOUT_AXIS else _read_axis(axis, node, name, frame, context),
         axis2=_read_axis(axis2, node, name, frame, context) if type_ in _TWO_AXES else None,
-        thread_pitch=node.number("thread_pitch", default=1.0, report=context.report),
+        thread_pitch=_thread_pitch(node, context),
+        gearbox_ratio=node.number("gearbox_ratio", default=1.0, report=report),
+        gearbox_reference_body=node.string("gearbox_reference_body") or None,
+        sensors=tuple(read_sensor(child, name, graph, context) for child in node.all("sensor")),
     )
     physics = node.find("physics")
     if physics is not None:
-        context.report.warn(physics.at, f"joint {name!r}: <physics> is ODE's tuning; it is ignored")
-    node.report_unread(context.report)
+        report.info(physics.at, f"joint {name!r}: <physics> tunes Gazebo's engines; it is ignored")
+    node.report_unread(report)
     return joint
 
 
@@ -70,13 +81,20 @@ def _read_type(node: XmlNode, name: str) -> JointType:
         raise DescriptionError(node.at, f"joint {name!r}: no type {text!r}; types: continuous, {known}") from None
 
 
-def _read_axis(
-    node: XmlNode | None, joint: XmlNode, name: str, frame: Callable[[str, XmlNode], Pose], context: Context
-) -> JointAxis:
+def _thread_pitch(node: XmlNode, context: Context) -> float:
+    """Gazebo's [rad/m]; SDF 1.10 brought metres a turn of a right-hand thread beside it."""
+    per_turn = node.number("screw_thread_pitch", default=0.0, report=context.report)
+    if per_turn:
+        node.find("thread_pitch")
+        return -math.tau / per_turn
+    return node.number("thread_pitch", default=1.0, report=context.report)
+
+
+def _read_axis(node: XmlNode | None, joint: XmlNode, name: str, frame: FrameOf, context: Context) -> JointAxis:
     report = context.report
     if node is None:
         report.warn(joint.at, f"joint {name!r} has no <axis>; 0 0 1 is used, without limits")
-        return JointAxis(direction=frame("", joint).direction((0.0, 0.0, 1.0)))
+        return JointAxis(direction=_seen_from("", (0.0, 0.0, 1.0), frame))
     direction = _direction(node, name, frame, context)
     limit, dynamics = node.find("limit"), node.find("dynamics")
 
@@ -93,46 +111,59 @@ def _read_axis(
         friction=of(dynamics, "friction", 0.0),
         spring_reference=of(dynamics, "spring_reference", 0.0),
         spring_stiffness=of(dynamics, "spring_stiffness", 0.0),
+        stop_stiffness=of(limit, "stiffness", 1e8),
+        stop_dissipation=of(limit, "dissipation", 1.0),
+        mimic=_mimic(node, context),
     )
-    if axis.lower > axis.upper:
-        report.warn(node.at, f"joint {name!r}: lower {axis.lower:g} is above upper {axis.upper:g}; they are swapped")
-        axis = JointAxis(
-            direction=direction,
-            lower=axis.upper,
-            upper=axis.lower,
-            effort=axis.effort,
-            velocity=axis.velocity,
-            damping=axis.damping,
-            friction=axis.friction,
-            spring_reference=axis.spring_reference,
-            spring_stiffness=axis.spring_stiffness,
-        )
-    if limit is not None:
-        for tag in ("stiffness", "dissipation"):
-            limit.find(tag)
-        limit.report_unread(report)
-    if dynamics is not None:
-        dynamics.report_unread(report)
-    node.report_unread(report)
+    if node.find("initial_position") is not None:
+        report.info(node.at, f"joint {name!r}: <initial_position> was never heeded by Gazebo; it is ignored")
+    for each in (node, limit, dynamics):
+        if each is not None:
+            each.report_unread(report)
     return axis
 
 
-def _direction(node: XmlNode, name: str, frame: Callable[[str, XmlNode], Pose], context: Context) -> Vector3:
+def _mimic(axis: XmlNode, context: Context) -> Mimic | None:
+    node = axis.find("mimic")
+    if node is None:
+        return None
+    report = context.report
+    mimic = Mimic(
+        joint=node.required_attribute("joint"),
+        axis=1 if node.attribute("axis") == "axis2" else 0,
+        multiplier=node.number("multiplier", default=1.0, report=report),
+        offset=node.number("offset", default=0.0, report=report),
+        reference=node.number("reference", default=0.0, report=report),
+    )
+    node.report_unread(report)
+    return mimic
+
+
+def _direction(node: XmlNode, name: str, frame: FrameOf, context: Context) -> Vector3:
     """The axis in the model frame, unit."""
+    report = context.report
     xyz = node.find("xyz")
-    written = node.vector("xyz", default=(0.0, 0.0, 1.0), report=context.report)
+    written = node.vector("xyz", default=(0.0, 0.0, 1.0), report=report)
     unit = normalized(written)
     if unit is None:
-        context.report.warn(node.at, f"joint {name!r}: an axis of no length; 0 0 1 is used")
+        report.warn(node.at, f"joint {name!r}: an axis of no length; 0 0 1 is used")
         unit = (0.0, 0.0, 1.0)
-    in_model = node.flag("use_parent_model_frame", default=False, report=context.report)
-    if context.version < (1, 5):
-        context.report.info(node.at, f"SDF {context.version}: the axis of joint {name!r} is read in the model frame")
-        return unit
+    in_model = node.flag("use_parent_model_frame", default=context.version < (1, 5), report=report)
     if context.version < (1, 7):
-        return unit if in_model else frame("", node).direction(unit)
+        if context.version < (1, 5):
+            report.info(node.at, f"SDF {context.version}: the axis of joint {name!r} is read in the model frame")
+        return unit if in_model else _seen_from("", unit, frame)
     expressed_in = (None if xyz is None else xyz.attribute("expressed_in")) or ""
-    return frame(expressed_in, node).direction(unit)
+    if frame(expressed_in) is None:
+        report.warn(node.at, f"joint {name!r}: no frame {expressed_in!r}; its axis is read in the joint's own frame")
+        expressed_in = ""
+    return _seen_from(expressed_in, unit, frame)
+
+
+def _seen_from(expressed_in: str, direction: Vector3, frame: FrameOf) -> Vector3:
+    pose = frame(expressed_in)
+    assert pose is not None
+    return pose.direction(direction)
 
 
 def _number(node: XmlNode, tag: str, default: float, context: Context) -> float:

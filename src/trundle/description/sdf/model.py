@@ -1,153 +1,206 @@
-"""Reads <model>: its links and joints, with every pose resolved to the model's frame."""
+"""Reads <model>: links, joints, frames and nested models, with every pose resolved to the model's frame."""
 
 from dataclasses import replace
 
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.model import Joint, Link, Model
+from trundle.diagnostics import DescriptionError
+from trundle.model import Frame, Joint, Model
 from trundle.spatial import Pose
 from trundle.xmlnode import XmlNode
 
-from .context import Context, RawPose, read_pose
-from .frames import MODEL, FrameGraph
+from .context import Context, read_pose
+from .frames import MODEL, WORLD, FrameGraph
+from .include import open_include, read_included_model
 from .joint import read_joint
 from .link import read_link
+from .merge import Merged, merged
+from .part import Part
 from .sensor import read_plugin
 
-WORLD = "world"
+_DEEPEST = 200
+"""Models within models."""
 
 
-def read_model(node: XmlNode, context: Context, *, name: str | None = None, pose: Pose | None = None) -> Model:
-    """Read one model; nested ones become part of it, their names joined by `::`.
-
-    Args:
-        node: the element.
-        context: the file.
-        name: in place of the model's own, as an <include> may say.
-        pose: likewise.
+def read_model(node: XmlNode, context: Context, depth: int = 0) -> Part:
+    """Read one model, nested and included ones with it.
 
     Raises:
-        DescriptionError: a joint names no link, or a name is missing or taken twice.
+        DescriptionError: a name is missing, or models are nested deeper than any honest file has them.
     """
-    own_name = node.required_attribute("name")
-    report = context.report
-    graph, links = FrameGraph(), dict[str, XmlNode]()
-    _collect(node, context, graph, links)
-    nested = [_read_nested(child, graph, context) for child in node.all("model")]
-    known = [*links, *(link.name for inner in nested for link in inner.links)]
-    for inner in nested:
-        for link in inner.links:
-            graph.add(link.name, RawPose(link.model_from_link), link.at)
-    joints = [joint for joint in node.all("joint") if not _reaches_nothing(joint, known, report)]
+    if depth > _DEEPEST:
+        raise DescriptionError(node.at, f"models nested more than {_DEEPEST} deep")
+    name = node.required_attribute("name")
+    graph = FrameGraph(MODEL, context.report)
+    links = _links(node, graph, context)
+    nested, dissolved = _nested(node, graph, context, depth)
+    frames = read_frames(node, graph, context)
+    joints = [joint for child in node.all("joint") if (joint := WrittenJoint(child, graph, context)).is_sound]
     for joint in joints:
-        child = _link_name(joint, "child", known)
-        graph.add(_joint_frame(joint, links), read_pose(joint, context), joint.at, default=child)
-    read_links = [read_link(n, k, graph.pose(k, n.at), context) for k, n in links.items()]
-    read_joints = [_read_joint(joint, links, known, graph, context) for joint in joints]
-    for inner in nested:
-        read_links += inner.links
-        read_joints += inner.joints
+        joint.add_to(graph)
     model = Model(
-        name=name or own_name,
+        name=name,
         at=node.at,
-        world_from_model=read_pose(node, context).pose if pose is None else pose,
-        static=node.flag("static", default=False, report=report),
-        self_collide=node.flag("self_collide", default=False, report=report),
-        links=tuple(read_links),
-        joints=tuple(read_joints),
-        plugins=(*(read_plugin(tag) for tag in node.all("plugin")), *(p for inner in nested for p in inner.plugins)),
-        canonical_link=node.attribute("canonical_link"),
+        static=node.flag("static", default=False, report=context.report),
+        self_collide=node.flag("self_collide", default=False, report=context.report),
+        allow_auto_disable=node.flag("allow_auto_disable", default=True, report=context.report),
+        enable_wind=node.flag("enable_wind", default=False, report=context.report),
+        links=tuple(read_link(child, link, graph, context) for link, child in links.items()),
+        joints=tuple(joint.read(graph, context) for joint in joints),
+        frames=tuple(replace(frame, model_from_frame=graph.pose(frame.name)) for frame in frames),
+        models=tuple(replace(part.model, world_from_model=graph.pose(part.model.name)) for part in nested),
+        plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
     )
-    if not model.links and not model.static:
-        report.warn(node.at, f"model {model.name!r} has no links; nothing of it can move")
-    node.find("pose")
-    node.find("allow_auto_disable")
-    node.report_unread(report)
-    return model
-
-
-def _collect(node: XmlNode, context: Context, graph: FrameGraph, links: dict[str, XmlNode]) -> None:
-    for link in node.all("link"):
-        name = link.required_attribute("name")
-        if name in links:
-            raise DescriptionError(link.at, f"a second link {name!r}; the first is at line {links[name].at.line}")
-        links[name] = link
-        graph.add(name, read_pose(link, context), link.at)
-    for frame in node.all("frame"):
-        name = frame.required_attribute("name")
-        attached_to = frame.attribute("attached_to")
-        graph.add(name, read_pose(frame, context), frame.at, default=attached_to or MODEL)
-
-
-def _reaches_nothing(joint: XmlNode, known: list[str], report: Diagnostics) -> bool:
-    """Whether a joint names a link of a nested model that is not there, as where an <include> was left out."""
-    lost = [name for name in (joint.string("parent"), joint.string("child")) if "::" in name and name not in known]
-    if lost:
-        report.warn(joint.at, f"joint {joint.attribute('name')!r}: no link {lost[0]!r}; the joint is left out")
-    return bool(lost)
-
-
-def _joint_frame(joint: XmlNode, links: dict[str, XmlNode]) -> str:
-    """A joint's name among the frames; before SDF 1.7 it may be a link's too, and then it is no frame to refer to."""
-    name = joint.required_attribute("name")
-    return f"joint {name}" if name in links else name
-
-
-def _link_name(joint: XmlNode, tag: str, known: list[str]) -> str:
-    name = joint.string(tag)
-    who = f"joint {joint.attribute('name')!r}"
-    if not name:
-        raise DescriptionError(joint.at, f"{who} has no <{tag}>")
-    if name in known or (name == WORLD and tag == "parent"):
-        return name
-    there = ", ".join(map(repr, known)) or "none"
-    raise DescriptionError(joint.at, f"{who}: no link {name!r}; links here: {there}")
-
-
-def _read_joint(
-    node: XmlNode, links: dict[str, XmlNode], known: list[str], graph: FrameGraph, context: Context
-) -> Joint:
-    name = _joint_frame(node, links)
-    parent, child = _link_name(node, "parent", known), _link_name(node, "child", known)
-    if parent == child:
-        raise DescriptionError(node.at, f"joint {node.attribute('name')!r} joins link {child!r} to itself")
-
-    def frame(expressed_in: str, at: XmlNode) -> Pose:
-        return graph.pose(expressed_in or name, at.at)
-
-    child_from_joint = graph.pose(child, node.at).inverse() @ graph.pose(name, node.at)
-    return read_joint(node, parent=parent, child=child, child_from_joint=child_from_joint, frame=frame, context=context)
-
-
-def _read_nested(node: XmlNode, graph: FrameGraph, context: Context) -> Model:
-    """A model inside a model, in the outer one's frame and with its name in front."""
-    inner = read_model(node, context)
+    for each in dissolved:
+        model = each.into(model, graph)
+    model = replace(model, canonical_link=_canonical(node, model, graph))
+    if model.canonical_link is None and not model.static:
+        context.report.warn(node.at, f"model {name!r} has no links; nothing of it can move")
     raw = read_pose(node, context)
-    graph.add(inner.name, raw, node.at)
-    return moved_into(inner, graph.pose(inner.name, node.at))
+    node.attribute("namespace")
+    placement = node.attribute("placement_frame") or ""
+    node.report_unread(context.report)
+    return Part(model=model, scope=graph.scope(model.canonical_link), raw=raw, placement_frame=placement)
 
 
-def moved_into(inner: Model, outer_from_inner: Pose) -> Model:
-    """The links and joints of a model as parts of another, by the names `inner::link`."""
+def _links(node: XmlNode, graph: FrameGraph, context: Context) -> dict[str, XmlNode]:
+    links: dict[str, XmlNode] = {}
+    for child in node.all("link"):
+        name = child.required_attribute("name")
+        if name in links:
+            first = links[name].at.line
+            context.report.warn(child.at, f"a second link {name!r}, after line {first}; it is left out")
+            child.mark_all_read()
+            continue
+        links[name] = child
+        graph.add(name, read_pose(child, context), child.at)
+    return links
 
-    def named(name: str) -> str:
-        return name if name == WORLD else f"{inner.name}::{name}"
 
-    def turned(joint: Joint) -> Joint:
-        axes = [
-            None if axis is None else replace(axis, direction=outer_from_inner.direction(axis.direction))
-            for axis in (joint.axis, joint.axis2)
-        ]
+def _nested(node: XmlNode, graph: FrameGraph, context: Context, depth: int) -> tuple[list[Part], list[Merged]]:
+    """Models in this one, in file order, and those that dissolve in it."""
+    parts: list[Part] = []
+    dissolved: list[Merged] = []
+    for child in node.children:
+        if child.tag == "model":
+            part = read_model(child, context, depth + 1)
+        elif child.tag == "include" and (opened := open_include(child, context)) is not None:
+            root, inner = opened
+            found = read_included_model(
+                child, root, inner, context, lambda model, within: read_model(model, within, depth + 1)
+            )
+            if found is None:
+                context.report.warn(child.at, "no <model> in what this <include> leads to; it is left out")
+                continue
+            part = found
+        else:
+            continue
+        if part.merge:
+            dissolved.append(merged(part, graph))
+        elif any(part.model.name == other.model.name for other in parts):
+            context.report.warn(part.model.at, f"a second nested model {part.model.name!r}; it is left out")
+        else:
+            part.add_to(graph)
+            parts.append(part)
+    node.all("model")
+    node.all("include")
+    return parts, dissolved
+
+
+def read_frames(node: XmlNode, graph: FrameGraph, context: Context) -> list[Frame]:
+    """The <frame>s of a model or world, made known but not yet placed."""
+    frames: list[Frame] = []
+    for child in node.all("frame"):
+        name = child.required_attribute("name")
+        if name in graph:
+            context.report.warn(child.at, f"a second thing named {name!r} here; this <frame> is left out")
+            continue
+        attached_to = child.attribute("attached_to") or graph.root
+        graph.add(name, read_pose(child, context), child.at, default=attached_to, attached_to=attached_to)
+        frames.append(Frame(name=name, at=child.at, attached_to=attached_to))
+        child.report_unread(context.report)
+    return frames
+
+
+def _canonical(node: XmlNode, model: Model, graph: FrameGraph) -> str | None:
+    """The link a model rides on: the one it names, else its first, its own before those of nested models."""
+    named = node.attribute("canonical_link")
+    if named:
+        if named in graph and (link := graph.link(named)) not in (None, MODEL):
+            return link
+        graph.report.warn(node.at, f"canonical_link {named!r}: no such link; the first one is taken")
+    if model.links:
+        return model.links[0].name
+    return next((f"{inner.name}::{inner.canonical_link}" for inner in model.models if inner.canonical_link), None)
+
+
+class WrittenJoint:
+    """A <joint> whose ends are known but whose place is not."""
+
+    def __init__(self, node: XmlNode, graph: FrameGraph, context: Context) -> None:
+        self._node = node
+        self._name = node.required_attribute("name")
+        self._raw = read_pose(node, context)
+        self._ends = [_end(node, tag) for tag in ("parent", "child")]
+        # Before SDF 1.7 a joint may be called like a link, and then it is no frame to refer to.
+        self._frame = f"joint {self._name}" if self._name in graph else self._name
+        self.is_sound = self._frame not in graph and self._joins_two(graph)
+        if not self.is_sound:
+            node.mark_all_read()
+
+    def _joins_two(self, graph: FrameGraph) -> bool:
+        who = f"joint {self._name!r}"
+        for tag, end in zip(("parent", "child"), self._ends, strict=True):
+            if not end:
+                why = f"{who} has no <{tag}>"
+            elif end != WORLD and end not in graph:
+                why = f"{who}: no link {end!r}; links here: {graph.names()}"
+            elif self._ends[0] == self._ends[1]:
+                why = f"{who} joins {end!r} to itself"
+            else:
+                continue
+            graph.report.warn(self._node.at, f"{why}; the joint is left out")
+            return False
+        return True
+
+    def add_to(self, graph: FrameGraph) -> None:
+        """Make the joint's frame known: it is where its child is."""
+        child = self._ends[1]
+        default = graph.root if child == WORLD else child
+        graph.add(self._frame, self._raw, self._node.at, default=default, attached_to=default)
+
+    def read(self, graph: FrameGraph, context: Context) -> Joint:
+        """Read the rest."""
+        written_parent, written_child = self._ends
+        parent, child = _link(written_parent, graph), _link(written_child, graph)
+        model_from_joint = graph.pose(self._frame)
+        model_from_child = Pose() if child == WORLD else graph.pose(child)
+
+        def frame(expressed_in: str) -> Pose | None:
+            if not expressed_in:
+                return model_from_joint
+            return graph.pose(expressed_in) if expressed_in in graph else None
+
+        joint = read_joint(
+            self._node,
+            parent=parent,
+            child=child,
+            child_from_joint=model_from_child.inverse() @ model_from_joint,
+            frame=frame,
+            graph=graph,
+            context=context,
+        )
         return replace(
             joint,
-            name=named(joint.name),
-            parent=named(joint.parent),
-            child=named(joint.child),
-            axis=axes[0],
-            axis2=axes[1],
+            parent_frame=written_parent if written_parent != parent else None,
+            child_frame=written_child if written_child != child else None,
         )
 
-    links = tuple[Link, ...](
-        replace(link, name=named(link.name), model_from_link=outer_from_inner @ link.model_from_link)
-        for link in inner.links
-    )
-    return replace(inner, links=links, joints=tuple(turned(joint) for joint in inner.joints))
+
+def _end(node: XmlNode, tag: str) -> str:
+    """A joint's parent or child; SDF 1.0 writes it as an attribute."""
+    child = node.find(tag)
+    return "" if child is None else child.text or (child.attribute("link") or "")
+
+
+def _link(name: str, graph: FrameGraph) -> str:
+    link = graph.link(name)
+    return WORLD if link is None or link == graph.root else link

@@ -5,10 +5,11 @@ from trundle.model import CameraOptics, PluginTag, Sensor
 from trundle.xmlnode import XmlNode
 
 from .context import Context, read_pose
+from .frames import FrameGraph
 
 
-def read_sensor(node: XmlNode, context: Context) -> Sensor:
-    """Read one sensor of a link."""
+def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -> Sensor:
+    """Read one sensor, placed in its owner's frame: a link's or a joint's."""
     report = context.report
     type_ = node.attribute("type") or "none"
     camera = node.find("camera")
@@ -16,7 +17,7 @@ def read_sensor(node: XmlNode, context: Context) -> Sensor:
         name=node.attribute("name") or type_,
         type=type_,
         at=node.at,
-        link_from_sensor=read_pose(node, context).pose,
+        link_from_sensor=graph.within(owner, read_pose(node, context), node.at),
         update_rate_hz=max(0.0, node.number("update_rate", default=0.0, report=report)),
         always_on=node.flag("always_on", default=False, report=report),
         visualize=node.flag("visualize", default=False, report=report),

@@ -4,6 +4,7 @@ from trundle.model import Material, PluginTag, Sensor, Surface
 from trundle.xmlnode import XmlNode
 
 from ..sdf.context import Context
+from ..sdf.frames import MODEL, FrameGraph
 from ..sdf.material import named_material
 from ..sdf.sensor import read_plugin, read_sensor
 
@@ -50,7 +51,10 @@ class GazeboTags:
 
     def sensors(self, link: str) -> tuple[Sensor, ...]:
         """<sensor> elements, which are SDF."""
-        return tuple(read_sensor(node, self._context) for node in self._all(link, "sensor"))
+        return tuple(
+            read_sensor(node, link, FrameGraph(MODEL, self._context.report), self._context)
+            for node in self._all(link, "sensor")
+        )
 
     def plugins(self, reference: str) -> tuple[PluginTag, ...]:
         """<plugin> elements."""

@@ -104,7 +104,15 @@ class _Lowering:
         plugins = self.tags.plugins("")
         static = self.tags.flag("", "static") or False
         self.tags.report_unread()
-        return Model(name=self.robot.name, at=self.robot.at, static=static, links=links, joints=joints, plugins=plugins)
+        return Model(
+            name=self.robot.name,
+            at=self.robot.at,
+            static=static,
+            links=links,
+            joints=joints,
+            plugins=plugins,
+            canonical_link=links[0].name if links else None,
+        )
 
     def _without_mass(self) -> set[str]:
         """Lumps that weigh nothing, with all that hang below them."""
@@ -229,18 +237,15 @@ class _Lowering:
             parent=WORLD if joint.parent == WORLD else parent,
             child=child,
             at=joint.at,
-            axis=None if type_ is JointType.FIXED else _axis(joint, poses[joint.child], self.report),
+            axis=None if type_ is JointType.FIXED else _axis(joint, poses[joint.child]),
         )
 
 
-def _axis(joint: RobotJoint, root_from_joint: Pose, report: Diagnostics) -> JointAxis:
+def _axis(joint: RobotJoint, root_from_joint: Pose) -> JointAxis:
     limit = joint.limit
     bounded = limit is not None and joint.type != "continuous"
     lower = limit.lower if limit is not None and bounded else -math.inf
     upper = limit.upper if limit is not None and bounded else math.inf
-    if lower > upper:
-        report.warn(joint.at, f"joint {joint.name!r}: lower {lower:g} is above upper {upper:g}; they are swapped")
-        lower, upper = upper, lower
     return JointAxis(
         direction=root_from_joint.direction(normalized(joint.axis) or (1.0, 0.0, 0.0)),
         lower=lower,

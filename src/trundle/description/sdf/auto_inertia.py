@@ -1,0 +1,94 @@
+"""<inertial auto="true">, SDF 1.11: mass properties from the volumes of the collisions times their densities."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import Box, Capsule, Collision, Cone, Cylinder, Ellipsoid, Geometry, Inertial, Link, Sphere
+from trundle.spatial import Pose, Vector3, rotate
+from trundle.xmlnode import XmlNode
+
+from .context import Context
+
+_WATER = 1000.0
+"""[kg/m³] SDF's default density."""
+
+
+def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inertial:
+    """Add up the collisions of a link; a mass that is given is kept and the inertia scaled to it.
+
+    Shapes without a closed formula here weigh nothing, after a warning.
+    """
+    report = context.report
+    inertial = node.find("inertial")
+    assert inertial is not None
+    overall = inertial.number("density", default=_WATER, report=report)
+    bodies: list[tuple[float, Pose, Vector3]] = []
+    for collision, child in zip(link.collisions, node.all("collision"), strict=True):
+        found = _volume_and_moments(collision.geometry)
+        if found is None:
+            report.warn(collision.at, f"collision {collision.name!r}: no automatic inertia for its shape; it weighs 0")
+            continue
+        volume, per_mass = found
+        mass = volume * child.number("density", default=overall, report=report)
+        bodies.append((mass, _pose(collision), (per_mass[0] * mass, per_mass[1] * mass, per_mass[2] * mass)))
+    total = sum(mass for mass, _, _ in bodies)
+    if not total > 0.0:
+        report.warn(node.at, f"link {link.name!r}: nothing to weigh automatically; 1 kg and 1 kg·m² are used")
+        return Inertial()
+    centre = sum((mass * np.array(pose.position) for mass, pose, _ in bodies), start=np.zeros(3)) / total
+    tensor = sum((_about(centre, *body) for body in bodies), start=np.zeros((3, 3)))
+    mass = link.inertial.mass if inertial.find("mass") is not None else total
+    tensor *= mass / total
+    x, y, z = (float(c) for c in centre)
+    return Inertial(
+        mass=mass,
+        link_from_com=Pose((x, y, z)),
+        moments=(float(tensor[0, 0]), float(tensor[1, 1]), float(tensor[2, 2])),
+        products=(float(tensor[0, 1]), float(tensor[0, 2]), float(tensor[1, 2])),
+    )
+
+
+def _pose(collision: Collision) -> Pose:
+    if isinstance(collision.geometry, Cone):  # its centre of mass is a quarter of the height above its base
+        return collision.link_from_collision @ Pose((0.0, 0.0, -collision.geometry.length / 4))
+    return collision.link_from_collision
+
+
+def _volume_and_moments(geometry: Geometry) -> tuple[float, Vector3] | None:
+    """Volume [m³] and principal moments per unit of mass [m²] about the centre of mass."""
+    match geometry:
+        case Box((x, y, z)):
+            return x * y * z, ((y * y + z * z) / 12, (x * x + z * z) / 12, (x * x + y * y) / 12)
+        case Cylinder(r, h):
+            across = (3 * r * r + h * h) / 12
+            return math.pi * r * r * h, (across, across, r * r / 2)
+        case Sphere(r):
+            return 4 / 3 * math.pi * r**3, (0.4 * r * r, 0.4 * r * r, 0.4 * r * r)
+        case Ellipsoid((a, b, c)):
+            return 4 / 3 * math.pi * a * b * c, ((b * b + c * c) / 5, (a * a + c * c) / 5, (a * a + b * b) / 5)
+        case Cone(r, h):
+            across = 3 / 20 * r * r + 3 / 80 * h * h
+            return math.pi * r * r * h / 3, (across, across, 0.3 * r * r)
+        case Capsule(r, h):
+            return _capsule(r, h)
+        case _:
+            return None
+
+
+def _capsule(r: float, h: float) -> tuple[float, Vector3]:
+    """A cylinder and two half spheres, whose centres of mass are 3/8 r from their flat sides."""
+    cylinder, ball = math.pi * r * r * h, 4 / 3 * math.pi * r**3
+    volume = cylinder + ball
+    along = (cylinder * r * r / 2 + ball * 0.4 * r * r) / volume
+    across = cylinder * (3 * r * r + h * h) / 12 + ball * (0.4 * r * r + h * h / 4 + 3 / 8 * h * r)
+    return volume, (across / volume, across / volume, along)
+
+
+def _about(centre: NDArray[np.float64], mass: float, pose: Pose, moments: Vector3) -> NDArray[np.float64]:
+    """A body's inertia about a point, in the link's axes, by the parallel axis theorem."""
+    axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    rotation = np.array([rotate(pose.quaternion, axis) for axis in axes]).T
+    arm = np.array(pose.position) - centre
+    return rotation @ np.diag(moments) @ rotation.T + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))

@@ -1,0 +1,128 @@
+"""Reads what is around the models: <physics>, <scene>, air, earth and wind."""
+
+from collections.abc import Mapping
+
+from trundle.model import Atmosphere, Fog, PhysicsSettings, Rgba, SceneSettings, SphericalCoordinates
+from trundle.xmlnode import XmlNode
+
+from .context import Context
+from .material import read_colour
+
+_AMBIENT: Mapping[tuple[int, int], Rgba] = {(1, 3): (0.0, 0.0, 0.0, 1.0), (1, 4): (0.2, 0.2, 0.2, 1.0)}
+"""The default before each version; 0.4 from 1.4 on."""
+
+
+def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
+    """The default <physics> profile, else the first."""
+    report = context.report
+    default = PhysicsSettings()
+    profiles = world.all("physics")
+    node = next((p for p in profiles if (p.attribute("default") or "") in ("1", "true")), None)
+    node = node or (profiles[0] if profiles else None)
+    for other in profiles:
+        if other is not node:
+            report.info(other.at, f"physics profile {other.attribute('name')!r} is not the default one; it is not used")
+    gravity_home = node if node is not None and node.find("gravity") is not None else world
+    if node is None:
+        return PhysicsSettings(gravity=world.vector("gravity", default=default.gravity, report=report))
+    gravity = gravity_home.vector("gravity", default=default.gravity, report=report)
+    world.find("gravity")
+    step = _step(node, context)
+    if not 1e-6 <= step <= 1.0:
+        report.warn(node.at, f"a step of {step:g} s is not possible; {default.max_step_size_s:g} is used")
+        step = default.max_step_size_s
+    rate_tag = "update_rate" if context.version < (1, 4) else "real_time_update_rate"
+    rate = node.number(rate_tag, default=default.real_time_update_rate_hz, report=report)
+    factor = node.number("real_time_factor", default=1.0, report=report)
+    node.find("max_contacts")
+    for engine in ("ode", "bullet", "simbody", "dart"):
+        if node.find(engine) is not None:
+            report.info(node.at, f"<{engine}>: the engine here is MuJoCo, with settings of its own")
+    node.attributes()
+    node.report_unread(report)
+    return PhysicsSettings(
+        max_step_size_s=step, real_time_factor=factor, real_time_update_rate_hz=max(rate, 0.0), gravity=gravity
+    )
+
+
+def _step(node: XmlNode, context: Context) -> float:
+    """The time step [s]; before SDF 1.4 it stood in the engine's own settings."""
+    default = PhysicsSettings().max_step_size_s
+    if context.version < (1, 4) and node.find("max_step_size") is None:
+        ode, bullet = node.find("ode"), node.find("bullet")
+        solver = None if ode is None else ode.find("solver")
+        for home in (solver, bullet):
+            if home is not None and home.find("dt") is not None:
+                return home.number("dt", default=default, report=context.report)
+    return node.number("max_step_size", default=default, report=context.report)
+
+
+def read_scene(world: XmlNode, context: Context) -> SceneSettings:
+    """How the world looks."""
+    node = world.find("scene")
+    report = context.report
+    ambient = next((rgba for before, rgba in _AMBIENT.items() if context.version < before), SceneSettings().ambient)
+    if node is None:
+        return SceneSettings(ambient=ambient)
+    default = SceneSettings()
+    scene = SceneSettings(
+        ambient=read_colour(node, "ambient", ambient, context),
+        background=read_colour(node, "background", default.background, context),
+        shadows=node.flag("shadows", default=True, report=report),
+        sky=node.find("sky") is not None,
+        grid=node.flag("grid", default=True, report=report),
+        origin_visual=node.flag("origin_visual", default=True, report=report),
+        fog=_fog(node, context),
+    )
+    node.report_unread(report)
+    return scene
+
+
+def _fog(scene: XmlNode, context: Context) -> Fog:
+    node = scene.find("fog")
+    if node is None:
+        return Fog()
+    report, default = context.report, Fog()
+    fog = Fog(
+        type=node.string("type") or default.type,
+        colour=read_colour(node, "color", default.colour, context),
+        start_m=node.number("start", default=default.start_m, report=report),
+        end_m=node.number("end", default=default.end_m, report=report),
+        density=node.number("density", default=default.density, report=report),
+    )
+    node.report_unread(report)
+    return fog
+
+
+def read_spherical_coordinates(world: XmlNode, context: Context) -> SphericalCoordinates:
+    """Where on Earth the world is."""
+    node = world.find("spherical_coordinates")
+    if node is None:
+        return SphericalCoordinates()
+    report, default = context.report, SphericalCoordinates()
+    place = SphericalCoordinates(
+        latitude_deg=node.number("latitude_deg", default=0.0, report=report),
+        longitude_deg=node.number("longitude_deg", default=0.0, report=report),
+        elevation=node.number("elevation", default=0.0, report=report),
+        heading_deg=node.number("heading_deg", default=0.0, report=report),
+        surface_model=node.string("surface_model") or default.surface_model,
+        world_frame_orientation=node.string("world_frame_orientation") or default.world_frame_orientation,
+    )
+    node.report_unread(report)
+    return place
+
+
+def read_atmosphere(world: XmlNode, context: Context) -> Atmosphere:
+    """The air at the ground."""
+    node = world.find("atmosphere")
+    if node is None:
+        return Atmosphere()
+    report, default = context.report, Atmosphere()
+    node.attribute("type")
+    air = Atmosphere(
+        temperature=node.number("temperature", default=default.temperature, report=report),
+        pressure=node.number("pressure", default=default.pressure, report=report),
+        temperature_gradient=node.number("temperature_gradient", default=default.temperature_gradient, report=report),
+    )
+    node.report_unread(report)
+    return air

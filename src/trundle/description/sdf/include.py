@@ -1,0 +1,75 @@
+"""Reads <include>: a model from another file, with what is to be different about it."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TypeAlias
+
+from trundle.diagnostics import DescriptionError, UsageError
+from trundle.packages import model_file
+from trundle.xmlnode import XmlNode, read_xml
+
+from .context import Context, RawPose, read_pose
+from .part import Part
+from .sensor import read_plugin
+from .version import read_version
+
+_DEEPEST_INCLUDE = 16
+ReadModel: TypeAlias = Callable[[XmlNode, Context], Part]
+
+
+def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | None:
+    """The root element that an <include> leads to; None, after a warning, where it leads nowhere, as in Gazebo."""
+    report = context.report
+    uri = node.string("uri") or (node.attribute("filename") or "")
+    if not uri:
+        report.warn(node.at, "<include> without <uri>; it is left out")
+        return None
+    try:
+        path = context.packages.resolve(uri, beside=context.folder, at=node.at)
+        file = model_file(path, report) if path.is_dir() else path
+        return _root(file, node, context)
+    except (DescriptionError, UsageError) as error:
+        at = error.at if isinstance(error, DescriptionError) else node.at
+        what = error.what if isinstance(error, DescriptionError) else str(error)
+        where = "" if at == node.at else f" (what line {node.at.line} includes)"
+        report.warn(at, f"{what}{where}; the <include> is left out")
+        return None
+
+
+def read_included_model(
+    node: XmlNode, root: XmlNode, inner: Context, context: Context, read_model: ReadModel
+) -> Part | None:
+    """The model of an opened <include>; None where there is no model in it."""
+    models = root.all("model")
+    if not models:
+        return None
+    if len(models) > 1:
+        inner.report.warn(models[1].at, "a second <model> in the file; an <include> takes the first")
+    part = read_model(models[0], inner)
+    return _overridden(part, node, context)
+
+
+def _overridden(part: Part, node: XmlNode, context: Context) -> Part:
+    name, static = node.string("name"), node.find("static")
+    has_pose, placement = node.find("pose") is not None, node.string("placement_frame")
+    model = replace(
+        part.model,
+        name=name or part.model.name,
+        static=part.model.static if static is None else static.as_flag(default=False, report=context.report),
+        plugins=(*part.model.plugins, *(read_plugin(tag) for tag in node.all("plugin"))),
+    )
+    # A pose or placement of the model's own file is seen from nowhere here; Gazebo keeps its numbers.
+    raw = read_pose(node, context) if has_pose or placement else RawPose(part.raw.pose)
+    merge = (node.attribute("merge") or "").lower() in ("true", "1")
+    node.report_unread(context.report)
+    return replace(part, model=model, raw=raw, placement_frame=placement or part.placement_frame, merge=merge)
+
+
+def _root(file: Path, node: XmlNode, context: Context) -> tuple[XmlNode, Context]:
+    if file.resolve() in context.including or len(context.including) > _DEEPEST_INCLUDE:
+        raise DescriptionError(node.at, f"{file} includes itself")
+    root = read_xml(file, report=context.report)
+    if root.tag != "sdf":
+        raise DescriptionError(root.at, f"<{root.tag}> is no SDF; only SDF files can be included")
+    return root, context.inside(file.resolve(), read_version(root, context.report))

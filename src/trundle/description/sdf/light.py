@@ -1,0 +1,55 @@
+"""Reads <light>: directional, point or spot."""
+
+from dataclasses import replace
+
+from trundle.model import Light
+from trundle.spatial import normalized
+from trundle.xmlnode import XmlNode
+
+from .context import Context, read_pose
+from .frames import FrameGraph
+from .material import read_colour
+
+_TYPES = ("directional", "point", "spot")
+
+
+def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -> Light:
+    """Read one light, placed in its owner's frame: a link's, or the world's."""
+    report = context.report
+    default = Light(name="", type="", at=node.at)
+    type_ = node.attribute("type") or "point"
+    if type_ not in _TYPES:
+        report.warn(node.at, f"no light type {type_!r}; types: {', '.join(_TYPES)}; it is taken for a point light")
+        type_ = "point"
+    direction = normalized(node.vector("direction", default=default.direction, report=report))
+    attenuation, spot = node.find("attenuation"), node.find("spot")
+
+    def of(parent: XmlNode | None, tag: str, otherwise: float) -> float:
+        return otherwise if parent is None else parent.number(tag, default=otherwise, report=report)
+
+    light = Light(
+        name=node.attribute("name") or "light",
+        type=type_,
+        at=node.at,
+        world_from_light=graph.within(owner, read_pose(node, context), node.at),
+        direction=direction or default.direction,
+        diffuse=read_colour(node, "diffuse", default.diffuse, context),
+        specular=read_colour(node, "specular", default.specular, context),
+        intensity=node.number("intensity", default=1.0, report=report),
+        range_m=of(attenuation, "range", default.range_m),
+        constant=of(attenuation, "constant", default.constant),
+        linear=of(attenuation, "linear", default.linear),
+        quadratic=of(attenuation, "quadratic", default.quadratic),
+        inner_angle_rad=of(spot, "inner_angle", 0.0),
+        outer_angle_rad=of(spot, "outer_angle", 0.0),
+        falloff=of(spot, "falloff", 0.0),
+        cast_shadows=node.flag("cast_shadows", default=False, report=report),
+    )
+    if not node.flag("light_on", default=True, report=report):
+        report.info(node.at, f"light {light.name!r} is off")
+        light = replace(light, intensity=0.0)
+    node.find("visualize")
+    for each in (node, attenuation, spot):
+        if each is not None:
+            each.report_unread(report)
+    return light

@@ -1,0 +1,71 @@
+"""Dissolves an included model in the one around it: <include merge="true">."""
+
+from dataclasses import dataclass, replace
+
+from trundle.model import Frame, Joint, JointAxis, Link, Model
+from trundle.spatial import Pose
+
+from .context import RawPose
+from .frames import FrameGraph
+from .part import Part
+
+
+@dataclass(frozen=True, slots=True)
+class Merged:
+    """A model whose parts have become known as the outer model's."""
+
+    part: Part
+    frame: str
+    """What stands for the lost model's frame."""
+
+    def into(self, outer: Model, graph: FrameGraph) -> Model:
+        """The outer model with everything of the inner one added."""
+        inner = self.part.model
+        turn = graph.pose(self.frame)
+        frame = Frame(
+            name=self.frame,
+            at=inner.at,
+            model_from_frame=turn,
+            attached_to=inner.canonical_link or graph.root,
+        )
+        return replace(
+            outer,
+            links=(*outer.links, *(_moved(link, graph) for link in inner.links)),
+            joints=(*outer.joints, *(_turned_joint(joint, turn) for joint in inner.joints)),
+            frames=(*outer.frames, frame, *(_moved_frame(f, self.frame, graph) for f in inner.frames)),
+            models=(*outer.models, *(_moved_model(model, graph) for model in inner.models)),
+            plugins=(*outer.plugins, *inner.plugins),
+        )
+
+
+def merged(part: Part, graph: FrameGraph) -> Merged:
+    """Make everything in a model known by its own names, relative to a frame that stands for the model."""
+    frame = f"_merged__{part.model.name}__model__"
+    graph.add(frame, part.placed(graph), part.model.at, attached_to=part.model.canonical_link or graph.root)
+    for each, pose in part.scope.poses.items():
+        if "::" not in each and each not in graph:  # the model's own frame is in every graph
+            attached = part.scope.links.get(each, frame)
+            graph.add(each, RawPose(pose, frame), part.model.at, attached_to=attached)
+    for model in part.model.models:
+        graph.add_scope(model.name, part.scope.inside(model.name))
+    return Merged(part, frame)
+
+
+def _moved(link: Link, graph: FrameGraph) -> Link:
+    return replace(link, model_from_link=graph.pose(link.name))
+
+
+def _moved_frame(frame: Frame, model_frame: str, graph: FrameGraph) -> Frame:
+    attached_to = model_frame if frame.attached_to == graph.root else frame.attached_to
+    return replace(frame, model_from_frame=graph.pose(frame.name), attached_to=attached_to)
+
+
+def _moved_model(model: Model, graph: FrameGraph) -> Model:
+    return replace(model, world_from_model=graph.pose(model.name))
+
+
+def _turned_joint(joint: Joint, turn: Pose) -> Joint:
+    def turned(axis: JointAxis | None) -> JointAxis | None:
+        return None if axis is None else replace(axis, direction=turn.direction(axis.direction))
+
+    return replace(joint, axis=turned(joint.axis), axis2=turned(joint.axis2))

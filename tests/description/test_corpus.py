@@ -1,0 +1,81 @@
+"""Hundreds of published files, held against what the real tools made of them."""
+
+import gzip
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.description.compare import close, differences, same_pose
+
+from trundle.bringup.check_json import described
+from trundle.description import load
+from trundle.diagnostics import Diagnostics, TrundleError
+from trundle.packages import Packages
+
+TOLERANCE = 1e-6
+"""libsdformat 12 prints every digit."""
+
+EXCEPTIONS: dict[str, str] = {}
+"""File → why ours differs, and is right to."""
+
+
+@pytest.fixture(scope="module")
+def corpus(shared: Path) -> Path:
+    return shared / "corpus"
+
+
+@pytest.fixture(scope="module")
+def packages(corpus: Path) -> Packages:
+    """As a machine that has built every one of these packages: gazebo_ros puts their models on the path."""
+    folders = {config.parent.parent for config in corpus.glob("repos/**/model.config")}
+    database = corpus / "repos/osrf+gazebo_models"
+    path = [*sorted(folders - {database}), database]
+    return Packages({"GAZEBO_MODEL_PATH": ":".join(map(str, path))}, start=corpus)
+
+
+def test_sdf_files_say_what_libsdformat_says_of_them(corpus: Path, packages: Packages) -> None:
+    """All that Gazebo 11 accepts is accepted; where libsdformat 9 and 12 agree, every value agrees with theirs."""
+    rows = json.loads((corpus / "manifest.json").read_text())["sdf"]
+    assert len(rows) > 800
+    found = {row["file"]: list(_sdf_differences(row, corpus, packages)) for row in rows}
+    assert {file: lines[:5] for file, lines in found.items() if lines and file not in EXCEPTIONS} == {}
+
+
+def _sdf_differences(row: dict[str, Any], corpus: Path, packages: Packages) -> Iterator[str]:
+    file = corpus / row["file"]
+    try:
+        loaded = load(str(file), Diagnostics(), packages=packages)
+    except TrundleError as error:
+        if row["accept_gz11"]:
+            yield f"refused: {error}"
+        return
+    if not (row["accept_libsdformat12"] and row["agree_9_12"]):
+        return
+    ours = json.loads(json.dumps(described(loaded), allow_nan=False))
+    theirs = json.loads(gzip.decompress((corpus / row["ref"]).read_bytes()))["dump12"]
+    placed = "<state" not in file.read_text(errors="replace")
+    world = theirs["worlds"][0] if theirs["worlds"] else None
+    models = world["models"] if world else theirs["models"]
+    if [model["name"] for model in ours["models"]] != [model["name"] for model in models]:
+        yield f"models {[m['name'] for m in ours['models']]}, theirs {[m['name'] for m in models]}"
+    for mine, other in zip(ours["models"], models, strict=False):
+        yield from differences(mine, other, TOLERANCE, placed=placed)
+    if world:
+        yield from _world_differences(ours, world, placed=placed)
+
+
+def _world_differences(ours: dict[str, Any], theirs: dict[str, Any], *, placed: bool) -> Iterator[str]:
+    if ours["name"] != theirs["name"]:
+        yield f"world name {ours['name']}, theirs {theirs['name']}"
+    if not all(close(a, b, TOLERANCE) for a, b in zip(ours["gravity"], theirs["gravity"], strict=True)):
+        yield f"gravity {ours['gravity']}, theirs {theirs['gravity']}"
+    if [(x["name"], x["type"]) for x in ours["lights"]] != [(x["name"], x["type"]) for x in theirs["lights"]]:
+        yield f"lights {ours['lights']}, theirs {theirs['lights']}"
+    for mine, other in zip(ours["lights"], theirs["lights"], strict=False):
+        if placed and not same_pose(mine["pose"], other["pose"], TOLERANCE):
+            yield f"light {mine['name']} at {mine['pose']}, theirs {other['pose']}"
+    step = theirs["physics"][0]["max_step_size"]
+    if not close(ours["physics"]["max_step_size"], step, TOLERANCE):
+        yield f"step {ours['physics']['max_step_size']}, theirs {step}"

@@ -1,0 +1,185 @@
+"""Frames, nested and included models: where things are, whichever frame they were written in."""
+
+from pathlib import Path
+
+import pytest
+
+from trundle.description import load
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.model import Model, World, flattened, model_from_joint
+from trundle.packages import Packages
+from trundle.spatial import Pose
+
+QUARTER = "1.5707963267948966"
+ARM = """<sdf version="1.9"><model name="arm">
+  <pose>9 9 9 0 0 0</pose>
+  <link name="upper"><pose>0 0 1 0 0 0</pose></link>
+  <link name="lower"><pose relative_to="upper">1 0 0 0 0 0</pose></link>
+  <frame name="tip" attached_to="lower"><pose>1 0 0 0 0 0</pose></frame>
+  <joint name="elbow" type="revolute"><parent>upper</parent><child>lower</child><axis><xyz>1 0 0</xyz></axis></joint>
+</model></sdf>"""
+
+
+def read(folder: Path, body: str, report: Diagnostics | None = None, *, version: str = "1.9") -> World:
+    for name in ("arm", "self"):
+        (folder / name).mkdir(exist_ok=True)
+        (folder / name / "model.config").write_text('<model><sdf version="1.9">model.sdf</sdf></model>')
+    (folder / "arm" / "model.sdf").write_text(ARM)
+    include = "<include><uri>model://self</uri></include>"
+    (folder / "self" / "model.sdf").write_text(f'<sdf version="1.9"><model name="self">{include}</model></sdf>')
+    (folder / "x.sdf").write_text(f'<sdf version="{version}">{body}</sdf>')
+    packages = Packages({"GAZEBO_MODEL_PATH": str(folder)}, start=folder)
+    return load(str(folder / "x.sdf"), report or Diagnostics(), packages=packages).world
+
+
+def model(folder: Path, body: str, report: Diagnostics | None = None) -> Model:
+    return read(folder, f'<model name="m">{body}</model>', report).models[0]
+
+
+@pytest.mark.parametrize(
+    ("body", "warning"),
+    [
+        (
+            '<link name="a"><pose relative_to="b"/></link><link name="b"><pose relative_to="a"/></link>',
+            "itself, by a → b",
+        ),
+        ('<link name="a"/><frame name="f" attached_to="f"/>', "itself, by f → f"),
+        ('<link name="a"><pose relative_to="zzz">1 0 0 0 0 0</pose></link>', "no frame 'zzz'; frames here: 'a'"),
+        ('<link name="a"/><frame name="f" attached_to="zzz"/>', "no frame 'zzz'"),
+        ('<link name="a"/><link name="a"/>', "a second link 'a', after line 1; it is left out"),
+        ('<link name="a"/><joint name="j" type="fixed"><parent>a</parent><child>x</child></joint>', "no link 'x'"),
+    ],
+)
+def test_what_gazebo_lets_pass_is_named_and_let_pass(tmp_path: Path, body: str, warning: str) -> None:
+    report = Diagnostics()
+
+    found = model(tmp_path, body, report)
+
+    assert found.link("a").model_from_link.position in ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+    assert any(warning in each for each in report.warnings), report.warnings
+
+
+def test_an_included_model_is_nested_and_its_frames_can_be_named(tmp_path: Path) -> None:
+    body = (
+        '<link name="base"/><include><uri>model://arm</uri><name>left</name><pose>0 2 0 0 0 0</pose></include>'
+        '<joint name="grip" type="fixed"><parent>base</parent><child>left::tip</child></joint>'
+        '<link name="hand"><pose relative_to="left::tip">0 0 1 0 0 0</pose></link>'
+    )
+
+    found = model(tmp_path, body)
+
+    (left,) = found.models
+    assert (left.name, left.world_from_model.position, left.canonical_link) == ("left", (0.0, 2.0, 0.0), "upper")
+    assert found.link("hand").model_from_link.position == pytest.approx((2, 2, 2))
+    grip = found.joint("grip")
+    assert (grip.child, grip.child_frame) == ("left::lower", "left::tip")
+    assert model_from_joint(found, grip).position == pytest.approx((2, 2, 1))
+
+
+def test_flattened_puts_nested_links_and_joints_in_the_outer_model(tmp_path: Path) -> None:
+    body = (
+        f'<model name="in"><pose>0 0 5 0 0 {QUARTER}</pose><link name="a"/><link name="b"/>'
+        '<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz></axis></joint>'
+        "</model>"
+    )
+
+    (flat,) = flattened(read(tmp_path, f'<model name="m">{body}</model>')).models
+
+    assert [link.name for link in flat.links] == ["in::a", "in::b"]
+    assert flat.canonical_link == "in::a"
+    (joint,) = flat.joints
+    assert (joint.name, joint.parent, joint.child) == ("in::j", "in::a", "in::b")
+    assert joint.axis is not None
+    assert joint.axis.direction == pytest.approx((0, 1, 0), abs=1e-12)
+    assert model_from_joint(flat, joint).position == (0.0, 0.0, 5.0)
+
+
+def test_a_placement_frame_lands_at_the_pose(tmp_path: Path) -> None:
+    include = "<include><uri>model://arm</uri><placement_frame>tip</placement_frame>"
+    include += f"<pose>0 0 0 0 0 {QUARTER}</pose></include>"
+
+    (arm,) = read(tmp_path, f'<world name="w">{include}</world>').models
+
+    assert arm.world_from_model.position == pytest.approx((0, -2, -1))
+
+
+def test_a_merged_include_dissolves_in_its_model(tmp_path: Path) -> None:
+    body = (
+        '<link name="base"/>'
+        f'<include merge="true"><uri>model://arm</uri><pose>0 0 0 0 0 {QUARTER}</pose></include>'
+        '<joint name="fix" type="fixed"><parent>base</parent><child>upper</child></joint>'
+    )
+
+    found = model(tmp_path, body)
+
+    assert [link.name for link in found.links] == ["base", "upper", "lower"]
+    assert found.link("lower").model_from_link.position == pytest.approx((0, 1, 1))
+    assert [(f.name, f.attached_to) for f in found.frames] == [("_merged__arm__model__", "upper"), ("tip", "lower")]
+    axis = found.joint("elbow").axis
+    assert axis is not None
+    assert axis.direction == pytest.approx((0, 1, 0), abs=1e-12)
+
+
+def test_models_and_frames_of_a_world_are_placed_by_one_another(tmp_path: Path) -> None:
+    body = (
+        '<world name="w"><frame name="dock"><pose>5 0 0 0 0 0</pose></frame>'
+        '<model name="a"><pose relative_to="dock">1 0 0 0 0 0</pose><link name="l"/></model>'
+        '<model name="b"><pose relative_to="a">0 1 0 0 0 0</pose><link name="l"/></model>'
+        '<joint name="tie" type="fixed"><parent>a::l</parent><child>b</child></joint></world>'
+    )
+
+    world = read(tmp_path, body)
+
+    assert [m.world_from_model.position for m in world.models] == [(6.0, 0.0, 0.0), (6.0, 1.0, 0.0)]
+    (tie,) = world.joints
+    assert (tie.parent, tie.child, tie.child_frame) == ("a::l", "b::l", "b")
+
+
+def test_a_state_says_where_models_were_when_the_world_was_saved(tmp_path: Path) -> None:
+    state = (
+        '<state world_name="w"><sim_time>1 0</sim_time><deletions><name>gone</name></deletions>'
+        '<model name="m"><pose>1 2 3 0 0 0</pose><link name="l"><pose>1 2 3 0 0 0</pose></link></model>'
+        '<light name="sun"><pose>0 0 9 0 0 0</pose></light>'
+        '<model name="nobody"><pose>0 0 0 0 0 0</pose></model></state>'
+    )
+    models = '<model name="m"><link name="l"/></model><model name="gone"><link name="l"/></model>'
+    report = Diagnostics()
+
+    world = read(
+        tmp_path, f'<world name="w"><light name="sun" type="point"/>{models}{state}</world>', report, version="1.6"
+    )
+
+    assert [(m.name, m.world_from_model) for m in world.models] == [("m", Pose((1.0, 2.0, 3.0)))]
+    assert world.lights[0].world_from_light == Pose((0.0, 0.0, 9.0))
+    assert any("model 'nobody', which is not in this world" in each for each in report.warnings)
+
+
+def test_a_model_that_includes_itself_is_found_out(tmp_path: Path) -> None:
+    report = Diagnostics()
+
+    read(tmp_path, '<world name="w"><include><uri>model://self</uri></include></world>', report)
+
+    assert any("includes itself" in each for each in report.warnings)
+
+
+def test_models_nested_beyond_all_sense_are_refused(tmp_path: Path) -> None:
+    deep = '<model name="m">' * 240 + '<link name="a"/>' + "</model>" * 240
+
+    with pytest.raises(DescriptionError, match="nested more than"):
+        read(tmp_path, deep)
+
+
+def test_automatic_inertia_weighs_the_collisions(tmp_path: Path) -> None:
+    """A 1 m cube of water beside a 2 m one: 9 t, centred 8/9 of the way."""
+    cubes = "".join(
+        f'<collision name="c{size}"><pose>{x} 0 0 0 0 0</pose><geometry><box><size>{size} {size} {size}</size></box>'
+        "</geometry></collision>"
+        for x, size in ((0, 1), (9, 2))
+    )
+
+    inertial = model(tmp_path, f'<link name="a"><inertial auto="true"/>{cubes}</link>').link("a").inertial
+
+    assert inertial.mass == pytest.approx(9000)
+    assert inertial.link_from_com.position == pytest.approx((8, 0, 0))
+    assert inertial.moments[0] == pytest.approx(1000 / 6 + 8000 * 4 / 6)
+    assert inertial.moments[1] == pytest.approx(1000 / 6 + 8000 * 4 / 6 + 1000 * 64 + 8000 * 1)
