@@ -6,7 +6,7 @@ import os
 import sys
 from pathlib import Path
 
-from .main import quiet_imports
+from .main import add_allow_outside, quiet_imports
 
 EXAMPLES = """
   trundle check model.sdf                             everything worth knowing, worst first
@@ -20,6 +20,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE|DIR|model://NAME", help="what to read; no command in it is run")
     parser.add_argument("--strict", action="store_true", help="a warning is an error")
     parser.add_argument("--json", action="store_true", help="print what was understood as one JSON object")
+    add_allow_outside(parser)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from trundle.diagnostics import UsageError
 
-from .main import quiet_imports
+from .main import add_allow_outside, quiet_imports
 
 EXAMPLES = """
   trundle launch smartcar_description smartcar_display.rviz.launch
@@ -54,6 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         add(option, dest=f"unused_{option.strip('-')}", metavar="X", help=argparse.SUPPRESS)
     for option in ("-c", "--child", "-u", "--server_uri", "--run_id"):
         add(option, dest="child", metavar="X", help=argparse.SUPPRESS)
+    add_allow_outside(parser)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -75,6 +75,10 @@ def _main(arguments: list[str]) -> int:
         parsed = parser.parse_args(arguments[1:])
     except SystemExit as stop:  # argparse's own way to end: 0 after --help, 2 for wrong usage
         return int(stop.code or 0)
+    if getattr(parsed, "allow_outside", False):
+        from trundle.packages import ALLOW_OUTSIDE
+
+        os.environ[ALLOW_OUTSIDE] = "1"
     try:
         return _command(name).main(parsed)
     except TrundleError as error:
@@ -83,6 +87,13 @@ def _main(arguments: list[str]) -> int:
     except BrokenPipeError:  # `trundle topic echo … | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return EXIT_OK
+
+
+def add_allow_outside(parser: argparse.ArgumentParser) -> None:
+    """Declare the option of every command that reads a description."""
+    parser.add_argument(
+        "--allow-outside", action="store_true", help="read files outside the packages and resource paths too"
+    )
 
 
 @contextmanager

@@ -5,6 +5,8 @@ import os
 import sys
 from pathlib import Path
 
+from .main import add_allow_outside
+
 EXAMPLES = """
   trundle render model://rp2w -o rp2w.png             the whole robot from a good side
   trundle render world.sdf --camera my_sensor -o view.png
@@ -20,6 +22,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--camera", metavar="NAME", help="a camera sensor of the file (a view of everything)")
     parser.add_argument("--size", type=_size, metavar="WxH", help="in pixels (800x600, or the camera's)")
     parser.add_argument("--depth", action="store_true", help="distances instead: 16 bit, millimetres")
+    add_allow_outside(parser)
 
 
 def main(args: argparse.Namespace) -> int:

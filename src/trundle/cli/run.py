@@ -4,7 +4,7 @@ import argparse
 import json
 import sys
 
-from .main import quiet_imports
+from .main import add_allow_outside, quiet_imports
 
 EXAMPLES = """
   trundle run model://rp2w                            a robot that Gazebo would find, or that we ship
@@ -31,6 +31,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--no-sensors", action="store_true", help="switch every sensor off")
     parser.add_argument("--strict", action="store_true", help="a warning about the file is an error")
     parser.add_argument("--json", action="store_true", help="print the final state as one JSON object")
+    add_allow_outside(parser)
 
 
 def main(args: argparse.Namespace) -> int:

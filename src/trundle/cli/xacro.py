@@ -5,6 +5,8 @@ import os
 import sys
 from pathlib import Path
 
+from .main import add_allow_outside
+
 EXAMPLES = """
   trundle xacro robot.urdf.xacro                      the expanded XML on standard output
   trundle xacro robot.urdf.xacro gripper:=true -o robot.urdf
@@ -17,6 +19,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help="arguments of the file")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="where to write to")
     parser.add_argument("-i", "--inorder", action="store_true", help=argparse.SUPPRESS)  # every file is, by now
+    add_allow_outside(parser)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -4,7 +4,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
-from trundle.packages import Packages, model_file
+from trundle.packages import Packages, model_file, refuse_template
 from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
 from .loaded import Loaded
@@ -17,7 +17,7 @@ def load(what: str, report: Diagnostics, *, packages: Packages) -> Loaded:
     """Read a description: SDF, URDF or xacro.
 
     Args:
-        what: a path, a folder with model.config, model://NAME, or the name of a world on GAZEBO_RESOURCE_PATH.
+        what: a path, a folder with model.config, model://NAME, or the name of a world, such as empty.world.
         report: takes everything worth saying.
         packages: where URIs lead.
 
@@ -28,6 +28,7 @@ def load(what: str, report: Diagnostics, *, packages: Packages) -> Loaded:
     path = _find(what, packages)
     if path.is_dir():
         path = model_file(path, report)
+    refuse_template(path)
     packages = packages.around(path)
     if is_xacro(path):
         text = expand_xacro(path, {}, packages=packages, report=report)
@@ -76,4 +77,6 @@ def _find(what: str, packages: Packages) -> Path:
     world = None if path.is_absolute() else packages.find_world(what)
     if world is not None:
         return world
-    raise DescriptionError(Source(what), "no such file or folder")
+    known = ", ".join(packages.worlds())
+    hint = f"; worlds that come with Trundle: {known}" if path.suffix == ".world" else ""
+    raise DescriptionError(Source(what), f"no such file or folder{hint}")

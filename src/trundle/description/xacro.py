@@ -126,7 +126,7 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
     modules: Any = (xacro, substitution_args)
     package, arguments = modules
     kept = (package.parse, package.handle_macro_call, package.warning, arguments._eval_find)
-    package.parse = _parse_for(kept[0], report)
+    package.parse = _parse_for(kept[0], packages, report)
     package.handle_macro_call = _call_for(kept[1], report, path)
     package.warning = warn
     arguments._eval_find = arguments._eval_dict["find"] = find
@@ -139,9 +139,10 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
         package.filestack = package.macrostack = None
 
 
-def _parse_for(original: Callable[..., Any], report: Diagnostics) -> Callable[..., Any]:
+def _parse_for(original: Callable[..., Any], packages: Packages, report: Diagnostics) -> Callable[..., Any]:
     def parse(inp: object, filename: str | None = None) -> Any:
         if filename is not None:
+            packages.check_readable(Path(filename), Source(filename), told="xacro:include")
             data = Path(filename).read_bytes() if Path(filename).is_file() else b""
             if _ENTITY.search(data):
                 raise DescriptionError(Source(filename), "a document type or entities of its own are not read")

@@ -1,6 +1,6 @@
 """Where files live: ROS packages, Gazebo models, worlds and what their URIs mean."""
 
-from .model_config import model_file
-from .packages import Packages
+from .model_config import model_file, refuse_template
+from .packages import ALLOW_OUTSIDE, Packages
 
-__all__ = ["Packages", "model_file"]
+__all__ = ["ALLOW_OUTSIDE", "Packages", "model_file", "refuse_template"]

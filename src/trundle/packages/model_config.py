@@ -5,39 +5,73 @@ from pathlib import Path
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.xmlnode import XmlNode, read_xml
 
+from .gazebo_paths import SHIPPED
+
 NEWEST = (1, 12)
 """The newest SDF there is rules for."""
+_TEMPLATES = frozenset({".erb", ".rsdf"})
 
 
 def model_file(folder: Path, report: Diagnostics) -> Path:
     """The SDF file that a model folder's model.config names: the newest version that can be read.
 
     Raises:
-        DescriptionError: no model.config, or it names no file.
+        DescriptionError: no model.config, or it names no file that is there.
     """
     config = folder / "model.config"
     if not config.is_file():
         manifest = folder / "manifest.xml"
         if not manifest.is_file():
-            there = ", ".join(sorted(path.name for path in folder.iterdir())) if folder.is_dir() else "nothing"
-            raise DescriptionError(Source(str(folder)), f"no model.config in this folder; there is: {there}")
+            raise DescriptionError(Source(str(folder)), f"no model.config in this folder; there is: {_listed(folder)}")
         report.warn(Source(str(manifest)), "manifest.xml is deprecated; name it model.config")
         config = manifest
-    named = read_xml(config).all("sdf")
+    root = read_xml(config)
+    named = root.all("sdf")
     if not named:
         raise DescriptionError(Source(str(config)), "no <sdf> element names the model's file")
     best = max(named, key=lambda node: _rank(node, report))
-    return folder / best.text
+    if _rank(best, report) == _TOO_NEW:
+        newest = ".".join(map(str, NEWEST))
+        report.warn(best.at, f"SDF {best.attribute('version')} is newer than {newest}; it is read as {newest}")
+    if folder.parent == SHIPPED / "stand_ins":
+        report.info(root.at, f"model://{folder.name} is not on GAZEBO_MODEL_PATH; {root.string('description')}")
+    path = folder / best.text
+    if not path.resolve().is_relative_to(folder.resolve()) or not path.is_file():
+        raise DescriptionError(best.at, f"no file {best.text!r} in {folder}; there is: {_listed(folder)}")
+    refuse_template(path)
+    return path
+
+
+def refuse_template(path: Path) -> None:
+    """Stop at the Ruby templates that some worlds are generated from.
+
+    Raises:
+        DescriptionError: it is one.
+    """
+    if path.suffix in _TEMPLATES:
+        made = path.with_suffix("").name if path.suffix == ".erb" else f"{path.stem}.sdf"
+        raise DescriptionError(
+            Source(str(path)), f"a Ruby template, which is not run; expand it first: erb {path.name} > {made}"
+        )
+
+
+_NO_VERSION = (-1,)
+_TOO_NEW = (-2,)
 
 
 def _rank(node: XmlNode, report: Diagnostics) -> tuple[int, ...]:
     text = node.attribute("version")
     if text is None:
         report.warn(node.at, "<sdf> without a version; it is taken only where there is no other")
-        return (-1,)
+        return _NO_VERSION
     try:
         version = tuple(int(part) for part in text.split("."))
     except ValueError:
         report.warn(node.at, f"<sdf version={text!r}> is no version; it is taken only where there is no other")
-        return (-1,)
-    return version if version <= NEWEST else (-2,)
+        return _NO_VERSION
+    return version if version <= NEWEST else _TOO_NEW
+
+
+def _listed(folder: Path) -> str:
+    names = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
+    return ", ".join(names[:12]) + (", …" if len(names) > 12 else "") if names else "nothing"

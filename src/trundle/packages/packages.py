@@ -1,17 +1,18 @@
 """Where files live: package://, model://, file:// and relative URIs become paths, or one sentence that says why not."""
 
-import os
 from collections.abc import Mapping
 from pathlib import Path
+from urllib.parse import unquote
 
 from trundle.diagnostics import DescriptionError, Source, UsageError
 
+from .confinement import Confinement
+from .gazebo_paths import SHIPPED, GazeboPaths
 from .ros_packages import RosPackages
+from .workspace import own_package
 
-SHIPPED = Path(__file__).parent / "models"
-"""Models of our own: sun, ground_plane and the example robots."""
-_CHECKOUT_EXAMPLES = Path(__file__).parents[3] / "examples"
-_REMOTE = ("http://", "https://")
+ALLOW_OUTSIDE = "TRUNDLE_ALLOW_OUTSIDE"
+"""Set to 1, a description may read any file; `--allow-outside` sets it."""
 
 
 class Packages:
@@ -24,16 +25,11 @@ class Packages:
             environment: ROS_PACKAGE_PATH, GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and HOME are read.
             start: whose package and workspace are searched too.
         """
+        start = start.absolute()
         self._environment = environment
         self._ros = RosPackages(environment, start)
-        home = Path(environment.get("HOME", "/tmp"))
-        self.model_folders = [
-            home / ".gazebo" / "models",
-            *_paths(environment.get("GAZEBO_MODEL_PATH", "")),
-            SHIPPED,
-            *([_CHECKOUT_EXAMPLES] if (_CHECKOUT_EXAMPLES / "rp2w").is_dir() else []),
-        ]
-        self.resource_folders = _paths(environment.get("GAZEBO_RESOURCE_PATH", ""))
+        self._gazebo = GazeboPaths(environment, start, self._ros)
+        self._own = own_package(start) or (start if start.is_dir() else start.parent)
 
     def around(self, file: Path) -> "Packages":
         """The same, searched around another file."""
@@ -59,16 +55,19 @@ class Packages:
         Raises:
             UsageError: there is none, with where was looked.
         """
-        for folder in self.model_folders:
-            if (folder / name).is_dir():
-                return folder / name
-        looked = ", ".join(map(str, self.model_folders))
-        raise UsageError(f"no model {name!r}; looked in {looked}; put its folder's parent on GAZEBO_MODEL_PATH")
+        folder = self._gazebo.find_model(name)
+        if folder is None:
+            raise UsageError(f"no model {name!r}; {self._where_models_are()}")
+        return folder
 
     def find_world(self, name: str) -> Path | None:
-        """A world file along GAZEBO_RESOURCE_PATH, as `gazebo worlds/empty.world` finds it."""
-        tries = [folder / sub / name for folder in self.resource_folders for sub in (".", "worlds")]
-        return next((path for path in tries if path.is_file()), None)
+        """A world file along GAZEBO_RESOURCE_PATH or of our own, as `gazebo worlds/empty.world` finds it."""
+        path = self._gazebo.find_resource(name)
+        return path if path is not None and path.is_file() else None
+
+    def worlds(self) -> list[str]:
+        """The worlds of our own, by name."""
+        return sorted(path.name for path in (SHIPPED / "worlds").iterdir())
 
     def resolve(self, uri: str, *, beside: Path, at: Source) -> Path:
         """The file that a URI in a description means.
@@ -81,40 +80,74 @@ class Packages:
         Raises:
             DescriptionError: nothing there, or outside what a description may read.
         """
-        if uri.startswith(_REMOTE):
-            raise DescriptionError(at, f"{uri}: nothing is fetched from the network; copy it beside the model")
+        root, path = self._located(uri, beside, at)
+        if not path.exists():
+            path = path.parent / unquote(path.name) if "%" in path.name else path
+        if not path.exists():
+            raise DescriptionError(at, f"{uri}: no such file {path}")
+        self.check_readable(path, at, told=uri, root=root)
+        return path
+
+    def check_readable(self, path: Path, at: Source, *, told: str, root: Path | None = None) -> None:
+        """Refuse a file that is neither below `root` nor below what the user pointed at.
+
+        Raises:
+            DescriptionError: it lies elsewhere.
+        """
+        if self._environment.get(ALLOW_OUTSIDE) == "1":
+            return
+        if root is not None and Confinement([root]).allows(path):
+            return
+        folders = [self._own, *self._ros.roots, *self._gazebo.model_folders, *self._gazebo.resource_folders]
+        if not Confinement([*folders, *self._ros.all().values()]).allows(path):
+            raise DescriptionError(
+                at,
+                f"{told} leads to {path}; a description reads only below its own folders, the packages and the "
+                "resource paths; --allow-outside lifts that",
+            )
+
+    def _located(self, uri: str, beside: Path, at: Source) -> tuple[Path | None, Path]:
+        """Where a URI leads, and the folder of the package or model it names."""
         scheme, separator, rest = uri.partition("://")
         if not separator:
-            scheme, rest = "", uri
-        root, path = self._located(scheme, rest, beside, uri, at)
-        resolved = Path(os.path.normpath(path))
-        if root is not None and not resolved.is_relative_to(os.path.normpath(root)):
-            raise DescriptionError(at, f"{uri} leads out of {root}; a description reads only below its own folders")
-        if not resolved.exists():
-            raise DescriptionError(at, f"{uri}: no such file {resolved}")
-        return resolved
+            scheme, rest = "file", uri
+        match scheme:
+            case "http" | "https":
+                return self._fetched(uri, at)
+            case "package" | "model":
+                return self._in_package_or_model(scheme, rest, uri, at)
+            case "file" if rest.startswith("/"):
+                return None, Path(unquote(rest)) if separator else Path(rest)
+            case "file":
+                found = None if (beside / rest).exists() else self._gazebo.find_resource(rest)
+                return None, found or beside / rest
+            case _:
+                known = "package://, model://, file:// and relative paths"
+                raise DescriptionError(at, f"{uri}: {scheme}:// is not known; {known} are")
 
-    def _located(self, scheme: str, rest: str, beside: Path, uri: str, at: Source) -> tuple[Path | None, Path]:
-        name, _, inside = rest.lstrip("/").partition("/")
-        if scheme in ("package", "model"):
-            folder = self._package_or_model(name, first=scheme)
-            if folder is None:
-                looked = ", ".join(map(str, [*self._ros.searched(), *self.model_folders]))
-                raise DescriptionError(at, f"{uri}: no {scheme} {name!r}; looked in {looked}")
-            return folder, folder / inside
-        if scheme == "file" and rest.startswith("/"):
-            return None, Path(rest)
-        for folder in [beside, *self.resource_folders]:
-            if (folder / rest).exists():
-                return folder, folder / rest
-        return beside, beside / rest
-
-    def _package_or_model(self, name: str, *, first: str) -> Path | None:
+    def _in_package_or_model(self, scheme: str, rest: str, uri: str, at: Source) -> tuple[Path, Path]:
         """URDF says package://, its conversion to SDF model://; each stands for the other where it finds nothing."""
-        package = self.find_package(name)
-        model = next((folder / name for folder in self.model_folders if (folder / name).is_dir()), None)
-        return (package or model) if first == "package" else (model or package)
+        name, _, inside = rest.lstrip("/").partition("/")
+        package = self.find_package(name) if scheme == "package" else None
+        folder = package or self._gazebo.find_model(name) or self.find_package(name)
+        if folder is not None:
+            return folder, folder / inside
+        looked = self.why_not_found(name) if scheme == "package" else f"no model {name!r}; {self._where_models_are()}"
+        raise DescriptionError(at, f"{uri}: {looked}")
 
+    def _fetched(self, url: str, at: Source) -> tuple[Path, Path]:
+        folder = self._gazebo.find_fetched(url)
+        if folder is not None:
+            return folder, folder
+        local = unquote(url.rstrip("/").rpartition("/")[2]).lower().replace(" ", "_")
+        if "fuel" not in url:
+            advice = "copy the file beside this one"
+        elif self._gazebo.find_model(local) is not None:
+            advice = f"model://{local} is here"
+        else:
+            advice = "fetch it with `gz fuel download -u URL`, or put its folder on GAZEBO_MODEL_PATH"
+        raise DescriptionError(at, f"{url}: nothing is fetched from the network; {advice}")
 
-def _paths(value: str) -> list[Path]:
-    return [Path(entry).expanduser() for entry in value.split(os.pathsep) if entry]
+    def _where_models_are(self) -> str:
+        looked = ", ".join(map(str, self._gazebo.model_folders))
+        return f"looked in {looked}; put its folder's parent on GAZEBO_MODEL_PATH"

@@ -2,29 +2,37 @@
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections import deque
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from trundle.diagnostics import DescriptionError
 from trundle.xmlnode import read_xml
 
-MANIFESTS = ("package.xml", "manifest.xml")
+from .workspace import MANIFESTS, PARTS, own_package, workspaces
+
 _DEEPEST = 8
 """How far below a package path packages are looked for; rospack has no bound, real workspaces need five."""
-_PARTS = ("launch", "urdf", "meshes")
+_MOST_GUESSED = 5000
+"""Folders looked at where nobody said that packages are: a home folder has more than one wants to wait for."""
 _NOT_CRAWLED = frozenset({"build", "node_modules", "__pycache__"})
 _NAME = re.compile(r"<name>\s*([\w.-]+)\s*</name>")
-_IGNORED_BY = ("CATKIN_IGNORE", "AMENT_IGNORE", "rospack_nosubdirs")
+_IGNORED_BY = ("CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE", "rospack_nosubdirs")
+SHIPPED = Path(__file__).parent / "ros"
+"""Packages of our own: for the few stock ones that launch files only take a file from."""
 
 
 class RosPackages:
     """An index of the packages below some folders, made when first asked."""
 
     def __init__(self, environment: Mapping[str, str], start: Path) -> None:
-        """Look along ROS_PACKAGE_PATH, then in the workspace around `start`, then in the folders above it."""
+        """Look along ROS_PACKAGE_PATH, in the workspace around `start`, then beside the package `start` is in."""
         entries = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
-        self.roots = [Path(entry).expanduser() for entry in entries if entry]
-        self._around = list(_around(start.resolve()))
+        start = start.resolve()
+        self.roots = [*(Path(entry).expanduser() for entry in entries if entry), *workspaces(start)]
+        """Folders that are there to hold packages."""
+        own = own_package(start)
+        self._guessed = [] if own is None or own.parent in self.roots else [own, own.parent]
         self._by_name: dict[str, Path] | None = None
         self._folders: dict[str, Path] = {}
 
@@ -36,41 +44,49 @@ class RosPackages:
         """Every package that has a manifest, by name; the first of a name wins."""
         if self._by_name is None:
             self._by_name = {}
-            for root in [*self.roots, *self._around]:
+            for root in self.roots:
                 self._crawl(root)
+            for root in self._guessed:
+                self._crawl(root, most=_MOST_GUESSED)
+            self._crawl(SHIPPED)
         return self._by_name
 
     def searched(self) -> list[Path]:
         """Where `find` looks, in order."""
-        return [*self.roots, *self._around]
+        return [*self.roots, *self._guessed[1:]]
 
-    def _crawl(self, root: Path) -> None:
+    def _crawl(self, root: Path, *, most: int | None = None) -> None:
         assert self._by_name is not None
-        for folder, is_package in _walk(root, depth=0):
-            self._folders.setdefault(folder.name, folder)
+        for folder, names in _walk(root, most):
+            is_package = not names.isdisjoint(MANIFESTS)
             if is_package:
                 self._by_name.setdefault(_package_name(folder), folder)
+            if is_package or not names.isdisjoint(PARTS):
+                self._folders.setdefault(folder.name, folder)
 
 
-def _walk(folder: Path, *, depth: int) -> Iterator[tuple[Path, bool]]:
-    """Every folder and whether it is a package; what lies inside a package is not looked at."""
-    try:
-        with os.scandir(folder) as listing:
-            entries = sorted(listing, key=lambda entry: entry.name)
-    except OSError:
-        return
-    names = {entry.name for entry in entries}
-    if names.intersection(_IGNORED_BY):
-        return
-    is_package = not names.isdisjoint(MANIFESTS)
-    yield folder, is_package
-    if is_package or depth >= _DEEPEST:
-        return
-    for entry in entries:
-        if entry.name.startswith(".") or entry.name in _NOT_CRAWLED:
+def _walk(root: Path, most: int | None) -> Iterator[tuple[Path, set[str]]]:
+    """Every folder and the names in it, the nearest first; what lies inside a package is not looked at."""
+    waiting = deque([(root, 0)])
+    looked_at = 0
+    while waiting and (most is None or looked_at < most):
+        folder, depth = waiting.popleft()
+        looked_at += 1
+        try:
+            with os.scandir(folder) as listing:
+                entries = sorted(listing, key=lambda entry: entry.name)
+        except OSError:
             continue
-        if entry.is_dir():
-            yield from _walk(Path(entry.path), depth=depth + 1)
+        names = {entry.name for entry in entries}
+        if names.intersection(_IGNORED_BY):
+            continue
+        yield folder, names
+        if depth < _DEEPEST and names.isdisjoint(MANIFESTS):
+            waiting.extend((Path(entry.path), depth + 1) for entry in entries if _may_hold_packages(entry))
+
+
+def _may_hold_packages(entry: os.DirEntry[str]) -> bool:
+    return not entry.name.startswith(".") and entry.name not in _NOT_CRAWLED and entry.is_dir()
 
 
 def _package_name(folder: Path) -> str:
@@ -90,20 +106,3 @@ def _named_in(manifest: Path) -> str:
     except OSError:
         return ""
     return found[1] if found else ""
-
-
-def _around(start: Path) -> Iterable[Path]:
-    """The folder that holds the package `start` is in, and a workspace's `src` above.
-
-    A published tutorial often has no package.xml: a folder with a `launch`, `urdf` or `meshes` in it is a package too.
-    """
-    folder = start if start.is_dir() else start.parent
-    above = [folder, *folder.parents]
-    for each in above:
-        if any((each / part).exists() for part in (*MANIFESTS, *_PARTS)):
-            yield each.parent
-            break
-    for each in above:
-        if each.name == "src" and each.parent != each:
-            yield each
-            break

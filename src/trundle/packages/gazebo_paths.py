@@ -1,0 +1,117 @@
+"""Where Gazebo's models, worlds and media live: its two path variables, what packages export, and our own."""
+
+import os
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from trundle.diagnostics import DescriptionError
+from trundle.xmlnode import read_xml
+
+from .ros_packages import RosPackages
+from .workspace import nearby
+
+SHIPPED = Path(__file__).parent
+"""Has `models`, `stand_ins` and `worlds` of our own, laid out as /usr/share/gazebo is."""
+_CHECKOUT_EXAMPLES = Path(__file__).parents[3] / "examples"
+_FUEL_CACHES = (".gz/fuel", ".ignition/fuel")
+"""Below HOME: where the tools of newer Gazebos keep what they fetched."""
+_SUFFIXES = (".", "worlds", "models", "media/models", "Media/models", "media")
+"""What Gazebo tries below a resource path, and `worlds`, for a name without one."""
+
+
+class GazeboPaths:
+    """The folders of one environment, around one file."""
+
+    def __init__(self, environment: Mapping[str, str], start: Path, ros: RosPackages) -> None:
+        self._home = Path(environment.get("HOME") or "/tmp")
+        self._start = start
+        self._ros = ros
+        self._named_models = _paths(environment.get("GAZEBO_MODEL_PATH", ""))
+        self._named_resources = _paths(environment.get("GAZEBO_RESOURCE_PATH", ""))
+
+    @cached_property
+    def model_folders(self) -> list[Path]:
+        """Folders of models in Gazebo's order, then ours."""
+        return [
+            self._home / ".gazebo" / "models",
+            *self._named_models,
+            *self._exported("gazebo_model_path"),
+            SHIPPED / "models",
+            *([_CHECKOUT_EXAMPLES] if (_CHECKOUT_EXAMPLES / "rp2w").is_dir() else []),
+        ]
+
+    @cached_property
+    def resource_folders(self) -> list[Path]:
+        """Folders of worlds and media."""
+        return [
+            *self._named_resources,
+            *self._exported("gazebo_media_path"),
+            *self._exported("gazebo_resource_path"),
+            SHIPPED,
+        ]
+
+    def find_model(self, name: str) -> Path | None:
+        """The folder of a model: along the path, then near the file, then a stand-in of ours."""
+        if not name or name in (".", ".."):
+            return None
+        along = (folder / name for folder in self.model_folders)
+        near = (folder / sub / name for folder in nearby(self._start) for sub in (".", "models"))
+        stand_in = SHIPPED / "stand_ins" / name
+        candidates = (*along, *(each for each in near if (each / "model.config").is_file()), stand_in)
+        return next((each for each in candidates if each.is_dir()), None)
+
+    def find_resource(self, name: str) -> Path | None:
+        """A file below a resource folder, such as `worlds/empty.world` or `media/materials/scripts`."""
+        if os.path.isabs(name) or ".." in Path(name).parts:
+            return None
+        tries = (folder / suffix / name for folder in self.resource_folders for suffix in _SUFFIXES)
+        return next((path for path in tries if path.exists()), None)
+
+    def find_fetched(self, url: str) -> Path | None:
+        """The folder that `gz fuel download` or `ign fuel download` made of a model's or world's URL."""
+        parts = urlsplit(url)
+        words = [unquote(word) for word in parts.path.split("/") if word]
+        if len(words) < 4 or ".." in words:
+            return None
+        owner, kind, name, *rest = words[1:]  # the first is the interface's version, such as 1.0
+        for cache in _FUEL_CACHES:
+            folder = self._home / cache / parts.netloc / owner.lower() / kind / name.lower()
+            versions = sorted((int(sub.name), sub) for sub in _folders(folder) if sub.name.isdecimal())
+            if rest and rest[0].isdecimal():
+                versions = [each for each in versions if each[0] == int(rest[0])]
+            if versions:
+                return versions[-1][1]
+        return None
+
+    def _exported(self, attribute: str) -> Iterator[Path]:
+        """What `<export><gazebo_ros …>` of the packages here adds, as libgazebo_ros_paths_plugin reads it."""
+        for prefix, attributes in self._exports:
+            for value in _paths(attributes.get(attribute, "").replace("${prefix}", str(prefix))):
+                yield prefix / value
+
+    @cached_property
+    def _exports(self) -> list[tuple[Path, dict[str, str]]]:
+        found: list[tuple[Path, dict[str, str]]] = []
+        for folder in self._ros.all().values():
+            manifest = folder / "package.xml"
+            try:
+                if b"gazebo_ros" not in manifest.read_bytes():
+                    continue
+                export = read_xml(manifest).find("export")
+            except (OSError, DescriptionError):
+                continue
+            found += [(folder, node.attributes()) for node in (export.all("gazebo_ros") if export else [])]
+        return found
+
+
+def _folders(folder: Path) -> list[Path]:
+    try:
+        return [each for each in folder.iterdir() if each.is_dir()]
+    except OSError:
+        return []
+
+
+def _paths(value: str) -> list[Path]:
+    return [Path(entry).expanduser() for entry in value.split(os.pathsep) if entry]

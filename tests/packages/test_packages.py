@@ -1,0 +1,209 @@
+"""Where URIs lead, in workspaces, on Gazebo's paths and among our own files."""
+
+from pathlib import Path
+
+import pytest
+
+from trundle import packages as room
+from trundle.cli import main
+from trundle.diagnostics import DescriptionError, Source, UsageError
+from trundle.packages import Packages
+
+AT = Source("robot.urdf", 7)
+
+
+def write(path: Path, text: str = "") -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    return path
+
+
+def package(folder: Path, *, name: str | None = None, export: str = "") -> Path:
+    """A package folder with a manifest and a mesh."""
+    write(folder / "package.xml", f"<package><name>{name or folder.name}</name><export>{export}</export></package>")
+    write(folder / "meshes/arm.stl")
+    return folder
+
+
+def model(folder: Path) -> Path:
+    write(folder / "model.config", "<model><sdf version='1.6'>model.sdf</sdf></model>")
+    write(folder / "model.sdf", f"<sdf version='1.6'><model name='{folder.name}'><link name='l'/></model></sdf>")
+    return folder
+
+
+def resolve(uri: str, start: Path, **environment: str) -> Path:
+    beside = start if start.is_dir() else start.parent
+    return Packages({"HOME": str(start.anchor) + "nobody", **environment}, start=start).resolve(
+        uri, beside=beside, at=AT
+    )
+
+
+def test_the_front_door_exports_in_order() -> None:
+    assert room.__all__ == sorted(room.__all__)
+    assert all(hasattr(room, name) for name in room.__all__)
+
+
+def test_a_package_is_found_by_its_manifests_name_and_by_its_folders(tmp_path: Path) -> None:
+    package(tmp_path / "ws/arm-master", name="arm_description")
+    path = {"ROS_PACKAGE_PATH": str(tmp_path / "ws")}
+
+    by_name = resolve("package://arm_description/meshes/arm.stl", tmp_path, **path)
+    by_folder = resolve("package://arm-master/meshes/arm.stl", tmp_path, **path)
+
+    assert by_name == by_folder == tmp_path / "ws/arm-master/meshes/arm.stl"
+
+
+@pytest.mark.parametrize("space", ["src/group", "devel/share", "install/share", "install/hand/share"])
+def test_every_folder_of_a_workspace_is_searched(tmp_path: Path, space: str) -> None:
+    start = write(package(tmp_path / "src/robots/arm") / "urdf/arm.urdf")
+    hand = package(tmp_path / space / "hand")
+
+    assert resolve("package://hand/meshes/arm.stl", start) == hand / "meshes/arm.stl"
+
+
+def test_without_a_workspace_the_neighbours_of_the_package_are_searched(tmp_path: Path) -> None:
+    start = write(tmp_path / "arm/urdf/arm.urdf")  # a tutorial without package.xml
+    write(tmp_path / "hand/meshes/palm.stl")
+
+    assert resolve("package://hand/meshes/palm.stl", start) == tmp_path / "hand/meshes/palm.stl"
+    assert resolve("../meshes/own.stl", write(tmp_path / "arm/meshes/own.stl").parent.parent / "urdf").name == "own.stl"
+
+
+def test_an_ignored_folder_holds_no_packages(tmp_path: Path) -> None:
+    package(tmp_path / "old/hand")
+    write(tmp_path / "old/CATKIN_IGNORE")
+
+    with pytest.raises(DescriptionError, match=r"robot\.urdf:7: error: package://hand/x: no package 'hand'; looked"):
+        resolve("package://hand/x", tmp_path, ROS_PACKAGE_PATH=str(tmp_path))
+
+
+def test_package_and_model_stand_for_one_another(tmp_path: Path) -> None:
+    package(tmp_path / "ws/hand")
+    model(tmp_path / "models/cup")
+    environment = {"ROS_PACKAGE_PATH": str(tmp_path / "ws"), "GAZEBO_MODEL_PATH": str(tmp_path / "models")}
+
+    assert resolve("model://hand/meshes/arm.stl", tmp_path, **environment).is_file()
+    assert resolve("package://cup/model.sdf", tmp_path, **environment).is_file()
+
+
+def test_models_come_from_home_first_and_then_the_path_in_order(tmp_path: Path) -> None:
+    home, first, second = (model(tmp_path / each / "cup") for each in ("home/.gazebo/models", "a", "b"))
+    path = {"GAZEBO_MODEL_PATH": f"{first.parent}:{second.parent}"}
+
+    assert resolve("model://cup", tmp_path, **path) == first
+    assert resolve("model://cup", tmp_path, HOME=str(tmp_path / "home"), **path) == home
+
+
+def test_a_package_exports_its_models_and_media(tmp_path: Path) -> None:
+    export = '<gazebo_ros gazebo_model_path="${prefix}/stuff" gazebo_media_path="${prefix}"/>'
+    gazebo = package(tmp_path / "ws/arm_gazebo", export=export)
+    cup = model(gazebo / "stuff/cup")
+    write(gazebo / "worlds/kitchen.world")
+    packages = Packages({"ROS_PACKAGE_PATH": str(tmp_path / "ws")}, start=tmp_path)
+
+    assert packages.find_model("cup") == cup
+    assert packages.find_world("worlds/kitchen.world") == gazebo / "worlds/kitchen.world"
+    assert packages.resolve("file://worlds/kitchen.world", beside=tmp_path, at=AT).is_file()
+
+
+def test_models_near_the_file_are_found_after_those_on_the_path(tmp_path: Path) -> None:
+    world = write(tmp_path / "project/worlds/kitchen.world")
+    near = model(tmp_path / "project/models/cup")
+    named = model(tmp_path / "named/cup")
+
+    assert resolve("model://cup", world) == near
+    assert resolve("model://cup", world, GAZEBO_MODEL_PATH=str(named.parent)) == named
+
+
+def test_a_model_that_is_nowhere_is_answered_with_where_was_looked(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match=rf"no model 'cup'; looked in .*{tmp_path}/m.*on GAZEBO_MODEL_PATH"):
+        Packages({"GAZEBO_MODEL_PATH": str(tmp_path / "m")}, start=tmp_path).find_model("cup")
+
+
+def test_a_fuel_model_comes_from_the_cache_of_gazebos_own_tool_or_not_at_all(tmp_path: Path) -> None:
+    url = "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Coffee Cup"
+    cached = tmp_path / ".gz/fuel/fuel.gazebosim.org/openrobotics/models/coffee cup"
+    with pytest.raises(DescriptionError, match="nothing is fetched from the network; fetch it with `gz fuel"):
+        resolve(url, tmp_path, HOME=str(tmp_path))
+    for version in ("9", "10"):
+        model(cached / version)
+
+    assert resolve(url, tmp_path, HOME=str(tmp_path)) == cached / "10"
+    assert resolve(url.replace(" ", "%20") + "/9", tmp_path, HOME=str(tmp_path)) == cached / "9"
+
+
+@pytest.mark.parametrize(
+    ("uri", "said"),
+    [
+        ("https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground Plane", "model://ground_plane is here"),
+        ("http://example.org/cup.dae", "nothing is fetched from the network; copy the file beside this one"),
+        ("ftp://example.org/cup.dae", "ftp:// is not known; package://, model://, file:// and relative paths are"),
+        ("meshes/lost.dae", "no such file .*meshes/lost.dae"),
+        ("file:///nowhere/lost.dae", "no such file /nowhere/lost.dae"),
+        ("model://", "no model ''"),
+        ("package://../etc/passwd", "no package '..'"),
+    ],
+)
+def test_what_leads_nowhere_is_one_sentence_that_says_what_to_do(tmp_path: Path, uri: str, said: str) -> None:
+    with pytest.raises(DescriptionError, match=said) as caught:
+        resolve(uri, tmp_path)
+    assert str(caught.value).startswith("robot.urdf:7: error: " + uri)
+
+
+def test_spaces_may_be_written_as_in_a_web_address(tmp_path: Path) -> None:
+    mesh = write(tmp_path / "left arm.stl")
+
+    assert resolve("left%20arm.stl", tmp_path) == resolve("left arm.stl", tmp_path) == mesh
+
+
+class TestReadingOutside:
+    """A description reads below its package and what the user pointed at, and nowhere else."""
+
+    @pytest.fixture
+    def robot(self, tmp_path: Path) -> Path:
+        write(tmp_path / "secret.stl")
+        package(tmp_path / "ws/arm")
+        return write(tmp_path / "ws/arm/urdf/arm.urdf")
+
+    @pytest.mark.parametrize(
+        "uri", ["../../../secret.stl", "package://arm/../../secret.stl", "model://arm/../../secret.stl"]
+    )
+    def test_dots_lead_nowhere(self, robot: Path, uri: str) -> None:
+        with pytest.raises(DescriptionError, match="--allow-outside lifts that"):
+            resolve(uri, robot)
+
+    def test_nor_does_an_absolute_path(self, robot: Path, tmp_path: Path) -> None:
+        with pytest.raises(DescriptionError, match="reads only below"):
+            resolve(f"file://{tmp_path}/secret.stl", robot)
+        with pytest.raises(DescriptionError, match="reads only below"):
+            resolve("/etc/passwd", robot)
+
+    def test_nor_does_a_link(self, robot: Path, tmp_path: Path) -> None:
+        (robot.parent / "link.stl").symlink_to(tmp_path / "secret.stl")
+        with pytest.raises(DescriptionError, match="reads only below"):
+            resolve("link.stl", robot)
+
+    def test_unless_it_is_allowed(self, robot: Path, tmp_path: Path) -> None:
+        allowed = {room.ALLOW_OUTSIDE: "1"}
+        assert resolve("../../../secret.stl", robot, **allowed).samefile(tmp_path / "secret.stl")
+
+    def test_other_packages_and_linked_ones_are_not_outside(self, robot: Path, tmp_path: Path) -> None:
+        hand = package(tmp_path / "ws/hand")
+        foot = package(tmp_path / "elsewhere/foot")
+        (tmp_path / "ws/foot").symlink_to(foot)
+
+        assert resolve("../../hand/meshes/arm.stl", robot).samefile(hand / "meshes/arm.stl")
+        assert resolve(f"file://{hand}/meshes/arm.stl", robot).samefile(hand / "meshes/arm.stl")
+        assert resolve("package://foot/meshes/arm.stl", robot).samefile(foot / "meshes/arm.stl")
+
+    def test_the_command_line_has_an_option_for_it(
+        self, robot: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        monkeypatch.setenv(room.ALLOW_OUTSIDE, "0")
+        mesh = "<visual><geometry><mesh filename='../../../secret.stl'/></geometry></visual>"
+        robot.write_text(f"<robot name='arm'><link name='base'>{mesh}</link></robot>")
+
+        assert main(["check", str(robot)]) == 0
+        assert "secret.stl; a description reads only below its own folders" in capsys.readouterr().out
+        assert main(["check", str(robot), "--allow-outside"]) == 0
+        assert "reads only below" not in capsys.readouterr().out

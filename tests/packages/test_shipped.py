@@ -1,0 +1,127 @@
+"""Worlds, stand-ins and packages of our own: they read without a remark, and say what they are."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+from trundle.description import load
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.launch import read_launch
+from trundle.model import Box, Cylinder
+from trundle.packages import Packages, model_file, refuse_template
+
+HERE = Path(__file__).parent
+PACKAGES = Packages({"HOME": "/nobody"}, start=HERE)
+STAND_INS = Path(load.__code__.co_filename).parents[1] / "packages/stand_ins"
+
+
+@pytest.mark.parametrize("name", PACKAGES.worlds())
+def test_every_world_reads_without_a_warning(name: str) -> None:
+    report = Diagnostics()
+
+    loaded = load(f"worlds/{name}", report, packages=PACKAGES)
+
+    assert loaded.kind == "world"
+    assert report.warnings == []
+    assert load(name, report, packages=PACKAGES).world == loaded.world
+
+
+def test_a_world_that_is_not_there_is_answered_with_those_that_are() -> None:
+    with pytest.raises(DescriptionError, match=r"willowgarage.world: error: no such file .*: blank.world, empty.world"):
+        load("worlds/willowgarage.world", Diagnostics(), packages=PACKAGES)
+
+
+def test_every_stand_in_is_a_body_on_the_ground_that_says_what_it_is() -> None:
+    names = sorted(path.name for path in STAND_INS.iterdir())
+    assert {"dumpster", "construction_cone", "jersey_barrier", "construction_barrel"} <= set(names)
+    for name in names:
+        report = Diagnostics()
+        (model,) = load(f"model://{name}", report, packages=PACKAGES).world.models
+
+        assert model.name == name
+        assert len(model.links[0].collisions) == len(model.links[0].visuals) > 0
+        assert report.warnings == []
+        assert [f.what for f in report.findings if "stand-in" in f.what], name
+
+
+def test_stand_ins_have_the_size_of_what_they_stand_for() -> None:
+    """The originals' figures, measured on the meshes of the public model database."""
+    (model,) = load("model://beer", Diagnostics(), packages=PACKAGES).world.models
+    assert model.links[0].collisions[0].geometry == Cylinder(0.055, 0.23)
+    assert model.links[0].inertial.mass == 0.39
+    assert model.links[0].inertial.moments[2] == pytest.approx(0.39 * 0.11**2 / 6, rel=1e-3)
+    (model,) = load("model://dumpster", Diagnostics(), packages=PACKAGES).world.models
+    assert model.links[0].collisions[0].geometry == Box((2.505, 1.535, 1.773))
+    assert math.isclose(model.links[0].collisions[0].link_from_collision.position[2], 0.885)
+
+
+def test_a_model_of_the_same_name_comes_before_its_stand_in(tmp_path: Path) -> None:
+    own = tmp_path / "beer"
+    own.mkdir()
+    (own / "model.config").write_text("<model><sdf version='1.6'>b.sdf</sdf></model>")
+    (own / "b.sdf").write_text("<sdf version='1.6'><model name='b'><link name='l'/></model></sdf>")
+    packages = Packages({"GAZEBO_MODEL_PATH": str(tmp_path)}, start=HERE)
+    report = Diagnostics()
+
+    assert load("model://beer", report, packages=packages).world.name == "b"
+    assert not [f for f in report.findings if "stand-in" in f.what]
+
+
+def test_the_tutorials_display_launch_is_there_for_others_to_include(tmp_path: Path) -> None:
+    folder = PACKAGES.find_package("urdf_tutorial")
+    assert folder is not None
+    assert (folder / "urdf.rviz").read_text() == (folder / "rviz/urdf.rviz").read_text()
+
+    plan = read_launch(
+        folder / "launch/display.launch", packages=PACKAGES, report=Diagnostics(), arguments={"model": "r.urdf"}, env={}
+    )
+
+    assert [node.type for node in plan.nodes][1:] == ["robot_state_publisher", "rviz"]
+
+
+class TestModelConfig:
+    """Which SDF file of a folder is read."""
+
+    def folder(self, tmp_path: Path, *entries: str) -> Path:
+        (tmp_path / "model.config").write_text(f"<model>{''.join(entries)}</model>")
+        for name in ("old.sdf", "new.sdf", "future.sdf"):
+            (tmp_path / name).write_text("<sdf/>")
+        return tmp_path
+
+    def test_the_newest_version_that_can_be_read_wins(self, tmp_path: Path) -> None:
+        entries = [
+            f"<sdf version='{version}'>{name}.sdf</sdf>"
+            for version, name in (("1.9", "old"), ("1.10", "new"), ("1.99", "future"))
+        ]
+        report = Diagnostics()
+
+        assert model_file(self.folder(tmp_path, *entries), report).name == "new.sdf"
+        assert report.findings == []
+
+    def test_a_file_newer_than_any_rule_is_read_with_a_warning(self, tmp_path: Path) -> None:
+        report = Diagnostics()
+
+        assert model_file(self.folder(tmp_path, "<sdf version='2.0'>future.sdf</sdf>"), report).name == "future.sdf"
+        (warning,) = report.warnings
+        assert warning.endswith("model.config:1: warning: SDF 2.0 is newer than 1.12; it is read as 1.12")
+
+    @pytest.mark.parametrize("text", ["lost.sdf", "../../../etc/passwd", "/etc/passwd", ""])
+    def test_a_file_that_is_not_in_the_folder_is_refused(self, tmp_path: Path, text: str) -> None:
+        with pytest.raises(DescriptionError, match=rf"no file '{text}' in .*; there is: future.sdf, model.config, new"):
+            model_file(self.folder(tmp_path, f"<sdf version='1.6'>{text}</sdf>"), Diagnostics())
+
+    def test_a_folder_without_one_lists_what_it_has(self, tmp_path: Path) -> None:
+        with pytest.raises(DescriptionError, match=r"no model\.config in this folder; there is: nothing"):
+            model_file(tmp_path, Diagnostics())
+
+
+@pytest.mark.parametrize(("name", "made"), [("city.world.erb", "city.world"), ("arm.rsdf", "arm.sdf")])
+def test_a_template_is_refused_with_how_to_expand_it(tmp_path: Path, name: str, made: str) -> None:
+    path = tmp_path / name
+    path.write_text("<% 3.times do %>")
+
+    with pytest.raises(DescriptionError, match=rf"expand it first: erb {name} > {made}"):
+        load(str(path), Diagnostics(), packages=PACKAGES)
+    with pytest.raises(DescriptionError):
+        refuse_template(path)
