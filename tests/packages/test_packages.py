@@ -201,7 +201,8 @@ class TestReadingOutside:
     ) -> None:
         monkeypatch.setenv(room.ALLOW_OUTSIDE, "0")
         mesh = "<visual><geometry><mesh filename='../../../secret.stl'/></geometry></visual>"
-        robot.write_text(f"<robot name='arm'><link name='base'>{mesh}</link></robot>")
+        inertial = "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>"
+        robot.write_text(f"<robot name='arm'><link name='base'>{inertial}{mesh}</link></robot>")
 
         assert main(["check", str(robot)]) == 0
         assert "secret.stl; a description reads only below its own folders" in capsys.readouterr().out
