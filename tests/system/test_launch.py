@@ -198,3 +198,39 @@ def test_remote_children_are_refused(launch: Launch) -> None:
     done = launch("-c", "name", "-u", "http://x", "--run_id", "1")
     assert done.returncode == 1
     assert "not supported" in done.stderr
+
+
+def test_a_gazebo_launch_file_simulates_its_robot_without_gazebo(start, trundle, until, package: Path) -> None:
+    (package / "ball.sdf").write_text(
+        '<sdf version="1.6"><model name="m"><link name="l"><collision name="c"><geometry><sphere><radius>0.1</radius>'
+        "</sphere></geometry></collision></link></model></sdf>"
+    )
+    (package / "main.launch").write_text(
+        '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch"/>'
+        '<node name="spawn" pkg="gazebo_ros" type="spawn_model"'
+        ' args="-sdf -file $(dirname)/ball.sdf -model ball -z 1"/>'
+        "</launch>"
+    )
+    running = start("launch", "p", "main.launch", "--headless", ROS_PACKAGE_PATH=str(package.parent))
+
+    def state() -> str:
+        return trundle("service", "call", "/gazebo/get_model_state", "{model_name: ball}").stdout
+
+    until("the ball on the ground", lambda: "z: 0.1" in state() or "z: 0.09" in state())
+    assert "stand-in  /gazebo" in running.output()
+    assert trundle("param", "get", "/use_sim_time").stdout == "true\n"
+    assert running.interrupt() == 130
+    assert "Traceback" not in running.output()
+
+
+def test_a_world_that_is_not_there_is_named(launch: Launch, package: Path) -> None:
+    (package / "main.launch").write_text(
+        '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch">'
+        '<arg name="world_name" value="worlds/nowhere.world"/><arg name="server_required" value="true"/></include>'
+        "</launch>"
+    )
+    done = launch("p", "main.launch", "--headless")
+
+    assert done.returncode == 1
+    assert "worlds/nowhere.world: error: no such file or folder" in done.stderr
+    assert "Traceback" not in done.stderr + done.stdout

@@ -20,6 +20,7 @@ from trundle.viewer import GraphPage
 
 from . import launch_print
 from .exposure import warn_of_exposure
+from .gazebo_world import GazeboWorld
 from .graph import Graph
 from .launch_logs import log_folder
 from .launch_nodes import NodeStarter
@@ -139,13 +140,24 @@ def _run(
         if not options.headless:
             page = GraphPage(packages=packages, report=report, host=options.host, port=options.view_port)
             open_things.callback(page.close)
+        logs = log_folder(env, graph.loop.run(launcher.get_param("/run_id", "")))
+        gazebo = GazeboWorld(
+            graph=graph,
+            packages=packages,
+            env=env,
+            report=report,
+            folder=logs / "spawned",
+            say=show.line,
+            window=None if options.headless else (options.host, options.view_port),
+        )
+        open_things.callback(gazebo.close)
         starter = NodeStarter(
             graph=graph,
             packages=packages,
             env=env,
             report=report,
-            host=Host(display=page),
-            log_folder=log_folder(env, graph.loop.run(launcher.get_param("/run_id", ""))),
+            host=Host(display=page, simulator=gazebo),
+            log_folder=logs,
             output=options.output,
             all_required=options.all_required,
         )

@@ -5,13 +5,16 @@ from collections.abc import Callable, Mapping
 from trundle.diagnostics import DescriptionError
 from trundle.names import ros_name
 from trundle.plugins import Plugin, find_plugin
+from trundle.ros import Node
 from trundle.simulation import Simulation
-
-from .ros_side import RosSide
 
 
 def load_plugins(
-    simulation: Simulation, ros: RosSide | None, environment: Mapping[str, str], *, say: Callable[[str], None]
+    simulation: Simulation,
+    make_node: Callable[[str], Node] | None,
+    environment: Mapping[str, str],
+    *,
+    say: Callable[[str], None],
 ) -> list[Plugin]:
     """Load each plugin and hook it in; one that cannot be had is named, and the run goes on as in Gazebo."""
     report = simulation.report
@@ -24,7 +27,7 @@ def load_plugins(
                 report.warn(error.at, f"{error.what}; the run goes on without it")
                 continue
             say(f"plugin {tag.name!r} of {model.name}: {origin}")
-            node = None if ros is None else ros.make_node(f"/{ros_name(model.name)}/{ros_name(tag.name)}")
+            node = None if make_node is None else make_node(f"/{ros_name(model.name)}/{ros_name(tag.name)}")
             try:
                 plugin = plugin_class.load(simulation, simulation[model.name], node, tag)
             except Exception as error:

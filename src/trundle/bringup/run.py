@@ -74,7 +74,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         if options.ros:
             ros = open_things.enter_context(RosSide.open(simulation, stage, cameras, env, host=options.host))
             show.line(ros.story)
-        load_plugins(simulation, ros, env, say=show.line)
+        load_plugins(simulation, None if ros is None else ros.make_node, env, say=show.line)
         show.findings()
         page = None
         if not options.headless:

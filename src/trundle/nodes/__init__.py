@@ -2,7 +2,7 @@
 
 from .catalog import STAND_INS
 from .find import Executable, Missing, Replacement, find_node
-from .host import Display, Host, Slider, StandIn
+from .host import Display, Host, Simulator, Slider, StandIn
 from .profile import PROFILES, Profile
 from .run import run_stand_in
 
@@ -15,6 +15,7 @@ __all__ = [
     "Missing",
     "Profile",
     "Replacement",
+    "Simulator",
     "Slider",
     "StandIn",
     "find_node",

@@ -10,7 +10,7 @@ from typing import TypeAlias, cast
 
 from trundle.ros import Node
 
-from .catalog import STAND_INS
+from .catalog import OURS_ALWAYS, STAND_INS
 from .host import Host, StandIn
 
 _IMPORTS_ROSPY = re.compile(rb"^\s*(?:import|from)\s+(?:rospy|roslib)\b", re.MULTILINE)
@@ -61,8 +61,10 @@ def find_node(
         find_package: knows where packages live.
         env: what a process would be started with.
     """
-    folder = find_package(package)
     target = STAND_INS.get((package, type_name))
+    if target is not None and package in OURS_ALWAYS:
+        return Replacement(target)
+    folder = find_package(package)
     plain: Path | None = None
     if folder is not None:
         for path in _files(folder, type_name):

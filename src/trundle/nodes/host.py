@@ -1,12 +1,16 @@
 """What a stand-in is, and what it may ask of the program it runs in."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from trundle.ros import Node
+from trundle.spatial import Pose
 
 from .profile import PROFILES, Profile
+
+if TYPE_CHECKING:
+    from trundle.simulation import Simulation
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,12 +41,72 @@ class Display(Protocol):
         ...
 
 
+class Simulator(Protocol):
+    """The one simulation of a launch, on a thread of its own; all but `open`, `post` and `show` is called there."""
+
+    @property
+    def simulation(self) -> "Simulation":
+        """The world as it is now; another object after a model came or went."""
+        ...
+
+    @property
+    def paused(self) -> bool: ...
+
+    async def open(self, node: Node, world: str, *, paused: bool) -> None:
+        """Read a world and let it run; `node` publishes its time, and its callbacks run on the thread.
+
+        Raises:
+            TrundleError: no such world, one that cannot be read, or there is one already.
+        """
+        ...
+
+    def post(self, call: Callable[[], None]) -> None:
+        """Have a function called between two strides, even while the simulation is paused; from any thread."""
+        ...
+
+    def set_paused(self, paused: bool) -> None: ...
+
+    def spawn(self, xml: str, *, name: str, world_from_model: Pose, namespace: str) -> None:
+        """Add the model that an SDF or URDF text describes.
+
+        Raises:
+            TrundleError: the name is taken, or the text is no model.
+        """
+        ...
+
+    def delete(self, name: str) -> None:
+        """Remove a model.
+
+        Raises:
+            TrundleError: there is none.
+        """
+        ...
+
+    def place(self, name: str, world_from_model: Pose, joints: Mapping[str, float]) -> None:
+        """Put a model somewhere at once, at rest, and some of its joints into a position [rad or m].
+
+        Raises:
+            TrundleError: no such model or joint.
+        """
+        ...
+
+    def reset(self, *, time: bool) -> None:
+        """Put every model back to where it was when it came; `time` goes back to zero, too."""
+        ...
+
+    async def show(self, node: Node) -> int:
+        """Be the window until it is cancelled; return an exit code."""
+        ...
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Host:
     """What the program offers its stand-ins."""
 
     display: Display | None = None
     """None: headless; rviz idles."""
+    simulator: Simulator | None = None
+    """None: nothing can be simulated here."""
     profile: Profile = field(default=PROFILES["noetic"])
 
 

@@ -84,6 +84,11 @@ class JointHandle:
         """What drives it [N·m or N]."""
         return float(self._simulation.engine.joint_efforts()[self.index])
 
+    @property
+    def is_driven(self) -> bool:
+        """Whether it has a single axis of freedom, and so can be driven or put somewhere."""
+        return self._simulation.engine.compiled.joint_dof[self.index] >= 0
+
     def set_effort(self, effort: float) -> None:
         """Drive with this effort [N·m or N] until told otherwise."""
         self._simulation.engine.set_effort(self._driven(), effort)
@@ -103,7 +108,7 @@ class JointHandle:
         self._simulation.engine.set_joint_position(self._driven(), position)
 
     def _driven(self) -> int:
-        if self._simulation.engine.compiled.joint_dof[self.index] < 0:
+        if not self.is_driven:
             raise UsageError(f"joint {self.name!r} cannot be driven: it has no single axis of freedom")
         return self.index
 

@@ -1,0 +1,53 @@
+"""Reads the text of a spawned model."""
+
+import re
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+from trundle.description import load
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.model import Model
+from trundle.packages import Packages
+
+_URDF = re.compile(r"<robot[\s>]")
+
+
+def read_spawned(
+    xml: str, *, name: str, namespace: str, folder: Path, packages: Packages, report: Diagnostics
+) -> Model:
+    """Read the one model that an SDF or URDF text describes.
+
+    Args:
+        xml: the text; it is kept in a file, so that messages can name its lines.
+        name: what the model will be called.
+        namespace: becomes the robotNamespace of its plugins, as in gazebo_ros; empty: they keep what they have.
+        folder: where the file goes.
+        packages: where URIs lead.
+        report: takes everything worth saying.
+
+    Raises:
+        TrundleError: no model, or several.
+    """
+    if not xml.strip():
+        raise UsageError(f"model {name!r}: its text is empty")
+    suffix = "urdf" if _URDF.search(xml) else "sdf"
+    file = folder / f"{re.sub(r'[^A-Za-z0-9_.-]', '_', name)}.{suffix}"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(_in_namespace(xml, namespace) if namespace else xml, encoding="utf-8")
+    models = load(str(file), report, packages=packages).world.models
+    if len(models) != 1:
+        raise UsageError(f"model {name!r}: the text describes {len(models)} models; one is needed")
+    return models[0]
+
+
+def _in_namespace(xml: str, namespace: str) -> str:
+    """Write the namespace into every plugin."""
+    try:
+        root = ET.fromstring(xml)
+    except ET.ParseError:
+        return xml  # the reader says what is wrong with it, and where
+    for plugin in root.iter("plugin"):
+        for old in plugin.findall("robotNamespace"):
+            plugin.remove(old)
+        ET.SubElement(plugin, "robotNamespace").text = f"/{namespace}"
+    return ET.tostring(root, encoding="unicode")

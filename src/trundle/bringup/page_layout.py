@@ -1,0 +1,92 @@
+"""What the page of a simulation shows: its bodies, frames, cameras, and a slider for each joint that can move."""
+
+import math
+from dataclasses import dataclass
+
+from trundle.bridge import WORLD_FRAME, link_frames
+from trundle.model import Joint, JointType
+from trundle.render import scene_of
+from trundle.sensors import CameraSensor
+from trundle.simulation import Simulation
+from trundle.viewer import CameraView, FrameInfo, JointSlider, ViewerScene, ViewerState
+
+_SLIDER_RANGE = math.pi
+"""Of a joint without limits [rad or m]."""
+_MOVABLE = frozenset({JointType.REVOLUTE, JointType.PRISMATIC})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Layout:
+    """A scene, the state it opens with, and the joints of its sliders as (model, joint)."""
+
+    scene: ViewerScene
+    first: ViewerState
+    joints: list[tuple[str, str]]
+
+
+def lay_out(simulation: Simulation, cameras: list[CameraSensor], *, drive: bool) -> Layout:
+    """Lay out a page; `drive` is whether it has a pad that drives."""
+    world = simulation.world
+    movable = [(model.name, joint) for model in world.models if not model.static for joint in model.joints]
+    movable = [(name, joint) for name, joint in movable if _is_movable(joint)]
+    names = slider_names([(model, joint.name) for model, joint in movable])
+    scene = ViewerScene(
+        title=f"{world.name} · Trundle",
+        scene=scene_of(world, simulation.report),
+        collisions=scene_of(world, simulation.report, collisions=True),
+        frames=tuple(FrameInfo(f.frame, f.parent) for f in link_frames(world)),
+        cameras=tuple(
+            CameraView(
+                camera.name,
+                camera.link_index,
+                camera.link_from_camera,
+                camera.intrinsics.horizontal_fov_rad,
+                camera.intrinsics.width_px,
+                camera.intrinsics.height_px,
+            )
+            for camera in cameras
+        ),
+        joints=tuple(_slider(joint, name) for (_, joint), name in zip(movable, names, strict=True)),
+        playback=True,
+        drive=drive,
+        root_frame=WORLD_FRAME,
+        follow_body=_first_moving_link(simulation),
+    )
+    snapshot = simulation.snapshot()
+    first = ViewerState(time_ns=snapshot.time_ns, body_poses=snapshot.poses)
+    joints = [(model, joint.name) for model, joint in movable]
+    return Layout(scene=scene, first=first, joints=joints)
+
+
+def _is_movable(joint: Joint) -> bool:
+    return joint.type in _MOVABLE and joint.axis is not None and not joint.axis.is_rigid
+
+
+def slider_names(joints: list[tuple[str, str]]) -> list[str]:
+    """The joints' own names; with their model's in front where there are several models."""
+    several = len({model for model, _ in joints}) > 1
+    return [f"{model}/{joint}" if several else joint for model, joint in joints]
+
+
+def _slider(joint: Joint, name: str) -> JointSlider:
+    assert joint.axis is not None
+    lower, upper = joint.axis.lower, joint.axis.upper
+    return JointSlider(
+        name,
+        lower if math.isfinite(lower) else -_SLIDER_RANGE,
+        upper if math.isfinite(upper) else _SLIDER_RANGE,
+    )
+
+
+def joint_indices(simulation: Simulation, joints: list[tuple[str, str]]) -> list[int]:
+    """Where each joint stands in `Snapshot.joint_positions`."""
+    order = {
+        (model.name, joint.name): i
+        for i, (model, joint) in enumerate((m, j) for m in simulation.world.models for j in m.joints)
+    }
+    return [order[key] for key in joints]
+
+
+def _first_moving_link(simulation: Simulation) -> int | None:
+    links = [(model, link) for model in simulation.world.models for link in model.links]
+    return next((i for i, (model, _) in enumerate(links) if not model.static), None)

@@ -1,0 +1,21 @@
+"""gazebo_ros/gzclient: the window of the simulation."""
+
+from trundle.ros import Node
+
+from ..host import Host
+
+
+class GazeboClient:
+    """Shows the simulated world in the browser; without a page it idles, as gzclient without a display cannot."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del arguments
+        self._node = node
+        self._simulator = host.simulator
+
+    async def run(self) -> int:
+        """Show until cancelled."""
+        if self._simulator is not None:
+            return await self._simulator.show(self._node)
+        await self._node.closed.wait()
+        return 0

@@ -1,0 +1,68 @@
+"""Models, links and joints by the names that /gazebo uses: `model`, `model::link`, `link` where it is the only one."""
+
+from trundle.diagnostics import UsageError
+from trundle.simulation import JointHandle, LinkHandle, ModelHandle, Simulation
+from trundle.spatial import Pose
+
+_WORLD = frozenset({"", "world", "map", "/map"})
+
+
+def find_link(simulation: Simulation, name: str) -> LinkHandle:
+    """The link of a scoped name, or the first link of a plain one.
+
+    Raises:
+        UsageError: with the names there are.
+    """
+    model_name, scope, link_name = name.rpartition("::")
+    for model in simulation.models:
+        for link in model.links:
+            if link.name == link_name and (not scope or model.name == model_name):
+                return link
+    raise UsageError(f"no link {name!r}; there are: {_listed([n for n, _ in scoped_links(simulation)])}")
+
+
+def find_joint(simulation: Simulation, name: str) -> JointHandle:
+    """The joint of a name, which may be scoped.
+
+    Raises:
+        UsageError: with the names there are.
+    """
+    model_name, scope, joint_name = name.rpartition("::")
+    names: list[str] = []
+    for model in simulation.models:
+        for joint in model.joints:
+            names.append(joint.name)
+            if joint.name == joint_name and (not scope or model.name == model_name):
+                return joint
+    raise UsageError(f"no joint {name!r}; there are: {_listed(names)}")
+
+
+def scoped_links(simulation: Simulation) -> list[tuple[str, LinkHandle]]:
+    """Every link with its scoped name, in file order."""
+    return [(f"{model.name}::{link.name}", link) for model in simulation.models for link in model.links]
+
+
+def find_model(simulation: Simulation, name: str) -> ModelHandle:
+    """The model of a name.
+
+    Raises:
+        UsageError: with the names there are.
+    """
+    return simulation[name]
+
+
+def world_from(simulation: Simulation, entity: str) -> Pose:
+    """Where an entity is: a model, a link, or the world by any of its names.
+
+    Raises:
+        UsageError: there is no such entity.
+    """
+    if entity in _WORLD:
+        return Pose()
+    if any(model.name == entity for model in simulation.models):
+        return simulation[entity].pose
+    return find_link(simulation, entity).pose
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(names[:40]) or "none"

@@ -1,0 +1,60 @@
+"""geometry_msgs of poses, twists and wrenches, and the two halves of every answer of /gazebo."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from trundle.diagnostics import TrundleError
+from trundle.ros import Message
+from trundle.spatial import IDENTITY_QUATERNION, Pose, Twist, Vector3
+
+
+def pose_fields(pose: Pose) -> dict[str, Any]:
+    """A geometry_msgs/Pose."""
+    w, x, y, z = pose.quaternion
+    return {"position": vector_fields(pose.position), "orientation": {"x": x, "y": y, "z": z, "w": w}}
+
+
+def vector_fields(vector: Vector3) -> dict[str, float]:
+    """A geometry_msgs/Vector3 or Point."""
+    return dict(zip("xyz", vector, strict=True))
+
+
+def twist_fields(twist: Twist) -> dict[str, Any]:
+    """A geometry_msgs/Twist."""
+    return {"linear": vector_fields(twist.linear), "angular": vector_fields(twist.angular)}
+
+
+def vector_of(message: Message) -> Vector3:
+    """Read a Vector3 or Point."""
+    return (float(message.x), float(message.y), float(message.z))
+
+
+def pose_of(message: Message) -> Pose:
+    """Read a Pose; an orientation of zeros, which a request that leaves it out holds, is none."""
+    q = message.orientation
+    length = math.hypot(q.w, q.x, q.y, q.z)
+    turn = (q.w / length, q.x / length, q.y / length, q.z / length) if length > 0.0 else IDENTITY_QUATERNION
+    return Pose(vector_of(message.position), turn)
+
+
+def twist_of(message: Message) -> Twist:
+    """Read a Twist."""
+    return Twist(vector_of(message.linear), vector_of(message.angular))
+
+
+def answered(work: Callable[[Message], dict[str, Any]], done: str) -> Callable[[Message], dict[str, Any]]:
+    """Make a service's handler: what cannot be done is said in `status_message`, as gazebo_ros does.
+
+    Args:
+        work: does it, and returns the response's other fields.
+        done: the message of success.
+    """
+
+    def handle(request: Message) -> dict[str, Any]:
+        try:
+            return {**work(request), "success": True, "status_message": done}
+        except TrundleError as error:
+            return {"success": False, "status_message": str(error)}
+
+    return handle

@@ -1,0 +1,43 @@
+"""/gazebo's services that bring models and take them away."""
+
+from collections.abc import Callable
+from typing import Any
+
+from trundle.diagnostics import UsageError
+from trundle.ros import Message, Node
+
+from ..host import Simulator
+from .entities import world_from
+from .messages import answered, pose_of
+
+
+def advertise_models(node: Node, simulator: Simulator) -> None:
+    """Provide spawn_urdf_model, spawn_sdf_model, delete_model and delete_light."""
+    for name in ("spawn_urdf_model", "spawn_sdf_model"):
+        node.advertise_service(f"~{name}", "gazebo_msgs/SpawnModel", answered(_spawn(node, simulator), _SPAWNED))
+
+    def delete(request: Message) -> dict[str, Any]:
+        simulator.delete(request.model_name)
+        return {}
+
+    def delete_light(request: Message) -> dict[str, Any]:
+        raise UsageError(f"light {request.light_name!r}: lights stay as the world has them")
+
+    node.advertise_service(
+        "~delete_model", "gazebo_msgs/DeleteModel", answered(delete, "DeleteModel: successfully deleted model")
+    )
+    node.advertise_service("~delete_light", "gazebo_msgs/DeleteLight", answered(delete_light, ""))
+
+
+_SPAWNED = "SpawnModel: Successfully spawned entity"
+
+
+def _spawn(node: Node, simulator: Simulator) -> Callable[[Message], dict[str, Any]]:
+    def spawn(request: Message) -> dict[str, Any]:
+        pose = world_from(simulator.simulation, request.reference_frame) @ pose_of(request.initial_pose)
+        namespace = request.robot_namespace.strip("/")
+        simulator.spawn(request.model_xml, name=request.model_name, world_from_model=pose, namespace=namespace)
+        node.log_info(f"spawned {request.model_name}")
+        return {}
+
+    return spawn

@@ -1,0 +1,102 @@
+"""/gazebo's services that tell what a world, a model, a link or a joint is made of."""
+
+import math
+from typing import Any
+
+from trundle.diagnostics import UsageError
+from trundle.model import JointType
+from trundle.ros import Message, Node
+
+from ..host import Simulator
+from .entities import find_joint, find_link, find_model
+from .messages import answered, pose_fields, vector_fields
+
+_JOINT_TYPES = {
+    JointType.REVOLUTE: 0,
+    JointType.PRISMATIC: 2,
+    JointType.FIXED: 3,
+    JointType.BALL: 4,
+    JointType.UNIVERSAL: 5,
+}
+_CONTINUOUS = 1
+
+
+def advertise_properties(node: Node, simulator: Simulator) -> None:
+    """Provide the get_…_properties; those that set are answered with no."""
+    properties = _Properties(simulator)
+    for name, kind, work in (
+        ("get_world_properties", "GetWorldProperties", properties.of_world),
+        ("get_model_properties", "GetModelProperties", properties.of_model),
+        ("get_link_properties", "GetLinkProperties", properties.of_link),
+        ("get_joint_properties", "GetJointProperties", properties.of_joint),
+        ("get_physics_properties", "GetPhysicsProperties", properties.of_physics),
+    ):
+        node.advertise_service(f"~{name}", f"gazebo_msgs/{kind}", answered(work, f"{kind}: got properties"))
+    for what in ("physics", "link", "joint", "light"):
+        kind = f"Set{what.capitalize()}Properties"
+        node.advertise_service(f"~set_{what}_properties", f"gazebo_msgs/{kind}", answered(_refuse(what), ""))
+
+
+class _Properties:
+    def __init__(self, simulator: Simulator) -> None:
+        self._simulator = simulator
+
+    def of_world(self, _request: Message) -> dict[str, Any]:
+        simulation = self._simulator.simulation
+        return {
+            "sim_time": simulation.time_ns / 1e9,
+            "model_names": [model.name for model in simulation.models],
+            "rendering_enabled": True,
+        }
+
+    def of_model(self, request: Message) -> dict[str, Any]:
+        model = find_model(self._simulator.simulation, request.model_name)
+        return {
+            "canonical_body_name": model.links[0].name if model.links else "",
+            "body_names": [link.name for link in model.links],
+            "geom_names": [shape.name for link in model.links for shape in link.link.collisions],
+            "joint_names": [joint.name for joint in model.joints],
+            "is_static": model.model.static,
+        }
+
+    def of_link(self, request: Message) -> dict[str, Any]:
+        inertial = find_link(self._simulator.simulation, request.link_name).link.inertial
+        (ixx, iyy, izz), (ixy, ixz, iyz) = inertial.moments, inertial.products
+        return {
+            "com": pose_fields(inertial.link_from_com),
+            "gravity_mode": True,
+            "mass": inertial.mass,
+            "ixx": ixx,
+            "iyy": iyy,
+            "izz": izz,
+            "ixy": ixy,
+            "ixz": ixz,
+            "iyz": iyz,
+        }
+
+    def of_joint(self, request: Message) -> dict[str, Any]:
+        handle = find_joint(self._simulator.simulation, request.joint_name)
+        joint = handle.joint
+        endless = joint.type is JointType.REVOLUTE and joint.axis is not None and joint.axis.upper == math.inf
+        return {
+            "type": _CONTINUOUS if endless else _JOINT_TYPES.get(joint.type, _JOINT_TYPES[JointType.REVOLUTE]),
+            "damping": [] if joint.axis is None else [joint.axis.damping],
+            "position": [handle.position],
+            "rate": [handle.velocity],
+        }
+
+    def of_physics(self, _request: Message) -> dict[str, Any]:
+        physics = self._simulator.simulation.world.physics
+        return {
+            "time_step": physics.max_step_size_s,
+            "pause": self._simulator.paused,
+            "max_update_rate": physics.real_time_update_rate_hz,
+            "gravity": vector_fields(physics.gravity),
+        }
+
+
+def _refuse(what: str) -> Any:
+    def refuse(_request: Message) -> dict[str, Any]:
+        raise UsageError(f"{what} properties cannot be set while the simulation runs; write them into the file")
+
+    return refuse

@@ -1,0 +1,89 @@
+"""gazebo_ros/gzserver: a simulated world with the services and topics of /gazebo."""
+
+import asyncio
+
+from trundle.diagnostics import TrundleError
+from trundle.ros import Node
+
+from ..host import Host, Simulator
+from .efforts import advertise_efforts
+from .models import advertise_models
+from .properties import advertise_properties
+from .states import StateTopics, advertise_states
+from .timing import advertise_timing
+
+_EMPTY_WORLD = "worlds/empty.world"
+_TAKES_A_VALUE = frozenset(
+    {
+        *("-e", "--physics", "-p", "--play", "-s", "--server-plugin", "-o", "--profile", "--seed", "--iters"),
+        *("--record_path", "--record_period", "--record_filter", "--initial_sim_time", "--lockstep"),
+    }
+)
+_UNSUPPORTED = {
+    "-r": "recording",
+    "--record": "recording",
+    "-p": "playing a log",
+    "--play": "playing a log",
+    "-s": "a server plugin",
+    "--server-plugin": "a server plugin",
+}
+
+
+class GazeboServer:
+    """Opens a world and answers for it; the window is gzclient's."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        self._node = node
+        self._arguments = arguments
+        self._simulator = host.simulator
+
+    async def run(self) -> int:
+        """Simulate until cancelled."""
+        node, simulator = self._node, self._simulator
+        if simulator is None:
+            node.log_fatal("nothing is simulated here")
+            return 1
+        world, paused = self._read_arguments()
+        if not await node.has_param("/use_sim_time"):
+            await node.set_param("/use_sim_time", True)
+        try:
+            await simulator.open(node, world, paused=paused)
+        except TrundleError as error:
+            node.log_fatal(str(error))
+            return 1
+        node.deliver = simulator.post
+        topics = StateTopics(node, simulator)
+        self._advertise(simulator)
+        while not node.closed.is_set():
+            # The simulation is another object after each spawn, so that the topics are polled, not hooked in.
+            if topics.wanted():
+                simulator.post(topics.publish)
+            await asyncio.sleep(topics.period_s)
+        return 0
+
+    def _advertise(self, simulator: Simulator) -> None:
+        for advertise in (
+            advertise_models,
+            advertise_states,
+            advertise_properties,
+            advertise_efforts,
+            advertise_timing,
+        ):
+            advertise(self._node, simulator)
+
+    def _read_arguments(self) -> tuple[str, bool]:
+        """The world, and whether it starts paused; what has no effect is named."""
+        world, paused = _EMPTY_WORLD, False
+        words = iter(self._arguments)
+        for word in words:
+            option, equals, _ = word.partition("=")
+            value = next(words, "") if option in _TAKES_A_VALUE and not equals else ""
+            if option in ("-u", "--pause"):
+                paused = True
+            elif option in _UNSUPPORTED:
+                self._node.log_warn(f"gzserver {word} {value}: {_UNSUPPORTED[option]} is not supported")
+            elif option in ("-e", "--physics") and value not in ("ode", ""):
+                self._node.log_info(f"physics engine {value!r} is asked for; MuJoCo is what there is")
+            elif not word.startswith("-"):
+                world = word
+        return world, paused

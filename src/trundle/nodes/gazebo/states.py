@@ -1,0 +1,172 @@
+"""/gazebo's services and topics that read and write where models and links are."""
+
+from typing import Any
+
+from trundle.diagnostics import TrundleError, UsageError
+from trundle.ros import Message, Node
+from trundle.simulation import LinkHandle, Simulation
+from trundle.spatial import Pose, Twist
+
+from ..host import Simulator
+from .entities import find_link, find_model, scoped_links, world_from
+from .messages import answered, pose_fields, pose_of, twist_fields, twist_of
+
+_STATE_RATE_HZ = 100.0
+
+
+class StateTopics:
+    """/gazebo/model_states and link_states, published while somebody listens."""
+
+    period_s = 1.0 / _STATE_RATE_HZ
+
+    def __init__(self, node: Node, simulator: Simulator) -> None:
+        self._simulator = simulator
+        self._models = node.advertise("~model_states", "gazebo_msgs/ModelStates", queue_size=10)
+        self._links = node.advertise("~link_states", "gazebo_msgs/LinkStates", queue_size=10)
+
+    def wanted(self) -> bool:
+        """Whether anybody listens."""
+        return self._models.has_subscribers or self._links.has_subscribers
+
+    def publish(self) -> None:
+        """Say where everything is; on the simulation's thread."""
+        simulation = self._simulator.simulation
+        if self._models.has_subscribers:
+            rows = [(m.name, m.pose, m.links[0].twist if m.links else Twist()) for m in simulation.models]
+            self._models.publish(_arrays(rows))
+        if self._links.has_subscribers:
+            self._links.publish(_arrays([(name, link.pose, link.twist) for name, link in scoped_links(simulation)]))
+
+
+def advertise_states(node: Node, simulator: Simulator) -> None:
+    """Provide get_ and set_model_state, get_ and set_link_state, set_model_configuration, and the two set_ topics."""
+    states = _States(node, simulator)
+    for name, kind, work in (
+        ("get_model_state", "GetModelState", states.get_model),
+        ("get_link_state", "GetLinkState", states.get_link),
+        ("set_model_state", "SetModelState", states.set_model_asked),
+        ("set_link_state", "SetLinkState", states.set_link_asked),
+        ("set_model_configuration", "SetModelConfiguration", states.configure),
+    ):
+        node.advertise_service(f"~{name}", f"gazebo_msgs/{kind}", answered(work, f"{kind}: done"))
+    for name, kind, work in (
+        ("set_model_state", "ModelState", states.set_model),
+        ("set_link_state", "LinkState", states.set_link),
+    ):
+        node.subscribe(f"~{name}", f"gazebo_msgs/{kind}", lambda message, work=work: _tried(node, work, message))
+
+
+class _States:
+    def __init__(self, node: Node, simulator: Simulator) -> None:
+        self._node = node
+        self._simulator = simulator
+        self._said_twist = False
+
+    def get_model(self, request: Message) -> dict[str, Any]:
+        simulation = self._simulator.simulation
+        model = find_model(simulation, request.model_name)
+        frame = world_from(simulation, request.relative_entity_name)
+        twist = model.links[0].twist if model.links else Twist()
+        return {
+            "header": {"stamp": simulation.time_ns, "frame_id": request.relative_entity_name or "world"},
+            "pose": pose_fields(frame.inverse() @ model.pose),
+            "twist": twist_fields(_seen_from(simulation, frame, request.relative_entity_name, model.pose, twist)),
+        }
+
+    def get_link(self, request: Message) -> dict[str, Any]:
+        simulation = self._simulator.simulation
+        link = find_link(simulation, request.link_name)
+        frame = world_from(simulation, request.reference_frame)
+        twist = _seen_from(simulation, frame, request.reference_frame, link.pose, link.twist)
+        return {
+            "link_state": {
+                "link_name": request.link_name,
+                "pose": pose_fields(frame.inverse() @ link.pose),
+                "twist": twist_fields(twist),
+                "reference_frame": request.reference_frame or "world",
+            }
+        }
+
+    def set_model_asked(self, request: Message) -> dict[str, Any]:
+        return self.set_model(request.model_state)
+
+    def set_link_asked(self, request: Message) -> dict[str, Any]:
+        return self.set_link(request.link_state)
+
+    def set_model(self, state: Message) -> dict[str, Any]:
+        simulation = self._simulator.simulation
+        pose = world_from(simulation, state.reference_frame) @ pose_of(state.pose)
+        self._simulator.place(state.model_name, pose, {})
+        self._mind_twist(twist_of(state.twist))
+        return {}
+
+    def set_link(self, state: Message) -> dict[str, Any]:
+        simulation = self._simulator.simulation
+        link = find_link(simulation, state.link_name)
+        wanted = world_from(simulation, state.reference_frame) @ pose_of(state.pose)
+        model = next(model for model in simulation.models if link in model.links)
+        if link is not model.links[0]:
+            raise UsageError(
+                f"link {state.link_name!r}: only a model's first link can be placed; its joints hold the rest"
+            )
+        self._simulator.place(model.name, wanted @ link.pose.inverse() @ model.pose, {})
+        self._mind_twist(twist_of(state.twist))
+        return {}
+
+    def configure(self, request: Message) -> dict[str, Any]:
+        model = find_model(self._simulator.simulation, request.model_name)
+        if len(request.joint_names) != len(request.joint_positions):
+            raise UsageError(f"{len(request.joint_names)} joints, but {len(request.joint_positions)} positions")
+        joints = {
+            name.rpartition("::")[2]: float(p)
+            for name, p in zip(request.joint_names, request.joint_positions, strict=True)
+        }
+        for name in joints:
+            model.joint(name)
+        self._simulator.place(model.name, model.pose, joints)
+        return {}
+
+    def _mind_twist(self, twist: Twist) -> None:
+        if any((*twist.linear, *twist.angular)) and not self._said_twist:
+            self._said_twist = True
+            self._node.log_warn("a model is placed at rest: setting its velocity is not supported")
+
+
+def _seen_from(simulation: Simulation, frame: Pose, entity: str, pose: Pose, twist: Twist) -> Twist:
+    """A velocity relative to an entity that moves itself, in its axes."""
+    reference = _carrier(simulation, entity)
+    if reference is None:
+        return twist
+    own = reference.twist
+    arm = tuple(a - b for a, b in zip(pose.position, reference.pose.position, strict=True))
+    (wx, wy, wz), (x, y, z) = own.angular, (arm[0], arm[1], arm[2])
+    carried = (wy * z - wz * y, wz * x - wx * z, wx * y - wy * x)
+    linear = tuple(v - o - c for v, o, c in zip(twist.linear, own.linear, carried, strict=True))
+    angular = tuple(v - o for v, o in zip(twist.angular, own.angular, strict=True))
+    back = frame.inverse()
+    return Twist(
+        back.direction((linear[0], linear[1], linear[2])), back.direction((angular[0], angular[1], angular[2]))
+    )
+
+
+def _carrier(simulation: Simulation, entity: str) -> LinkHandle | None:
+    """The link whose motion is an entity's; None: the world."""
+    for model in simulation.models:
+        if model.name == entity:
+            return model.links[0] if model.links else None
+    return None if entity in ("", "world", "map", "/map") else find_link(simulation, entity)
+
+
+def _tried(node: Node, work: Any, message: Message) -> None:
+    try:
+        work(message)
+    except TrundleError as error:
+        node.log_error(str(error))
+
+
+def _arrays(rows: list[tuple[str, Pose, Twist]]) -> dict[str, Any]:
+    return {
+        "name": [name for name, *_ in rows],
+        "pose": [pose_fields(pose) for _, pose, _ in rows],
+        "twist": [twist_fields(twist) for *_, twist in rows],
+    }

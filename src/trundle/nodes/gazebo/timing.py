@@ -1,0 +1,28 @@
+"""/gazebo's services that stop time, let it go on, and turn it back."""
+
+from collections.abc import Callable
+from typing import Any
+
+from trundle.ros import Message, Node
+
+from ..host import Simulator
+
+
+def advertise_timing(node: Node, simulator: Simulator) -> None:
+    """Provide pause_physics, unpause_physics, reset_simulation and reset_world."""
+    calls: dict[str, Callable[[], None]] = {
+        "pause_physics": lambda: simulator.set_paused(True),
+        "unpause_physics": lambda: simulator.set_paused(False),
+        "reset_simulation": lambda: simulator.reset(time=True),
+        "reset_world": lambda: simulator.reset(time=False),
+    }
+    for name, call in calls.items():
+        node.advertise_service(f"~{name}", "std_srvs/Empty", _done(call))
+
+
+def _done(call: Callable[[], None]) -> Callable[[Message], dict[str, Any]]:
+    def handle(_request: Message) -> dict[str, Any]:
+        call()
+        return {}
+
+    return handle

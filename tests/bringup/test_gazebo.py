@@ -1,0 +1,228 @@
+"""A world behind /gazebo: opened, filled, pushed, paused and turned back by services, as scripts do it."""
+
+import asyncio
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from trundle.bringup.gazebo_world import GazeboWorld
+from trundle.bringup.graph import Graph
+from trundle.diagnostics import Diagnostics
+from trundle.nodes import Host
+from trundle.nodes.gazebo import GazeboServer, SpawnModel
+from trundle.packages import Packages
+from trundle.ros import Core, GraphLoop, Message, Node
+
+_BALL = """<sdf version="1.6"><model name="as_written"><pose>0 0 1 0 0 0</pose><link name="link">
+<inertial><mass>2</mass><inertia><ixx>0.02</ixx><iyy>0.02</iyy><izz>0.02</izz></inertia></inertial>
+<collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link></model></sdf>"""
+_INERTIAL = """<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>"""
+_ARM = f"""<robot name="arm"><link name="world"/>
+<link name="base">{_INERTIAL}</link>
+<link name="rod">{_INERTIAL}</link>
+<joint name="fix" type="fixed"><parent link="world"/><child link="base"/></joint>
+<joint name="turn" type="revolute"><parent link="base"/><child link="rod"/><axis xyz="0 0 1"/>
+<limit lower="-2" upper="2" effort="10" velocity="1"/></joint></robot>"""
+
+Call = Callable[..., Message]
+
+
+class Gazebo:
+    """A server on a graph of its own, and a node that asks it things."""
+
+    def __init__(self, loop: GraphLoop, uri: str, folder: Path) -> None:
+        self.loop = loop
+        self.said: list[str] = []
+        self.report = Diagnostics()
+        packages = Packages({"HOME": str(folder)}, start=folder)
+        self.world = GazeboWorld(
+            graph=Graph(loop, uri, None, "127.0.0.1"),
+            packages=packages,
+            env={},
+            report=self.report,
+            folder=folder,
+            say=self.said.append,
+            window=None,
+        )
+        self.host = Host(simulator=self.world)
+        self.client = Node("/client", loop=loop, master_uri=uri)
+        self.server = Node("/gazebo", loop=loop, master_uri=uri)
+        loop.spawn(GazeboServer(self.server, ["-u", "-e", "ode"], self.host).run())
+        loop.run(self.client.wait_for_service("/gazebo/unpause_physics", 30.0), timeout_s=40.0)
+        loop.run(self.server.ready())
+
+    def call(self, name: str, kind: str = "std_srvs/Empty", **fields: Any) -> Message:
+        return self.loop.run(self.client.call_service(f"/gazebo/{name}", kind, fields), timeout_s=30.0)
+
+    def spawn(self, xml: str, name: str, *, x: float = 0.0, **more: Any) -> Message:
+        pose = {"position": {"x": x}}
+        return self.call(
+            "spawn_sdf_model", "gazebo_msgs/SpawnModel", model_name=name, model_xml=xml, initial_pose=pose, **more
+        )
+
+    def state(self, name: str, relative_to: str = "") -> Message:
+        kind = "gazebo_msgs/GetModelState"
+        return self.call("get_model_state", kind, model_name=name, relative_entity_name=relative_to)
+
+    def until_s(self, seconds: float) -> None:
+        """Wait until so much has been simulated."""
+        end = time.monotonic() + 60.0
+        while self.call("get_world_properties", "gazebo_msgs/GetWorldProperties").sim_time < seconds:
+            assert time.monotonic() < end
+            time.sleep(0.01)
+
+
+@pytest.fixture
+def gazebo(tmp_path: Path) -> Iterator[Gazebo]:
+    with GraphLoop() as loop:
+        core = Core(loop, port=0)
+        loop.run(core.start())
+        running = Gazebo(loop, core.uri, tmp_path)
+        yield running
+        running.world.close()
+        loop.run(core.stop(), timeout_s=2.0)
+
+
+def test_a_spawned_model_stands_where_it_was_asked_for_and_falls_when_time_goes_on(gazebo: Gazebo) -> None:
+    assert gazebo.spawn(_BALL, "ball", x=3.0).success
+
+    pose = gazebo.state("ball").pose
+    assert (pose.position.x, pose.position.z) == (3.0, 1.0)
+    gazebo.call("unpause_physics")
+    gazebo.until_s(1.0)
+    gazebo.call("pause_physics")
+    fallen = gazebo.state("ball")
+    assert fallen.pose.position.z == pytest.approx(0.1, abs=2e-3)
+    assert fallen.success
+
+
+def test_a_name_that_is_taken_is_refused_in_gazebos_words(gazebo: Gazebo) -> None:
+    gazebo.spawn(_BALL, "ball")
+    again = gazebo.spawn(_BALL, "ball")
+
+    assert not again.success
+    assert again.status_message == "SpawnModel: Failure - model name ball already exist."
+
+
+@pytest.mark.parametrize(
+    ("xml", "reason"),
+    [
+        ("", "its text is empty"),
+        ("<sdf version='1.6'/>", ""),
+        ("<robot", "not well-formed"),
+        ("<sdf version='1.6'><model name='a'/><model name='b'/></sdf>", ""),
+    ],
+)
+def test_a_text_that_is_no_model_is_refused_with_a_reason(gazebo: Gazebo, xml: str, reason: str) -> None:
+    answer = gazebo.spawn(xml, "x")
+
+    assert not answer.success
+    assert reason in answer.status_message
+    assert "x" not in gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties").model_names
+
+
+def test_time_and_the_others_go_on_when_a_model_comes_or_goes(gazebo: Gazebo) -> None:
+    gazebo.spawn(_BALL, "first")
+    gazebo.call("unpause_physics")
+    gazebo.until_s(1.0)
+    gazebo.spawn(_BALL, "second", x=1.0)
+    assert gazebo.state("first").pose.position.z == pytest.approx(0.1, abs=2e-3)
+    kind = "gazebo_msgs/DeleteModel"
+    assert gazebo.call("delete_model", kind, model_name="first").success
+
+    properties = gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties")
+    assert properties.sim_time > 1.0
+    assert list(properties.model_names) == ["ground_plane", "second"]
+    assert "no model 'first'" in gazebo.call("delete_model", kind, model_name="first").status_message
+
+
+def test_a_model_can_be_put_elsewhere_and_seen_from_another(gazebo: Gazebo) -> None:
+    gazebo.spawn(_BALL, "one", x=1.0)
+    gazebo.spawn(_BALL, "two", x=2.0)
+    half_turn = {"position": {"x": 5.0, "z": 1.0}, "orientation": {"z": 1.0}}
+    state = {"model_name": "two", "pose": half_turn, "reference_frame": "world"}
+    assert gazebo.call("set_model_state", "gazebo_msgs/SetModelState", model_state=state).success
+
+    assert gazebo.state("two").pose.position.x == pytest.approx(5.0)
+    assert gazebo.state("one", relative_to="two").pose.position.x == pytest.approx(4.0)
+    assert gazebo.state("one", relative_to="two::link").pose.position.x == pytest.approx(4.0)
+    assert "no model 'three'" in gazebo.state("three").status_message
+
+
+def test_a_wrench_pushes_for_its_time(gazebo: Gazebo) -> None:
+    """2 kg under 4 N for half a second: 1 m/s."""
+    gazebo.spawn(_BALL.replace("<pose>0 0 1", "<pose>0 0 100"), "ball")
+    push = {"body_name": "ball::link", "wrench": {"force": {"x": 4.0}}, "duration": {"nanosec": 500_000_000}}
+    assert gazebo.call("apply_body_wrench", "gazebo_msgs/ApplyBodyWrench", **push).success
+    gazebo.call("unpause_physics")
+    gazebo.until_s(1.0)
+
+    assert gazebo.state("ball").twist.linear.x == pytest.approx(1.0, rel=1e-3)
+
+
+def test_a_reset_of_the_world_keeps_time_one_of_the_simulation_does_not(gazebo: Gazebo) -> None:
+    gazebo.spawn(_BALL, "ball")
+    gazebo.call("unpause_physics")
+    gazebo.until_s(1.0)
+    gazebo.call("pause_physics")
+    gazebo.call("reset_world")
+    assert gazebo.state("ball").pose.position.z == pytest.approx(1.0)
+    assert gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties").sim_time >= 1.0
+
+    gazebo.call("reset_simulation")
+    assert gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties").sim_time == 0.0
+
+
+def test_joints_are_told_of_and_put_into_position(gazebo: Gazebo) -> None:
+    assert gazebo.spawn(_ARM, "arm").success
+    fields = {"model_name": "arm", "joint_names": ["turn"], "joint_positions": [0.5]}
+    assert gazebo.call("set_model_configuration", "gazebo_msgs/SetModelConfiguration", **fields).success
+    joint = gazebo.call("get_joint_properties", "gazebo_msgs/GetJointProperties", joint_name="turn")
+    assert (joint.type, list(joint.position)) == (0, [0.5])
+
+    model = gazebo.call("get_model_properties", "gazebo_msgs/GetModelProperties", model_name="arm")
+    assert "turn" in list(model.joint_names)
+    bad = gazebo.call(
+        "set_model_configuration", "gazebo_msgs/SetModelConfiguration", model_name="arm", joint_names=["x"]
+    )
+    assert bad.status_message == "1 joints, but 0 positions"
+
+
+def test_states_are_published_while_somebody_listens(gazebo: Gazebo) -> None:
+    heard: list[Message] = []
+    gazebo.spawn(_BALL, "ball")
+    gazebo.client.subscribe("/gazebo/link_states", "gazebo_msgs/LinkStates", heard.append)
+    end = time.monotonic() + 30.0
+    while not heard:
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    assert "ball::link" in heard[0].name
+
+
+def test_spawn_model_spawns_from_a_parameter_and_unpauses(gazebo: Gazebo) -> None:
+    gazebo.loop.run(gazebo.client.set_param("/robot_description", _ARM))
+    words = ["-urdf", "-param", "robot_description", "-model", "arm", "-x", "1", "-z", "2", "-J", "turn", "0.25"]
+    words.append("-unpause")
+    node = Node("/spawn", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
+
+    async def spawn() -> int:
+        return await asyncio.create_task(SpawnModel(node, words, gazebo.host).run())
+
+    assert gazebo.loop.run(spawn(), timeout_s=60.0) == 0
+    assert gazebo.state("arm").pose.position.z == pytest.approx(2.0)
+    assert gazebo.call("get_physics_properties", "gazebo_msgs/GetPhysicsProperties").pause is False
+    gazebo.loop.run(node.shutdown())
+
+
+@pytest.mark.parametrize(
+    "words", ["-urdf -param nothing -model a", "-urdf -model a", "-sdf -file /no/where -model a", "-colour red", "-x"]
+)
+def test_spawn_model_says_what_is_wrong_and_ends_with_1(gazebo: Gazebo, words: str, capsys) -> None:
+    node = Node("/spawn", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
+
+    assert gazebo.loop.run(SpawnModel(node, words.split(), gazebo.host).run(), timeout_s=60.0) == 1
+    assert "spawn_model: " in capsys.readouterr().err
+    gazebo.loop.run(node.shutdown())
