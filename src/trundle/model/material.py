@@ -1,6 +1,7 @@
 """How a visual looks."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TypeAlias
 
 Rgba: TypeAlias = tuple[float, float, float, float]
@@ -15,6 +16,8 @@ class Material:
     diffuse: Rgba = (0.7, 0.7, 0.7, 1.0)
     specular: Rgba = (0.01, 0.01, 0.01, 1.0)
     emissive: Rgba = (0.0, 0.0, 0.0, 1.0)
+    texture: Path | None = None
+    """An image that colours the surface; `diffuse` tints it."""
 
 
 GREY = Material()

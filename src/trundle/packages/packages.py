@@ -69,6 +69,13 @@ class Packages:
         """The worlds of our own, by name."""
         return sorted(path.name for path in (SHIPPED / "worlds").iterdir())
 
+    def material_folders(self) -> list[Path]:
+        """Where Gazebo looks for material scripts without being told."""
+        tries = (
+            folder / sub / "materials/scripts" for folder in self._gazebo.resource_folders for sub in (".", "media")
+        )
+        return [folder for folder in tries if folder.is_dir()]
+
     def resolve(self, uri: str, *, beside: Path, at: Source) -> Path:
         """The file that a URI in a description means.
 

@@ -3,6 +3,7 @@
 from trundle.model import GREY, Material, Rgba
 from trundle.xmlnode import XmlNode
 
+from ..ogre import find_material
 from .context import Context
 from .gazebo_materials import GAZEBO_MATERIALS, TEXTURED
 
@@ -16,13 +17,13 @@ def read_material(visual: XmlNode, context: Context) -> Material:
     base = GREY
     if script is not None:
         base = named_material(script.string("name"), script, context)
-        script.all("uri")
         script.report_unread(context.report)
     material = Material(
         ambient=read_colour(node, "ambient", base.ambient, context),
         diffuse=read_colour(node, "diffuse", base.diffuse, context),
         specular=read_colour(node, "specular", base.specular, context),
         emissive=read_colour(node, "emissive", base.emissive, context),
+        texture=base.texture,
     )
     node.find("lighting")
     node.report_unread(context.report)
@@ -30,9 +31,13 @@ def read_material(visual: XmlNode, context: Context) -> Material:
 
 
 def named_material(name: str, node: XmlNode, context: Context) -> Material:
-    """One of Gazebo's materials; an unknown name is grey, after a warning."""
+    """A material of Gazebo's, or of the scripts that the <uri>s name; an unknown one is grey, after a warning."""
     if name in GAZEBO_MATERIALS:
+        node.all("uri")
         return GAZEBO_MATERIALS[name]
+    scripted = find_material(name, node, packages=context.packages, report=context.report)
+    if scripted is not None:
+        return scripted
     if name in TEXTURED:
         r, g, b = TEXTURED[name]
         context.report.info(node.at, f"material {name!r} has a texture that only Gazebo ships; a plain colour is used")

@@ -1,0 +1,103 @@
+"""Finds a material by name in the scripts that a description points at, and its texture beside them."""
+
+from collections.abc import Iterable
+from functools import lru_cache
+from pathlib import Path
+
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.model import Material
+from trundle.packages import Packages
+from trundle.xmlnode import XmlNode
+
+from .script import Block, parse_script
+from .surface import name_of, parent_of, read_surface
+
+_LARGEST = 4 * 1024 * 1024
+_DEFAULT = "media/materials/scripts/gazebo.material"
+"""Gazebo's own script; its colours are known here without it."""
+
+
+def find_material(name: str, script: XmlNode, *, packages: Packages, report: Diagnostics) -> Material | None:
+    """The material of that name, or None where no script in reach has it.
+
+    Args:
+        name: as the description writes it.
+        script: the element whose <uri> children name script files, folders of scripts and folders of textures.
+        packages: where URIs lead; its resource folders' scripts are in reach too, as in Gazebo.
+        report: takes what cannot be read.
+    """
+    beside = Path(script.at.file).parent
+    named = [path for uri in script.all("uri") if (path := _resolved(uri, beside, packages, report)) is not None]
+    places = [*named, *packages.material_folders()]
+    materials: dict[str, Block] = {}
+    for file in _scripts(places):
+        for material in _read(file, report):
+            materials.setdefault(name_of(material), material)
+    if name not in materials:
+        return None
+    at = materials[name].at
+    parent = parent_of(materials[name])
+    if parent is not None and parent not in materials:
+        report.warn(at, f"material {name!r}: no material {parent!r} to inherit from; it is left out")
+    surface = read_surface(name, materials)
+    texture = None
+    if surface.texture is not None:
+        texture = _texture(surface.texture, [Path(at.file), *places], at, packages, report)
+    return Material(
+        ambient=surface.ambient,
+        diffuse=surface.diffuse,
+        specular=surface.specular,
+        emissive=surface.emissive,
+        texture=texture,
+    )
+
+
+def _resolved(uri: XmlNode, beside: Path, packages: Packages, report: Diagnostics) -> Path | None:
+    try:
+        return packages.resolve(uri.text, beside=beside, at=uri.at)
+    except DescriptionError as error:
+        if not uri.text.endswith(_DEFAULT):
+            report.warn(error.at, f"{error.what}; it is left out")
+        return None
+
+
+def _scripts(places: Iterable[Path]) -> list[Path]:
+    files: list[Path] = []
+    for place in places:
+        files += sorted(place.glob("*.material")) if place.is_dir() else [place] * (place.suffix == ".material")
+    return files
+
+
+def _read(file: Path, report: Diagnostics) -> tuple[Block, ...]:
+    try:
+        stat = file.stat()
+        if stat.st_size > _LARGEST:
+            raise DescriptionError(Source(str(file)), f"larger than {_LARGEST} bytes, the largest script read")
+        return _materials(file, stat.st_mtime_ns)
+    except DescriptionError as error:
+        report.warn(error.at, f"{error.what}; this material script is left out")
+    except OSError as error:
+        report.warn(Source(str(file)), f"cannot be read: {error.strerror}; this material script is left out")
+    return ()
+
+
+@lru_cache(maxsize=256)
+def _materials(file: Path, _changed_ns: int) -> tuple[Block, ...]:
+    top = parse_script(file.read_text(encoding="utf-8", errors="replace"), name=str(file))
+    return tuple(block for block in top.blocks if block.header[0] == "material" and len(block.header) > 1)
+
+
+def _texture(name: str, places: Iterable[Path], at: Source, packages: Packages, report: Diagnostics) -> Path | None:
+    """A texture's file: in a folder that was named, or in the `textures` beside the scripts."""
+    for place in places:
+        folder = place if place.is_dir() else place.parent
+        for path in (folder / name, folder.parent / "textures" / name):
+            if path.is_file():
+                try:
+                    packages.check_readable(path, at, told=f"texture {name!r}", root=folder.parent)
+                except DescriptionError as error:
+                    report.warn(error.at, f"{error.what}; it is left out")
+                    return None
+                return path
+    report.warn(at, f"no texture {name!r} in the folders named, nor in a folder textures beside the script")
+    return None
