@@ -29,7 +29,7 @@ def differences(
         yield f"{who}: pose {ours['pose']}, theirs {theirs['pose']}"
     if theirs.get("canonical_link") and ours["canonical_link"] != theirs["canonical_link"]:
         yield f"{who}: canonical link {ours['canonical_link']}, theirs {theirs['canonical_link']}"
-    if [p["filename"] for p in ours["plugins"]] != [p["filename"] for p in theirs["plugins"]]:
+    if sorted(p["filename"] for p in ours["plugins"]) != sorted(p["filename"] for p in theirs["plugins"]):
         yield f"{who}: plugins {ours['plugins']}, theirs {theirs['plugins']}"
     if len(ours["frames"]) != theirs["n_frames"]:
         yield f"{who}: {len(ours['frames'])} frames, theirs {theirs['n_frames']}"
@@ -45,8 +45,9 @@ def differences(
 
 def _each(who: str, kind: str, ours: Any, theirs: Any, compare: Any, tolerance: float) -> Iterator[str]:
     mine, other = {x["name"]: x for x in ours}, {x["name"]: x for x in theirs}
-    if list(mine) != list(other):
-        yield f"{who}: {kind} {list(mine)}, theirs {list(other)}"
+    if mine.keys() != other.keys():
+        extra, lacking = sorted(mine.keys() - other.keys()), sorted(other.keys() - mine.keys())
+        yield f"{who}: {kind}: {extra} too many, {lacking} missing"
     for name in mine.keys() & other.keys():
         for what in compare(mine[name], other[name], tolerance):
             yield f"{who}: {name}: {what}"
@@ -64,7 +65,7 @@ def _link(ours: Any, theirs: Any, tolerance: float) -> Iterator[str]:
     for kind in ("visuals", "collisions"):
         if ours[kind] != len(theirs[kind]):
             yield f"{ours[kind]} {kind}, theirs {len(theirs[kind])}"
-    if ours["sensors"] != [sensor["name"] for sensor in theirs["sensors"]]:
+    if sorted(ours["sensors"]) != sorted(sensor["name"] for sensor in theirs["sensors"]):
         yield f"sensors {ours['sensors']}, theirs {[sensor['name'] for sensor in theirs['sensors']]}"
 
 

@@ -10,7 +10,7 @@ import pytest
 from tests.description.compare import close, differences, same_pose
 
 from trundle.bringup.check_json import described
-from trundle.description import load
+from trundle.description import load, load_urdf
 from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.packages import Packages
 
@@ -79,3 +79,52 @@ def _world_differences(ours: dict[str, Any], theirs: dict[str, Any], *, placed: 
     step = theirs["physics"][0]["max_step_size"]
     if not close(ours["physics"]["max_step_size"], step, TOLERANCE):
         yield f"step {ours['physics']['max_step_size']}, theirs {step}"
+
+
+def test_robots_are_the_trees_that_urdfdom_makes_and_the_models_that_gazebo_makes(
+    corpus: Path, packages: Packages
+) -> None:
+    """Every distinct robot, expanded; the conversion where libsdformat 9 and 12 agree."""
+    rows = {row["sha"]: row for row in json.loads((corpus / "manifest.json").read_text())["urdf"]}
+    assert len(rows) > 150
+    found = {row["file"]: list(_urdf_differences(row, corpus, packages)) for row in rows.values()}
+    assert {file: lines[:5] for file, lines in found.items() if lines and file not in EXCEPTIONS} == {}
+
+
+def _urdf_differences(row: dict[str, Any], corpus: Path, packages: Packages) -> Iterator[str]:
+    answers = json.loads(gzip.decompress((corpus / row["ref"]).read_bytes()))
+    text = gzip.decompress((corpus / row["expanded"]).read_bytes()).decode()
+    file = corpus / row["file"]
+    try:
+        loaded = load_urdf(text, str(file), file, packages, Diagnostics())
+    except TrundleError as error:
+        if row["accept_urdfdom"]:
+            yield f"refused: {error}"
+        return
+    if not row["accept_urdfdom"]:
+        yield "accepted; urdfdom refuses it"
+        return
+    ours = json.loads(json.dumps(described(loaded), allow_nan=False))
+    yield from _tree_differences(ours["urdf"], answers["urdfdom3"]["dump"])
+    if row["accept_libsdformat12"] and not answers["differences_sdf9_vs_sdf12"]:
+        (theirs,) = answers["libsdformat12"]["dump"]["models"]
+        yield from differences(ours["models"][0], theirs, TOLERANCE)
+
+
+def _tree_differences(ours: dict[str, Any], theirs: dict[str, Any]) -> Iterator[str]:
+    if ours["root"] != theirs["root"]:
+        yield f"root {ours['root']}, theirs {theirs['root']}"
+    links = {link["name"]: link for link in theirs["links"]}
+    joints = {joint["name"]: joint for joint in theirs["joints"]}
+    if {link["name"] for link in ours["links"]} != links.keys():
+        yield f"links {[link['name'] for link in ours['links']]}, theirs {list(links)}"
+    if {joint["name"] for joint in ours["joints"]} != joints.keys():
+        yield f"joints {[joint['name'] for joint in ours['joints']]}, theirs {list(joints)}"
+    for link in ours["links"]:
+        other = links.get(link["name"])
+        if other is not None and not same_pose(link["pose"], other["pose_model"], TOLERANCE):
+            yield f"{link['name']} at {link['pose']}, theirs {other['pose_model']}"
+    for joint in ours["joints"]:
+        other = joints.get(joint["name"], joint)
+        if any(joint[field] != other[field] for field in ("type", "parent", "child")):
+            yield f"{joint}, theirs {other}"

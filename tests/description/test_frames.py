@@ -47,7 +47,10 @@ def model(folder: Path, body: str, report: Diagnostics | None = None) -> Model:
         ('<link name="a"><pose relative_to="zzz">1 0 0 0 0 0</pose></link>', "no frame 'zzz'; frames here: 'a'"),
         ('<link name="a"/><frame name="f" attached_to="zzz"/>', "no frame 'zzz'"),
         ('<link name="a"/><link name="a"/>', "a second link 'a', after line 1; it is left out"),
-        ('<link name="a"/><joint name="j" type="fixed"><parent>a</parent><child>x</child></joint>', "no link 'x'"),
+        (
+            '<link name="a"/><joint name="j" type="fixed"><parent>a</parent><child>x::y</child></joint>',
+            "no link 'x::y'",
+        ),
     ],
 )
 def test_what_gazebo_lets_pass_is_named_and_let_pass(tmp_path: Path, body: str, warning: str) -> None:

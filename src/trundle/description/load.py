@@ -32,13 +32,13 @@ def load(what: str, report: Diagnostics, *, packages: Packages) -> Loaded:
     packages = packages.around(path)
     if is_xacro(path):
         text = expand_xacro(path, {}, packages=packages, report=report)
-        return _from_urdf(text, f"{path} (expanded)", path, packages, report)
+        return load_urdf(text, f"{path} (expanded)", path, packages, report)
     root = read_xml(path, report=report)
     if root.tag == "robot":
         text = path.read_text(encoding="utf-8", errors="replace")
         if "xmlns:xacro" in text:
             text = expand_xacro(path, {}, packages=packages, report=report)
-        return _from_urdf(text, str(path), path, packages, report)
+        return load_urdf(text, str(path), path, packages, report)
     return load_sdf(root, path, packages, report)
 
 
@@ -60,7 +60,12 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics)
     return Loaded(kind="world" if has_world else "model", world=world)
 
 
-def _from_urdf(text: str, name: str, path: Path, packages: Packages, report: Diagnostics) -> Loaded:
+def load_urdf(text: str, name: str, path: Path, packages: Packages, report: Diagnostics) -> Loaded:
+    """Read an expanded URDF; `path` is the file it came from, `name` how messages call it.
+
+    Raises:
+        DescriptionError: it is no robot that urdfdom would take.
+    """
     robot = read_urdf_text(text, name=name, report=report)
     world = lower_robot(robot, parse_xml(text, name=name), folder=path.parent, packages=packages, report=report)
     return Loaded(kind="urdf", world=world, robot=robot, urdf=text)

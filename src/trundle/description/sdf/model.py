@@ -24,7 +24,8 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> Part:
     """Read one model, nested and included ones with it.
 
     Raises:
-        DescriptionError: a name is missing, or models are nested deeper than any honest file has them.
+        DescriptionError: a name is missing, a joint names no link, or models are nested deeper than any honest file
+            has them.
     """
     if depth > _DEEPEST:
         raise DescriptionError(node.at, f"models nested more than {_DEEPEST} deep")
@@ -153,6 +154,8 @@ class WrittenJoint:
                 why = f"{who} has no <{tag}>"
             elif end != WORLD and end not in graph:
                 why = f"{who}: no link {end!r}; links here: {graph.names()}"
+                if "::" not in end:  # else it reaches into a model whose <include> was left out
+                    raise DescriptionError(self._node.at, why)
             elif self._ends[0] == self._ends[1]:
                 why = f"{who} joins {end!r} to itself"
             else:

@@ -1,13 +1,29 @@
 """<gazebo> blocks: what a URDF says to Gazebo alone."""
 
-from trundle.model import Material, PluginTag, Sensor, Surface
+from trundle.diagnostics import DescriptionError
+from trundle.model import Joint, Light, Material, PluginTag, Sensor, Surface
 from trundle.xmlnode import XmlNode
 
 from ..sdf.context import Context
 from ..sdf.frames import MODEL, FrameGraph
-from ..sdf.material import named_material
+from ..sdf.light import read_light
+from ..sdf.material import named_material, read_material
+from ..sdf.model import WrittenJoint
 from ..sdf.sensor import read_plugin, read_sensor
+from ..sdf.surface import read_surface
 
+_TUNING = (
+    "stopCfm",
+    "stopErp",
+    "stopKp",
+    "stopKd",
+    "fudgeFactor",
+    "implicitSpringDamper",
+    "cfmDamping",
+    "provideFeedback",
+    "maxContacts",
+    "canonicalBody",
+)
 _TRUE = frozenset({"true", "yes", "1"})
 
 
@@ -20,45 +36,88 @@ class GazeboTags:
         for block in root.all("gazebo"):
             self._blocks.setdefault(block.attribute("reference") or "", []).append(block)
 
-    def flag(self, reference: str, tag: str) -> bool | None:
-        """A yes or no; None where no block says."""
-        node = self._last(reference, tag)
-        return None if node is None else node.text.lower() in _TRUE
+    def flag(self, reference: str, *tags: str) -> bool | None:
+        """A yes or no by any of its names; None where no block says."""
+        nodes = [node for tag in tags if (node := self._last(reference, tag)) is not None]
+        return nodes[0].text.lower() in _TRUE if nodes else None
 
     def material(self, link: str) -> Material | None:
-        """<material>Gazebo/Blue</material>"""
+        """<material>Gazebo/Blue</material>, or a <visual> block's <material>, which goes on every visual."""
+        blocks = [block for block in self._all(link, "visual") if block.find("material") is not None]
+        if blocks:
+            return read_material(blocks[-1], self._context)
         node = self._last(link, "material")
         if node is None or not node.text:
             return None
         return named_material(node.text, node, self._context)
 
     def surface(self, link: str) -> Surface:
-        """mu1, mu2, kp, kd, minDepth, maxVel."""
-        default = Surface()
+        """mu1, mu2, fdir1, kp, kd, minDepth, maxVel, or a <collision> block's <surface> instead of them all."""
+        default, report = Surface(), self._context.report
+        blocks = [block for block in self._all(link, "collision") if block.find("surface") is not None]
+        if blocks:
+            return read_surface(blocks[-1], self._context)
 
-        def number(tag: str, otherwise: float) -> float:
-            node = self._last(link, tag)
-            return otherwise if node is None else node.as_number(default=otherwise, report=self._context.report)
-
+        fdir1 = self._last(link, "fdir1")
+        direction = None if fdir1 is None else fdir1.as_numbers(3, report=report)
         return Surface(
-            mu=number("mu1", default.mu),
-            mu2=number("mu2", default.mu2),
-            kp=number("kp", default.kp),
-            kd=number("kd", default.kd),
-            min_depth=number("minDepth", default.min_depth),
-            max_vel=number("maxVel", default.max_vel),
+            mu=self.number(link, "mu1", default.mu),
+            mu2=self.number(link, "mu2", default.mu2),
+            fdir1=default.fdir1 if direction is None else (direction[0], direction[1], direction[2]),
+            kp=self.number(link, "kp", default.kp),
+            kd=self.number(link, "kd", default.kd),
+            min_depth=self.number(link, "minDepth", default.min_depth),
+            max_vel=self.number(link, "maxVel", default.max_vel),
         )
 
-    def sensors(self, link: str) -> tuple[Sensor, ...]:
-        """<sensor> elements, which are SDF."""
-        return tuple(
-            read_sensor(node, link, FrameGraph(MODEL, self._context.report), self._context)
-            for node in self._all(link, "sensor")
-        )
+    def number(self, reference: str, tag: str, default: float) -> float:
+        """A number; the default where no block gives one."""
+        node = self._last(reference, tag)
+        return default if node is None else node.as_number(default=default, report=self._context.report)
+
+    def damping(self, link: str) -> tuple[float, float]:
+        """Linear and angular: <dampingFactor> for both, or SDF's own <velocity_decay>."""
+        both = self.number(link, "dampingFactor", 0.0)
+        node = self._last(link, "velocity_decay")
+        if node is None:
+            return both, both
+        report = self._context.report
+        return node.number("linear", default=both, report=report), node.number("angular", default=both, report=report)
+
+    def sensors(self, reference: str) -> tuple[Sensor, ...]:
+        """<sensor> elements of a link or joint, which are SDF."""
+        graph = FrameGraph(MODEL, self._context.report)
+        return tuple(read_sensor(node, reference, graph, self._context) for node in self._all(reference, "sensor"))
+
+    def lights(self, link: str) -> tuple[Light, ...]:
+        """<light> elements, likewise."""
+        graph = FrameGraph(MODEL, self._context.report)
+        return tuple(read_light(node, link, graph, self._context) for node in self._all(link, "light"))
 
     def plugins(self, reference: str) -> tuple[PluginTag, ...]:
         """<plugin> elements."""
         return tuple(read_plugin(node) for node in self._all(reference, "plugin"))
+
+    def joints(self, graph: FrameGraph) -> tuple[Joint, ...]:
+        """<joint> elements for the whole robot, which are SDF: how a URDF closes a loop."""
+        sound: list[WrittenJoint] = []
+        for node in self._all("", "joint"):
+            try:
+                joint = WrittenJoint(node, graph, self._context)
+            except DescriptionError as error:
+                self._context.report.warn(error.at, f"{error.what}; the joint is left out")
+                continue
+            if joint.is_sound:
+                sound.append(joint)
+        for joint in sound:
+            joint.add_to(graph)
+        return tuple(joint.read(graph, self._context) for joint in sound)
+
+    def name_tuning(self, reference: str) -> None:
+        """Say of what tunes Gazebo's engines that it is read and not used."""
+        for tag in _TUNING:
+            for node in self._all(reference, tag):
+                self._context.report.info(node.at, f"<{tag}> tunes Gazebo's engines; it is ignored")
 
     def report_unread(self) -> None:
         """Name what nobody asked for."""

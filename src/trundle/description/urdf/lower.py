@@ -40,10 +40,11 @@ from trundle.robot import (
     RobotSphere,
     root_from_links,
 )
-from trundle.spatial import Pose, normalized
+from trundle.spatial import IDENTITY_QUATERNION, Pose, normalized
 from trundle.xmlnode import XmlNode
 
-from ..sdf.context import Context
+from ..sdf.context import Context, RawPose
+from ..sdf.frames import MODEL, FrameGraph
 from ..sdf.version import Version
 from .gazebo_tags import GazeboTags
 from .lump import WORLD, Lump, lump_links, lumped_inertial, shape_name
@@ -67,7 +68,7 @@ def lower_robot(robot: Robot, root: XmlNode, *, folder: Path, packages: Packages
         report: takes what falls away.
     """
     # gazebo blocks hold SDF by the rules of the version that the conversion writes.
-    context = Context(version=Version((1, 6)), folder=folder, packages=packages, report=report)
+    context = Context(version=Version((1, 7)), folder=folder, packages=packages, report=report)
     model = _Lowering(robot, GazeboTags(root, context), context).model()
     return World(name=robot.name, at=robot.at, models=(model,))
 
@@ -101,6 +102,14 @@ class _Lowering:
             for joint in self.robot.joints
             if self.lump_of[joint.child] not in dropped and (lowered := self._joint(joint, poses)) is not None
         )
+        graph = FrameGraph(MODEL, self.report)
+        for link in links:
+            graph.add(link.name, RawPose(link.model_from_link), link.at)
+            for part, pose in self.lumps[link.name].parts[1:]:
+                graph.add(part, RawPose(pose, link.name), self.links[part].at, attached_to=link.name)
+        joints = (*joints, *self.tags.joints(graph))
+        for reference in ("", *(link.name for link in self.robot.links), *(joint.name for joint in self.robot.joints)):
+            self.tags.name_tuning(reference)
         plugins = self.tags.plugins("")
         static = self.tags.flag("", "static") or False
         self.tags.report_unread()
@@ -108,6 +117,8 @@ class _Lowering:
             name=self.robot.name,
             at=self.robot.at,
             static=static,
+            self_collide=self.tags.flag("", "self_collide") or False,
+            enable_wind=self.tags.flag("", "enable_wind") or False,
             links=links,
             joints=joints,
             plugins=plugins,
@@ -151,7 +162,8 @@ class _Lowering:
             material = self.tags.material(name)
             visuals += self._visuals(lump.name, part, pose, material)
             collisions += self._collisions(lump.name, part, pose)
-        gravity_off = self.tags.flag(lump.name, "turnGravityOff")
+        gravity_off, gravity = self.tags.flag(lump.name, "turnGravityOff"), self.tags.flag(lump.name, "gravity")
+        linear_decay, angular_decay = self.tags.damping(lump.name)
         sensors = [
             replace(sensor, link_from_sensor=pose @ sensor.link_from_sensor)
             for name, pose in lump.parts
@@ -165,30 +177,39 @@ class _Lowering:
             visuals=tuple(visuals),
             collisions=tuple(collisions),
             sensors=tuple(sensors),
-            gravity=not gravity_off,
-            self_collide=self.tags.flag(lump.name, "selfCollide"),
+            lights=tuple(
+                replace(light, world_from_light=pose @ light.world_from_light)
+                for name, pose in lump.parts
+                for light in self.tags.lights(name)
+            ),
+            gravity=not gravity_off if gravity is None else gravity,
+            self_collide=self.tags.flag(lump.name, "selfCollide", "self_collide"),
+            enable_wind=self.tags.flag(lump.name, "enable_wind"),
+            kinematic=self.tags.flag(lump.name, "kinematic") or False,
+            linear_decay=linear_decay,
+            angular_decay=angular_decay,
         )
 
     def _inertial(self, lump: Lump) -> Inertial:
-        return lumped_inertial(self._inertials(lump))
+        own = self.links[lump.name].inertial
+        orientation = None if own is None or own.mass <= 0 else own.link_from_com.quaternion
+        return lumped_inertial(self._inertials(lump), orientation or IDENTITY_QUATERNION)
 
     def _visuals(self, lump: str, part: RobotLink, pose: Pose, gazebo: Material | None) -> list[Visual]:
         visuals: list[Visual] = []
         for i, shape in enumerate(part.visuals):
-            geometry = self._geometry(shape)
-            if geometry is not None:
-                visuals.append(
-                    Visual(
-                        name=shape_name(lump, part.name, "visual", i, shape),
-                        geometry=geometry,
-                        at=shape.at,
-                        link_from_visual=pose @ shape.link_from_shape,
-                        material=gazebo or _material(shape),
-                        transparency=0.0 if gazebo or shape.rgba is None else 1.0 - shape.rgba[3],
-                    )
+            visuals.append(
+                Visual(
+                    name=shape_name(lump, part.name, "visual", i, shape),
+                    geometry=self._geometry(shape),
+                    at=shape.at,
+                    link_from_visual=pose @ shape.link_from_shape,
+                    material=gazebo or _material(shape),
+                    transparency=0.0 if gazebo or shape.rgba is None else 1.0 - shape.rgba[3],
                 )
-                if gazebo is None and shape.rgba is not None:
-                    self.report.info(shape.at, "Gazebo draws URDF colours grey; here they are kept")
+            )
+            if gazebo is None and shape.rgba is not None:
+                self.report.info(shape.at, "Gazebo draws URDF colours grey; here they are kept")
         return visuals
 
     def _collisions(self, lump: str, part: RobotLink, pose: Pose) -> list[Collision]:
@@ -196,16 +217,16 @@ class _Lowering:
         return [
             Collision(
                 name=shape_name(lump, part.name, "collision", i, shape),
-                geometry=geometry,
+                geometry=self._geometry(shape),
                 at=shape.at,
                 link_from_collision=pose @ shape.link_from_shape,
                 surface=surface,
+                laser_retro=self.tags.number(part.name, "laserRetro", 0.0),
             )
             for i, shape in enumerate(part.collisions)
-            if (geometry := self._geometry(shape)) is not None
         ]
 
-    def _geometry(self, shape: RobotShape) -> Geometry | None:
+    def _geometry(self, shape: RobotShape) -> Geometry:
         match shape.geometry:
             case RobotBox(size):
                 return Box(size)
@@ -214,12 +235,14 @@ class _Lowering:
             case RobotSphere(radius):
                 return Sphere(radius)
             case RobotMesh(uri, scale):
-                try:
-                    path = self.context.packages.resolve(uri, beside=self.context.folder, at=shape.at)
-                except DescriptionError as error:
-                    self.report.warn(error.at, f"{error.what}; the mesh is left out")
-                    return None
-                return MeshFile(path=path, uri=uri, scale=scale)
+                return MeshFile(path=self._path(uri, shape), uri=uri, scale=scale)
+
+    def _path(self, uri: str, shape: RobotShape) -> Path | None:
+        try:
+            return self.context.packages.resolve(uri, beside=self.context.folder, at=shape.at)
+        except DescriptionError as error:
+            self.report.warn(error.at, f"{error.what}; the mesh is left out")
+            return None
 
     def _joint(self, joint: RobotJoint, poses: Mapping[str, Pose]) -> Joint | None:
         parent, child = self.lump_of[joint.parent], self.lump_of[joint.child]
@@ -237,24 +260,30 @@ class _Lowering:
             parent=WORLD if joint.parent == WORLD else parent,
             child=child,
             at=joint.at,
-            axis=None if type_ is JointType.FIXED else _axis(joint, poses[joint.child]),
+            axis=None if type_ is JointType.FIXED else self._axis(joint, poses[joint.child]),
+            sensors=self.tags.sensors(joint.name),
         )
 
-
-def _axis(joint: RobotJoint, root_from_joint: Pose) -> JointAxis:
-    limit = joint.limit
-    bounded = limit is not None and joint.type != "continuous"
-    lower = limit.lower if limit is not None and bounded else -math.inf
-    upper = limit.upper if limit is not None and bounded else math.inf
-    return JointAxis(
-        direction=root_from_joint.direction(normalized(joint.axis) or (1.0, 0.0, 0.0)),
-        lower=lower,
-        upper=upper,
-        effort=math.inf if limit is None else limit.effort,
-        velocity=math.inf if limit is None else limit.velocity,
-        damping=joint.damping,
-        friction=joint.friction,
-    )
+    def _axis(self, joint: RobotJoint, root_from_joint: Pose) -> JointAxis:
+        limit = joint.limit
+        bounded = limit is not None and joint.type != "continuous"
+        lower = limit.lower if limit is not None and bounded else -math.inf
+        upper = limit.upper if limit is not None and bounded else math.inf
+        if lower > upper:
+            what = f"joint {joint.name!r}: lower {lower:g} is above upper {upper:g}; swapped, as in Gazebo"
+            self.report.warn(joint.at, what)
+            lower, upper = upper, lower
+        return JointAxis(
+            direction=root_from_joint.direction(normalized(joint.axis) or (1.0, 0.0, 0.0)),
+            lower=lower,
+            upper=upper,
+            effort=math.inf if limit is None else limit.effort,
+            velocity=math.inf if limit is None else limit.velocity,
+            damping=joint.damping,
+            friction=joint.friction,
+            spring_reference=self.tags.number(joint.name, "springReference", 0.0),
+            spring_stiffness=self.tags.number(joint.name, "springStiffness", 0.0),
+        )
 
 
 def _material(shape: RobotShape) -> Material:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from trundle.model import Inertial
 from trundle.robot import Robot, RobotInertial, RobotShape
-from trundle.spatial import Pose, Vector3, rotate
+from trundle.spatial import Pose, Quaternion, Vector3, rotate
 
 WORLD = "world"
 
@@ -51,17 +51,13 @@ def shape_name(lump: str, link: str, kind: str, number: int, shape: RobotShape) 
     return f"{lump}_fixed_joint_lump__{shape.name or link}_{kind}{suffix}"
 
 
-def lumped_inertial(parts: list[tuple[RobotInertial, Pose]]) -> Inertial:
+def lumped_inertial(parts: list[tuple[RobotInertial, Pose]], orientation: Quaternion) -> Inertial:
     """The mass properties of several bodies as one, by the parallel axis theorem.
 
     Args:
         parts: each with lump_from_link.
+        orientation: of the axes to express it in, seen from the lump's frame.
     """
-    if len(parts) == 1:
-        only, pose = parts[0]
-        return Inertial(
-            mass=only.mass, link_from_com=pose @ only.link_from_com, moments=only.moments, products=only.products
-        )
     mass = sum(part.mass for part, _ in parts)
     coms = [(pose @ part.link_from_com) for part, pose in parts]
     center = np.average([com.position for com in coms], axis=0, weights=[part.mass for part, _ in parts])
@@ -71,10 +67,12 @@ def lumped_inertial(parts: list[tuple[RobotInertial, Pose]]) -> Inertial:
         arm = np.array(com.position) - center
         total += rotation @ _tensor(part) @ rotation.T
         total += part.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    axes = _matrix(Pose(quaternion=orientation))
+    total = axes.T @ total @ axes
     x, y, z = (float(c) for c in center)
     return Inertial(
         mass=mass,
-        link_from_com=Pose((x, y, z)),
+        link_from_com=Pose((x, y, z), orientation),
         moments=_three(total[0, 0], total[1, 1], total[2, 2]),
         products=_three(total[0, 1], total[0, 2], total[1, 2]),
     )
