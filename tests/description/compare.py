@@ -1,10 +1,11 @@
-"""Holds what `check --json` says of a model against what libsdformat dumped of it."""
+"""Holds what was read against what the real tools read."""
 
 import math
 from collections.abc import Iterator
 from typing import Any
 
 from trundle.spatial import Pose
+from trundle.xmlnode import XmlNode
 
 _UNLIMITED = 1e16
 _LIMITS = (("axis", "lower", "upper"), ("axis2", "lower2", "upper2"))
@@ -117,3 +118,16 @@ def same_pose(ours: list[float], theirs: Any, tolerance: float) -> bool:
         max(abs(a - sign * b) for a, b in zip(pose.quaternion, theirs["wxyz"], strict=True)) for sign in (1.0, -1.0)
     )
     return min(apart) <= 2 * tolerance
+
+
+def shape_of(node: XmlNode) -> tuple[object, ...]:
+    """An element as nested tuples, numbers as numbers."""
+
+    def value(text: str) -> object:
+        try:
+            return tuple(float(word) for word in text.split())
+        except ValueError:
+            return text
+
+    attributes = {k: value(v) for k, v in node.attributes().items()}
+    return node.tag, tuple(sorted(attributes.items())), value(node.text), tuple(map(shape_of, node.children))

@@ -4,12 +4,13 @@ import json
 from pathlib import Path
 
 import pytest
+from tests.description.compare import shape_of
 
 from trundle.description import Loaded, expand_xacro, load
 from trundle.diagnostics import Diagnostics
 from trundle.model import Box, model_from_joint
 from trundle.packages import Packages
-from trundle.xmlnode import XmlNode, parse_xml
+from trundle.xmlnode import parse_xml
 
 
 @pytest.fixture
@@ -59,19 +60,6 @@ def test_what_is_written_is_kept_for_physics_to_mend(rp2w: Loaded) -> None:
     rigid = model.joint("chassis_body").axis
     assert rigid is not None
     assert rigid.is_rigid
-
-
-def shape_of(node: XmlNode) -> tuple[object, ...]:
-    """An element as nested tuples, numbers as numbers."""
-
-    def value(text: str) -> object:
-        try:
-            return tuple(float(word) for word in text.split())
-        except ValueError:
-            return text
-
-    attributes = {k: value(v) for k, v in node.attributes().items()}
-    return node.tag, tuple(sorted(attributes.items())), value(node.text), tuple(map(shape_of, node.children))
 
 
 def test_the_smartcar_expands_as_it_did_with_its_own_xacro(smartcar_file: Path, shared: Path) -> None:

@@ -125,17 +125,18 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
 
     modules: Any = (xacro, substitution_args)
     package, arguments = modules
-    kept = (package.parse, package.handle_macro_call, package.warning, arguments._eval_find)
+    kept = (package.parse, package.handle_macro_call, package.warning, package.print_location, arguments._eval_find)
     package.parse = _parse_for(kept[0], packages, report)
     package.handle_macro_call = _call_for(kept[1], report, path)
     package.warning = warn
+    package.print_location = lambda: None  # it writes to stderr where a warning was; `_where` says it
     arguments._eval_find = arguments._eval_dict["find"] = find
     package.all_includes.clear()
     try:
         yield
     finally:
-        package.parse, package.handle_macro_call, package.warning = kept[:3]
-        arguments._eval_find = arguments._eval_dict["find"] = kept[3]
+        package.parse, package.handle_macro_call, package.warning, package.print_location = kept[:4]
+        arguments._eval_find = arguments._eval_dict["find"] = kept[4]
         package.filestack = package.macrostack = None
 
 
