@@ -161,8 +161,8 @@ def _momentum(sim: Simulation) -> tuple[float, float, float]:
     """Σ m v of the centres of mass [kg·m/s]."""
     total = np.zeros(3)
     for i, link in enumerate(sim["t"].links):
-        twist = sim.engine.link_twists()[i]
-        arm = np.array(sim.engine.center_of_mass(i)) - sim.engine.link_poses()[i, :3]
+        twist = sim.engine.reader.link_twists()[i]
+        arm = np.array(sim.engine.reader.center_of_mass(i)) - sim.engine.reader.link_poses()[i, :3]
         total += link.link.inertial.mass * (twist[:3] + np.cross(twist[3:], arm))
     x, y, z = total.tolist()
     return (x, y, z)

@@ -19,9 +19,9 @@ class _LinkJson(TypedDict):
 
 class _JointJson(TypedDict):
     name: str
-    position: float
-    velocity: float
-    effort: float
+    position: float | list[float]
+    velocity: float | list[float]
+    effort: float | list[float]
 
 
 class ModelJson(TypedDict):
@@ -141,12 +141,15 @@ class _State:
 
     def _joint_state(self, joint: Joint) -> _JointJson:
         index = next(self._joint)
-        return {
-            "name": joint.name,
-            "position": float(self._snapshot.joint_positions[index]),
-            "velocity": float(self._snapshot.joint_velocities[index]),
-            "effort": float(self._snapshot.joint_efforts[index]),
-        }
+        position, velocity, effort = map(_one_or_all, self._snapshot.axes_of(index))
+        return {"name": joint.name, "position": position, "velocity": velocity, "effort": effort}
+
+
+def _one_or_all(axes: list[float]) -> float | list[float]:
+    """A joint of one degree of freedom, or of none, has a number; one of several has a list."""
+    if len(axes) > 1:
+        return axes
+    return axes[0] if axes else 0.0
 
 
 def pose_of(row: Sequence[float]) -> Pose:

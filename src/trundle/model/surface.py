@@ -34,6 +34,6 @@ class Surface:
     bounce_threshold: float = 100000.0
     """[m/s]"""
     collide_bitmask: int = 0xFFFF
-    category_bitmask: int = 0xFFFF
-    """Two collisions meet where the category of one has a bit of the other's collide_bitmask."""
+    category_bitmask: int | None = None
+    """Two collisions meet where the category of one has a bit of the other's collide_bitmask; None: as that."""
     collide_without_contact: bool = False

@@ -3,12 +3,12 @@
 In Gazebo the smaller friction of two surfaces wins; MuJoCo takes the larger, so each pair states its own. Links
 joined by a joint never touch, links of one model only where they say so.
 
-ODE and MuJoCo cannot agree on everything: ODE's friction pyramid becomes an elliptic cone, and kp and kd, which act
-per contact in ODE, become one stiffness per mass here.
+ODE and MuJoCo cannot agree on everything: ODE's friction pyramid becomes an elliptic cone, and max_vel, which limits
+how fast ODE pushes bodies out of one another, has no counterpart here.
 """
 
-from collections.abc import Sequence
-from itertools import combinations
+from collections.abc import Iterable, Sequence
+from itertools import combinations, product
 
 import mujoco
 
@@ -16,72 +16,89 @@ from trundle.model import Model
 
 from .settings import SOLIMP, contact_solref, sliding_solref
 from .shapes import ShapeEntry
+from .surfaces import Touch, friction_of, is_plain, may_meet, touch_of
+from .tree import Tree
 
 MOST_PAIRS = 2000
 """Beyond these, moving shapes meet by MuJoCo's own search: a pair costs about 10 ns a step whether it meets or not."""
-INFINITE_FRICTION = 100.0
-"""What SDF's negative mu stands for: steeper than any slope."""
+_NEVER_FELT = 1e3
+"""[m] A gap that no shape is deep enough in another to close: the two meet and feel nothing."""
 
 
-def add_contacts(spec: mujoco.MjSpec, shapes: Sequence[ShapeEntry], models: Sequence[Model]) -> None:
-    """Write a pair for every two shapes that may touch."""
-    joined = [_joined(model) for model in models]
-    meeting = [(a, b) for a, b in combinations(shapes, 2) if _may_touch(a, b, models, joined)]
-    by_search = len(meeting) > MOST_PAIRS
+def add_contacts(
+    spec: mujoco.MjSpec, shapes: Sequence[ShapeEntry], models: Sequence[Model], tree: Tree
+) -> dict[tuple[str, str], Touch]:
+    """Write a pair for every two shapes that may touch; return how they do."""
+    touches: dict[tuple[str, str], Touch] = {}
     for shape in shapes:
         shape.geom.contype = shape.geom.conaffinity = 0
-    for a, b in meeting:
-        if by_search and not a.fixed and not b.fixed:
-            continue
-        _add_pair(spec, a, b)
-    if by_search:
-        _let_search(spec, shapes, models, joined)
+    rules = _Rules(models, tree)
+    fixed = [shape for shape in shapes if shape.fixed]
+    moving = [shape for shape in shapes if not shape.fixed]
+    solid = [shape for shape in moving if not shape.is_tread]
+    _add_pairs(spec, product(moving, fixed), rules, touches)
+    if len(solid) * (len(solid) - 1) <= 2 * MOST_PAIRS:
+        _add_pairs(spec, combinations(solid, 2), rules, touches)
+        return touches
+    plain = [shape for shape in solid if is_plain(shape.surface)]
+    special = [shape for shape in solid if not is_plain(shape.surface)]
+    _add_pairs(spec, product(special, plain), rules, touches)
+    _add_pairs(spec, combinations(special, 2), rules, touches)
+    _let_search(spec, plain, rules)
+    return touches
 
 
-def _may_touch(a: ShapeEntry, b: ShapeEntry, models: Sequence[Model], joined: list[set[frozenset[str]]]) -> bool:
-    if a.fixed and b.fixed:
-        return False
-    if not a.surface.collide_bitmask & b.surface.collide_bitmask:
-        return False
-    if a.model != b.model:
-        return True
-    if a.link == b.link or frozenset((a.link, b.link)) in joined[a.model]:
-        return False
-    model = models[a.model]
-    links = (model.link(a.link), model.link(b.link))
-    return all(model.self_collide if link.self_collide is None else link.self_collide for link in links)
+class _Rules:
+    def __init__(self, models: Sequence[Model], tree: Tree) -> None:
+        self._joined = {frozenset((hold.above, hold.below)) for hold in tree.joints}
+        self._self_collides = {
+            place.name: models[place.model].self_collide if place.link.self_collide is None else place.link.self_collide
+            for place in tree.places.values()
+        }
+
+    def may_touch(self, a: ShapeEntry, b: ShapeEntry) -> bool:
+        if not may_meet(a.surface, b.surface):
+            return False
+        if a.link == b.link or frozenset((a.link, b.link)) in self._joined:
+            return False
+        return a.model != b.model or (self._self_collides[a.link] and self._self_collides[b.link])
 
 
-def _joined(model: Model) -> set[frozenset[str]]:
-    return {frozenset((joint.parent, joint.child)) for joint in model.joints}
+def _add_pairs(
+    spec: mujoco.MjSpec,
+    pairs: Iterable[tuple[ShapeEntry, ShapeEntry]],
+    rules: _Rules,
+    touches: dict[tuple[str, str], Touch],
+) -> None:
+    for a, b in pairs:
+        if rules.may_touch(a, b):
+            touch = touches[a.name, b.name] = touch_of(a.surface, b.surface)
+            _add_pair(spec, a, b, touch)
 
 
-def _friction(mu: float) -> float:
-    return INFINITE_FRICTION if mu < 0 else min(mu, INFINITE_FRICTION)
-
-
-def _add_pair(spec: mujoco.MjSpec, a: ShapeEntry, b: ShapeEntry) -> None:
+def _add_pair(spec: mujoco.MjSpec, a: ShapeEntry, b: ShapeEntry, touch: Touch) -> None:
     h = spec.option.timestep
-    mu = min(_friction(a.surface.mu), _friction(b.surface.mu))
-    mu2 = min(_friction(a.surface.mu2), _friction(b.surface.mu2))
-    pair = spec.add_pair(geomname1=a.name, geomname2=b.name)
-    pair.condim = 3 if mu > 0 and mu2 > 0 else 1
+    pair = spec.add_pair(name=f"{a.name} {b.name}", geomname1=a.name, geomname2=b.name)
+    slides_freely = touch.mu <= 0 or touch.mu2 <= 0
+    pair.condim = 1 if slides_freely else 4 if touch.torsion > 0 else 3
     # MuJoCo's first tangent on a horizontal floor lies along y, ODE's second; so mu and mu2 change places.
-    pair.friction = [max(mu, 1e-5), max(mu2, 1e-5), 0.005, 0.0001, 0.0001]
+    pair.friction = [max(touch.mu, 1e-5), max(touch.mu2, 1e-5), max(touch.torsion, 1e-5), 0.0001, 0.0001]
     pair.solref = contact_solref(h)
     pair.solreffriction = sliding_solref(h)
     pair.solimp = SOLIMP
+    pair.margin = -touch.min_depth
+    if not touch.is_felt:
+        pair.gap = _NEVER_FELT
 
 
-def _let_search(
-    spec: mujoco.MjSpec, shapes: Sequence[ShapeEntry], models: Sequence[Model], joined: list[set[frozenset[str]]]
-) -> None:
+def _let_search(spec: mujoco.MjSpec, moving: Sequence[ShapeEntry], rules: _Rules) -> None:
     """Let moving shapes of different models find each other; the one with the smaller friction decides."""
     h = spec.option.timestep
-    moving = [shape for shape in shapes if not shape.fixed]
-    ranks = {mu: -i for i, mu in enumerate(sorted({_friction(s.surface.mu) for s in moving}))}
+    ranks = {mu: -i for i, mu in enumerate(sorted({friction_of(s.surface) for s in moving}))}
+    by_model: dict[int, list[ShapeEntry]] = {}
     for shape in moving:
-        mu = _friction(shape.surface.mu)
+        by_model.setdefault(shape.model, []).append(shape)
+        mu = friction_of(shape.surface)
         geom = shape.geom
         geom.contype = geom.conaffinity = 1
         geom.priority = ranks[mu]
@@ -89,13 +106,11 @@ def _let_search(
         geom.condim = 3 if mu > 0 else 1
         geom.solref = contact_solref(h)
         geom.solimp = SOLIMP
-    for a, b in combinations(moving, 2):
-        if a.model == b.model and a.link != b.link and not _may_touch(a, b, models, joined):
-            _exclude(spec, models, a, b)
-
-
-def _exclude(spec: mujoco.MjSpec, models: Sequence[Model], a: ShapeEntry, b: ShapeEntry) -> None:
-    name = models[a.model].name
-    first, second = f"{name}::{a.link}", f"{name}::{b.link}"
-    if not any({e.bodyname1, e.bodyname2} == {first, second} for e in spec.excludes):
-        spec.add_exclude(bodyname1=first, bodyname2=second)
+    apart = {
+        tuple(sorted((a.link, b.link)))
+        for shapes in by_model.values()
+        for a, b in combinations(shapes, 2)
+        if a.link != b.link and not rules.may_touch(a, b)
+    }
+    for one, other in sorted(apart):
+        spec.add_exclude(bodyname1=one, bodyname2=other)

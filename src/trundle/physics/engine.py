@@ -3,26 +3,22 @@
 Nothing here runs in Python at every step: `step(n)` is one call, and the state is read when somebody asks.
 """
 
-import math
 from dataclasses import dataclass
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.diagnostics import TrundleError
-from trundle.spatial import Vector3, Wrench
+from trundle.diagnostics import TrundleError, UsageError
+from trundle.spatial import Pose, Twist, Wrench
 
-from .compile import CompiledWorld
+from .bounce import Bounce
+from .index import CompiledWorld
+from .instant import Instant, Looker
+from .motors import Motors
+from .reader import StateReader
 from .settings import silence_log
 
-HOLD_RATE = 3.0
-"""[1/s] How fast a held joint closes in: a first-order lag of a third of a second, as its motor's torque allows."""
-
-
-MOTOR_STIFFNESS = 10.0
-"""1 would stop a joint by itself in one step, and droops under the robot's weight: a turn of 2.44 rad came out as 2.13.
-10 gives 2.41; 100 gives 2.44 and chatters where the effort limit is met (measured on the RP2W at 1 ms)."""
 _BAD = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
 _HUGE = 1e10
 """MuJoCo's mjMAXVAL: what is larger, it calls unstable."""
@@ -52,19 +48,19 @@ class Engine:
         self.compiled = compiled
         self._model = compiled.model
         self._data = mujoco.MjData(compiled.model)
-        self._roots = self._model.body_rootid[compiled.link_bodies]
-        self._moves = compiled.joint_qpos >= 0
+        self.reader = StateReader(compiled, self._data)
+        self.motors = Motors(compiled, self._data)
+        self._bounce = Bounce(self._model, self._data, compiled.touches)
+        self._looker = Looker(compiled)
         self._spec = mujoco.mjtState.mjSTATE_INTEGRATION
-        self._fresh = False
         self._good = np.empty(mujoco.mj_stateSize(self._model, self._spec))
         self.reset()
 
     def reset(self) -> None:
         """Go back to the world as compiled, at rest, with every motor off."""
         mujoco.mj_resetData(self._model, self._data)
-        self._model.actuator_gainprm[:] = 0
-        self._model.actuator_biasprm[:] = 0
-        self._fresh = False
+        self.motors.switch_off()
+        self.reader.changed()
 
     def step(self, count: int) -> None:
         """Advance so many time steps; other threads run meanwhile.
@@ -74,8 +70,8 @@ class Engine:
         """
         mujoco.mj_getState(self._model, self._data, self._good, self._spec)
         efforts = self._data.qfrc_actuator.copy()
-        mujoco.mj_step(self._model, self._data, nstep=count)
-        self._fresh = False
+        self._advance(count)
+        self.reader.changed()
         if self._is_unstable():
             name, time_s = self._find_runaway(count)
             self._go_back(efforts)
@@ -83,6 +79,17 @@ class Engine:
                 f"the physics became unstable after {time_s:.3f} s: {name!r} ran away; "
                 f"a smaller <max_step_size> or more plausible masses and inertias may help"
             )
+
+    def _advance(self, count: int) -> None:
+        """In C, unless something of the world has to be seen to between finding contacts and solving them."""
+        if not self._bounce:
+            mujoco.mj_step(self._model, self._data, nstep=count)
+            return
+        for _ in range(count):
+            mujoco.mj_step1(self._model, self._data)
+            if self._bounce():
+                mujoco.mj_fwdVelocity(self._model, self._data)
+            mujoco.mj_step2(self._model, self._data)
 
     def _is_unstable(self) -> bool:
         warnings = self._data.warning
@@ -93,7 +100,7 @@ class Engine:
             warning.number = 0
         mujoco.mj_setState(self._model, self._data, self._good, self._spec)
         self._data.qfrc_actuator[:] = efforts
-        self._fresh = False
+        self.reader.changed()
 
     def _find_runaway(self, count: int) -> tuple[str, float]:
         """Take the same steps again, one by one, up to the bad one: which link began it, and when [s].
@@ -105,7 +112,7 @@ class Engine:
         time_s, speeds = self._data.time, np.abs(self._data.qvel)
         for _ in range(count):
             time_s, speeds = self._data.time, np.abs(self._data.qvel)
-            mujoco.mj_step(self._model, self._data)
+            self._advance(1)
             if self._is_unstable():
                 break
         pushed = np.flatnonzero(~np.isfinite(self._data.xfrc_applied).all(axis=1))
@@ -115,107 +122,67 @@ class Engine:
         worst = int(np.argmax(accelerations if accelerations.max() > _HUGE else speeds))
         return self._model.body(int(self._model.dof_bodyid[worst])).name, time_s
 
-    # -- reading
-
-    def _refresh(self) -> None:
-        """Bring poses and velocities up to the state; what a step computes belongs to where it started.
-
-        Nothing that decides the next step is touched, so looking never changes the outcome.
-        """
-        if not self._fresh:
-            mujoco.mj_kinematics(self._model, self._data)
-            mujoco.mj_comPos(self._model, self._data)
-            mujoco.mj_comVel(self._model, self._data)
-            self._fresh = True
-
-    def link_poses(self) -> NDArray[np.float64]:
-        """(links, 7) x y z qw qx qy qz of the link frames in the world [m]."""
-        self._refresh()
-        bodies = self.compiled.link_bodies
-        return np.concatenate([self._data.xpos[bodies], self._data.xquat[bodies]], axis=1)
-
-    def link_twists(self) -> NDArray[np.float64]:
-        """(links, 6) velocity of the link frame's origin [m/s] and angular velocity [rad/s], world axes."""
-        self._refresh()
-        bodies = self.compiled.link_bodies
-        cvel = self._data.cvel[bodies]
-        wx, wy, wz = cvel[:, 0], cvel[:, 1], cvel[:, 2]
-        # cvel is taken at the tree's centre of mass. The cross product is written out: np.cross costs five times more.
-        x, y, z = (self._data.xpos[bodies] - self._data.subtree_com[self._roots]).T
-        twists = np.empty_like(cvel)
-        twists[:, 0] = cvel[:, 3] + wy * z - wz * y
-        twists[:, 1] = cvel[:, 4] + wz * x - wx * z
-        twists[:, 2] = cvel[:, 5] + wx * y - wy * x
-        twists[:, 3:] = cvel[:, :3]
-        return twists
-
-    def joint_positions(self) -> NDArray[np.float64]:
-        """(joints,) [rad or m]; joints without one axis of freedom read 0."""
-        return self._of_joints(self._data.qpos, self.compiled.joint_qpos)
-
-    def joint_velocities(self) -> NDArray[np.float64]:
-        """(joints,) [rad/s or m/s]"""
-        return self._of_joints(self._data.qvel, self.compiled.joint_dof)
-
-    def joint_efforts(self) -> NDArray[np.float64]:
-        """(joints,) what motors and applied efforts exert [N·m or N]."""
-        return self._of_joints(self._data.qfrc_applied + self._data.qfrc_actuator, self.compiled.joint_dof)
-
-    def _of_joints(self, values: NDArray[np.float64], places: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Each joint's number out of the engine's; the world may have none at all."""
-        found = np.zeros(len(places))
-        found[self._moves] = values[places[self._moves]]
-        return found
-
     # -- writing
 
     def set_wrench(self, link: int, wrench: Wrench) -> None:
         """Hold a force [N] at the link's centre of mass and a torque [N·m], world axes, until set anew."""
         self._data.xfrc_applied[self.compiled.link_bodies[link]] = [*wrench.force, *wrench.torque]
 
-    def set_effort(self, joint: int, effort: float) -> None:
-        """Hold an effort [N·m or N] on a joint and switch its motor off."""
-        self._motor(joint, gain=0.0, position=0.0, velocity=0.0, limit=1.0)
-        self._data.qfrc_applied[self.compiled.joint_dof[joint]] = effort
+    def set_axis_position(self, axis: int, position: float) -> None:
+        """Put an axis to a position [rad or m], at rest."""
+        self._data.qpos[self.compiled.axis_qpos[axis]] = position
+        self._data.qvel[self.compiled.axis_dof[axis]] = 0.0
+        self.reader.changed()
 
-    def set_velocity(self, joint: int, velocity: float, max_effort: float) -> None:
-        """Have a joint's motor keep a speed [rad/s or m/s] with at most so much effort."""
-        gain = self._motor_gain(joint)
-        self._motor(joint, gain=gain, position=0.0, velocity=gain, limit=max_effort)
-        self._data.ctrl[self.compiled.joint_actuators[joint]] = velocity
+    def set_axis_velocity(self, axis: int, velocity: float) -> None:
+        """Set the speed of an axis [rad/s or m/s] at once; nothing keeps it."""
+        self._data.qvel[self.compiled.axis_dof[axis]] = velocity
+        self.reader.changed()
 
-    def hold(self, joint: int, position: float, max_effort: float) -> None:
-        """Have a joint's motor go to a position [rad or m] and stay there."""
-        damping = self._motor_gain(joint)
-        gain = HOLD_RATE * damping
-        self._motor(joint, gain=gain, position=gain, velocity=damping, limit=max_effort)
-        self._data.ctrl[self.compiled.joint_actuators[joint]] = position
+    def set_tree_pose(self, link: int, pose: Pose) -> None:
+        """Put a link that hangs from nothing somewhere else, with all that hangs from it; speeds stay in the world.
 
-    def _motor_gain(self, joint: int) -> float:
-        """Effort per error of speed, by what the motor has to move with every joint at zero."""
-        inertia = float(self._model.dof_M0[self.compiled.joint_dof[joint]])
-        return MOTOR_STIFFNESS * inertia / self._model.opt.timestep
+        Raises:
+            UsageError: it hangs from a joint or the world.
+        """
+        joint = self._free_joint(link)
+        first = int(self._model.jnt_qposadr[joint])
+        dof = int(self._model.jnt_dofadr[joint])
+        turned = pose.quaternion
+        spin = np.empty(3)
+        mujoco.mju_rotVecQuat(spin, self._data.qvel[dof + 3 : dof + 6], self._data.qpos[first + 3 : first + 7])
+        self._data.qpos[first : first + 7] = (*pose.position, *turned)
+        wx, wy, wz = spin.tolist()
+        self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=turned).inverse().direction((wx, wy, wz))
+        self.reader.changed()
 
-    def _motor(self, joint: int, *, gain: float, position: float, velocity: float, limit: float) -> None:
-        """force = gain · command − position · q − velocity · q̇, within ±limit."""
-        self._data.qfrc_applied[self.compiled.joint_dof[joint]] = 0.0
-        actuator = self.compiled.joint_actuators[joint]
-        self._model.actuator_gainprm[actuator, 0] = gain
-        self._model.actuator_biasprm[actuator, 1:3] = (-position, -velocity)
-        limit = min(limit, 1e10) if math.isfinite(limit) else 1e10
-        self._model.actuator_forcerange[actuator] = (-limit, limit)
+    def set_tree_twist(self, link: int, twist: Twist) -> None:
+        """Give a link that hangs from nothing a velocity of its frame's origin and a spin, world axes.
 
-    def set_joint_position(self, joint: int, position: float) -> None:
-        """Put a joint to a position [rad or m], at rest."""
-        self._data.qpos[self.compiled.joint_qpos[joint]] = position
-        self._data.qvel[self.compiled.joint_dof[joint]] = 0.0
-        self._fresh = False
+        Raises:
+            UsageError: it hangs from a joint or the world.
+        """
+        joint = self._free_joint(link)
+        first, dof = int(self._model.jnt_qposadr[joint]), int(self._model.jnt_dofadr[joint])
+        w, x, y, z = self._data.qpos[first + 3 : first + 7].tolist()
+        self._data.qvel[dof : dof + 3] = twist.linear
+        self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=(w, x, y, z)).inverse().direction(twist.angular)
+        self.reader.changed()
 
-    def center_of_mass(self, link: int) -> Vector3:
-        """Where a link's centre of mass is in the world [m]."""
-        self._refresh()
-        x, y, z = self._data.xipos[self.compiled.link_bodies[link]].tolist()
-        return (x, y, z)
+    def is_free(self, link: int) -> bool:
+        """Whether a link hangs from nothing."""
+        first = int(self._model.body_jntadr[self.compiled.link_bodies[link]])
+        return first >= 0 and self._model.jnt_type[first] == mujoco.mjtJoint.mjJNT_FREE
+
+    def _free_joint(self, link: int) -> int:
+        if not self.is_free(link):
+            name = self.compiled.link_names[link]
+            raise UsageError(f"link {name!r} cannot be put elsewhere: it hangs from a joint or from the world")
+        return int(self._model.body_jntadr[self.compiled.link_bodies[link]])
+
+    def instant(self) -> Instant:
+        """The state as it is now, for good."""
+        return Instant(self._looker, self.reader)
 
     # -- keeping
 
@@ -239,4 +206,4 @@ class Engine:
         self._model.actuator_gainprm[:] = state.gains
         self._model.actuator_biasprm[:] = state.biases
         self._model.actuator_forcerange[:] = state.ranges
-        self._fresh = False
+        self.reader.changed()

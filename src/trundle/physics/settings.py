@@ -21,6 +21,11 @@ def friction_solref(h: float) -> tuple[float, float]:
     return (2 * h, 1.0)
 
 
+def tie_solref(h: float) -> tuple[float, float]:
+    """Of what holds two joints or the two halves of a link together."""
+    return (2 * h, 1.0)
+
+
 def sliding_solref(h: float) -> tuple[float, float]:
     """Of contact friction: stiffer, a body sliding at 1 m/s hops 8 mm; so, less than 0.4 mm."""
     return (10 * h, 1.0)

@@ -37,11 +37,16 @@ class ShapeEntry:
 
     geom: mujoco.MjsGeom
     name: str
+    collision: str
+    """`model::link::collision`"""
     model: int
     link: str
+    """`model::link`"""
     fixed: bool
-    """Part of the world: nothing it does moves it."""
+    """Part of the world: nothing moves it."""
     surface: Surface
+    is_tread: bool = False
+    """Of a wheel; touches what is fixed."""
 
 
 def add_shape(
@@ -100,25 +105,6 @@ def _thick_hull(corners: NDArray[np.float64], collision: Collision, report: Diag
             f"collision {collision.name!r}: a mesh of zero thickness; physics uses {THINNEST * 1000:g} mm",
         )
     return corners
-
-
-def name_unsupported(collision: Collision, report: Diagnostics) -> None:
-    """Say what of a surface the contacts made here do not have."""
-    surface, default = collision.surface, Surface()
-    lacking: list[str] = []
-    if surface.restitution > 0.0:
-        lacking.append("restitution")
-    if surface.fdir1 != default.fdir1:
-        lacking.append("fdir1")
-    if surface.collide_without_contact:
-        lacking.append("collide_without_contact")
-    if lacking:
-        report.warn(collision.at, f"collision {collision.name!r}: {', '.join(lacking)} not simulated yet; ignored")
-    if (surface.kp, surface.kd) != (default.kp, default.kd):
-        report.info(
-            collision.at,
-            f"collision {collision.name!r}: kp and kd are ODE's; MuJoCo's contacts are stiff in proportion to mass",
-        )
 
 
 def _mended(collision: Collision, report: Diagnostics) -> Geometry:

@@ -11,6 +11,9 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from trundle.diagnostics import UsageError
 from trundle.model import Joint, Link, Model
 from trundle.spatial import Pose, Twist, Wrench
@@ -36,14 +39,30 @@ class LinkHandle:
     @property
     def pose(self) -> Pose:
         """The link's frame in the world."""
-        x, y, z, qw, qx, qy, qz = self._simulation.engine.link_poses()[self.index].tolist()
+        x, y, z, qw, qx, qy, qz = self._simulation.engine.reader.link_poses()[self.index].tolist()
         return Pose((x, y, z), (qw, qx, qy, qz))
 
     @property
     def twist(self) -> Twist:
         """Velocity of the frame's origin and angular velocity, world axes."""
-        vx, vy, vz, wx, wy, wz = self._simulation.engine.link_twists()[self.index].tolist()
+        vx, vy, vz, wx, wy, wz = self._simulation.engine.reader.link_twists()[self.index].tolist()
         return Twist((vx, vy, vz), (wx, wy, wz))
+
+    def set_pose(self, pose: Pose) -> None:
+        """Put the link there at once, with all that hangs from it; speeds stay.
+
+        Raises:
+            UsageError: it hangs from something itself.
+        """
+        self._simulation.engine.set_tree_pose(self.index, pose)
+
+    def set_twist(self, twist: Twist) -> None:
+        """Give the link's origin this velocity, and this spin, at once, world axes; nothing keeps it.
+
+        Raises:
+            UsageError: it hangs from something.
+        """
+        self._simulation.engine.set_tree_twist(self.index, twist)
 
     def apply_wrench(self, wrench: Wrench, *, duration_s: float | None = None) -> None:
         """Push and twist the link at its centre of mass, in world axes.
@@ -56,7 +75,9 @@ class LinkHandle:
 
 
 class JointHandle:
-    """One joint; with one axis of freedom it can be driven."""
+    """One joint; its freedoms are its axes, counted from 0 as the file has them. A ball joint's three are a rotation
+    vector, which can be read, and an effort.
+    """
 
     def __init__(self, simulation: "Simulation", joint: Joint, index: int) -> None:
         self._simulation = simulation
@@ -70,47 +91,86 @@ class JointHandle:
         return self.joint.name
 
     @property
+    def axes(self) -> range:
+        """Its freedoms, as indices into the engine's; none where its limits leave none."""
+        return self._simulation.engine.compiled.joint_axes[self.index]
+
+    @property
     def position(self) -> float:
-        """[rad or m]"""
-        return float(self._simulation.engine.joint_positions()[self.index])
+        """[rad or m] of the first axis; 0 without freedom."""
+        return next(iter(self.positions), 0.0)
 
     @property
     def velocity(self) -> float:
-        """[rad/s or m/s]"""
-        return float(self._simulation.engine.joint_velocities()[self.index])
+        """[rad/s or m/s] of the first axis"""
+        return next(iter(self.velocities), 0.0)
 
     @property
     def effort(self) -> float:
-        """What drives it [N·m or N]."""
-        return float(self._simulation.engine.joint_efforts()[self.index])
+        """What drives the first axis [N·m or N]."""
+        return next(iter(self.efforts), 0.0)
 
     @property
     def is_driven(self) -> bool:
-        """Whether it has a single axis of freedom, and so can be driven or put somewhere."""
-        return self._simulation.engine.compiled.joint_dof[self.index] >= 0
+        """Whether it has an axis, and so can be driven or put somewhere."""
+        return bool(self.axes) and self._simulation.engine.compiled.axis_actuator[self.axes[0]] >= 0
 
-    def set_effort(self, effort: float) -> None:
-        """Drive with this effort [N·m or N] until told otherwise."""
-        self._simulation.engine.set_effort(self._driven(), effort)
+    @property
+    def positions(self) -> tuple[float, ...]:
+        """[rad or m] of each axis."""
+        return self._of_axes(self._simulation.engine.reader.axis_positions())
 
-    def set_velocity(self, velocity: float, *, max_effort: float = math.inf) -> None:
+    @property
+    def velocities(self) -> tuple[float, ...]:
+        """[rad/s or m/s] of each axis."""
+        return self._of_axes(self._simulation.engine.reader.axis_velocities())
+
+    @property
+    def efforts(self) -> tuple[float, ...]:
+        """What drives each axis [N·m or N]."""
+        return self._of_axes(self._simulation.engine.reader.axis_efforts())
+
+    def set_effort(self, effort: float, *, axis: int = 0) -> None:
+        """Drive with this effort [N·m or N] until told otherwise, within the effort and speed limits."""
+        self._simulation.engine.motors.set_effort(self._axis(axis), effort)
+
+    def set_velocity(self, velocity: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
         """Keep this speed [rad/s or m/s] with at most so much effort, as Gazebo's SetVelocity with fmax."""
-        self._simulation.engine.set_velocity(self._driven(), velocity, max_effort)
+        self._simulation.engine.motors.set_velocity(self._driven(axis), velocity, max_effort)
 
-    def hold(self, position: float, *, max_effort: float = math.inf) -> None:
+    def hold(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
         """Go to a position [rad or m] and stay, with at most so much effort; limits are respected."""
-        driven, axis = self._driven(), self.joint.axis
-        assert axis is not None
-        self._simulation.engine.hold(driven, min(max(position, axis.lower), axis.upper), max_effort)
+        driven = self._driven(axis)
+        self._simulation.engine.motors.hold(driven, self._within_limits(position, driven), max_effort)
 
-    def set_position(self, position: float) -> None:
+    def set_position(self, position: float, *, axis: int = 0) -> None:
         """Put the joint there at once [rad or m], at rest."""
-        self._simulation.engine.set_joint_position(self._driven(), position)
+        self._simulation.engine.set_axis_position(self._driven(axis), position)
 
-    def _driven(self) -> int:
-        if not self.is_driven:
-            raise UsageError(f"joint {self.name!r} cannot be driven: it has no single axis of freedom")
-        return self.index
+    def start(self, velocity: float, *, axis: int = 0) -> None:
+        """Give it this speed at once [rad/s or m/s]; nothing keeps it."""
+        self._simulation.engine.set_axis_velocity(self._axis(axis), velocity)
+
+    def _of_axes(self, values: NDArray[np.float64]) -> tuple[float, ...]:
+        axes = self.axes
+        return tuple(values[axes.start : axes.stop].tolist())
+
+    def _axis(self, axis: int) -> int:
+        axes = self.axes
+        if not 0 <= axis < len(axes):
+            has = f"it has {len(axes)}" if axes else "it cannot move"
+            raise UsageError(f"joint {self.name!r} has no axis {axis}: {has}")
+        return axes[axis]
+
+    def _driven(self, axis: int) -> int:
+        index = self._axis(axis)
+        if self._simulation.engine.compiled.axis_actuator[index] < 0:
+            raise UsageError(f"joint {self.name!r} cannot be driven so: a ball has no axis; give it an effort")
+        return index
+
+    def _within_limits(self, position: float, axis: int) -> float:
+        low, high = self._simulation.engine.compiled.axis_range[axis].tolist()
+        return min(max(position, low), high)
 
 
 _Named = TypeVar("_Named", LinkHandle, JointHandle)
@@ -133,17 +193,47 @@ class ModelHandle:
         return self.model.name
 
     @property
-    def _canonical(self) -> LinkHandle:
-        named = (link for link in self.links if link.name == self.model.canonical_link)
-        return next(named, self.links[0])
-
-    @property
     def pose(self) -> Pose:
-        """The model's frame in the world; it rides on the model's canonical link, as in Gazebo."""
+        """The model's frame in the world; it rides on the canonical link."""
         if not self.links:
             return self.model.world_from_model
-        link = self._canonical
-        return link.pose @ link.link.model_from_link.inverse()
+        base = self.base
+        return base.pose @ base.link.model_from_link.inverse()
+
+    @property
+    def base(self) -> LinkHandle:
+        """The canonical link; the first one where the file names none.
+
+        Raises:
+            UsageError: the model has no link.
+        """
+        if not self.links:
+            raise UsageError(f"model {self.name!r} has no link")
+        named = self.model.canonical_link
+        return next((link for link in self.links if link.name == named), self.links[0])
+
+    def set_pose(self, pose: Pose) -> None:
+        """Put the model's frame there at once; what hangs from other things stays, speeds stay.
+
+        Raises:
+            UsageError: nothing of the model moves freely.
+        """
+        moved = pose @ self.pose.inverse()
+        free = [link for link in self.links if self._simulation.engine.is_free(link.index)]
+        if not free:
+            raise UsageError(f"model {self.name!r} cannot be put elsewhere: it hangs from the world")
+        for link, there in [(link, moved @ link.pose) for link in free]:
+            link.set_pose(there)
+
+    def set_twist(self, twist: Twist) -> None:
+        """Give what moves freely of the model this velocity and spin at once, world axes; nothing keeps it."""
+        (vx, vy, vz), (wx, wy, wz) = twist.linear, twist.angular
+        x0, y0, z0 = self.pose.position
+        for link in self.links:
+            if self._simulation.engine.is_free(link.index):
+                x, y, z = (p - p0 for p, p0 in zip(link.pose.position, (x0, y0, z0), strict=True))
+                there = (vx + wy * z - wz * y, vy + wz * x - wx * z, vz + wx * y - wy * x)
+                link.set_twist(Twist(there, twist.angular))
 
     def link(self, name: str) -> LinkHandle:
         """The link of that name.
@@ -163,7 +253,7 @@ class ModelHandle:
 
     def apply_wrench(self, wrench: Wrench, *, duration_s: float | None = None) -> None:
         """Push and twist the model's canonical link at its centre of mass, in world axes."""
-        self._canonical.apply_wrench(wrench, duration_s=duration_s)
+        self.base.apply_wrench(wrench, duration_s=duration_s)
 
 
 def _named(name: str, there: Iterable[_Named], none: str) -> _Named:

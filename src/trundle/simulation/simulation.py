@@ -14,7 +14,7 @@ from trundle.model import World
 from trundle.physics import Engine, EngineState, compile_world
 from trundle.spatial import Wrench
 
-from .handles import ModelHandle
+from .handles import JointHandle, ModelHandle
 from .hooks import AfterStep, BeforeStep, ScheduledHook
 from .snapshot import Snapshot
 
@@ -42,13 +42,17 @@ class Simulation:
             report: takes what physics has to mend.
             seed: of everything random.
         """
-        self.world = world
         self.report = report
         self.seed = seed
         self.engine = Engine(compile_world(world, report))
+        self.world = self.engine.compiled.world
+        """Without nested models: their links and joints are the outer model's, called `inner::name`."""
         self.step_ns = round(world.physics.max_step_size_s * NS)
         self.steps = 0
-        self.models = _handles(self, world)
+        self.models = _handles(self, self.world)
+        first = sum(len(model.joints) for model in self.world.models)
+        self.joints = [JointHandle(self, joint, first + i) for i, joint in enumerate(self.world.joints)]
+        """Between models, in file order."""
         self._commands: deque[Command] = deque()
         self._hooks: list[ScheduledHook] = []
         self._on_reset: list[Callable[[], None]] = []
@@ -124,14 +128,12 @@ class Simulation:
 
     def snapshot(self) -> Snapshot:
         """Where everything is now."""
-        engine = self.engine
+        compiled = self.engine.compiled
         return Snapshot(
             time_ns=self.time_ns,
-            poses=engine.link_poses(),
-            twists=engine.link_twists(),
-            joint_positions=engine.joint_positions(),
-            joint_velocities=engine.joint_velocities(),
-            joint_efforts=engine.joint_efforts(),
+            instant=self.engine.instant(),
+            first_axes=compiled.first_axes,
+            joint_axes=compiled.joint_axes,
         )
 
     def save(self) -> SavedSimulation:

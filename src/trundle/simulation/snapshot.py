@@ -1,23 +1,74 @@
 """Where everything is at one instant."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
+from trundle.physics import Instant
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+_Array = NDArray[np.float64]
+
+
 class Snapshot:
-    """The state of a world at one instant; links and joints are in file order, over all models."""
+    """The state of a world at one instant, for any thread; links and joints are in file order, over all models.
 
-    time_ns: int
-    poses: NDArray[np.float64]
-    """(links, 7) link frames in the world: x y z [m], qw qx qy qz."""
-    twists: NDArray[np.float64]
-    """(links, 6) velocity of the link frame's origin [m/s], angular velocity [rad/s]; world axes."""
-    joint_positions: NDArray[np.float64]
-    """(joints,) [rad or m]; 0 for joints without one axis of freedom."""
-    joint_velocities: NDArray[np.float64]
-    """(joints,) [rad/s or m/s]"""
-    joint_efforts: NDArray[np.float64]
-    """(joints,) what drives them [N·m or N]"""
+    Positions, velocities and efforts of a joint are those of its first axis; `axes_of` has all of them.
+    """
+
+    def __init__(
+        self, *, time_ns: int, instant: Instant, first_axes: NDArray[np.intp], joint_axes: Sequence[range] = ()
+    ) -> None:
+        """Name what an engine held.
+
+        Args:
+            time_ns: simulation time.
+            instant: the engine's numbers.
+            first_axes: of each joint, −1 where it has none.
+            joint_axes: of each joint, all.
+        """
+        self.time_ns = time_ns
+        self.instant = instant
+        self._axes = first_axes
+        self._joint_axes = joint_axes
+        self._moves = first_axes >= 0
+
+    @property
+    def poses(self) -> _Array:
+        """(links, 7) link frames in the world: x y z [m], qw qx qy qz."""
+        return self.instant.bodies[0]
+
+    @property
+    def twists(self) -> _Array:
+        """(links, 6) velocity of the link frame's origin [m/s], angular velocity [rad/s]; world axes."""
+        return self.instant.bodies[1]
+
+    @property
+    def joint_positions(self) -> _Array:
+        """(joints,) [rad or m]; 0 for joints without freedom."""
+        return self._of_joints(self.instant.axis_positions)
+
+    @property
+    def joint_velocities(self) -> _Array:
+        """(joints,) [rad/s or m/s]"""
+        return self._of_joints(self.instant.axis_velocities)
+
+    @property
+    def joint_efforts(self) -> _Array:
+        """(joints,) what drives them [N·m or N]"""
+        return self._of_joints(self.instant.axis_efforts)
+
+    def axes_of(self, joint: int) -> tuple[list[float], list[float], list[float]]:
+        """Position, velocity and effort of each axis of a joint."""
+        axes = slice(self._joint_axes[joint].start, self._joint_axes[joint].stop)
+        held = self.instant
+        return (
+            held.axis_positions[axes].tolist(),
+            held.axis_velocities[axes].tolist(),
+            held.axis_efforts[axes].tolist(),
+        )
+
+    def _of_joints(self, values: _Array) -> _Array:
+        found = np.zeros(len(self._axes))
+        found[self._moves] = values[self._axes[self._moves]]
+        return found

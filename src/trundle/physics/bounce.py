@@ -1,0 +1,99 @@
+"""Restitution: the bounce that a spring and a damper cannot make.
+
+MuJoCo's contacts push with forces over several steps, and how high a body comes back then depends on the phase of the
+impact. So a contact that bounces gets an impulse at the moment it is found: the speeds of approach turn round by
+Newton's law, friction within Coulomb's cone, over all contacts at once by projected Gauss-Seidel.
+"""
+
+import math
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from .index import GeomPair
+from .surfaces import Touch
+
+_SWEEPS = 50
+_SLOWEST = 3.0
+"""Steps' worth of falling: what comes slower than that is at rest."""
+
+
+class Bounce:
+    """Turns approaching contacts round; called in every step between collision and solution."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, touches: Mapping[GeomPair, Touch]) -> None:
+        self._model = model
+        self._data = data
+        self._touches = {pair: touch for pair, touch in touches.items() if touch.restitution > 0 and touch.is_felt}
+        self._jacobian = np.zeros((2, 3, model.nv))
+
+    def __bool__(self) -> bool:
+        """Whether anything bounces at all."""
+        return bool(self._touches)
+
+    def __call__(self) -> bool:
+        """Give the impulses of this step; return whether there were any."""
+        data = self._data
+        if not data.ncon:
+            return False
+        rows: list[NDArray[np.float64]] = []
+        targets: list[float] = []
+        frictions: list[tuple[float, float]] = []
+        for contact in data.contact:
+            g1, g2 = int(contact.geom[0]), int(contact.geom[1])
+            touch = self._touches.get((min(g1, g2), max(g1, g2)))
+            if touch is None or contact.dist > 0:
+                continue
+            jacobian = self._of(contact, g1, g2)
+            speed = float(jacobian[0] @ data.qvel)
+            target = self._target(touch, -speed, depth=-float(contact.dist), pull=self._pull(contact, g1, g2))
+            if target is not None:
+                rows.append(jacobian)
+                targets.append(target)
+                # In MuJoCo's order: the first tangent has the first number.
+                frictions.append((float(contact.friction[0]), float(contact.friction[1])))
+        if not rows:
+            return False
+        self._push(np.concatenate(rows), targets, frictions)
+        return True
+
+    def _of(self, contact: mujoco.MjContact, g1: int, g2: int) -> NDArray[np.float64]:
+        """(3, nv) relative velocity along the normal, out of the first body, and two tangents."""
+        bodies = self._model.geom_bodyid
+        for jacobian, geom in zip(self._jacobian, (g1, g2), strict=True):
+            mujoco.mj_jac(self._model, self._data, jacobian, None, contact.pos, int(bodies[geom]))
+        return contact.frame.reshape(3, 3) @ (self._jacobian[1] - self._jacobian[0])
+
+    def _pull(self, contact: mujoco.MjContact, g1: int, g2: int) -> float:
+        """How gravity speeds the approach up [m/s²]; two bodies that both fall, not at all."""
+        moving = [self._model.body_weldid[self._model.geom_bodyid[geom]] != 0 for geom in (g1, g2)]
+        return float(contact.frame[:3] @ self._model.opt.gravity) * (int(moving[0]) - int(moving[1]))
+
+    def _target(self, touch: Touch, approach: float, *, depth: float, pull: float) -> float | None:
+        """The speed to leave at [m/s]: e times what it was at the surface, and what the way back to it takes."""
+        slowest = _SLOWEST * float(np.linalg.norm(self._model.opt.gravity)) * self._model.opt.timestep
+        if approach <= max(touch.threshold, slowest):
+            return None
+        at_surface = max(approach**2 - 2 * pull * depth, 0.0)
+        return math.sqrt(max(touch.restitution**2 * at_surface + 2 * pull * depth, 0.0))
+
+    def _push(self, rows: NDArray[np.float64], targets: list[float], frictions: list[tuple[float, float]]) -> None:
+        data = self._data
+        reach = np.zeros_like(rows)
+        mujoco.mj_solveM(self._model, data, reach, rows)
+        effect = rows @ reach.T
+        velocity = rows @ data.qvel
+        impulse = np.zeros(len(rows))
+        for _ in range(_SWEEPS):
+            for i, (target, (mu1, mu2)) in enumerate(zip(targets, frictions, strict=True)):
+                n, t = 3 * i, slice(3 * i + 1, 3 * i + 3)
+                now = velocity + effect @ impulse
+                impulse[n] = max(impulse[n] + (target - now[n]) / effect[n, n], 0.0)
+                now = velocity + effect @ impulse
+                wanted = impulse[t] - now[t] / np.maximum(np.diag(effect)[t], 1e-12)
+                most = impulse[n] * np.array([mu1, mu2])
+                length = float(np.linalg.norm(wanted / np.maximum(most, 1e-12)))
+                impulse[t] = wanted / max(length, 1.0)
+        data.qvel += reach.T @ impulse

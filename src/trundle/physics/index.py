@@ -1,0 +1,116 @@
+"""What was what: the way from a world's names to the engine's numbers."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import JointAxis, World
+
+from .joints import Axis
+from .surfaces import Touch
+from .tree import Tree
+
+_Indices = NDArray[np.intp]
+GeomPair: TypeAlias = tuple[int, int]
+"""Two geoms, the smaller number first."""
+_WIDTH = {int(mujoco.mjtJoint.mjJNT_BALL): 3}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CompiledWorld:
+    """A MuJoCo model and its index; links and joints are in file order, the joints between models last."""
+
+    world: World
+    model: mujoco.MjModel
+    link_names: tuple[str, ...]
+    """`model::link`"""
+    joint_names: tuple[str, ...]
+    """`model::joint`"""
+    link_bodies: _Indices
+    joint_axes: tuple[range, ...]
+    """Each joint's freedoms, as indices into the arrays below; a ball joint has three."""
+    first_axes: _Indices
+    """Of each joint; −1 where it has none."""
+    axis_qpos: _Indices
+    """Where the axis' position is in qpos; of each of a ball joint's: where its quaternion begins."""
+    axis_dof: _Indices
+    axis_actuator: _Indices
+    """Its motor; −1: a ball joint's."""
+    axis_sign: NDArray[np.float64]
+    """−1 where the engine's position runs the other way."""
+    axis_effort: NDArray[np.float64]
+    """[N·m or N] Largest actuation."""
+    axis_velocity: NDArray[np.float64]
+    """[rad/s or m/s] Beyond this an effort does not push on."""
+    axis_range: NDArray[np.float64]
+    """(axes, 2) [rad or m] Limits."""
+    balls: tuple[int, ...]
+    """The first axis of each ball joint."""
+    touches: Mapping[GeomPair, Touch]
+    """How two shapes touch that have a pair of their own."""
+
+
+def index_world(
+    world: World,
+    tree: Tree,
+    axes: Mapping[str, Sequence[Axis]],
+    touches: Mapping[tuple[str, str], Touch],
+    model: mujoco.MjModel,
+) -> CompiledWorld:
+    """Look every name up in a compiled model."""
+    qpos: list[int] = []
+    dof: list[int] = []
+    actuator: list[int] = []
+    sign: list[float] = []
+    effort: list[float] = []
+    velocity: list[float] = []
+    limits: list[list[float]] = []
+    spans: list[range] = []
+    balls: list[int] = []
+    for hold in tree.joints:
+        first = len(qpos)
+        for axis in axes.get(hold.name, ()):
+            joint = model.joint(axis.engine_joint)
+            if axis.axis is None:
+                balls.append(len(qpos))
+            for i in range(_WIDTH.get(int(joint.type[0]), 1)):
+                qpos.append(int(joint.qposadr[0]))
+                dof.append(int(joint.dofadr[0]) + i)
+                actuator.append(-1 if axis.axis is None else model.actuator(axis.engine_joint).id)
+                sign.append(axis.sign)
+                effort.append(np.inf if axis.axis is None else axis.axis.effort)
+                limits.append(_limits(axis.axis))
+                velocity.append(np.inf if axis.axis is None else axis.axis.velocity)
+        spans.append(range(first, len(qpos)))
+    return CompiledWorld(
+        world=world,
+        model=model,
+        link_names=tuple(tree.places),
+        joint_names=tuple(hold.name for hold in tree.joints),
+        link_bodies=np.array([model.body(name).id for name in tree.places], dtype=np.intp),
+        joint_axes=tuple(spans),
+        first_axes=np.array([span.start if span else -1 for span in spans], dtype=np.intp),
+        axis_qpos=np.array(qpos, dtype=np.intp),
+        axis_dof=np.array(dof, dtype=np.intp),
+        axis_actuator=np.array(actuator, dtype=np.intp),
+        axis_sign=np.array(sign),
+        axis_effort=np.array(effort),
+        axis_velocity=np.array(velocity),
+        axis_range=np.array(limits).reshape(-1, 2),
+        balls=tuple(balls),
+        touches={_pair(model, names): touch for names, touch in touches.items()},
+    )
+
+
+def _limits(axis: JointAxis | None) -> list[float]:
+    """Of a ball, and of one that follows another against limits that would hold it: none."""
+    return [-np.inf, np.inf] if axis is None or axis.is_rigid else sorted((axis.lower, axis.upper))
+
+
+def _pair(model: mujoco.MjModel, names: tuple[str, str]) -> GeomPair:
+    a, b = (int(model.geom(name).id) for name in names)
+    return min(a, b), max(a, b)

@@ -1,0 +1,90 @@
+"""Reads the state of a world out of the engine's arrays: poses, velocities, what drives the joints."""
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.spatial import Vector3
+
+from .index import CompiledWorld
+
+
+class StateReader:
+    """Reads one `MjData`; whoever changes it says so by `changed`."""
+
+    def __init__(self, compiled: CompiledWorld, data: mujoco.MjData) -> None:
+        self._compiled = compiled
+        self._model = compiled.model
+        self._data = data
+        self._roots = self._model.body_rootid[compiled.link_bodies]
+        self._balls = [(range(b, b + 3), int(compiled.axis_qpos[b])) for b in compiled.balls]
+        self._fresh = False
+
+    def show(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
+        """Put another state before the reader; time and forces stay."""
+        self._data.qpos[:], self._data.qvel[:] = qpos, qvel
+        self._fresh = False
+
+    def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """What `show` takes."""
+        return self._data.qpos.copy(), self._data.qvel.copy()
+
+    def changed(self) -> None:
+        """The state is another now."""
+        self._fresh = False
+
+    def _refresh(self) -> None:
+        """Bring poses and velocities up to the state; what a step computes belongs to where it started.
+
+        Nothing that decides the next step is touched, so looking never changes the outcome.
+        """
+        if not self._fresh:
+            mujoco.mj_kinematics(self._model, self._data)
+            mujoco.mj_comPos(self._model, self._data)
+            mujoco.mj_comVel(self._model, self._data)
+            self._fresh = True
+
+    def link_poses(self) -> NDArray[np.float64]:
+        """(links, 7) x y z qw qx qy qz of the link frames in the world [m]."""
+        self._refresh()
+        bodies = self._compiled.link_bodies
+        return np.concatenate([self._data.xpos[bodies], self._data.xquat[bodies]], axis=1)
+
+    def link_twists(self) -> NDArray[np.float64]:
+        """(links, 6) velocity of the link frame's origin [m/s] and angular velocity [rad/s], world axes."""
+        self._refresh()
+        bodies = self._compiled.link_bodies
+        cvel = self._data.cvel[bodies]
+        wx, wy, wz = cvel[:, 0], cvel[:, 1], cvel[:, 2]
+        # cvel is taken at the tree's centre of mass. The cross product is written out: np.cross costs five times more.
+        x, y, z = (self._data.xpos[bodies] - self._data.subtree_com[self._roots]).T
+        twists = np.empty_like(cvel)
+        twists[:, 0] = cvel[:, 3] + wy * z - wz * y
+        twists[:, 1] = cvel[:, 4] + wz * x - wx * z
+        twists[:, 2] = cvel[:, 5] + wx * y - wy * x
+        twists[:, 3:] = cvel[:, :3]
+        return twists
+
+    def axis_positions(self) -> NDArray[np.float64]:
+        """(axes,) [rad or m]; a ball joint's three are its rotation vector."""
+        positions = self._data.qpos[self._compiled.axis_qpos]
+        for span, first in self._balls:
+            rotation = np.empty(3)
+            mujoco.mju_quat2Vel(rotation, self._data.qpos[first : first + 4], 1.0)
+            positions[span.start : span.stop] = rotation
+        return positions * self._compiled.axis_sign
+
+    def axis_velocities(self) -> NDArray[np.float64]:
+        """(axes,) [rad/s or m/s]"""
+        return self._data.qvel[self._compiled.axis_dof] * self._compiled.axis_sign
+
+    def axis_efforts(self) -> NDArray[np.float64]:
+        """(axes,) what motors and applied efforts exert [N·m or N]."""
+        dofs = self._compiled.axis_dof
+        return (self._data.qfrc_applied[dofs] + self._data.qfrc_actuator[dofs]) * self._compiled.axis_sign
+
+    def center_of_mass(self, link: int) -> Vector3:
+        """Where a link's centre of mass is in the world [m]."""
+        self._refresh()
+        x, y, z = self._data.xipos[self._compiled.link_bodies[link]].tolist()
+        return (x, y, z)

@@ -1,0 +1,76 @@
+"""What two surfaces are like where they touch, by ODE's rules as Gazebo uses them."""
+
+import math
+from dataclasses import dataclass, replace
+
+from trundle.model import Surface
+
+INFINITE_FRICTION = 100.0
+"""What SDF's negative mu stands for: steeper than any slope."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Touch:
+    """Two surfaces as one."""
+
+    mu: float
+    mu2: float
+    torsion: float
+    """[m] Largest torque about the normal over the normal force."""
+    kp: float
+    """[N/m]"""
+    kd: float
+    """[N·s/m]"""
+    min_depth: float
+    """[m]"""
+    restitution: float
+    threshold: float
+    """[m/s]"""
+    is_felt: bool
+    """Whether the two push each other, not only meet."""
+
+
+def touch_of(a: Surface, b: Surface) -> Touch:
+    """The smaller friction wins, springs act in series, dampers add up, both must bounce."""
+    return Touch(
+        mu=min(_friction(a.mu), _friction(b.mu)),
+        mu2=min(_friction(a.mu2), _friction(b.mu2)),
+        torsion=_torsion(a, b),
+        kp=1 / (1 / max(a.kp, 1e-3) + 1 / max(b.kp, 1e-3)),
+        kd=max(a.kd, 0.0) + max(b.kd, 0.0),
+        min_depth=max(min(a.min_depth, b.min_depth), 0.0),
+        restitution=min(max(min(a.restitution, b.restitution), 0.0), 1.0),
+        threshold=min(a.bounce_threshold, b.bounce_threshold),
+        is_felt=not (a.collide_without_contact or b.collide_without_contact),
+    )
+
+
+def may_meet(a: Surface, b: Surface) -> bool:
+    """By their bitmasks."""
+    return bool(_category(a) & b.collide_bitmask | _category(b) & a.collide_bitmask)
+
+
+def _category(surface: Surface) -> int:
+    return surface.collide_bitmask if surface.category_bitmask is None else surface.category_bitmask
+
+
+def is_plain(surface: Surface) -> bool:
+    """Whether nothing but friction is written, which a shape can carry by itself."""
+    default = Surface()
+    rest = replace(surface, mu=default.mu, mu2=default.mu2, max_vel=default.max_vel, kp=default.kp, kd=default.kd)
+    return rest == default
+
+
+def _friction(mu: float) -> float:
+    return INFINITE_FRICTION if mu < 0 else min(mu, INFINITE_FRICTION)
+
+
+def _torsion(a: Surface, b: Surface) -> float:
+    """3π/16 · patch radius · coefficient: Hertz' pressure over a round patch."""
+    coefficient = min(_friction(a.torsional_coefficient), _friction(b.torsional_coefficient))
+    return 3 * math.pi / 16 * coefficient * max(a.patch_radius, b.patch_radius, 0.0)
+
+
+def friction_of(surface: Surface) -> float:
+    """A surface's own friction."""
+    return _friction(surface.mu)
