@@ -6,7 +6,7 @@ no more than its own size.
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from lxml import etree
@@ -270,6 +270,32 @@ class XmlNode:
             return Pose()
         values = self.as_numbers(6, report=report, fallback="the identity is used")
         return Pose() if values is None else Pose.from_rpy(*values)
+
+    def attributes_to_children(self, kept: frozenset[str], texts: Mapping[str, str]) -> None:
+        """Rewrite this element and all below as the later editions of a format have them.
+
+        Args:
+            kept: attributes that stay what they are.
+            texts: element → the attribute that becomes its text. Every other attribute becomes a child.
+        """
+        for element in self._element.iter():
+            values = {str(name): str(value) for name, value in element.attrib.items()}
+            for name, value in values.items():
+                if texts.get(str(element.tag)) == name:
+                    element.text = value
+                elif name in kept:
+                    continue
+                else:
+                    child = etree.SubElement(element, name)
+                    child.text, child.sourceline = value, element.sourceline
+                element.attrib.pop(name)
+        self._children = None
+
+    def rename(self, names: Mapping[str, str]) -> None:
+        """Give this element and all below their later names."""
+        for element in self._element.iter():
+            element.tag = names.get(str(element.tag), element.tag)
+        self._children = None
 
     def xml(self) -> str:
         """The element written out again, children included."""

@@ -9,7 +9,7 @@ import trundle.packages
 import trundle.robot
 from trundle.description import Loaded, expand_xacro, load
 from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.model import MeshFile, Model
+from trundle.model import Cylinder, MeshFile, Model
 from trundle.packages import Packages
 from trundle.spatial import Pose
 
@@ -214,3 +214,26 @@ def test_what_xacro_refuses_is_one_sentence(tmp_path, body, words) -> None:
 def test_the_front_doors_are_what_they_say(room) -> None:
     assert room.__all__ == sorted(room.__all__)
     assert all(hasattr(room, name) for name in room.__all__)
+
+
+def test_sdf_1_0_writes_values_as_attributes(tmp_path: Path) -> None:
+    text = (
+        '<gazebo version="1.0"><world name="w"><physics type="ode"><gravity xyz="0 0 -5"/><ode><solver dt="0.002"/></ode>'
+        '</physics><model name="m" static="false"><origin pose="1 2 3 0 0 0"/><link name="a"><inertial mass="7">'
+        '<inertia ixx="2" iyy="3" izz="4"/></inertial><collision name="c"><geometry><cylinder radius="0.1" length="2"/>'
+        '</geometry><surface><friction><ode mu="0.5"/></friction></surface></collision></link><joint name="j" '
+        'type="revolute"><parent link="world"/><child link="a"/><axis xyz="0 1 0"><limit lower="-1" upper="2"/></axis>'
+        "</joint></model></world></gazebo>"
+    )
+
+    world = read(tmp_path, text).world
+
+    (model,) = world.models
+    (joint,) = model.joints
+    assert (world.physics.gravity, world.physics.max_step_size_s) == ((0.0, 0.0, -5.0), 0.002)
+    assert (model.static, model.world_from_model.position) == (False, (1.0, 2.0, 3.0))
+    assert (model.link("a").inertial.mass, model.link("a").inertial.moments) == (7.0, (2.0, 3.0, 4.0))
+    assert model.link("a").collisions[0].geometry == Cylinder(0.1, 2.0)
+    assert (model.link("a").collisions[0].surface.mu, model.link("a").collisions[0].surface.mu2) == (0.5, -1.0)
+    assert joint.axis is not None
+    assert (joint.parent, joint.axis.direction, joint.axis.lower, joint.axis.upper) == ("world", (0, 1, 0), -1, 2)

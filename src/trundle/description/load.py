@@ -8,7 +8,7 @@ from trundle.packages import Packages, model_file, refuse_template
 from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
 from .loaded import Loaded
-from .sdf import Context, read_root, read_version
+from .sdf import Context, read_root, read_version, rewrite_old_style
 from .urdf import lower_robot, read_urdf_text
 from .xacro import expand_xacro, is_xacro
 
@@ -51,8 +51,9 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics)
     if root.tag not in ("sdf", "gazebo"):
         raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")
     version = read_version(root, report)
-    if root.tag == "gazebo" or version < (1, 3):
-        report.warn(root.at, f"SDF {version} wrote values as attributes, which is not supported yet; read as 1.3")
+    if version < (1, 2):
+        report.info(root.at, f"SDF {version}: values written as attributes are read as the elements of SDF 1.2")
+        rewrite_old_style(root)
     context = Context(
         version=version, folder=path.parent, packages=packages, report=report, including=(path.resolve(),)
     )

@@ -1,7 +1,8 @@
-"""SDF 1.2 to 1.12, each file read by the rules of its own version."""
+"""SDF 1.0 to 1.12, each file read by the rules of its own version."""
 
 from .context import Context
+from .old_style import rewrite_old_style
 from .version import read_version
 from .world import read_root
 
-__all__ = ["Context", "read_root", "read_version"]
+__all__ = ["Context", "read_root", "read_version", "rewrite_old_style"]

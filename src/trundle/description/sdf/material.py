@@ -16,7 +16,8 @@ def read_material(visual: XmlNode, context: Context) -> Material:
     script = node.find("script")
     base = GREY
     if script is not None:
-        base = named_material(script.string("name"), script, context)
+        name = script.string("name") or script.text  # SDF 1.0 has the name as the text
+        base = named_material(name, script, context)
         script.report_unread(context.report)
     material = Material(
         ambient=read_colour(node, "ambient", base.ambient, context),
@@ -25,7 +26,13 @@ def read_material(visual: XmlNode, context: Context) -> Material:
         emissive=read_colour(node, "emissive", base.emissive, context),
         texture=base.texture,
     )
-    node.find("lighting")
+    for tag in ("lighting", "shader", "render_order", "double_sided"):
+        node.find(tag)
+    shininess = node.find("shininess")
+    if shininess is not None:
+        context.report.info(shininess.at, "<shininess> is not drawn; highlights are as Gazebo's materials have them")
+    if node.find("pbr") is not None:
+        context.report.info(node.at, "<pbr> is for other renderers; its plain colours are drawn")
     node.report_unread(context.report)
     return material
 

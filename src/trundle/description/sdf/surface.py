@@ -5,46 +5,77 @@ from trundle.xmlnode import XmlNode
 
 from .context import Context
 
+_TUNING = (
+    "slip1",
+    "slip2",
+    "slip",
+    "soft_cfm",
+    "soft_erp",
+    "poissons_ratio",
+    "elastic_modulus",
+    "collide_without_contact_bitmask",
+    "bullet",
+    "soft_contact",
+)
+"""What only Gazebo's engines know."""
+
 
 def read_surface(collision: XmlNode, context: Context) -> Surface:
-    """Read friction, contact and bounce; what is not simulated is named."""
+    """Read friction, contact and bounce as written."""
     node = collision.find("surface")
     # Friction defaulted to infinite before SDF 1.4, the bitmask to 1 in 1.4.
-    friction = -1.0 if context.version < (1, 4) else 1.0
-    bitmask = 1 if context.version == (1, 4) else 0xFFFF
+    infinite = context.version < (1, 4)
+    default = Surface(
+        mu=-1.0 if infinite else 1.0,
+        mu2=-1.0 if infinite else 1.0,
+        collide_bitmask=1 if context.version == (1, 4) else 0xFFFF,
+    )
     if node is None:
-        return Surface(mu=friction, mu2=friction, collide_bitmask=bitmask)
+        return default
     report = context.report
-    ode = _descend(node, "friction", "ode")
-    contact = node.find("contact")
-    contact_ode = _descend(node, "contact", "ode")
-    bounce = node.find("bounce")
+    friction, contact, bounce = node.find("friction"), node.find("contact"), node.find("bounce")
+    ode, contact_ode = _find(friction, "ode"), _find(contact, "ode")
+    torsional = _find(friction, "torsional")
+
+    def number(parent: XmlNode | None, tag: str, otherwise: float) -> float:
+        return otherwise if parent is None else parent.number(tag, default=otherwise, report=report)
+
+    def integer(tag: str, otherwise: int) -> int:
+        return otherwise if contact is None else contact.integer(tag, default=otherwise, report=report)
+
+    by_patch = torsional is None or torsional.flag("use_patch_radius", default=True, report=report)
+    patch, curvature = number(torsional, "patch_radius", 0.0), number(torsional, "surface_radius", 0.0)
     surface = Surface(
-        mu=friction if ode is None else ode.number("mu", default=friction, report=report),
-        mu2=friction if ode is None else ode.number("mu2", default=friction, report=report),
-        fdir1=(0.0, 0.0, 0.0) if ode is None else ode.vector("fdir1", default=(0.0, 0.0, 0.0), report=report),
-        kp=1e12 if contact_ode is None else contact_ode.number("kp", default=1e12, report=report),
-        kd=1.0 if contact_ode is None else contact_ode.number("kd", default=1.0, report=report),
-        min_depth=0.0 if contact_ode is None else contact_ode.number("min_depth", default=0.0, report=report),
-        max_vel=0.01 if contact_ode is None else contact_ode.number("max_vel", default=0.01, report=report),
-        restitution=0.0 if bounce is None else bounce.number("restitution_coefficient", default=0.0, report=report),
-        bounce_threshold=100000.0 if bounce is None else bounce.number("threshold", default=100000.0, report=report),
-        collide_bitmask=bitmask
-        if contact is None
-        else contact.integer("collide_bitmask", default=bitmask, report=report),
+        mu=number(ode, "mu", default.mu),
+        mu2=number(ode, "mu2", default.mu2),
+        fdir1=default.fdir1 if ode is None else ode.vector("fdir1", default=default.fdir1, report=report),
+        torsional_coefficient=number(torsional, "coefficient", default.torsional_coefficient),
+        patch_radius=patch if by_patch else 0.0,
+        surface_radius=0.0 if by_patch else curvature,
+        kp=number(contact_ode, "kp", default.kp),
+        kd=number(contact_ode, "kd", default.kd),
+        min_depth=number(contact_ode, "min_depth", default.min_depth),
+        max_vel=number(contact_ode, "max_vel", default.max_vel),
+        restitution=number(bounce, "restitution_coefficient", default.restitution),
+        bounce_threshold=number(bounce, "threshold", default.bounce_threshold),
+        collide_bitmask=integer("collide_bitmask", default.collide_bitmask),
+        category_bitmask=integer("category_bitmask", 0xFFFF) if _find(contact, "category_bitmask") else None,
         collide_without_contact=contact is not None
         and contact.flag("collide_without_contact", default=False, report=report),
     )
-    for each in (node, node.find("friction"), ode, contact, contact_ode, bounce):
+    for each in (node, friction, ode, torsional, _find(torsional, "ode"), contact, contact_ode, bounce):
         if each is not None:
+            _name_tuning(each, context)
             each.report_unread(report)
     return surface
 
 
-def _descend(node: XmlNode, *tags: str) -> XmlNode | None:
-    found: XmlNode | None = node
-    for tag in tags:
-        if found is None:
-            return None
-        found = found.find(tag)
-    return found
+def _find(node: XmlNode | None, tag: str) -> XmlNode | None:
+    return None if node is None else node.find(tag)
+
+
+def _name_tuning(node: XmlNode, context: Context) -> None:
+    for tag in _TUNING:
+        child = node.find(tag)
+        if child is not None and child.text.strip("0.") != "":
+            context.report.info(child.at, f"<{tag}> in <{node.tag}> tunes Gazebo's engines; it is ignored")

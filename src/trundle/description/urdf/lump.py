@@ -30,10 +30,17 @@ def lump_links(robot: Robot, kept: frozenset[str]) -> dict[str, Lump]:
     """
     holder = {j.child: j for j in robot.joints if j.type == "fixed" and j.name not in kept and j.parent != WORLD}
     lumps: dict[str, Lump] = {}
+    places: dict[str, tuple[str, Pose]] = {}
+    """Link → its lump and lump_from_link."""
     for link in robot.links:
-        pose, name = Pose(), link.name
-        while name in holder:
-            pose, name = holder[name].parent_from_joint @ pose, holder[name].parent
+        chain, name = list[str](), link.name
+        while name in holder and name not in places:
+            chain.append(name)
+            name = holder[name].parent
+        name, pose = places.setdefault(name, (name, Pose()))
+        for each in reversed(chain):
+            pose = pose @ holder[each].parent_from_joint
+            places[each] = (name, pose)
         lump = lumps.setdefault(name, Lump(name))
         part = (link.name, pose)
         if link.name == name:
