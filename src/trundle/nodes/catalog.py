@@ -18,9 +18,21 @@ STAND_INS: dict[tuple[str, str], str] = {
     ),
     ("robot_state_publisher", "robot_state_publisher"): "trundle.nodes.robot_state_publisher:RobotStatePublisher",
     ("robot_state_publisher", "state_publisher"): "trundle.nodes.robot_state_publisher:StatePublisher",
+    ("map_server", "map_saver"): "trundle.nodes.map_server:MapSaver",
+    ("map_server", "map_server"): "trundle.nodes.map_server:MapServer",
     ("rviz", "rviz"): "trundle.nodes.rviz:Rviz",
+    ("teleop_twist_keyboard", "teleop_twist_keyboard.py"): "trundle.nodes.teleop_twist_keyboard:TeleopTwistKeyboard",
     ("tf", "static_transform_publisher"): "trundle.nodes.static_transform_publisher:TfStaticTransformPublisher",
     ("tf2_ros", "static_transform_publisher"): "trundle.nodes.static_transform_publisher:Tf2StaticTransformPublisher",
+    ("topic_tools", "drop"): "trundle.nodes.topic_tools:Drop",
+    ("topic_tools", "mux"): "trundle.nodes.topic_tools:Mux",
+    ("topic_tools", "relay"): "trundle.nodes.topic_tools:Relay",
+    ("topic_tools", "throttle"): "trundle.nodes.topic_tools:Throttle",
+    ("topic_tools", "transform"): "trundle.nodes.topic_tools:Transform",
+    ("turtlesim", "draw_square"): "trundle.nodes.turtlesim:DrawSquare",
+    ("turtlesim", "mimic"): "trundle.nodes.turtlesim:Mimic",
+    ("turtlesim", "turtle_teleop_key"): "trundle.nodes.turtlesim:TurtleTeleopKey",
+    ("turtlesim", "turtlesim_node"): "trundle.nodes.turtlesim:TurtleSim",
 }
 """(package, type) → "module:Class"."""
 

@@ -38,6 +38,8 @@ class RawMessage:
     md5sum: str
     definition: str
     data: bytes
+    latching: bool = False
+    """Whether its publisher hands its last message to newcomers."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -111,7 +111,7 @@ class Subscription:
         """Take a message as bytes from a publisher of this process."""
         definition = self._node.messages.definition(publisher.type) if self.is_raw else ""
         try:
-            self.take(data, publisher.type, publisher.md5sum, definition)
+            self.take(data, publisher.type, publisher.md5sum, definition, latching=publisher.latch)
         except MessageError as error:
             self._node.log_error(f"a message on {self.topic} is not taken: {error}")
 
@@ -129,14 +129,15 @@ class Subscription:
         links = [link for link in self._links.values() if isinstance(link, FrameProtocol)]
         return [self.topic, [[id(link) % 2**31, link.bytes_received, -1, self.dropped, True] for link in links]]
 
-    def take(self, data: bytes, type_name: str, md5sum: str, definition: str) -> None:
+    def take(self, data: bytes, type_name: str, md5sum: str, definition: str, *, latching: bool = False) -> None:
         """Take a message as bytes.
 
         Raises:
             MessageError: the bytes are no such message.
         """
         if self.is_raw:
-            self.receive(RawMessage(type=type_name, md5sum=md5sum, definition=definition, data=data))
+            raw = RawMessage(type=type_name, md5sum=md5sum, definition=definition, data=data, latching=latching)
+            self.receive(raw)
         else:
             self.receive(self._node.messages.deserialize(data, self.type))
 
@@ -267,7 +268,8 @@ class _SubscriberLink(FrameProtocol):
         header = self.header or {}
         type_name, md5sum = header.get("type", ANY_TYPE), header.get("md5sum", ANY_TYPE)
         try:
-            self._subscription.take(data, type_name, md5sum, header.get("message_definition", ""))
+            definition, latching = header.get("message_definition", ""), header.get("latching") == "1"
+            self._subscription.take(data, type_name, md5sum, definition, latching=latching)
         except MessageError as error:
             raise WireError(str(error)) from None
 

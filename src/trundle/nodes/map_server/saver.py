@@ -1,0 +1,61 @@
+"""map_server/map_saver: the next map of /map into a picture and its YAML."""
+
+import asyncio
+import math
+from pathlib import Path
+
+import numpy as np
+
+from trundle.diagnostics import UsageError
+from trundle.ros import Message, Node
+
+from ..host import Host
+from .occupancy import OccupancyMap, write_map
+
+_USAGE = "usage: map_saver [--occ 1…100] [--free 0…100] [-f NAME]"
+
+
+class MapSaver:
+    """Waits for one map, writes it and ends."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del host
+        self._node = node
+        self._arguments = arguments
+
+    async def run(self) -> int:
+        """Save; 1 where the options or the file are at fault."""
+        node = self._node
+        options = {"-f": "map", "--occ": "65", "--free": "25"}
+        words = iter(self._arguments)
+        for word in words:
+            if word not in options:
+                node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
+                return 1
+            options[word] = next(words, "")
+        try:
+            occupied, free = int(options["--occ"]), int(options["--free"])
+        except ValueError:
+            occupied = free = -1
+        if not 0 <= free < occupied <= 100:
+            node.log_error(f"{_USAGE}; --free must lie below --occ")
+            return 1
+        heard: asyncio.Queue[Message] = asyncio.Queue()
+        node.log_info("Waiting for the map")
+        node.subscribe("map", "nav_msgs/OccupancyGrid", heard.put_nowait, queue_size=1)
+        message = await heard.get()
+        try:
+            await asyncio.to_thread(write_map, Path(options["-f"]), _grid_of(message), occupied=occupied, free=free)
+        except UsageError as error:
+            node.log_error(str(error))
+            return 1
+        node.log_info(f"Received a {message.info.width} X {message.info.height} map; wrote {options['-f']}.pgm")
+        return 0
+
+
+def _grid_of(message: Message) -> OccupancyMap:
+    info, turn = message.info, message.info.origin.orientation
+    cells = np.asarray(message.data, dtype=np.int8).reshape(info.height, info.width)
+    yaw = math.atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y**2 + turn.z**2))
+    where = info.origin.position
+    return OccupancyMap(cells=cells, resolution_m=float(info.resolution), origin=(where.x, where.y, yaw))

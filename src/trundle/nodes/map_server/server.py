@@ -1,0 +1,84 @@
+"""map_server/map_server: a map from a YAML file on /map."""
+
+import asyncio
+import math
+from pathlib import Path
+from typing import Any
+
+from trundle.diagnostics import UsageError
+from trundle.ros import Message, Node
+
+from ..host import Host
+from ..settings import Settings
+from .occupancy import OccupancyMap, read_map
+
+_USAGE = "usage: map_server MAP.yaml"
+_SUCCESS, _DOES_NOT_EXIST, _INVALID = 0, 1, 2
+
+
+class MapServer:
+    """Publishes its map, latched, and gives it to whoever asks."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del host
+        self._node = node
+        self._arguments = arguments
+
+    async def run(self) -> int:
+        """Serve until cancelled."""
+        node = self._node
+        settings = Settings(await node.get_param("~", {}), node.name)
+        self._frame = settings.text("frame_id", "map")
+        if len(self._arguments) not in (1, 2):
+            node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
+            return 255
+        if len(self._arguments) == 2:
+            node.log_warn(f"a resolution on the command line is deprecated; {_USAGE}")
+        self._map = node.advertise("map", "nav_msgs/OccupancyGrid", latch=True, queue_size=1)
+        self._metadata = node.advertise("map_metadata", "nav_msgs/MapMetaData", latch=True, queue_size=1)
+        try:
+            await self._load(Path(self._arguments[0]))
+        except UsageError as error:
+            node.log_error(str(error))
+            return 255
+        node.advertise_service("static_map", "nav_msgs/GetMap", self._give)
+        node.advertise_service("change_map", "nav_msgs/LoadMap", self._change)
+        await node.closed.wait()
+        return 0
+
+    async def _load(self, file: Path) -> None:
+        grid = await asyncio.to_thread(read_map, file)
+        self._fields = grid_fields(grid, frame=self._frame, stamp_ns=self._node.clock.now_ns())
+        height, width = grid.cells.shape
+        self._node.log_info(f"Read a {width} X {height} map @ {grid.resolution_m:.3f} m/cell")
+        self._metadata.publish(self._fields["info"])
+        self._map.publish(self._fields)
+
+    def _give(self, _request: Message) -> dict[str, Any]:
+        return {"map": self._fields}
+
+    async def _change(self, request: Message) -> dict[str, Any]:
+        try:
+            await self._load(Path(request.map_url.removeprefix("file://")))
+        except UsageError as error:
+            self._node.log_error(str(error))
+            there = Path(request.map_url.removeprefix("file://")).is_file()
+            return {"result": _INVALID if there else _DOES_NOT_EXIST}
+        return {"map": self._fields, "result": _SUCCESS}
+
+
+def grid_fields(grid: OccupancyMap, *, frame: str, stamp_ns: int) -> dict[str, Any]:
+    """A nav_msgs/OccupancyGrid."""
+    x, y, yaw = grid.origin
+    height, width = grid.cells.shape
+    info = {
+        "map_load_time": stamp_ns,
+        "resolution": grid.resolution_m,
+        "width": width,
+        "height": height,
+        "origin": {
+            "position": {"x": x, "y": y},
+            "orientation": {"z": math.sin(yaw / 2.0), "w": math.cos(yaw / 2.0)},
+        },
+    }
+    return {"header": {"stamp": stamp_ns, "frame_id": frame}, "info": info, "data": grid.cells.reshape(-1)}

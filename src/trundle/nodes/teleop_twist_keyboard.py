@@ -1,0 +1,106 @@
+"""teleop_twist_keyboard: drives a robot with the keys around i, and with speeds that keys change."""
+
+from trundle.ros import Node
+
+from .host import Host
+from .keyboard import Keyboard
+from .settings import Settings
+
+_HELP = """
+Reading from the keyboard  and Publishing to Twist!
+---------------------------
+Moving around:
+   u    i    o
+   j    k    l
+   m    ,    .
+
+For Holonomic mode (strafing), hold down the shift key:
+---------------------------
+   U    I    O
+   J    K    L
+   M    <    >
+
+t : up (+z)
+b : down (-z)
+
+anything else : stop
+
+q/z : increase/decrease max speeds by 10%
+w/x : increase/decrease only linear speed by 10%
+e/c : increase/decrease only angular speed by 10%
+
+CTRL-C to quit
+"""
+_MOVES: dict[str, tuple[int, int, int, int]] = {
+    "i": (1, 0, 0, 0),
+    "o": (1, 0, 0, -1),
+    "j": (0, 0, 0, 1),
+    "l": (0, 0, 0, -1),
+    "u": (1, 0, 0, 1),
+    ",": (-1, 0, 0, 0),
+    ".": (-1, 0, 0, 1),
+    "m": (-1, 0, 0, -1),
+    "O": (1, -1, 0, 0),
+    "I": (1, 0, 0, 0),
+    "J": (0, 1, 0, 0),
+    "L": (0, -1, 0, 0),
+    "U": (1, 1, 0, 0),
+    "<": (-1, 0, 0, 0),
+    ">": (-1, -1, 0, 0),
+    "M": (-1, 1, 0, 0),
+    "t": (0, 0, 1, 0),
+    "b": (0, 0, -1, 0),
+}
+"""Key → signs of linear x, y, z and angular z."""
+_SPEEDS = {"q": (1.1, 1.1), "z": (0.9, 0.9), "w": (1.1, 1.0), "x": (0.9, 1.0), "e": (1.0, 1.1), "c": (1.0, 0.9)}
+
+
+class TeleopTwistKeyboard:
+    """Publishes a Twist (or TwistStamped with ~stamped) a key press, and again every ~repeat_rate."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del arguments, host
+        self._node = node
+
+    async def run(self) -> int:
+        """Read keys until cancelled; the robot is stopped at the end."""
+        node = self._node
+        settings = Settings(await node.get_param("~", {}), node.name)
+        speed, turn = settings.number("speed", 0.5), settings.number("turn", 1.0)
+        repeat_hz, timeout_s = settings.number("repeat_rate", 0.0), settings.number("key_timeout", 0.5)
+        stamped = settings.flag("stamped", default=False)
+        frame = settings.text("frame_id", "")
+        kind = "geometry_msgs/TwistStamped" if stamped else "geometry_msgs/Twist"
+        commands = node.advertise("cmd_vel", kind, queue_size=1)
+
+        def send(move: tuple[int, int, int, int]) -> None:
+            x, y, z, th = move
+            linear = {"x": x * speed, "y": y * speed, "z": z * speed}
+            twist = {"linear": linear, "angular": {"z": th * turn}}
+            header = {"stamp": node.clock.now_ns(), "frame_id": frame}
+            commands.publish({"header": header, "twist": twist} if stamped else twist)
+
+        keyboard = Keyboard(node)
+        if not keyboard.there:
+            node.log_warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
+            await node.closed.wait()
+            return 0
+        print(f"{_HELP}\ncurrently:\tspeed {speed}\tturn {turn} ")
+        move = (0, 0, 0, 0)
+        with keyboard.held():
+            try:
+                while True:
+                    key = await keyboard.key(1.0 / repeat_hz if repeat_hz > 0.0 else timeout_s)
+                    if key in _SPEEDS:
+                        faster, tighter = _SPEEDS[key]
+                        speed, turn = speed * faster, turn * tighter
+                        print(f"currently:\tspeed {speed}\tturn {turn} ")
+                    elif key is not None:
+                        move = _MOVES.get(key, (0, 0, 0, 0))
+                    elif repeat_hz <= 0.0:
+                        if move == (0, 0, 0, 0):
+                            continue
+                        move = (0, 0, 0, 0)
+                    send(move)
+            finally:
+                send((0, 0, 0, 0))

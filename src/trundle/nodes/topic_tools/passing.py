@@ -1,0 +1,58 @@
+"""Passes messages on as bytes, whatever their type; who publishes first decides the type."""
+
+from collections.abc import Callable
+
+from trundle.ros import MessageError, Node, Publisher, RawMessage, Subscription
+
+_QUEUE = 100
+
+
+class Outlet:
+    """A topic that takes type and latching of what is first put on it; that one reaches nobody unless it is latched."""
+
+    def __init__(self, node: Node, topic: str) -> None:
+        self.topic = topic
+        self._node = node
+        self._publisher: Publisher | None = None
+
+    @property
+    def wanted(self) -> bool:
+        """Whether publishing reaches anybody; unknown until the type is."""
+        return self._publisher is None or self._publisher.has_subscribers
+
+    def put(self, message: RawMessage) -> None:
+        """Publish bytes; a message of another type than the first is named and dropped."""
+        node = self._node
+        if self._publisher is None:
+            try:
+                node.messages.add_definition(message.type, message.definition)
+                self._publisher = node.advertise(self.topic, message.type, queue_size=_QUEUE, latch=message.latching)
+            except MessageError as error:
+                node.log_error(f"{self.topic}: {error}")
+                return
+            node.log_info(f"advertised as {node.resolve(self.topic)}")
+        if message.type != self._publisher.type:
+            node.log_error(f"{self.topic} carries {self._publisher.type}; a {message.type} is not passed on")
+            return
+        self._publisher.publish(message.data)
+
+
+class Inlet:
+    """A subscription to messages of any type that can be let go and taken up again."""
+
+    def __init__(self, node: Node, topic: str, take: Callable[[RawMessage], None]) -> None:
+        self.topic = topic
+        self._node = node
+        self._take = take
+        self._subscription: Subscription | None = None
+
+    def open(self) -> None:
+        """Listen."""
+        if self._subscription is None:
+            self._subscription = self._node.subscribe(self.topic, "*", self._take, queue_size=_QUEUE)
+
+    def close(self) -> None:
+        """Stop listening."""
+        if self._subscription is not None:
+            self._subscription.unregister()
+            self._subscription = None

@@ -1,0 +1,96 @@
+"""topic_tools/throttle: at most so many messages, or bytes, a second."""
+
+import time
+from collections import deque
+from collections.abc import Callable
+
+from trundle.ros import Node, RawMessage
+
+from ..host import Host
+from ..settings import Settings
+from .passing import Inlet, Outlet
+
+_USAGE = (
+    "usage: throttle messages IN_TOPIC MSGS_PER_SEC [OUT_TOPIC], "
+    "or throttle bytes IN_TOPIC BYTES_PER_SEC WINDOW [OUT_TOPIC]"
+)
+_NS = 1_000_000_000
+
+
+class MessageGate:
+    """Lets a message through when the last one is more than a period ago."""
+
+    def __init__(self, rate_hz: float, now_ns: Callable[[], int]) -> None:
+        self._period_ns = round(_NS / rate_hz)
+        self._now_ns = now_ns
+        self._last_ns = 0
+
+    def lets_through(self, size: int) -> bool:
+        """Decide about a message of so many bytes that comes now."""
+        del size
+        now = self._now_ns()
+        if now < self._last_ns:  # simulated time went back
+            self._last_ns = 0
+        if now - self._last_ns <= self._period_ns:
+            return False
+        self._last_ns = now
+        return True
+
+
+class ByteGate:
+    """Lets a message through while the bytes of the last `window_s` stay below what is allowed."""
+
+    def __init__(self, bytes_per_s: float, window_s: float, now_ns: Callable[[], int]) -> None:
+        self._allowed = bytes_per_s * window_s
+        self._window_ns = round(window_s * _NS)
+        self._now_ns = now_ns
+        self._sent: deque[tuple[int, int]] = deque()
+
+    def lets_through(self, size: int) -> bool:
+        """Decide about a message of so many bytes that comes now."""
+        now = self._now_ns()
+        while self._sent and not 0 <= now - self._sent[0][0] < self._window_ns:
+            self._sent.popleft()
+        if sum(sent for _, sent in self._sent) + size > self._allowed:
+            return False
+        self._sent.append((now, size))
+        return True
+
+
+class Throttle:
+    """Passes on what its gate lets through."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del host
+        self._node = node
+        self._arguments = arguments
+
+    async def run(self) -> int:
+        """Throttle until cancelled."""
+        node = self._node
+        wall = Settings(await node.get_param("~", {}), node.name).flag("use_wall_clock", default=False)
+        now_ns = time.time_ns if wall else lambda: node.clock.now_ns()
+        try:
+            gate, source, target = self._read(now_ns)
+        except ValueError:
+            node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
+            return 1
+        outlet = Outlet(node, target)
+
+        def take(message: RawMessage) -> None:
+            if gate.lets_through(len(message.data)):
+                outlet.put(message)
+
+        Inlet(node, source, take).open()
+        await node.closed.wait()
+        return 0
+
+    def _read(self, now_ns: Callable[[], int]) -> tuple[MessageGate | ByteGate, str, str]:
+        match self._arguments:
+            case ["messages", source, rate, *rest] if len(rest) <= 1 and float(rate) > 0.0:
+                gate = MessageGate(float(rate), now_ns)
+            case ["bytes", source, rate, window, *rest] if len(rest) <= 1:
+                gate = ByteGate(float(rate), float(window), now_ns)
+            case _:
+                raise ValueError
+        return gate, source, rest[0] if rest else f"{source}_throttle"

@@ -1,0 +1,87 @@
+"""topic_tools/transform: a topic computed from another one by a Python expression."""
+
+import asyncio
+import importlib
+from types import CodeType
+from typing import Any
+
+from trundle.ros import Message, MessageError, Node, RawMessage
+
+from ..host import Host
+
+_USAGE = "usage: transform INPUT[/FIELD] OUTPUT TYPE EXPRESSION [--import MODULE…]; the message is m in the expression"
+
+_LOOK_S = 0.2
+
+
+class Transform:
+    """Evaluates its expression for every message; like any node of a launch file, it is code that the user runs."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del host
+        self._node = node
+        self._arguments = arguments
+        self._names: dict[str, Any] = {}
+        self._failed = False
+
+    async def run(self) -> int:
+        """Transform until cancelled."""
+        node = self._node
+        words = [word for word in self._arguments if word != "--wait-for-start"]
+        modules = ["numpy"]
+        if "--import" in words:
+            at = words.index("--import")
+            words, modules = words[:at], [*modules, *words[at + 1 :]]
+        if len(words) != 4:
+            node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
+            return 1
+        source, target, type_name, text = words
+        try:
+            self._names = {name.partition(".")[0]: importlib.import_module(name) for name in modules}
+            self._code = compile(text, "<expression>", "eval")
+            self._output = node.advertise(target, type_name, queue_size=1)
+        except (ImportError, SyntaxError, MessageError) as error:
+            node.log_error(f"transform {text!r}: {error}")
+            return 1
+        self._source = node.resolve(source)
+        await self._subscribe()
+        await node.closed.wait()
+        return 0
+
+    async def _subscribe(self) -> None:
+        """Wait for a topic that the input starts with, the longest one; the rest names fields of its messages."""
+        parts = self._source.strip("/").split("/")
+        starts = [(count, "/" + "/".join(parts[:count])) for count in range(len(parts), 0, -1)]
+        while True:
+            topics = {str(name) for name, _ in await self._node.ask("getTopicTypes")}
+            for count, name in starts:
+                if name in topics:
+                    self._fields = parts[count:]
+                    self._node.subscribe(name, "*", self._take, queue_size=1)
+                    return
+            await asyncio.sleep(_LOOK_S)
+
+    def _take(self, raw: RawMessage) -> None:
+        node = self._node
+        try:
+            node.messages.add_definition(raw.type, raw.definition)
+            value: Any = node.messages.deserialize(raw.data, raw.type)
+            for name in self._fields:
+                value = getattr(value, name)
+            self._output.publish(self._message(_evaluate(self._code, {**self._names, "m": value})))
+        except Exception as error:  # the user's expression may raise anything
+            if not self._failed:
+                node.log_error(f"transform: {type(error).__name__}: {error}")
+            self._failed = True
+
+    def _message(self, value: Any) -> Message:
+        """A message out of what the expression gave: one, its fields in order, or the value of its only field."""
+        if hasattr(value, "__msgtype__"):
+            return value
+        if isinstance(value, list | tuple):
+            return self._node.new(self._output.type, list(value))
+        return self._node.new(self._output.type, [value])
+
+
+def _evaluate(code: CodeType, names: dict[str, Any]) -> Any:
+    return eval(code, names)

@@ -1,0 +1,25 @@
+"""turtlesim/mimic: has one turtle move as another does."""
+
+from trundle.ros import Message, Node
+
+from ..host import Host
+
+
+class Mimic:
+    """Turns `input/pose` into `output/cmd_vel`."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del arguments, host
+        self._node = node
+
+    async def run(self) -> int:
+        """Mimic until cancelled."""
+        node = self._node
+        commands = node.advertise("output/cmd_vel", "geometry_msgs/Twist", queue_size=1)
+
+        def take(pose: Message) -> None:
+            commands.publish({"linear": {"x": pose.linear_velocity}, "angular": {"z": pose.angular_velocity}})
+
+        node.subscribe("input/pose", "turtlesim/Pose", take, queue_size=1)
+        await node.closed.wait()
+        return 0

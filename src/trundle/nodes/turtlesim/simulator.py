@@ -1,0 +1,192 @@
+"""turtlesim/turtlesim_node: turtles that move as told and draw where they go; its window is an image topic."""
+
+from collections.abc import Callable
+from typing import Any
+
+from trundle.ros import Message, Node, Publisher, Service, ServiceError, Subscription
+
+from ..host import Host
+from ..rate import Rate
+from .picture import SIZE_M, SIZE_PX, Picture
+from .turtle import Colour, Turtle
+
+_RATE_HZ = 62.5
+"""The original's window timer, 16 ms."""
+_PICTURE_EVERY = 6
+"""Passes between two pictures: ten a second."""
+_BACKGROUND: Colour = (0x45, 0x56, 0xFF)
+_MOST_TURTLES = 1000
+
+
+class _Registered:
+    """A turtle with its topics and services."""
+
+    def __init__(self, turtle: Turtle, pose: Publisher, colour: Publisher) -> None:
+        self.turtle = turtle
+        self.pose = pose
+        self.colour = colour
+        self.commands: Subscription | None = None
+        self.services: list[Service] = []
+
+    def unregister(self) -> None:
+        """Take everything of it off the graph."""
+        self.pose.unregister()
+        self.colour.unregister()
+        if self.commands is not None:
+            self.commands.unregister()
+        for service in self.services:
+            service.unregister()
+
+
+class TurtleSim:
+    """Starts with turtle1 in the middle; `spawn` brings more."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del arguments, host
+        self._node = node
+        self._turtles: dict[str, _Registered] = {}
+        self._background = _BACKGROUND
+        self._picture = Picture(_BACKGROUND)
+
+    async def run(self) -> int:
+        """Move turtles until cancelled."""
+        node = self._node
+        for name, value in zip("rgb", _BACKGROUND, strict=True):
+            if not await node.has_param(f"~background_{name}"):
+                await node.set_param(f"~background_{name}", value)
+        await self._wipe()
+        image = node.advertise("~image", "sensor_msgs/Image", queue_size=1)
+        node.advertise_service("clear", "std_srvs/Empty", self._clear)
+        node.advertise_service("reset", "std_srvs/Empty", self._reset)
+        node.advertise_service("spawn", "turtlesim/Spawn", self._asked_to_spawn)
+        node.advertise_service("kill", "turtlesim/Kill", self._kill)
+        node.log_info(f"Starting turtlesim with node name {node.name}; its window is {image.topic}")
+        self._start()
+        rate, count = Rate(node, _RATE_HZ), 0
+        while True:
+            await rate.sleep()
+            for name, registered in list(self._turtles.items()):
+                self._move(name, registered)
+            count += 1
+            if count % _PICTURE_EVERY == 0 and image.has_subscribers:
+                image.publish(self._image())
+
+    def _start(self) -> None:
+        self._spawn("turtle1", Turtle(SIZE_M / 2.0, SIZE_M / 2.0, 0.0, size=SIZE_M))
+
+    def _spawn(self, name: str, turtle: Turtle) -> None:
+        node = self._node
+        registered = _Registered(
+            turtle,
+            node.advertise(f"{name}/pose", "turtlesim/Pose", queue_size=1),
+            node.advertise(f"{name}/color_sensor", "turtlesim/Color", queue_size=1),
+        )
+
+        def command(twist: Message) -> None:
+            turtle.command(twist.linear.x, twist.linear.y, twist.angular.z, now_ns=node.clock.now_ns())
+
+        registered.commands = node.subscribe(f"{name}/cmd_vel", "geometry_msgs/Twist", command, queue_size=1)
+        handlers: tuple[tuple[str, str, Callable[[Turtle, Message], None]], ...] = (
+            ("set_pen", "SetPen", _set_pen),
+            ("teleport_absolute", "TeleportAbsolute", self._teleport),
+            ("teleport_relative", "TeleportRelative", self._teleport_ahead),
+        )
+        for service, kind, handler in handlers:
+
+            def handle(request: Message, handler: Callable[[Turtle, Message], None] = handler) -> dict[str, Any]:
+                handler(turtle, request)
+                return {}
+
+            registered.services.append(node.advertise_service(f"{name}/{service}", f"turtlesim/{kind}", handle))
+        self._turtles[name] = registered
+        node.log_info(f"Spawning turtle [{name}] at x=[{turtle.x:f}], y=[{turtle.y:f}], theta=[{turtle.theta:f}]")
+
+    def _move(self, name: str, registered: _Registered) -> None:
+        turtle = registered.turtle
+        before = (turtle.x, turtle.y)
+        turtle.move(1.0 / _RATE_HZ, now_ns=self._node.clock.now_ns())
+        if turtle.hit_wall:
+            self._node.log_warn(f"Oh no! I hit the wall! ({name} is held at x=[{turtle.x:f}], y=[{turtle.y:f}])")
+        red, green, blue = self._picture.colour_at(turtle.x, turtle.y)
+        registered.colour.publish({"r": red, "g": green, "b": blue})
+        registered.pose.publish(
+            {
+                "x": turtle.x,
+                "y": turtle.y,
+                "theta": turtle.theta,
+                "linear_velocity": turtle.linear_velocity,
+                "angular_velocity": turtle.angular_velocity,
+            }
+        )
+        self._draw(turtle, before)
+
+    def _draw(self, turtle: Turtle, before: tuple[float, float]) -> None:
+        if turtle.pen.on and before != (turtle.x, turtle.y):
+            self._picture.draw_line(before, (turtle.x, turtle.y), turtle.pen.colour, turtle.pen.width_px)
+
+    def _teleport(self, turtle: Turtle, request: Message) -> None:
+        before = (turtle.x, turtle.y)
+        turtle.place(request.x, request.y, request.theta)
+        self._draw(turtle, before)
+
+    def _teleport_ahead(self, turtle: Turtle, request: Message) -> None:
+        before = (turtle.x, turtle.y)
+        turtle.step_ahead(request.linear, request.angular)
+        self._draw(turtle, before)
+
+    def _image(self) -> dict[str, Any]:
+        pixels = self._picture.with_turtles(each.turtle for each in self._turtles.values())
+        return {
+            "header": {"stamp": self._node.clock.now_ns()},
+            "height": SIZE_PX,
+            "width": SIZE_PX,
+            "encoding": "rgb8",
+            "step": 3 * SIZE_PX,
+            "data": list(pixels),
+        }
+
+    async def _wipe(self) -> None:
+        values = [await self._node.get_param(f"~background_{name}", 0) for name in "rgb"]
+        red, green, blue = (min(max(int(value), 0), 255) for value in values)
+        self._background = (red, green, blue)
+        self._picture.clear(self._background)
+
+    async def _clear(self, _request: Message) -> dict[str, Any]:
+        self._node.log_info("Clearing turtlesim.")
+        await self._wipe()
+        return {}
+
+    async def _reset(self, _request: Message) -> dict[str, Any]:
+        self._node.log_info("Resetting turtlesim.")
+        for registered in self._turtles.values():
+            registered.unregister()
+        self._turtles.clear()
+        await self._wipe()
+        self._start()
+        return {}
+
+    def _asked_to_spawn(self, request: Message) -> dict[str, Any]:
+        name = request.name or next(
+            f"turtle{n}" for n in range(1, _MOST_TURTLES + 2) if f"turtle{n}" not in self._turtles
+        )
+        if name in self._turtles:
+            raise ServiceError(f"A turtle named [{name}] already exists")
+        if len(self._turtles) >= _MOST_TURTLES:
+            raise ServiceError(f"{_MOST_TURTLES} turtles are the most there may be")
+        self._spawn(name, Turtle(request.x, request.y, request.theta, size=SIZE_M))
+        return {"name": name}
+
+    def _kill(self, request: Message) -> dict[str, Any]:
+        registered = self._turtles.pop(request.name, None)
+        if registered is None:
+            raise ServiceError(f"Tried to kill turtle [{request.name}], which does not exist")
+        registered.unregister()
+        return {}
+
+
+def _set_pen(turtle: Turtle, request: Message) -> None:
+    pen = turtle.pen
+    pen.on = not request.off
+    if pen.on:
+        pen.colour = (request.r, request.g, request.b)
+        pen.width_px = request.width or pen.width_px

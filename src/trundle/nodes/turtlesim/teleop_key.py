@@ -1,0 +1,36 @@
+"""turtlesim/turtle_teleop_key: drives turtle1 with the arrow keys."""
+
+from trundle.ros import Node
+
+from ..host import Host
+from ..keyboard import Keyboard
+from ..settings import Settings
+
+_MOVES = {"up": (1.0, 0.0), "down": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
+
+
+class TurtleTeleopKey:
+    """Publishes one command a key press."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del arguments, host
+        self._node = node
+
+    async def run(self) -> int:
+        """Read keys until q, or until cancelled."""
+        node = self._node
+        settings = Settings(await node.get_param("~", {}), node.name)
+        linear, angular = settings.number("scale_linear", 2.0), settings.number("scale_angular", 2.0)
+        commands = node.advertise("turtle1/cmd_vel", "geometry_msgs/Twist", queue_size=1)
+        keyboard = Keyboard(node)
+        if not keyboard.there:
+            node.log_warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
+            await node.closed.wait()
+            return 0
+        print("Reading from keyboard\n---------------------------\nUse arrow keys to move the turtle. 'q' to quit.")
+        with keyboard.held():
+            while (key := await keyboard.key()) != "q":
+                if key in _MOVES:
+                    forwards, turn = _MOVES[key]
+                    commands.publish({"linear": {"x": forwards * linear}, "angular": {"z": turn * angular}})
+        return 0

@@ -1,0 +1,108 @@
+"""A graph of its own for each test, stand-ins that run on it, and a node that talks with them."""
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future
+from typing import Any
+
+import pytest
+
+from trundle.names import parse_arguments
+from trundle.nodes import Host, Replacement, run_stand_in
+from trundle.nodes.catalog import STAND_INS
+from trundle.ros import Core, GraphLoop, Message, Messages, Node, Publisher
+
+PATIENCE_S = 30.0
+"""How long anything may take on a busy machine before a test gives up."""
+
+
+class Stage:
+    """A running master, a client, and the stand-ins a test starts."""
+
+    def __init__(self, loop: GraphLoop, core: Core) -> None:
+        self.loop = loop
+        self.uri = core.uri
+        self.client = Node("/client", loop=loop, master_uri=core.uri)
+        self._running: list[tuple[Future[int], Node]] = []
+
+    def start(
+        self, what: str, arguments: str = "", *, name: str = "", host: Host | None = None, **params: Any
+    ) -> Future[int]:
+        """Start `package/type` as a launch would; the future is its exit code."""
+        package, _, kind = what.partition("/")
+        given = parse_arguments(arguments.split())
+        node = Node(
+            name or kind.removesuffix(".py"),
+            loop=self.loop,
+            master_uri=self.uri,
+            remappings=given.remappings,
+            params={**given.params, **params},
+        )
+        stand_in = Replacement(STAND_INS[package, kind])
+        future = self.loop.spawn(run_stand_in(stand_in, node, list(given.rest), host or Host()))
+        self._running.append((future, node))
+        return future
+
+    def listen(self, topic: str, kind: str) -> list[Message]:
+        """Gather what is published there from now on."""
+        heard: list[Message] = []
+        self.client.subscribe(topic, kind, heard.append, queue_size=None)
+        return heard
+
+    def speak(self, topic: str, kind: str, *, latch: bool = False) -> Publisher:
+        """Publish on a topic; returns once somebody listens, or at once where it is latched."""
+        publisher = self.client.advertise(topic, kind, queue_size=None, latch=latch)
+        if not latch:
+            self.until(lambda: publisher.has_subscribers)
+        return publisher
+
+    def call(self, service: str, kind: str, **fields: Any) -> Message:
+        """Call a service as soon as it is there."""
+        self.loop.run(self.client.wait_for_service(service, PATIENCE_S), PATIENCE_S + 5.0)
+        return self.loop.run(self.client.call_service(service, kind, fields), PATIENCE_S)
+
+    def set_params(self, params: Mapping[str, Any]) -> None:
+        """Set parameters by their global names."""
+        for name, value in params.items():
+            self.loop.run(self.client.set_param(name, value))
+
+    def until(self, condition: Callable[[], object]) -> None:
+        """Wait for something that the graph brings about."""
+        end = time.monotonic() + PATIENCE_S
+        while not condition():
+            assert time.monotonic() < end, "waited in vain"
+            time.sleep(0.005)
+
+    def stop(self) -> None:
+        """Cancel every stand-in, and wait for each."""
+
+        async def end() -> None:
+            for future, _ in self._running:
+                future.cancel()
+            for _, node in self._running:
+                await node.closed.wait()
+
+        self.loop.run(end(), PATIENCE_S)
+        self._running.clear()
+
+    def connected(self, topic: str) -> bool:
+        """Whether the client hears a publisher of a topic."""
+        return any(link[4] == topic and link[2] == "i" for link in self.client.connections())
+
+
+@pytest.fixture(scope="session")
+def messages() -> Messages:
+    return Messages()
+
+
+@pytest.fixture
+def stage(messages: Messages, monkeypatch: pytest.MonkeyPatch) -> Iterator[Stage]:
+    for variable in ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE"):
+        monkeypatch.delenv(variable, raising=False)
+    with GraphLoop(messages=messages) as loop:
+        core = Core(loop, port=0)
+        loop.run(core.start(), PATIENCE_S)
+        running = Stage(loop, core)
+        yield running
+        running.stop()
+        loop.run(core.stop(), PATIENCE_S)

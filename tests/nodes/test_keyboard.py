@@ -1,0 +1,37 @@
+"""Keys are told apart, and a terminal's keys drive a robot."""
+
+import os
+import sys
+from typing import Any
+
+import pytest
+
+from trundle.nodes.keyboard import split_keys
+
+
+def test_arrows_are_keys_of_their_own() -> None:
+    assert split_keys("a\x1b[A\x1b[Db\x1b") == ["a", "up", "left", "b", "\x1b"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="terminals of this kind are POSIX's")
+@pytest.mark.parametrize(
+    ("what", "topic", "keys", "wanted"),
+    [
+        ("teleop_twist_keyboard/teleop_twist_keyboard.py", "/cmd_vel", b"qi", (0.55, 0.0)),
+        ("turtlesim/turtle_teleop_key", "/turtle1/cmd_vel", b"\x1b[D", (0.0, 2.0)),
+    ],
+)
+def test_keys_of_a_terminal_drive(
+    stage, monkeypatch: pytest.MonkeyPatch, what: str, topic: str, keys: bytes, wanted: tuple[float, float]
+) -> None:
+    ours, theirs = os.openpty()
+    with os.fdopen(theirs) as terminal:
+        monkeypatch.setattr(sys, "stdin", terminal)
+        heard: list[Any] = stage.listen(topic, "geometry_msgs/Twist")
+        stage.start(what)
+        stage.until(lambda: stage.connected(topic))
+        os.write(ours, keys)
+
+        stage.until(lambda: any((m.linear.x, m.angular.z) == pytest.approx(wanted) for m in heard))
+        stage.stop()
+    os.close(ours)

@@ -1,0 +1,118 @@
+"""Messages of any type are passed on, thinned out, chosen among and computed from."""
+
+from itertools import pairwise
+
+import pytest
+
+from trundle.nodes.topic_tools.throttle import ByteGate, MessageGate
+
+STRING = "std_msgs/String"
+
+
+def test_relay_passes_on_what_it_knows_nothing_of(stage) -> None:
+    heard = stage.listen("/out", STRING)
+    stage.start("topic_tools/relay", "in out")
+    stage.speak("/in", STRING, latch=True).publish({"data": "hello"})
+
+    stage.until(lambda: [m.data for m in heard] == ["hello"])
+
+
+def test_a_lazy_relay_listens_only_while_it_is_listened_to(stage) -> None:
+    stage.start("topic_tools/relay", "in", lazy=True)
+    source = stage.speak("/in", STRING)
+    source.publish({"data": "to learn the type"})
+    stage.until(lambda: not source.has_subscribers)
+    heard = stage.listen("/in_relay", STRING)
+    stage.until(lambda: source.has_subscribers)
+    source.publish({"data": "wanted"})
+
+    stage.until(lambda: [m.data for m in heard] == ["wanted"])
+
+
+def test_drop_leaves_out_x_of_y(stage) -> None:
+    heard = stage.listen("/in_drop", STRING)
+    stage.start("topic_tools/drop", "in 1 3")
+    source = stage.speak("/in", STRING)
+    source.publish({"data": "0"})
+    source.publish({"data": "unheard: the type becomes known"})
+    stage.until(lambda: "/in_drop" in dict(stage.loop.run(stage.client.ask("getTopicTypes"))))
+    stage.until(lambda: stage.connected("/in_drop"))
+    for number in range(2, 9):
+        source.publish({"data": str(number)})
+
+    stage.until(lambda: [m.data for m in heard] == ["2", "4", "5", "7", "8"])
+
+
+def test_mux_passes_on_the_selected_topic_alone(stage) -> None:
+    heard = stage.listen("/out", STRING)
+    chosen = stage.listen("/mux/selected", STRING)
+    stage.start("topic_tools/mux", "out a b")
+    a, b = stage.speak("/a", STRING), stage.speak("/b", STRING)
+    a.publish({"data": "unheard"})
+    stage.until(lambda: stage.connected("/out"))
+    a.publish({"data": "a"})
+    stage.until(lambda: heard)
+    assert stage.call("/mux/select", "topic_tools/MuxSelect", topic="b").prev_topic == "/a"
+    a.publish({"data": "not this"})
+    b.publish({"data": "b"})
+    stage.until(lambda: len(heard) == 2)
+
+    assert [m.data for m in heard] == ["a", "b"]
+    assert [m.data for m in chosen] == ["/a", "/b"]
+    assert list(stage.call("/mux/list", "topic_tools/MuxList").topics) == ["/a", "/b"]
+
+
+def test_transform_computes_fields_of_fields(stage) -> None:
+    heard = stage.listen("/length", "std_msgs/Float64")
+    source = stage.client.advertise("/pose", "geometry_msgs/PoseStamped", latch=True)
+    source.publish({"pose": {"position": {"x": 3.0, "y": 4.0}}})
+    # One word: the test's helper splits at spaces.
+    stage.start("topic_tools/transform", "/pose/pose/position /length std_msgs/Float64 numpy.hypot(m.x,m.y)")
+
+    stage.until(lambda: [m.data for m in heard] == [5.0])
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "relay",
+        "relay a b c",
+        "drop in 1",
+        "drop in 1 0",
+        "mux out",
+        "throttle",
+        "throttle messages in zero",
+        "throttle messages in 0",
+        "throttle bytes in 1",
+        "transform a b std_msgs/String",
+        "transform a b no/Type m",
+        "transform a b std_msgs/String m.(",
+    ],
+)
+def test_a_wrong_command_line_is_said_and_ends_the_node(stage, capsys, command: str) -> None:
+    name, _, arguments = command.partition(" ")
+    assert stage.start(f"topic_tools/{name}", arguments).result(30.0) == 1
+    assert "[ERROR]" in capsys.readouterr().err
+
+
+def test_throttled_messages_are_a_period_apart() -> None:
+    now = [10_000_000_000]
+    gate = MessageGate(2.0, lambda: now[0])
+    passed: list[int] = []
+    for _ in range(100):
+        if gate.lets_through(1):
+            passed.append(now[0])
+        now[0] += 100_000_000
+    assert {b - a for a, b in pairwise(passed)} == {600_000_000}  # more than 500 ms, not as much
+
+    now[0] = 1_000_000_000
+    assert gate.lets_through(1)  # time went back: what was last is forgotten
+
+
+def test_throttled_bytes_stay_below_what_is_allowed() -> None:
+    now = [10_000_000_000]
+    gate = ByteGate(100.0, 2.0, lambda: now[0])
+    assert [gate.lets_through(80) for _ in range(4)] == [True, True, False, False]
+    now[0] += 2_000_000_000
+    assert gate.lets_through(200)
+    assert not gate.lets_through(1)

@@ -1,0 +1,103 @@
+"""Turtles move, draw, stop at walls and obey services as the original's do."""
+
+import math
+
+import pytest
+
+from trundle.nodes.turtlesim.picture import SIZE_M, SIZE_PX, Picture
+from trundle.nodes.turtlesim.turtle import Turtle
+
+
+def test_the_plane_is_as_large_as_the_originals() -> None:
+    """499 of 500 pixels at 45 pixels a metre; turtle1 starts at 5.544445."""
+    assert pytest.approx(5.544445, abs=1e-6) == SIZE_M / 2.0
+
+
+def test_a_command_holds_for_a_second() -> None:
+    turtle = Turtle(1.0, 1.0, math.pi / 2.0, size=SIZE_M)
+    turtle.command(1.0, 0.0, 0.0, now_ns=0)
+    for pass_ in range(200):
+        turtle.move(0.016, now_ns=pass_ * 16_000_000)
+
+    assert turtle.y == pytest.approx(1.0 + 63 * 0.016)  # passes 0 … 62 lie within the second
+    assert turtle.x == pytest.approx(1.0)
+    assert turtle.linear_velocity == 0.0
+
+
+def test_a_circle_closes() -> None:
+    turtle = Turtle(5.0, 5.0, 0.0, size=SIZE_M)
+    steps = 1000
+    turtle.command(1.0, 0.0, math.tau, now_ns=0)
+    for _ in range(steps):
+        turtle.move(1.0 / steps, now_ns=0)
+    assert (turtle.x, turtle.y) == (pytest.approx(5.0, abs=1e-9), pytest.approx(5.0, abs=1e-9))
+
+
+def test_walls_hold_a_turtle() -> None:
+    turtle = Turtle(SIZE_M - 0.1, 1.0, 0.0, size=SIZE_M)
+    turtle.command(5.0, 0.0, 0.0, now_ns=0)
+    turtle.move(0.1, now_ns=0)
+    assert (turtle.x, turtle.hit_wall) == (SIZE_M, True)
+
+
+def test_a_path_is_drawn_where_the_turtle_went() -> None:
+    picture = Picture((0, 0, 0))
+    picture.draw_line((1.0, 1.0), (2.0, 1.0), (255, 0, 0), 3)
+    assert picture.colour_at(1.5, 1.0) == (255, 0, 0)
+    assert picture.colour_at(1.5, 1.5) == (0, 0, 0)
+    assert len(picture.with_turtles([Turtle(1.0, 1.0, 0.0, size=SIZE_M)])) == 3 * SIZE_PX**2
+
+
+def test_the_tutorials_services(stage) -> None:
+    stage.start("turtlesim/turtlesim_node", name="sim")
+    poses = stage.listen("/bob/pose", "turtlesim/Pose")
+    images = stage.listen("/sim/image", "sensor_msgs/Image")
+    assert stage.call("/spawn", "turtlesim/Spawn", x=2.0, y=3.0, theta=0.5, name="bob").name == "bob"
+    assert stage.call("/spawn", "turtlesim/Spawn", x=1.0, y=1.0).name == "turtle2"
+    stage.call("/bob/set_pen", "turtlesim/SetPen", r=255, width=5)
+    stage.call("/bob/teleport_relative", "turtlesim/TeleportRelative", linear=1.0, angular=-0.5)
+    stage.until(lambda: poses and poses[-1].x == pytest.approx(3.0))
+    stage.until(lambda: images)
+
+    assert poses[-1].theta == pytest.approx(0.0, abs=1e-6)
+    assert (images[-1].width, images[-1].encoding) == (500, "rgb8")
+    stage.call("/kill", "turtlesim/Kill", name="bob")
+    stage.call("/reset", "std_srvs/Empty")
+    assert stage.loop.run(stage.client.get_param("/sim/background_b")) == 255
+
+
+def test_a_turtle_follows_commands_and_another_mimics_it(stage) -> None:
+    stage.start("turtlesim/turtlesim_node")
+    stage.call("/spawn", "turtlesim/Spawn", x=2.0, y=2.0, name="ape")
+    stage.start("turtlesim/mimic", "input/pose:=turtle1/pose output/cmd_vel:=ape/cmd_vel")
+    poses = stage.listen("/ape/pose", "turtlesim/Pose")
+    stage.until(lambda: poses)
+    commands = stage.speak("/turtle1/cmd_vel", "geometry_msgs/Twist")
+    commands.publish({"linear": {"x": 1.0}})
+
+    stage.until(lambda: poses[-1].x > 2.2)
+    assert poses[-1].y == pytest.approx(2.0)
+
+
+def test_draw_square_sets_off(stage) -> None:
+    stage.start("turtlesim/turtlesim_node")
+    stage.start("turtlesim/draw_square")
+    poses = stage.listen("/turtle1/pose", "turtlesim/Pose")
+    stage.until(lambda: poses and poses[-1].x > 5.8)
+    assert poses[-1].y == pytest.approx(5.544445, abs=1e-3)
+
+
+def test_without_a_terminal_the_key_reader_says_so(stage, capsys) -> None:
+    stage.start("turtlesim/turtle_teleop_key")
+    stage.start("teleop_twist_keyboard/teleop_twist_keyboard.py")
+    stage.until(
+        lambda: {"/turtle1/cmd_vel", "/cmd_vel"} <= {t for t, _ in stage.loop.run(stage.client.ask("getTopicTypes"))}
+    )
+    said = ""
+
+    def both() -> bool:
+        nonlocal said
+        said += capsys.readouterr().err
+        return said.count("no terminal to read keys from") == 2
+
+    stage.until(both)
