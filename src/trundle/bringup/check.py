@@ -7,6 +7,7 @@ from pathlib import Path
 
 from trundle.description import Loaded, load
 from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError
+from trundle.diagram import TreeNode
 from trundle.launch import LaunchPlan, ParamCommand, read_launch
 from trundle.model import flattened
 from trundle.packages import Packages
@@ -14,6 +15,8 @@ from trundle.physics import compile_world
 from trundle.sensors import SIMULATED
 
 from .check_json import described, launch_described
+from .doubts import name_doubts
+from .kinematic_tree import kinematic_trees
 
 _LAUNCH = (".launch", ".test")
 
@@ -26,6 +29,10 @@ class CheckOutcome:
     loaded: Loaded | LaunchPlan | None
     """None: the file was refused."""
     report: Diagnostics
+
+    def trees(self) -> list[TreeNode]:
+        """The kinematic trees of what was understood; none of a launch file."""
+        return kinematic_trees(self.loaded) if isinstance(self.loaded, Loaded) else []
 
     @property
     def refused(self) -> bool:
@@ -69,14 +76,23 @@ def check(file: str, environment: Mapping[str, str], *, start: Path) -> CheckOut
             loaded = read_launch(Path(file), packages=around, report=report, env=environment)
         else:
             loaded = load(file, report, packages=packages)
-            compile_world(flattened(loaded.world), report)
-            _name_silent_sensors(loaded, report)
+            _look_closer(loaded, report)
     except DescriptionError as error:
         loaded = None
         report.error(error)
     except UsageError as error:
         report.error(DescriptionError(Source(file), str(error)))
     return CheckOutcome(file=file, loaded=loaded, report=report)
+
+
+def _look_closer(loaded: Loaded, report: Diagnostics) -> None:
+    """What shows only when the description is put to use."""
+    name_doubts(loaded, report)
+    _name_silent_sensors(loaded, report)
+    try:
+        compile_world(flattened(loaded.world), report)
+    except DescriptionError as error:
+        report.error(error)
 
 
 def _name_silent_sensors(loaded: Loaded, report: Diagnostics) -> None:

@@ -12,6 +12,8 @@ EXAMPLES = """
   trundle check model.sdf                             everything worth knowing, worst first
   trundle check robot.urdf.xacro --strict             exit 1 on a warning, for continuous integration
   trundle check world.sdf --json                      the resolved model as one JSON object
+  trundle check robot.urdf --tree                     links and joints as a tree
+  trundle check robot.urdf --graph robot.svg          the same as a picture
 """
 
 
@@ -21,18 +23,25 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--strict", action="store_true", help="a warning is an error")
     parser.add_argument("--json", action="store_true", help="print what was understood as one JSON object")
     add_allow_outside(parser)
+    parser.add_argument("--tree", action="store_true", help="draw the kinematic tree in the terminal")
+    parser.add_argument("--graph", metavar="OUT.svg", type=Path, help="write the kinematic tree as a picture")
 
 
 def main(args: argparse.Namespace) -> int:
     """Read, report, and return 1 where the file is refused."""
     with quiet_imports():
         from trundle.bringup import check
+        from trundle.diagram import tree_svg, tree_text
 
     outcome = check(args.file, dict(os.environ), start=Path.cwd())
     warned = any(finding.severity == "warning" for finding in outcome.report.findings)
+    if args.graph is not None:
+        args.graph.write_text(tree_svg(outcome.trees(), title=args.file), encoding="utf-8")
     if args.json:
         json.dump(outcome.as_json(), sys.stdout, allow_nan=False)
         print()
     else:
+        if args.tree and not outcome.refused:
+            print(tree_text(outcome.trees()))
         print(outcome.text())
-    return 1 if outcome.refused or (args.strict and warned) else 0
+    return 1 if outcome.report.errors or (args.strict and warned) else 0

@@ -87,6 +87,11 @@ def _main(arguments: list[str]) -> int:
     except BrokenPipeError:  # `trundle topic echo … | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return EXIT_OK
+    except OSError as error:  # above all a file that cannot be written
+        if error.filename is None:
+            raise
+        print(f"trundle {name}: error: {error.filename}: {error.strerror}", file=sys.stderr)
+        return EXIT_INPUT
 
 
 def add_allow_outside(parser: argparse.ArgumentParser) -> None:
