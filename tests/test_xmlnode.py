@@ -56,3 +56,10 @@ def test_a_number_is_finite_or_the_default(text: str, value: float) -> None:
     node = parse_xml(f"<a><n>{text}</n></a>", name="x.xml")
 
     assert node.number("n", default=7.0, report=Diagnostics()) == value
+
+
+def test_a_whole_number_may_be_hexadecimal_as_bitmasks_are() -> None:
+    report = Diagnostics()
+    node = parse_xml("<contact><collide_bitmask>0x0F</collide_bitmask></contact>", name="w.sdf")
+    assert node.integer("collide_bitmask", default=1, report=report) == 15
+    assert not report.findings

@@ -16,6 +16,7 @@ from trundle.spatial import Pose, Vector3
 
 _MAX_BYTES = 64 * 1024 * 1024
 _INTEGER = re.compile(r"[+-]?\d+")
+_HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]{1,16}")
 _POSITION = re.compile(r", line \d+, column \d+$")
 """libxml2 repeats the place, which every message of ours starts with."""
 
@@ -223,6 +224,8 @@ class XmlNode:
             return default
         if _INTEGER.fullmatch(child.text):
             return int(child.text)
+        if _HEXADECIMAL.fullmatch(child.text):
+            return int(child.text, 16)
         value = child.as_number(default=float(default), report=report)
         return int(value)
 

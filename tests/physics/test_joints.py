@@ -9,6 +9,7 @@ import pytest
 
 import trundle
 from trundle.cli.main import main
+from trundle.diagnostics import DescriptionError
 from trundle.simulation import Simulation
 
 G = 9.8
@@ -288,7 +289,7 @@ def test_a_loss_below_zero_is_mended_aloud(load: Load, what: str) -> None:
 
 
 def test_names_that_are_there_twice_are_refused_with_their_line(load: Load) -> None:
-    with pytest.raises(trundle.diagnostics.DescriptionError, match="a second joint 'j'; names must differ"):
+    with pytest.raises(DescriptionError, match="a second joint 'j'; names must differ"):
         load(link("a"), link("b"), *[joint("j", "ball", "world", child) for child in "ab"])
 
 

@@ -5,9 +5,11 @@ from .engine import Engine, EngineState, SimulationUnstableError
 from .index import CompiledWorld
 from .instant import Instant
 from .raycaster import RayRenderer
+from .touching import Contact
 
 __all__ = [
     "CompiledWorld",
+    "Contact",
     "Engine",
     "EngineState",
     "Instant",

@@ -13,7 +13,7 @@ from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import Collision, Cylinder, Plane, World, flattened
 from trundle.spatial import Pose
 
-from .contacts import add_contacts
+from .contacts import add_contacts, soften
 from .index import CompiledWorld, index_world
 from .inertia import principal_inertia
 from .joints import JointMaker
@@ -67,7 +67,10 @@ class _Compiler:
             for axis in axes:
                 if axis.axis is not None:
                     self._add_motor(axis.engine_joint)
-        return index_world(self.world, self.tree, self.joints.axes, touches, self._compile_spec())
+        collisions = {shape.name: shape.collision for shape in self.shapes}
+        compiled = self._compile_spec()
+        soften(compiled, touches)
+        return index_world(self.world, self.tree, self.joints.axes, touches, collisions, compiled)
 
     def _compile_spec(self) -> mujoco.MjModel:
         """Hand the world to MuJoCo; its own checks speak in its own words."""

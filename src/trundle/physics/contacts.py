@@ -7,7 +7,7 @@ ODE and MuJoCo cannot agree on everything: ODE's friction pyramid becomes an ell
 how fast ODE pushes bodies out of one another, has no counterpart here.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations, product
 
 import mujoco
@@ -21,8 +21,12 @@ from .tree import Tree
 
 MOST_PAIRS = 2000
 """Beyond these, moving shapes meet by MuJoCo's own search: a pair costs about 10 ns a step whether it meets or not."""
+_STIFFEST = 0.05
+"""[1/h²] Stiffness over mass from which on a contact is as hard as MuJoCo's own; a step cannot tell any more."""
+_SOFT = 0.5
+"""Impedance of soft contacts: with more, they swing too slowly; with less, friction creeps."""
 _NEVER_FELT = 1e3
-"""[m] A gap that no shape is deep enough in another to close: the two meet and feel nothing."""
+"""[m] Deeper than any shape is in another: the two meet and feel nothing before."""
 
 
 def add_contacts(
@@ -78,17 +82,42 @@ def _add_pairs(
 
 def _add_pair(spec: mujoco.MjSpec, a: ShapeEntry, b: ShapeEntry, touch: Touch) -> None:
     h = spec.option.timestep
-    pair = spec.add_pair(name=f"{a.name} {b.name}", geomname1=a.name, geomname2=b.name)
+    pair = spec.add_pair(name=_pair_name(a.name, b.name), geomname1=a.name, geomname2=b.name)
     slides_freely = touch.mu <= 0 or touch.mu2 <= 0
     pair.condim = 1 if slides_freely else 4 if touch.torsion > 0 else 3
-    # MuJoCo's first tangent on a horizontal floor lies along y, ODE's second; so mu and mu2 change places.
+    # On a horizontal floor MuJoCo's first tangent lies along y, as ODE's does where no fdir1 is given.
     pair.friction = [max(touch.mu, 1e-5), max(touch.mu2, 1e-5), max(touch.torsion, 1e-5), 0.0001, 0.0001]
     pair.solref = contact_solref(h)
     pair.solreffriction = sliding_solref(h)
     pair.solimp = SOLIMP
     pair.margin = -touch.min_depth
     if not touch.is_felt:
-        pair.gap = _NEVER_FELT
+        pair.margin, pair.gap = -_NEVER_FELT, _NEVER_FELT
+
+
+def _pair_name(a: str, b: str) -> str:
+    return f"{a} {b}"
+
+
+def soften(model: mujoco.MjModel, touches: Mapping[tuple[str, str], Touch]) -> None:
+    """Give contacts that ODE would make soft the static depth that kp gives them.
+
+    A contact of impedance d and inverse mass A rests at a depth of f A (1 − d) / (d K), which is f / kp for the K here.
+    """
+    h = model.opt.timestep
+    for (a, b), touch in touches.items():
+        bodies = [int(model.geom_bodyid[model.geom(name).id]) for name in (a, b)]
+        inverse_mass = float(sum(model.body_invweight0[body, 0] for body in bodies))
+        stiffness = touch.kp * inverse_mass
+        if not 0.0 < stiffness * h * h < _STIFFEST:
+            continue
+        pair = model.pair(_pair_name(a, b)).id
+        share = (1 - _SOFT) / _SOFT
+        # ODE's implicit step adds h · kp to the damping.
+        damping = min((touch.kd + h * touch.kp) * inverse_mass * share, 1 / h)
+        # MuJoCo divides what it is given by the impedance.
+        model.pair_solref[pair] = (-stiffness * share * _SOFT, -damping * _SOFT)
+        model.pair_solimp[pair, :2] = _SOFT
 
 
 def _let_search(spec: mujoco.MjSpec, moving: Sequence[ShapeEntry], rules: _Rules) -> None:

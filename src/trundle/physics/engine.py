@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.spatial import Pose, Twist, Wrench
 
-from .bounce import Bounce
+from .between import Between
 from .index import CompiledWorld
 from .instant import Instant, Looker
 from .motors import Motors
 from .reader import StateReader
 from .settings import silence_log
+from .touching import Contact, contacts_of
 
 _BAD = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
 _HUGE = 1e10
@@ -50,7 +51,7 @@ class Engine:
         self._data = mujoco.MjData(compiled.model)
         self.reader = StateReader(compiled, self._data)
         self.motors = Motors(compiled, self._data)
-        self._bounce = Bounce(self._model, self._data, compiled.touches)
+        self._between = Between(compiled, self._data)
         self._looker = Looker(compiled)
         self._spec = mujoco.mjtState.mjSTATE_INTEGRATION
         self._good = np.empty(mujoco.mj_stateSize(self._model, self._spec))
@@ -81,15 +82,12 @@ class Engine:
             )
 
     def _advance(self, count: int) -> None:
-        """In C, unless something of the world has to be seen to between finding contacts and solving them."""
-        if not self._bounce:
+        """In C, unless the world needs something that MuJoCo does not have."""
+        if self._between:
+            for _ in range(count):
+                self._between.step()
+        else:
             mujoco.mj_step(self._model, self._data, nstep=count)
-            return
-        for _ in range(count):
-            mujoco.mj_step1(self._model, self._data)
-            if self._bounce():
-                mujoco.mj_fwdVelocity(self._model, self._data)
-            mujoco.mj_step2(self._model, self._data)
 
     def _is_unstable(self) -> bool:
         warnings = self._data.warning
@@ -183,6 +181,10 @@ class Engine:
     def instant(self) -> Instant:
         """The state as it is now, for good."""
         return Instant(self._looker, self.reader)
+
+    def contacts(self) -> list[Contact]:
+        """What touched what in the last step."""
+        return contacts_of(self.compiled, self._data)
 
     # -- keeping
 

@@ -1,7 +1,7 @@
 """What was what: the way from a world's names to the engine's numbers."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import mujoco
@@ -52,6 +52,8 @@ class CompiledWorld:
     """The first axis of each ball joint."""
     touches: Mapping[GeomPair, Touch]
     """How two shapes touch that have a pair of their own."""
+    geom_collisions: tuple[str, ...]
+    """`model::link::collision` of each geom."""
 
 
 def index_world(
@@ -59,6 +61,7 @@ def index_world(
     tree: Tree,
     axes: Mapping[str, Sequence[Axis]],
     touches: Mapping[tuple[str, str], Touch],
+    collisions: Mapping[str, str],
     model: mujoco.MjModel,
 ) -> CompiledWorld:
     """Look every name up in a compiled model."""
@@ -102,7 +105,8 @@ def index_world(
         axis_velocity=np.array(velocity),
         axis_range=np.array(limits).reshape(-1, 2),
         balls=tuple(balls),
-        touches={_pair(model, names): touch for names, touch in touches.items()},
+        touches=dict(_touch(model, names, touch) for names, touch in touches.items()),
+        geom_collisions=tuple(collisions.get(model.geom(i).name, "") for i in range(model.ngeom)),
     )
 
 
@@ -111,6 +115,7 @@ def _limits(axis: JointAxis | None) -> list[float]:
     return [-np.inf, np.inf] if axis is None or axis.is_rigid else sorted((axis.lower, axis.upper))
 
 
-def _pair(model: mujoco.MjModel, names: tuple[str, str]) -> GeomPair:
+def _touch(model: mujoco.MjModel, names: tuple[str, str], touch: Touch) -> tuple[GeomPair, Touch]:
+    """By number; where the two change places, so do their parts in it."""
     a, b = (int(model.geom(name).id) for name in names)
-    return min(a, b), max(a, b)
+    return ((a, b), touch) if a < b else ((b, a), replace(touch, fdir1_of=1 - touch.fdir1_of))

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 from trundle.model import Surface
+from trundle.spatial import ZERO, Vector3
 
 INFINITE_FRICTION = 100.0
 """What SDF's negative mu stands for: steeper than any slope."""
@@ -15,6 +16,10 @@ class Touch:
 
     mu: float
     mu2: float
+    fdir1: Vector3
+    """First friction direction; zero: left to the engine."""
+    fdir1_of: int
+    """In the frame of which of the two."""
     torsion: float
     """[m] Largest torque about the normal over the normal force."""
     kp: float
@@ -35,6 +40,8 @@ def touch_of(a: Surface, b: Surface) -> Touch:
     return Touch(
         mu=min(_friction(a.mu), _friction(b.mu)),
         mu2=min(_friction(a.mu2), _friction(b.mu2)),
+        fdir1=a.fdir1 if a.fdir1 != ZERO else b.fdir1,
+        fdir1_of=0 if a.fdir1 != ZERO else 1,
         torsion=_torsion(a, b),
         kp=1 / (1 / max(a.kp, 1e-3) + 1 / max(b.kp, 1e-3)),
         kd=max(a.kd, 0.0) + max(b.kd, 0.0),

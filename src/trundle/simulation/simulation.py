@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import World
-from trundle.physics import Engine, EngineState, compile_world
+from trundle.physics import Contact, Engine, EngineState, compile_world
 from trundle.spatial import Wrench
 
 from .handles import JointHandle, ModelHandle
@@ -135,6 +135,10 @@ class Simulation:
             first_axes=compiled.first_axes,
             joint_axes=compiled.joint_axes,
         )
+
+    def contacts(self) -> list[Contact]:
+        """What touched what in the last step."""
+        return self.engine.contacts()
 
     def save(self) -> SavedSimulation:
         """Keep the state, to go back to it exactly."""

@@ -1,0 +1,116 @@
+"""What a world needs in every step between finding contacts and solving them, and MuJoCo does not have.
+
+Bounces, friction with a direction of its own, and velocities that decay: a world without them steps in C alone.
+"""
+
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+
+from trundle.model import Link
+from trundle.spatial import ZERO
+
+from .bounce import Bounce
+from .index import CompiledWorld, GeomPair
+from .surfaces import Touch
+
+_SLOWEST = 0.01
+"""[m/s or rad/s] ODE damps nothing that is slower."""
+
+
+class Between:
+    """Everything that has to be seen to; false where nothing has."""
+
+    def __init__(self, compiled: CompiledWorld, data: mujoco.MjData) -> None:
+        self._model = compiled.model
+        self._data = data
+        self._bounce = Bounce(compiled.model, data, compiled.touches)
+        self._grain = _Grain(data, compiled.touches)
+        self._decay = _Decay(compiled, data)
+
+    def __bool__(self) -> bool:
+        """Whether there is anything to do at all."""
+        return bool(self._bounce or self._grain or self._decay)
+
+    def step(self) -> None:
+        """Take one time step."""
+        model, data = self._model, self._data
+        mujoco.mj_step1(model, data)
+        turned = bool(self._grain) and self._grain.turn()
+        if turned:
+            mujoco.mj_makeConstraint(model, data)
+            mujoco.mj_island(model, data)
+            mujoco.mj_projectConstraint(model, data)
+        if (self._bounce and self._bounce()) or turned:
+            mujoco.mj_fwdVelocity(model, data)
+        if self._decay:
+            self._decay.slow()
+        mujoco.mj_step2(model, data)
+
+
+class _Grain:
+    """Friction that has a first direction in the frame of one of two shapes, and another coefficient across it."""
+
+    def __init__(self, data: mujoco.MjData, touches: Mapping[GeomPair, Touch]) -> None:
+        self._data = data
+        self._directions: dict[GeomPair, tuple[int, np.ndarray[tuple[int], np.dtype[np.float64]]]] = {}
+        for pair, touch in touches.items():
+            if touch.fdir1 != ZERO and touch.mu != touch.mu2 and min(touch.mu, touch.mu2) > 0:
+                self._directions[pair] = (pair[touch.fdir1_of], np.array(touch.fdir1))
+
+    def __bool__(self) -> bool:
+        return bool(self._directions)
+
+    def turn(self) -> bool:
+        """Lay the first tangent of each contact along its direction; return whether any was laid."""
+        turned = False
+        data = self._data
+        for contact in data.contact:
+            a, b = int(contact.geom[0]), int(contact.geom[1])
+            found = self._directions.get((min(a, b), max(a, b)))
+            if found is None:
+                continue
+            geom, direction = found
+            normal = contact.frame[:3]
+            along = data.geom_xmat[geom].reshape(3, 3) @ direction
+            along = along - (along @ normal) * normal
+            length = float(np.linalg.norm(along))
+            if length > 1e-6:
+                contact.frame[3:6] = along / length
+                contact.frame[6:9] = np.cross(normal, along / length)
+                turned = True
+        return turned
+
+
+class _Decay:
+    """Velocities that lose a part of themselves at every step, as ODE's linear and angular damping."""
+
+    def __init__(self, compiled: CompiledWorld, data: mujoco.MjData) -> None:
+        self._model = compiled.model
+        self._data = data
+        links: list[Link] = [link for model in compiled.world.models for link in model.links]
+        self._decays = [
+            (int(body), min(max(link.linear_decay, 0.0), 1.0), min(max(link.angular_decay, 0.0), 1.0))
+            for body, link in zip(compiled.link_bodies, links, strict=True)
+            if (link.linear_decay > 0 or link.angular_decay > 0) and compiled.model.body_dofnum[body] > 0
+        ]
+
+    def __bool__(self) -> bool:
+        return bool(self._decays)
+
+    def slow(self) -> None:
+        """Add the forces that take the part away within this step."""
+        model, data = self._model, self._data
+        velocity = np.empty(6)
+        for body, linear, angular in self._decays:
+            # Of the centre of mass, in world axes: rotation first.
+            mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, body, velocity, 0)
+            spin, speed = velocity[:3], velocity[3:]
+            axes = data.ximat[body].reshape(3, 3)
+            force, torque = np.zeros(3), np.zeros(3)
+            if np.linalg.norm(speed) > _SLOWEST:
+                force = -linear * model.body_mass[body] / model.opt.timestep * speed
+            if np.linalg.norm(spin) > _SLOWEST:
+                torque = -angular / model.opt.timestep * (axes * model.body_inertia[body]) @ axes.T @ spin
+            mujoco.mj_applyFT(model, data, force, torque, data.xipos[body], body, data.qfrc_passive)
