@@ -3,9 +3,10 @@
 import argparse
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 from trundle.diagnostics import UsageError
-from trundle.ros import MessageError, Messages
+from trundle.ros import MessageError, Messages, open_bag
 
 
 def configure(parser: argparse.ArgumentParser, what: str) -> None:
@@ -20,6 +21,8 @@ def configure(parser: argparse.ArgumentParser, what: str) -> None:
         add = commands.add_parser(name, help=help_)
         add.add_argument("type", nargs="?", help=f"{what} type, with or without its package; piped in if left out")
         add.add_argument("-r", "--raw", action="store_true", help="the text of the definition, comments and all")
+        if what == "message":
+            add.add_argument("-b", "--bag", metavar="BAG", help="by the definition in a bag")
         add.set_defaults(run=_show)
     add = commands.add_parser("list", help=f"names of all {what} types")
     add.set_defaults(run=_list)
@@ -43,9 +46,11 @@ def run(args: argparse.Namespace, what: str) -> int:
 class _Types:
     """Message types or service types, seen alike."""
 
-    def __init__(self, what: str) -> None:
+    def __init__(self, what: str, *, as_in_bag: tuple[str, str] | None = None) -> None:
         self.what = what
-        self._messages = Messages()
+        self._messages = Messages(bare=as_in_bag is not None)
+        if as_in_bag is not None:
+            self._messages.add_definition(*as_in_bag)
         self._is_service = what == "service"
 
     def names(self) -> list[str]:
@@ -92,10 +97,21 @@ class _Types:
 
 def _show(args: argparse.Namespace, types: _Types) -> int:
     name = args.type or _piped()
+    if getattr(args, "bag", None):
+        return _show_from_bag(args.bag, name, raw=args.raw)
     for found in types.named(name):
         if "/" not in name:
             print(f"[{found}]:")
         print(types.raw(found) if args.raw else types.text(found))
+    return 0
+
+
+def _show_from_bag(path: str, name: str, *, raw: bool) -> int:
+    with open_bag(Path(path)) as bag:
+        definition = next((c.definition for c in bag.connections if c.type == name), None)
+    if definition is None:
+        raise MessageError(f"no messages of type {name!r} in {path}")
+    print(definition if raw else _Types("message", as_in_bag=(name, definition)).text(name))
     return 0
 
 

@@ -1,5 +1,6 @@
 """What the commands that look at a running graph share: names, the master, and what to say when nobody answers."""
 
+import argparse
 import functools
 import os
 import sys
@@ -9,11 +10,26 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from trundle.diagnostics import TrundleError
-from trundle.names import anonymous_name, resolve_name
+from trundle.names import Arguments, anonymous_name, resolve_name
 from trundle.ros import MasterProxy, MasterUnreachableError, master_uri_from_env
 
 if TYPE_CHECKING:
     from trundle.ros import GraphLoop, Node
+
+
+class IntermixedParser(argparse.ArgumentParser):
+    """Takes options between positional arguments: `pub /cmd_vel geometry_msgs/Twist -r 10 -- '[1, 0, 0]' …`."""
+
+    _is_inside = False
+
+    def parse_known_args(self, args=None, namespace=None):  # type: ignore[override]
+        if self._is_inside:
+            return super().parse_known_args(args, namespace)
+        self._is_inside = True
+        try:
+            return self.parse_known_intermixed_args(args, namespace)
+        finally:
+            self._is_inside = False
 
 
 def original_errors(function: Callable[[Namespace], int]) -> Callable[[Namespace], int]:
@@ -44,11 +60,18 @@ def master(script: str) -> MasterProxy:
 
 
 @contextmanager
-def running_node(base: str) -> Generator["tuple[GraphLoop, Node]"]:
-    """Run an anonymous node; shut it down at the end, Ctrl-C included."""
+def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[GraphLoop, Node]"]:
+    """Run an anonymous node; shut it down at the end, Ctrl-C included.
+
+    Args:
+        base: what its name begins with.
+        words: name and remappings from the command line.
+    """
     from trundle.ros import GraphLoop, Node
 
+    words = words or Arguments()
     MasterProxy(caller_id=f"/{base}").call("getPid")
     with GraphLoop() as loop:
-        node = Node(anonymous_name(base), loop=loop, master_uri=master_uri_from_env(), rosout=False)
+        name = words.name or anonymous_name(base)
+        node = Node(name, loop=loop, master_uri=master_uri_from_env(), remappings=words.remappings, rosout=False)
         yield loop, node

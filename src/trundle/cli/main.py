@@ -28,6 +28,7 @@ COMMANDS: dict[str, str] = {
     "node": "list, describe and ping nodes",
     "param": "read and write parameters",
     "service": "list, describe and call services",
+    "bag": "record, play, describe and edit bags",
     "msg": "show message types",
     "srv": "show service types",
 }

@@ -6,7 +6,7 @@ from urllib.parse import urlsplit
 from trundle.diagnostics import UsageError
 from trundle.ros import MasterError, MasterProxy, RosError
 
-from .graph import global_name, master, original_errors
+from .graph import IntermixedParser, global_name, master, original_errors
 
 EXAMPLES = """
   trundle topic list
@@ -22,9 +22,10 @@ Rows = list[tuple[str, str, list[str]]]
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=_IntermixedParser)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=IntermixedParser)
     add = commands.add_parser("list", help="names of all topics")
     add.add_argument("topic", nargs="?", help="only this one and those below it")
+    add.add_argument("-b", "--bag", metavar="BAG", help="topics in a bag")
     add.add_argument("-v", "--verbose", action="store_true", help="with types and counts")
     only = add.add_mutually_exclusive_group()
     only.add_argument("-p", dest="publishers", action="store_true", help="only what is published")
@@ -42,7 +43,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.set_defaults(run=_find)
     # The rest needs messages: each lives in a module of its own, imported when it runs.
     add = commands.add_parser("echo", help="print messages")
-    add.add_argument("topic", help="or a field of its messages, as /odom/pose/pose or /tf/transforms[0]")
+    add.add_argument("topic", nargs="?", help="or a field of its messages, as /odom/pose/pose or /tf/transforms[0]")
+    add.add_argument("-b", "--bag", metavar="BAG", help="print what is in a bag")
+    add.add_argument("-a", "--all", action="store_true", help="every message of the bag")
     add.add_argument("-n", dest="count", type=int, metavar="COUNT", help="stop after so many messages")
     add.add_argument("-p", dest="plot", action="store_true", help="comma-separated values for plotting")
     add.add_argument("-w", dest="width", type=int, metavar="NUM_WIDTH", help="width of numbers")
@@ -82,21 +85,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.set_defaults(run=_pub)
 
 
-class _IntermixedParser(argparse.ArgumentParser):
-    """Takes options between positional arguments: `pub /cmd_vel geometry_msgs/Twist -r 10 -- '[1, 0, 0]' …`."""
-
-    _is_inside = False
-
-    def parse_known_args(self, args=None, namespace=None):  # type: ignore[override]
-        if self._is_inside:
-            return super().parse_known_args(args, namespace)
-        self._is_inside = True
-        try:
-            return self.parse_known_intermixed_args(args, namespace)
-        finally:
-            self._is_inside = False
-
-
 @original_errors
 def main(args: argparse.Namespace) -> int:
     """Run the subcommand."""
@@ -132,6 +120,10 @@ def _tables(proxy: MasterProxy) -> tuple[Rows, Rows]:
 
 
 def _list(args: argparse.Namespace) -> int:
+    if args.bag:
+        from .topic_echo import list_bag
+
+        return list_bag(args)
     proxy = master(_SCRIPT)
     publishers, subscribers = _tables(proxy)
     if args.topic:

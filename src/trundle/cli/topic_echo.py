@@ -3,13 +3,16 @@
 import argparse
 import queue
 import sys
+import time
+from pathlib import Path
 from typing import Any
 
 from trundle.diagnostics import UsageError
-from trundle.ros import MessagePrinter, Messages, RawMessage, WallClock, follow_time, ns_of
+from trundle.ros import MessagePrinter, Messages, MessageView, RawMessage, WallClock, follow_time, ns_of, open_bag
 
+from .expression import expression
 from .graph import global_name, master, running_node
-from .topic_field import field_type, value_at, wait_for_topic
+from .topic_field import Field, field_type, split_topic, value_at, wait_for_topic
 
 _FIRST_S = 2.0
 _WAITING = 1000
@@ -20,34 +23,97 @@ def main(args: argparse.Namespace) -> int:
     """Print until enough messages came or Ctrl-C."""
     if args.width is not None and args.width < 2:
         raise UsageError("Fixed width for numeric values must be at least 2")
+    if args.all and not args.bag:
+        raise UsageError("Display all option is only valid when echoing from bag files")
+    if args.offset and args.bag:
+        raise UsageError("offset time option is not valid with bag files")
+    if not args.topic and not args.all:
+        raise UsageError("topic must be specified")
     if args.count is not None and args.count <= 0:
         return 0
-    wanted = compiled(args.filter)
+    if args.bag:
+        return _echo_bag(args)
     with running_node("rostopic") as (loop, node):
         clock = loop.run(follow_time(node))
-        field = wait_for_topic(master("rostopic"), global_name(args.topic, "rostopic"))
+        field = wait_for_topic(master("rostopic"), global_name(str(args.topic), "rostopic"))
         messages = loop.messages
+        echo = _Echo(args, messages)
         inbox: queue.Queue[Any] = queue.Queue()
         known = messages.has(field.type)
         node.deliver = inbox.put
         arrived: list[Any] = []
         node.subscribe(field.topic, field.type if known else "*", arrived.append, queue_size=_WAITING)
-        printed = 0
         if not isinstance(clock, WallClock):
             _wait_for_first(inbox)
-        while args.count is None or printed < args.count:
+        while not echo.is_done:
             inbox.get()()
             for message in arrived:
                 if isinstance(message, RawMessage):
                     message = _read(messages, message)
-                if wanted is not None and not eval(wanted, {"m": message, "topic": field.topic}):
-                    continue
-                offset = clock.now_ns() if args.offset else None
-                if args.count is None or printed < args.count:
-                    _print(args, messages, message, field.type, field, offset, clock.now_ns(), first=printed == 0)
-                    printed += 1
+                echo.take(message, field, clock.now_ns())
             arrived.clear()
     return 0
+
+
+def _echo_bag(args: argparse.Namespace) -> int:
+    """Print from a bag; with -a every message of every topic."""
+    messages = Messages(bare=True)
+    echo = _Echo(args, messages)
+    name = "" if args.all else global_name(args.topic, "rostopic")
+    with open_bag(Path(args.bag)) as bag:
+        types = {connection.topic: connection.type for connection in bag.connections}
+        found = (None, "") if args.all else split_topic(name, types)
+        if found is None:
+            raise UsageError(f"no topic [{name}] in {args.bag}; topics there: {', '.join(sorted(types))}")
+        for message in bag.messages(lambda c: found[0] in (None, c.topic)):
+            connection = message.connection
+            messages.add_definition(connection.type, connection.definition)
+            field = Field(topic=connection.topic, type=connection.type, path=found[1])
+            echo.take(messages.deserialize(message.data, connection.type), field, message.stamp_ns)
+            if echo.is_done:
+                break
+    return 0
+
+
+def list_bag(args: argparse.Namespace) -> int:
+    """`topic list -b`: name the topics in a bag, in the order of their first message; or count one's messages."""
+    with open_bag(Path(args.bag)) as bag:
+        if not args.topic:
+            print("\n".join(dict.fromkeys(message.connection.topic for message in bag.messages())))
+            return 0
+        name = global_name(args.topic, "rostopic")
+        below = f"{name.rstrip('/')}/"
+        stamps = [m.stamp_ns for m in bag.messages(lambda c: c.topic == name or c.topic.startswith(below))]
+    if not stamps:
+        raise UsageError(f"no messages of {name} in {args.bag}")
+    first, last = (time.strftime("%d %b %Y %H:%M:%S", time.localtime(ns / 1e9)) for ns in (stamps[0], stamps[-1]))
+    print(f"{len(stamps)} message(s) from {first} to {last}")
+    return 0
+
+
+class _Echo:
+    """Prints messages as the arguments say, and counts them."""
+
+    def __init__(self, args: argparse.Namespace, messages: Messages) -> None:
+        self._args = args
+        self._messages = messages
+        self._wanted = expression(args.filter)
+        self._printed = 0
+
+    @property
+    def is_done(self) -> bool:
+        """Whether enough were printed."""
+        return self._args.count is not None and self._printed >= self._args.count
+
+    def take(self, message: Any, field: Field, now_ns: int) -> None:
+        """Print a message, if it is wanted."""
+        if self.is_done:
+            return
+        if self._wanted is not None and not self._wanted.value(m=MessageView(message), topic=field.topic):
+            return
+        offset = now_ns if self._args.offset else None
+        _print(self._args, self._messages, message, field.type, field, offset, now_ns, first=self._printed == 0)
+        self._printed += 1
 
 
 def _wait_for_first(inbox: "queue.Queue[Any]") -> None:
@@ -60,20 +126,6 @@ def _wait_for_first(inbox: "queue.Queue[Any]") -> None:
             file=sys.stderr,
             flush=True,
         )
-
-
-def compiled(expression: str | None) -> Any:
-    """Compile a filter, which is Python of the person at the keyboard.
-
-    Raises:
-        UsageError: it is no expression.
-    """
-    if expression is None:
-        return None
-    try:
-        return compile(expression, "--filter", "eval")
-    except SyntaxError as error:
-        raise UsageError(f"--filter is no Python expression: {error}") from None
 
 
 def _read(messages: Messages, raw: RawMessage) -> Any:
@@ -101,7 +153,7 @@ def _print(
     except (IndexError, AttributeError, TypeError) as error:
         print(f"{error}: {field.path}", file=sys.stderr)
         return
-    kind = field_type(type_name, field.path) if field.path else type_name
+    kind = field_type(type_name, field.path, messages) if field.path else type_name
     if args.plot:
         columns = list(printer.columns(value, kind))
         header = getattr(value, "header", None)

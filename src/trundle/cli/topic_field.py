@@ -63,14 +63,19 @@ def split_topic(name: str, types: Mapping[str, str]) -> tuple[str, str] | None:
     return None if topic is None else (topic, name[len(topic) :].strip("/"))
 
 
-def field_type(type_name: str, path: str) -> str:
+def field_type(type_name: str, path: str, messages: Messages | None = None) -> str:
     """Return the ROS type at a path.
+
+    Args:
+        type_name: of the message.
+        path: behind the topic's name.
+        messages: types known; those of a new store by default.
 
     Raises:
         UsageError: there is no such field.
         MessageError: the type is not known.
     """
-    messages = Messages()
+    messages = messages or Messages()
     is_list = False
     for step in Field(topic="", type=type_name, path=path).steps:
         base = type_name.partition("[")[0]

@@ -10,10 +10,10 @@ from collections.abc import Callable
 from typing import Any
 
 from trundle.diagnostics import UsageError
-from trundle.ros import Clock, RawMessage, WallClock, follow_time, ns_of
+from trundle.ros import Clock, MessageView, RawMessage, WallClock, follow_time, ns_of
 
+from .expression import Expression, expression
 from .graph import global_name, master, running_node
-from .topic_echo import compiled
 from .topic_field import wait_for_topic
 
 _MAX_WINDOW = 50_000
@@ -30,7 +30,7 @@ def main(args: argparse.Namespace) -> int:
             field = wait_for_topic(master("rostopic"), global_name(name, "rostopic"))
             if is_rate:
                 meter: Rate | Bandwidth | Delay = Rate(clock, args.window)
-                wanted = compiled(args.filter)
+                wanted = expression(args.filter)
                 callback = meter.take if wanted is None else _filtered(meter.take, wanted, field.topic)
                 kind = "*" if wanted is None else field.type
                 node.subscribe(field.topic, kind, callback, queue_size=None, tcp_nodelay=args.tcpnodelay)
@@ -190,9 +190,9 @@ def _table(header: list[str], rows: list[list[str]]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _filtered(take: Callable[[Any], None], wanted: Any, topic: str) -> Callable[[Any], None]:
+def _filtered(take: Callable[[Any], None], wanted: Expression, topic: str) -> Callable[[Any], None]:
     def filtered(message: Any) -> None:
-        if eval(wanted, {"m": message, "topic": topic}):
+        if wanted.value(m=MessageView(message), topic=topic):
             take(message)
 
     return filtered

@@ -6,6 +6,21 @@ Names are imported on first use: a command that only asks the master pays for ne
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .bags import (
+        BagConnection,
+        BagError,
+        BagMessage,
+        BagReader,
+        BagWriter,
+        Player,
+        PlayOptions,
+        Recorder,
+        RecordOptions,
+        UnindexedBagError,
+        create_bag,
+        open_bag,
+        recovered,
+    )
     from .clock import Clock, SimClock, WallClock, follow_time, ns_of
     from .core import Core
     from .errors import (
@@ -31,8 +46,14 @@ if TYPE_CHECKING:
     from .subscription import Subscription
     from .tf_buffer import Transform, TransformBuffer
     from .tf_nodes import StaticTransformBroadcaster, TransformBroadcaster, TransformListener
+    from .views import MessageView
 
 _HOMES = {
+    "BagConnection": "bags",
+    "BagError": "bags",
+    "BagMessage": "bags",
+    "BagReader": "bags",
+    "BagWriter": "bags",
     "Clock": "clock",
     "Core": "core",
     "GraphLoop": "loop",
@@ -43,13 +64,18 @@ _HOMES = {
     "Message": "messages",
     "MessageError": "errors",
     "MessagePrinter": "printing",
+    "MessageView": "views",
     "Messages": "messages",
     "Node": "node",
     "ParameterError": "errors",
     "ParameterTree": "parameters",
+    "PlayOptions": "bags",
+    "Player": "bags",
     "PortTakenError": "errors",
     "Publisher": "publisher",
     "RawMessage": "messages",
+    "RecordOptions": "bags",
+    "Recorder": "bags",
     "RosError": "errors",
     "Service": "service",
     "ServiceError": "errors",
@@ -62,13 +88,17 @@ _HOMES = {
     "TransformBuffer": "tf_buffer",
     "TransformError": "errors",
     "TransformListener": "tf_nodes",
+    "UnindexedBagError": "bags",
     "WallClock": "clock",
     "blocking_call": "proxy",
+    "create_bag": "bags",
     "field_value": "printing",
     "follow_time": "clock",
     "master_uri_from_env": "network",
     "ns_of": "clock",
+    "open_bag": "bags",
     "probe_service": "service",
+    "recovered": "bags",
     "set_leaves": "parameters",
 }
 
@@ -84,6 +114,11 @@ def __getattr__(name: str) -> Any:
 
 
 __all__ = [
+    "BagConnection",
+    "BagError",
+    "BagMessage",
+    "BagReader",
+    "BagWriter",
     "Clock",
     "Core",
     "GraphLoop",
@@ -94,13 +129,18 @@ __all__ = [
     "Message",
     "MessageError",
     "MessagePrinter",
+    "MessageView",
     "Messages",
     "Node",
     "ParameterError",
     "ParameterTree",
+    "PlayOptions",
+    "Player",
     "PortTakenError",
     "Publisher",
     "RawMessage",
+    "RecordOptions",
+    "Recorder",
     "RosError",
     "Service",
     "ServiceError",
@@ -113,12 +153,16 @@ __all__ = [
     "TransformBuffer",
     "TransformError",
     "TransformListener",
+    "UnindexedBagError",
     "WallClock",
     "blocking_call",
+    "create_bag",
     "field_value",
     "follow_time",
     "master_uri_from_env",
     "ns_of",
+    "open_bag",
     "probe_service",
+    "recovered",
     "set_leaves",
 ]

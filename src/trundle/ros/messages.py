@@ -38,6 +38,8 @@ class RawMessage:
     md5sum: str
     definition: str
     data: bytes
+    caller: str = ""
+    """Node that published it."""
     latching: bool = False
     """Whether its publisher hands its last message to newcomers."""
 
@@ -55,8 +57,14 @@ class ServiceType:
 class Messages:
     """All message types a process knows. Types are written as ROS does: 'geometry_msgs/Twist'."""
 
-    def __init__(self) -> None:
-        self._definitions = Definitions.shipped()
+    def __init__(self, *, bare: bool = False) -> None:
+        """Make a store.
+
+        Args:
+            bare: know nothing but what is added, as when reading a bag by the definitions in it.
+        """
+        self._is_bare = bare
+        self._definitions = Definitions({}, {}, {}, {}) if bare else Definitions.shipped()
         self._texts: dict[str, str] = {}
         """Definition text of types that did not come from rosbags, which keeps no comments."""
         self._services: dict[str, ServiceType] = {}
@@ -221,7 +229,7 @@ class Messages:
             with self._lock:
                 from rosbags.typesys import Stores, get_typestore
 
-                self._store_ = self._store_ or get_typestore(Stores.ROS1_NOETIC)
+                self._store_ = self._store_ or get_typestore(Stores.EMPTY if self._is_bare else Stores.ROS1_NOETIC)
         return self._store_
 
     @property

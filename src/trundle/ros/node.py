@@ -121,6 +121,7 @@ class Node(NodeCalls, NodeLog):
         latch: bool = False,
         queue_size: int | None = 10,
         on_connect: Callable[[Publisher], None] | None = None,
+        foreign: tuple[str, str] | None = None,
     ) -> Publisher:
         """Publish a topic; a second call for the same topic returns the same publisher.
 
@@ -130,19 +131,23 @@ class Node(NodeCalls, NodeLog):
             latch: whether new subscribers get the last message.
             queue_size: how many messages wait for a subscriber that reads too slowly; None: any number.
             on_connect: called on the loop whenever a subscriber has connected.
+            foreign: (md5 sum, definition) of a type that need not be known here; messages are given as bytes.
 
         Raises:
             MessageError: no such type, or the topic is already published with another.
         """
         name = self.resolve(topic)
-        self.messages.md5(type_name)
+        if foreign is None:
+            self.messages.md5(type_name)
         with self._lock:
             there = self._publishers.get(name)
             if there is not None:
                 if there.type != type_name:
                     raise MessageError(f"{self.name} publishes {name} as {there.type}, not as {type_name}")
                 return there
-            publisher = Publisher(self, name, type_name, latch=latch, queue_size=queue_size, on_connect=on_connect)
+            publisher = Publisher(
+                self, name, type_name, latch=latch, queue_size=queue_size, on_connect=on_connect, foreign=foreign
+            )
             self._publishers[name] = publisher
         self._do(lambda: self._tell("registerPublisher", name, type_name, self.uri))
         return publisher

@@ -45,6 +45,7 @@ class Publisher:
         latch: bool,
         queue_size: int | None,
         on_connect: "Callable[[Publisher], None] | None",
+        foreign: tuple[str, str] | None = None,
     ) -> None:
         self.topic = topic
         self.type = type_name
@@ -52,6 +53,8 @@ class Publisher:
         self._node = node
         self._queue_size = queue_size
         self._on_connect = on_connect
+        self._foreign = foreign
+        """(md5 sum, definition) of a type that need not be known here."""
         self._links: dict[FrameProtocol, str] = {}
         """Connection → name of the subscribing node."""
         self._local: dict[LocalSubscriber, str] = {}
@@ -109,7 +112,17 @@ class Publisher:
     @property
     def md5sum(self) -> str:
         """What subscribers compare."""
-        return self._node.messages.md5(self.type)
+        return self._foreign[0] if self._foreign else self._node.messages.md5(self.type)
+
+    @property
+    def definition(self) -> str:
+        """The text of the type and of those it depends on."""
+        return self._foreign[1] if self._foreign else self._node.messages.definition(self.type)
+
+    @property
+    def caller(self) -> str:
+        """Name of the publishing node."""
+        return self._node.name
 
     def accept(self, link: FrameProtocol, header: dict[str, str]) -> None:
         """Take a subscriber's connection, or refuse it with the reason the original gives."""
@@ -133,7 +146,7 @@ class Publisher:
                 "type": self.type,
                 "md5sum": self.md5sum,
                 "latching": "1" if self.latch else "0",
-                "message_definition": self._node.messages.definition(self.type),
+                "message_definition": self.definition,
             }
         )
         self._links[link] = peer

@@ -4,7 +4,7 @@ import asyncio
 import contextlib
 import inspect
 from collections import deque
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from .errors import MessageError, RosError, WireError
@@ -109,9 +109,10 @@ class Subscription:
 
     def receive_bytes(self, data: bytes, publisher: "Publisher") -> None:
         """Take a message as bytes from a publisher of this process."""
-        definition = self._node.messages.definition(publisher.type) if self.is_raw else ""
+        definition = publisher.definition if self.is_raw else ""
         try:
-            self.take(data, publisher.type, publisher.md5sum, definition, latching=publisher.latch)
+            header = {"type": publisher.type, "md5sum": publisher.md5sum, "callerid": publisher.caller}
+            self.take(data, {**header, "message_definition": definition, "latching": str(int(publisher.latch))})
         except MessageError as error:
             self._node.log_error(f"a message on {self.topic} is not taken: {error}")
 
@@ -129,17 +130,25 @@ class Subscription:
         links = [link for link in self._links.values() if isinstance(link, FrameProtocol)]
         return [self.topic, [[id(link) % 2**31, link.bytes_received, -1, self.dropped, True] for link in links]]
 
-    def take(self, data: bytes, type_name: str, md5sum: str, definition: str, *, latching: bool = False) -> None:
-        """Take a message as bytes.
+    def take(self, data: bytes, header: Mapping[str, str]) -> None:
+        """Take a message as bytes, with what its publisher said when it connected.
 
         Raises:
             MessageError: the bytes are no such message.
         """
-        if self.is_raw:
-            raw = RawMessage(type=type_name, md5sum=md5sum, definition=definition, data=data, latching=latching)
-            self.receive(raw)
-        else:
+        if not self.is_raw:
             self.receive(self._node.messages.deserialize(data, self.type))
+            return
+        self.receive(
+            RawMessage(
+                type=header.get("type", ANY_TYPE),
+                md5sum=header.get("md5sum", ANY_TYPE),
+                definition=header.get("message_definition", ""),
+                data=data,
+                caller=header.get("callerid", ""),
+                latching=header.get("latching") == "1",
+            )
+        )
 
     # links
 
@@ -265,11 +274,8 @@ class _SubscriberLink(FrameProtocol):
             self.set_nodelay()
 
     def frame_received(self, data: bytes) -> None:
-        header = self.header or {}
-        type_name, md5sum = header.get("type", ANY_TYPE), header.get("md5sum", ANY_TYPE)
         try:
-            definition, latching = header.get("message_definition", ""), header.get("latching") == "1"
-            self._subscription.take(data, type_name, md5sum, definition, latching=latching)
+            self._subscription.take(data, self.header or {})
         except MessageError as error:
             raise WireError(str(error)) from None
 

@@ -1,0 +1,138 @@
+"""Record, play, describe and edit bags, as rosbag does."""
+
+import argparse
+import math
+from collections.abc import Callable
+from importlib import import_module
+
+from .graph import IntermixedParser, original_errors
+
+EXAMPLES = """
+  trundle bag record -O drive.bag /odom /tf /scan
+  trundle bag record -a -O drive.mcap
+  trundle bag info drive.bag
+  trundle bag play drive.bag --clock -r 2
+  trundle bag filter drive.bag odom.bag "topic == '/odom'"
+  trundle bag reindex drive.bag.active
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=IntermixedParser)
+    _configure_record(commands.add_parser("record", help="write the messages of topics into a bag"))
+    _configure_play(commands.add_parser("play", help="publish what bags hold"))
+    add = commands.add_parser("info", help="summarize bags")
+    add.add_argument("bags", nargs="+")
+    add.add_argument("-y", "--yaml", action="store_true", help="as YAML")
+    add.add_argument("-k", "--key", help="only this key of the YAML")
+    add.add_argument("--freq", action="store_true", help="with the median frequency of each topic")
+    add.set_defaults(run=_of("bag_info", "main"))
+    add = commands.add_parser("check", help="compare the types in a bag with those known here")
+    add.add_argument("bag")
+    add.set_defaults(run=_of("bag_info", "check"))
+    add = commands.add_parser("filter", help="copy the messages for which an expression is true")
+    add.add_argument("inbag")
+    add.add_argument("outbag")
+    add.add_argument("expression", help="Python of topic, m (the message) and t (its time)")
+    add.add_argument("-p", "--print", metavar="EXPR", help="print this Python for each message")
+    add.set_defaults(run=_of("bag_edit", "filter_bag"))
+    for name, help_ in (("compress", "compress bags"), ("decompress", "decompress bags")):
+        add = commands.add_parser(name, help=help_)
+        _configure_edit(add)
+        if name == "compress":
+            _configure_compression(add)
+        add.set_defaults(run=_of("bag_edit", name))
+    add = commands.add_parser("reindex", help="make bags readable whose recording was cut off")
+    _configure_edit(add)
+    add.set_defaults(run=_of("bag_edit", "reindex"))
+
+
+@original_errors
+def main(args: argparse.Namespace) -> int:
+    """Run the subcommand."""
+    return int(args.run(args))
+
+
+def _configure_record(add: argparse.ArgumentParser) -> None:
+    add.add_argument("topics", nargs="*", help="names; or regular expressions with -e")
+    add.add_argument("-a", "--all", action="store_true", help="every topic")
+    add.add_argument("-e", "--regex", action="store_true", help="topics are regular expressions")
+    add.add_argument("-x", "--exclude", default="", metavar="REGEX", help="topics to leave out of -a or -e")
+    add.add_argument("--node", help="whatever this node subscribes to")
+    name = add.add_mutually_exclusive_group()
+    name.add_argument("-o", "--output-prefix", metavar="PREFIX", help="the name begins so and ends with the date")
+    name.add_argument("-O", "--output-name", metavar="NAME", help="name of the file; one that ends in .mcap is MCAP")
+    add.add_argument("-q", "--quiet", action="store_true", help="say nothing")
+    add.add_argument("-l", "--limit", type=int, default=0, metavar="NUM", help="so many messages of each topic")
+    add.add_argument("--split", action="store_true", help="begin a new file at --size or --duration")
+    add.add_argument("--max-splits", type=int, default=0, metavar="N", help="keep the newest N files")
+    add.add_argument("--size", type=int, default=0, metavar="MB", help="largest file")
+    add.add_argument("--duration", type=_duration, default=0, metavar="TIME", help="longest file: 30, 5m or 2h")
+    add.add_argument("-b", "--buffsize", type=int, default=256, metavar="MB", help="messages waiting; 0: no limit")
+    add.add_argument("--chunksize", type=int, default=768, metavar="KB", help="how much is compressed at once")
+    add.add_argument("--tcpnodelay", action="store_true", help="ask publishers for small delays")
+    _configure_compression(add)
+    add.add_argument("--zstd", dest="compression", action="store_const", const="zstd", help="zstd compression (MCAP)")
+    add.set_defaults(run=_of("bag_record", "main"), compression="none")
+
+
+def _configure_play(add: argparse.ArgumentParser) -> None:
+    add.add_argument("bags", nargs="*", metavar="bag")
+    add.add_argument("--bags", dest="more_bags", nargs="+", default=[], metavar="BAG", help="bags, after --topics")
+    add.add_argument("-p", "--prefix", default="", help="put this before every topic")
+    add.add_argument("-q", "--quiet", action="store_true", help="say nothing")
+    add.add_argument("-i", "--immediate", action="store_true", help="without waiting between messages")
+    add.add_argument("--pause", action="store_true", help="start paused")
+    add.add_argument("--queue", type=int, default=100, metavar="SIZE", help="messages waiting for a slow subscriber")
+    add.add_argument("--clock", action="store_true", help="publish /clock")
+    add.add_argument("--hz", type=_positive, default=100.0, help="how often")
+    add.add_argument("-d", "--delay", type=float, default=0.2, metavar="SEC", help="wait after advertising")
+    add.add_argument("-r", "--rate", type=_positive, default=1.0, metavar="FACTOR", help="so much faster")
+    add.add_argument("-s", "--start", type=float, default=0.0, metavar="SEC", help="start so far into the bags")
+    add.add_argument("-u", "--duration", type=float, metavar="SEC", help="play only so long")
+    add.add_argument("--skip-empty", type=float, metavar="SEC", help="skip longer silences")
+    add.add_argument("-l", "--loop", action="store_true", help="again and again")
+    add.add_argument("-k", "--keep-alive", action="store_true", help="stay at the end, for latched topics")
+    add.add_argument("--topics", nargs="+", default=[], help="only these topics")
+    add.add_argument("--pause-topics", nargs="+", default=[], help="pause before messages of these topics")
+    add.add_argument("--wait-for-subscribers", action="store_true", help="wait until every topic has one")
+    add.set_defaults(run=_of("bag_play", "main"))
+
+
+def _configure_edit(add: argparse.ArgumentParser) -> None:
+    add.add_argument("bags", nargs="+", metavar="bag")
+    add.add_argument("--output-dir", metavar="DIR", help="write there; else beside, and the old one becomes .orig")
+    add.add_argument("-f", "--force", action="store_true", help="overwrite an .orig that is there")
+    add.add_argument("-q", "--quiet", action="store_true", help="say only what went wrong")
+
+
+def _configure_compression(add: argparse.ArgumentParser) -> None:
+    add.add_argument("-j", "--bz2", dest="compression", action="store_const", const="bz2", help="BZ2 compression")
+    add.add_argument("--lz4", dest="compression", action="store_const", const="lz4", help="LZ4 compression")
+    add.set_defaults(compression="bz2")
+
+
+def _duration(text: str) -> float:
+    """`30`, `5m`, `2h` in seconds."""
+    factor = {"s": 1.0, "m": 60.0, "h": 3600.0}.get(text[-1:])
+    return _positive(text[:-1] if factor else text) * (factor or 1.0)
+
+
+def _positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not (value > 0 and math.isfinite(value)):
+        raise argparse.ArgumentTypeError(f"a number greater than zero is needed, got {text!r}")
+    return value
+
+
+def _of(module: str, name: str) -> Callable[[argparse.Namespace], int]:
+    """The function that does the work, from a module that is imported when it runs."""
+
+    def run(args: argparse.Namespace) -> int:
+        return getattr(import_module(f".{module}", __package__), name)(args)
+
+    return run

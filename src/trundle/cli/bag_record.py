@@ -1,0 +1,91 @@
+"""`trundle bag record`: writes what topics carry until told to stop."""
+
+import argparse
+import re
+import signal
+import time
+from collections.abc import Generator
+from contextlib import contextmanager
+from pathlib import Path
+
+from trundle.diagnostics import UsageError
+from trundle.names import parse_arguments
+from trundle.ros import BagError, Recorder, RecordOptions, follow_time
+
+from .graph import running_node
+
+
+def main(args: argparse.Namespace) -> int:
+    """Record until a limit is reached, Ctrl-C or SIGTERM; the bag is closed and readable after each of them."""
+    words = parse_arguments(args.topics)
+    options = _options(args, words.rest)
+    with _terminated_as_interrupted(), running_node("record", words) as (loop, node):
+        loop.run(follow_time(node), None)
+        recorder = Recorder(node, options, say=(lambda _: None) if args.quiet else _say)
+        recorder.start()
+        try:
+            while not recorder.done.wait(0.5):
+                pass
+        finally:
+            with _uninterrupted():
+                recorder.stop()
+        if recorder.error is not None:
+            raise BagError(f"recording broke off: {recorder.error}")
+    return 0
+
+
+def _options(args: argparse.Namespace, topics: tuple[str, ...]) -> RecordOptions:
+    if not topics and not args.all and not args.node:
+        raise UsageError("You must specify a topic name or else use the '-a' option.")
+    if args.split and not (args.size or args.duration):
+        raise UsageError("Split specified without giving a maximum duration or size")
+    for pattern in (*(topics if args.regex else ()), args.exclude):
+        try:
+            re.compile(pattern)
+        except re.error as error:
+            raise UsageError(f"not a regular expression: {pattern!r}: {error}") from None
+    return RecordOptions(
+        topics=topics,
+        is_regex=args.regex,
+        all_topics=args.all,
+        exclude=args.exclude,
+        of_node=args.node,
+        path=Path(args.output_name) if args.output_name else None,
+        prefix=args.output_prefix or "",
+        suffix=".mcap" if args.compression == "zstd" else ".bag",
+        compression=args.compression,
+        chunk_bytes=args.chunksize * 1024,
+        buffer_bytes=args.buffsize * 1024 * 1024,
+        limit=args.limit,
+        splits=args.split,
+        max_bytes=args.size * 1024 * 1024,
+        max_ns=round(args.duration * 1e9),
+        max_splits=args.max_splits,
+        tcp_nodelay=args.tcpnodelay,
+    )
+
+
+def _say(text: str) -> None:
+    """As roscpp's console does."""
+    print(f"[ INFO] [{time.time():.9f}]: {text}", flush=True)
+
+
+@contextmanager
+def _terminated_as_interrupted() -> Generator[None]:
+    """Let SIGTERM end the recording as Ctrl-C does."""
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+@contextmanager
+def _uninterrupted() -> Generator[None]:
+    """Hold signals off while a bag is closed: an impatient second Ctrl-C must not cost its index."""
+    before = {number: signal.signal(number, signal.SIG_IGN) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -1,0 +1,73 @@
+"""Opens bags by what they are, makes them by what they are called, and saves those that were cut off."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from .bag import BagError, BagMessage, BagReader, BagWriter
+
+_MCAP_MAGIC = b"\x89MCAP0\r\n"
+_OLD_MAGIC = b"#ROSRECORD"
+
+
+def open_bag(path: Path) -> BagReader:
+    """Open a .bag or .mcap file for reading.
+
+    Raises:
+        UnindexedBagError: its recording was cut off.
+        BagError: it is neither, or damaged.
+    """
+    if _is_mcap(path):
+        from .mcap import McapReader
+
+        return McapReader(path)
+    from .ros1 import Ros1Reader
+
+    return Ros1Reader(path)
+
+
+def create_bag(path: Path, *, compression: str = "none", chunk_bytes: int = 768 * 1024) -> BagWriter:
+    """Make a new bag: MCAP if its name has `.mcap` in it, else a ROS 1 bag.
+
+    Args:
+        path: a file that is not there yet.
+        compression: none, bz2 (.bag only), lz4, or zstd (.mcap only).
+        chunk_bytes: how much is compressed as one and written at once.
+
+    Raises:
+        BagError: the file is there, cannot be written, or does not know the compression.
+    """
+    if ".mcap" in path.suffixes:
+        from .mcap import McapWriter
+
+        return McapWriter(path, compression=compression, chunk_bytes=chunk_bytes)
+    if compression not in ("none", "bz2", "lz4"):
+        raise BagError(f"ROS 1 bags know no {compression} compression; they know bz2 and lz4")
+    from .ros1 import Ros1Writer
+
+    return Ros1Writer(path, compression=compression, chunk_bytes=chunk_bytes)
+
+
+def recovered(path: Path) -> Iterator[BagMessage]:
+    """Yield every whole message of a bag with or without an index, as they lie in the file.
+
+    Raises:
+        BagError: this is no bag.
+    """
+    if _is_mcap(path):
+        from .mcap import scan_mcap
+
+        return scan_mcap(path)
+    from .scan import scan_bag
+
+    return scan_bag(path)
+
+
+def _is_mcap(path: Path) -> bool:
+    try:
+        with path.open("rb") as file:
+            start = file.read(len(_OLD_MAGIC))
+    except OSError as error:
+        raise BagError(f"bag file [{path}] cannot be read: {error.strerror}") from None
+    if start.startswith(_OLD_MAGIC):
+        raise BagError(f"{path} is a bag of format 1.x (before 2010); rosbag fix of ROS 1 makes a 2.0 one of it")
+    return start.startswith(_MCAP_MAGIC)

@@ -1,0 +1,201 @@
+"""ROS 1 messages in MCAP files (profile `ros1`), by the library mcap: https://mcap.dev/spec/registry."""
+
+import os
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Self
+
+from mcap.exceptions import McapError
+from mcap.reader import SeekingReader
+from mcap.records import Channel, Message, Schema
+from mcap.stream_reader import StreamReader
+from mcap.writer import CompressionType, Writer
+
+from ..messages import Messages
+from .bag import BagConnection, BagError, BagMessage, Chunk, UnindexedBagError, Wanted
+
+_MAGIC = b"\x89MCAP0\r\n"
+"""What a file begins and, if its recording was not cut off, ends with."""
+_LARGEST = 2**30
+"""[bytes]; a record that says it is longer is not read."""
+
+
+class McapReader:
+    """Reads an .mcap file with an index."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.version = "mcap"
+        self._file = path.open("rb")
+        try:
+            self._open()
+        except BaseException:
+            self._file.close()
+            raise
+
+    def _open(self) -> None:
+        self._file.seek(-min(len(_MAGIC), self.path.stat().st_size), os.SEEK_END)
+        if self._file.read() != _MAGIC:
+            raise UnindexedBagError(self.path)
+        self._file.seek(0)
+        with _told(self.path):
+            self._reader = SeekingReader(self._file, record_size_limit=_LARGEST)
+            summary = self._reader.get_summary()
+        if summary is None or summary.statistics is None:
+            raise UnindexedBagError(self.path)
+        self._by_id = {
+            id_: _connection(self.path, channel, summary.schemas.get(channel.schema_id))
+            for id_, channel in summary.channels.items()
+        }
+        self.connections = list(self._by_id.values())
+        statistics = summary.statistics
+        self.counts = [statistics.channel_message_counts.get(id_, 0) for id_ in self._by_id]
+        self.start_ns, self.end_ns = statistics.message_start_time, statistics.message_end_time
+        self.chunks: list[Chunk] = [
+            Chunk(compression=c.compression or "none", size=c.uncompressed_size, compressed=c.compressed_size)
+            for c in summary.chunk_indexes
+        ]
+
+    def messages(
+        self, wanted: Wanted | None = None, *, start_ns: int | None = None, end_ns: int | None = None
+    ) -> Iterator[BagMessage]:
+        """See `BagReader`."""
+        stop = None if end_ns is None else end_ns + 1
+        with _told(self.path):
+            for _, channel, message in self._reader.iter_messages(starting_at=start_ns, ending_before=stop):
+                connection = self._by_id[channel.id]
+                if wanted is None or wanted(connection):
+                    yield BagMessage(connection, message.log_time, message.data)
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+class McapWriter:
+    """Writes an .mcap file."""
+
+    def __init__(self, path: Path, *, compression: str = "none", chunk_bytes: int = 768 * 1024) -> None:
+        kind = {"none": CompressionType.NONE, "lz4": CompressionType.LZ4, "zstd": CompressionType.ZSTD}.get(compression)
+        if kind is None:
+            raise BagError(f"MCAP files know no {compression} compression; they know lz4 and zstd")
+        try:
+            self._file = path.open("xb")
+        except OSError as error:
+            raise BagError(f"{path} cannot be written: {error.strerror}") from None
+        self._writer = Writer(self._file, chunk_size=chunk_bytes, compression=kind)
+        self._writer.start(profile="ros1", library="trundle")
+        self._schemas: dict[tuple[str, str], int] = {}
+        self._channels: dict[BagConnection, int] = {}
+        self._waiting = 0
+
+    def write(self, message: BagMessage) -> None:
+        """Add a message."""
+        channel = self._channels.get(message.connection) or self._add(message.connection)
+        self._writer.add_message(channel, message.stamp_ns, message.data, message.stamp_ns)
+        self._waiting += len(message.data)
+
+    def flush(self) -> None:
+        """Hand everything so far to the operating system."""
+        self._writer.flush()
+        self._waiting = 0
+
+    @property
+    def size(self) -> int:
+        """About the file's size [bytes]."""
+        return self._file.tell() + self._waiting
+
+    def close(self) -> None:
+        """Write the index and close the file."""
+        self._writer.finish()
+        self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _add(self, connection: BagConnection) -> int:
+        key = (connection.type, connection.definition)
+        if key not in self._schemas:
+            self._schemas[key] = self._writer.register_schema(
+                connection.type, "ros1msg", connection.definition.encode()
+            )
+        self._channels[connection] = self._writer.register_channel(
+            connection.topic,
+            "ros1",
+            self._schemas[key],
+            {
+                "md5sum": connection.md5sum,
+                "callerid": connection.caller,
+                "latching": str(int(connection.latching)),
+            },
+        )
+        return self._channels[connection]
+
+
+def scan_mcap(path: Path) -> Iterator[BagMessage]:
+    """Yield every message that is whole, of a file that may end anywhere.
+
+    Raises:
+        BagError: this is no MCAP file of ROS 1 messages.
+    """
+    schemas: dict[int, Schema] = {}
+    connections: dict[int, BagConnection] = {}
+    with path.open("rb") as file:
+        try:
+            for record in StreamReader(file, record_size_limit=_LARGEST).records:
+                if isinstance(record, Schema):
+                    schemas[record.id] = record
+                elif isinstance(record, Channel) and record.id not in connections:
+                    connections[record.id] = _connection(path, record, schemas.get(record.schema_id))
+                elif isinstance(record, Message):
+                    yield BagMessage(connections[record.channel_id], record.log_time, record.data)
+        except BagError:
+            raise
+        except Exception:  # cut off, or arbitrary bytes
+            return
+
+
+def _connection(path: Path, channel: Channel, schema: Schema | None) -> BagConnection:
+    if channel.message_encoding != "ros1" or schema is None or schema.encoding != "ros1msg":
+        raise BagError(
+            f"{path}: {channel.topic} carries {channel.message_encoding} messages; ROS 1 messages (ros1) are read here"
+        )
+    type_name, definition = schema.name, schema.data.decode("utf-8", "replace")
+    md5sum = channel.metadata.get("md5sum", "")
+    if not md5sum:  # optional in MCAP, but what peers compare
+        messages = Messages()
+        messages.add_definition(type_name, definition)
+        md5sum = messages.md5(type_name)
+    return BagConnection(
+        topic=channel.topic,
+        type=type_name,
+        md5sum=md5sum,
+        definition=definition,
+        caller=channel.metadata.get("callerid", ""),
+        latching=channel.metadata.get("latching") in ("1", "true"),
+    )
+
+
+@contextmanager
+def _told(path: Path) -> Generator[None]:
+    """Turn whatever the library makes of a damaged file into one sentence."""
+    try:
+        yield
+    except BagError:
+        raise
+    except McapError as error:
+        raise BagError(f"{path} cannot be read: {error}") from None
+    except Exception as error:  # the library meets arbitrary bytes here
+        raise BagError(
+            f"{path} is damaged: {error or type(error).__name__}; trundle bag reindex saves what is whole"
+        ) from None

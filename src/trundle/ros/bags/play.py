@@ -1,0 +1,166 @@
+"""Publishes what bags hold, at the pace it was recorded."""
+
+import heapq
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+
+from trundle.names import join_names
+
+from ..node import Node
+from ..publisher import Publisher
+from .bag import BagConnection, BagMessage, BagReader
+
+_NAP_S = 0.05
+"""How long pausing or a key press may go unnoticed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlayOptions:
+    """What to play, and how."""
+
+    rate: float = 1.0
+    start_s: float = 0.0
+    """[s] into the bags."""
+    duration_s: float | None = None
+    topics: frozenset[str] = frozenset()
+    """Only these; empty: all."""
+    pause_topics: frozenset[str] = frozenset()
+    """Pause before each message of these."""
+    prefix: str = ""
+    clock_hz: float | None = None
+    """Publish /clock at this rate of the wall's time."""
+    immediate: bool = False
+    queue_size: int = 100
+    skip_empty_s: float | None = None
+    """Longer silences are skipped [s]."""
+
+
+class Player:
+    """Plays some bags at once, by their common time."""
+
+    def __init__(self, node: Node, bags: Sequence[BagReader], options: PlayOptions) -> None:
+        self._node = node
+        self._bags = bags
+        self._options = options
+        self._publishers: dict[BagConnection, Publisher] = {}
+        self._clock: Publisher | None = None
+        self.is_paused = False
+        self.steps = 0
+        """Messages to let through although it is paused."""
+        self.played = 0
+        self.now_ns = 0
+        """Time in the bags [ns]."""
+        first = min((bag.start_ns for bag in bags if any(bag.counts)), default=0)
+        last = max((bag.end_ns for bag in bags), default=0)
+        self.start_ns = first + round(options.start_s * 1e9)
+        self.end_ns = last if options.duration_s is None else self.start_ns + round(options.duration_s * 1e9)
+
+    def advertise(self) -> list[Publisher]:
+        """Publish every topic wanted; latched ones latched."""
+        if self._options.clock_hz is not None:
+            self._clock = self._node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=1)
+        latched = {c.topic for bag in self._bags for c in bag.connections if c.latching}
+        for connection in (c for bag in self._bags for c in bag.connections):
+            if self._wants(connection):
+                self._publishers[connection] = self._node.advertise(
+                    join_names(self._options.prefix, connection.topic.lstrip("/"))
+                    if self._options.prefix
+                    else connection.topic,
+                    connection.type,
+                    latch=connection.topic in latched,
+                    queue_size=self._options.queue_size,
+                    foreign=(connection.md5sum, connection.definition),
+                )
+        return list(dict.fromkeys(self._publishers.values()))
+
+    def play(self, attend: Callable[[], None]) -> None:
+        """Publish everything once.
+
+        Args:
+            attend: called again and again, between messages and while waiting; may set `is_paused` and `steps`.
+        """
+        pace = _Pace(self._options.rate, self.start_ns)
+        clock_due_s = 0.0
+        previous_ns = self.start_ns
+        for message in self._messages():
+            if message.connection.topic in self._options.pause_topics:
+                self.is_paused = True
+            if (
+                self._options.skip_empty_s is not None
+                and message.stamp_ns - previous_ns > self._options.skip_empty_s * 1e9
+            ):
+                pace.skip(message.stamp_ns - previous_ns)
+            previous_ns = message.stamp_ns
+            while True:
+                attend()
+                if self.is_paused and self.steps == 0:
+                    time.sleep(_NAP_S)
+                    pace.hold()
+                    continue
+                wait_s = 0.0 if self._options.immediate or self.is_paused else pace.wait_s(message.stamp_ns)
+                if wait_s <= 0.0:
+                    break
+                self.now_ns = pace.now_ns()
+                if self._clock is not None and time.monotonic() >= clock_due_s:
+                    clock_due_s = self._tick(self.now_ns)
+                time.sleep(min(wait_s, _NAP_S, max(0.0, clock_due_s - time.monotonic()) or _NAP_S))
+            self.steps -= self.is_paused
+            self.now_ns = message.stamp_ns
+            if self.is_paused:
+                pace.jump(message.stamp_ns)
+            if self._clock is not None and (
+                self._options.immediate or self.is_paused or time.monotonic() >= clock_due_s
+            ):
+                clock_due_s = self._tick(message.stamp_ns)
+            self._publishers[message.connection].publish(message.data)
+            self.played += 1
+
+    def _tick(self, ns: int) -> float:
+        """Publish the time; returns when to do it again."""
+        assert self._clock is not None
+        assert self._options.clock_hz is not None
+        self._clock.publish({"clock": ns})
+        return time.monotonic() + 1.0 / self._options.clock_hz
+
+    def _messages(self) -> Iterator[BagMessage]:
+        streams = [bag.messages(self._wants, start_ns=self.start_ns, end_ns=self.end_ns) for bag in self._bags]
+        with ExitStack() as stack:
+            for stream in streams:
+                stack.callback(getattr(stream, "close", lambda: None))
+            yield from heapq.merge(*streams, key=lambda message: message.stamp_ns)
+
+    def _wants(self, connection: BagConnection) -> bool:
+        return not self._options.topics or connection.topic in self._options.topics
+
+
+class _Pace:
+    """Which bag time it is, by the wall's clock."""
+
+    def __init__(self, rate: float, start_ns: int) -> None:
+        self._rate = rate
+        self._bag_ns = start_ns
+        self._wall_s = time.monotonic()
+        self._now_ns = start_ns
+
+    def now_ns(self) -> int:
+        """Bag time [ns]."""
+        self._now_ns = self._bag_ns + round((time.monotonic() - self._wall_s) * self._rate * 1e9)
+        return self._now_ns
+
+    def wait_s(self, stamp_ns: int) -> float:
+        """How long until a bag time [s], of the wall's."""
+        return (stamp_ns - self.now_ns()) / 1e9 / self._rate
+
+    def hold(self) -> None:
+        """Let no bag time have passed since it was last asked for."""
+        self.jump(self._now_ns)
+
+    def jump(self, ns: int) -> None:
+        """Make it this bag time."""
+        self._bag_ns, self._wall_s, self._now_ns = ns, time.monotonic(), ns
+
+    def skip(self, ns: int) -> None:
+        """Leave out a silence."""
+        self._bag_ns += ns

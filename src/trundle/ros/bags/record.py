@@ -1,0 +1,273 @@
+"""Records topics of a running graph into bags."""
+
+import asyncio
+import contextlib
+import re
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..clock import Clock, WallClock
+from ..errors import RosError
+from ..messages import RawMessage
+from ..node import Node
+from ..rpc_client import call_value
+from ..subscription import Subscription
+from ..xmlrpc import FaultError
+from .bag import BagConnection, BagMessage, BagWriter
+from .files import create_bag
+
+_FLUSH_S = 1.0
+"""What SIGKILL can cost at most."""
+_POLL_S = 0.5
+"""How often the master is asked for new topics."""
+_FULL_S = 5.0
+"""Between two warnings that messages come faster than they can be written."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordOptions:
+    """What to record, and into which files."""
+
+    topics: tuple[str, ...] = ()
+    """Names, or regular expressions."""
+    is_regex: bool = False
+    all_topics: bool = False
+    exclude: str = ""
+    """Regular expression of topics to leave out."""
+    of_node: str | None = None
+    """Record whatever this node subscribes to."""
+    path: Path | None = None
+    """File to write; made from `prefix` and the date if None."""
+    prefix: str = ""
+    suffix: str = ".bag"
+    compression: str = "none"
+    chunk_bytes: int = 768 * 1024
+    buffer_bytes: int = 256 * 1024 * 1024
+    """Messages waiting to be written; the oldest go if there are more. 0: no limit."""
+    limit: int = 0
+    """Messages of each topic after which recording it ends; 0: none."""
+    splits: bool = False
+    max_bytes: int = 0
+    max_ns: int = 0
+    """When to start the next file if it splits, else when to stop; 0: never."""
+    max_splits: int = 0
+    """Files to keep; 0: all."""
+    tcp_nodelay: bool = False
+
+
+class Recorder:
+    """Subscribes to topics as they come and writes what it hears, in a thread of its own."""
+
+    def __init__(self, node: Node, options: RecordOptions, *, say: Callable[[str], None]) -> None:
+        """Make a recorder; `say` is told what it does, in the original's words."""
+        self._node = node
+        self._options = options
+        self._say = say
+        self._wanted = [re.compile(topic) for topic in options.topics] if options.is_regex else []
+        self._excluded = re.compile(options.exclude) if options.exclude else None
+        self._subscriptions: dict[str, Subscription] = {}
+        self._left: dict[str, int] = {}
+        self._connections: dict[tuple[str, str, str, bool], BagConnection] = {}
+        self._queue: deque[BagMessage] = deque()
+        self._queued_bytes = 0
+        self._wake = threading.Condition()
+        self._warned = 0.0
+        self._is_ending = False
+        self._files: list[Path] = []
+        self._names = 0
+        self._thread = threading.Thread(target=self._write_all, name="trundle-record", daemon=True)
+        self.error: str | None = None
+        """Why recording broke off, if it did."""
+        self.done = threading.Event()
+        """Set when a limit is reached, or writing failed."""
+        self.recorded = 0
+        self.dropped = 0
+
+    @property
+    def files(self) -> list[Path]:
+        """What was written, complete and closed."""
+        return list(self._files)
+
+    @property
+    def clock(self) -> Clock:
+        """ROS time."""
+        return self._node.clock
+
+    def start(self) -> None:
+        """Open the first file and subscribe."""
+        self._writer = self._open()
+        self._thread.start()
+        options = self._options
+        if not (options.is_regex or options.all_topics or options.of_node):
+            for topic in options.topics:
+                self._subscribe(self._node.resolve(topic))
+        else:
+            self._node.loop.spawn(self._follow())
+
+    def stop(self) -> None:
+        """Write what is queued and close the file; the result can be read."""
+        for subscription in self._subscriptions.values():
+            subscription.unregister()
+        with self._wake:
+            self._is_ending = True
+            self._wake.notify()
+        if self._thread.is_alive():
+            self._thread.join()
+
+    # on the loop
+
+    async def _follow(self) -> None:
+        """Subscribe to what is published, or what the node subscribes to, as it comes."""
+        while not self._node.is_shut_down:
+            with contextlib.suppress(RosError, OSError, FaultError):
+                for topic in await self._topics():
+                    if self._wants(topic):
+                        self._subscribe(topic)
+            await asyncio.sleep(_POLL_S)
+
+    async def _topics(self) -> list[str]:
+        node = self._options.of_node
+        if node is not None:
+            uri = await self._node.ask("lookupNode", self._node.resolve(node))
+            return [topic for topic, _ in await call_value(uri, "getSubscriptions", self._node.name)]
+        return [topic for topic, _ in await self._node.ask("getPublishedTopics", "")]
+
+    def _wants(self, topic: str) -> bool:
+        if topic in self._subscriptions or (self._excluded is not None and self._excluded.fullmatch(topic)):
+            return False
+        if self._options.all_topics or self._options.of_node is not None:
+            return True
+        return any(pattern.fullmatch(topic) for pattern in self._wanted)
+
+    def _subscribe(self, topic: str) -> None:
+        if topic in self._subscriptions:
+            return
+        self._say(f"Subscribing to {topic}")
+        self._left[topic] = self._options.limit
+        self._subscriptions[topic] = self._node.subscribe(
+            topic,
+            "*",
+            lambda message: self._take(topic, message),
+            queue_size=None,
+            tcp_nodelay=self._options.tcp_nodelay,
+            on_loop=True,
+        )
+
+    def _take(self, topic: str, message: RawMessage) -> None:
+        stamp_ns = self.clock.now_ns()
+        if stamp_ns == 0 or self.done.is_set():  # simulated time has not begun; or a limit is reached
+            return
+        if "/" not in message.type or not message.md5sum:  # a publisher that does not say what it publishes
+            self.dropped += 1
+            return
+        key = (topic, message.md5sum, message.caller, message.latching)
+        connection = self._connections.get(key)
+        if connection is None:
+            connection = self._connections[key] = BagConnection(
+                topic=topic,
+                type=message.type,
+                md5sum=message.md5sum,
+                definition=message.definition,
+                caller=message.caller,
+                latching=message.latching,
+            )
+        with self._wake:
+            self._queue.append(BagMessage(connection, stamp_ns, message.data))
+            self._queued_bytes += len(message.data)
+            while 0 < self._options.buffer_bytes < self._queued_bytes:
+                self._queued_bytes -= len(self._queue.popleft().data)
+                self.dropped += 1
+                self._warn_of_drops()
+            self._wake.notify()
+        if self._options.limit:
+            self._count_down(topic)
+
+    def _count_down(self, topic: str) -> None:
+        self._left[topic] -= 1
+        if self._left[topic] == 0:
+            self._subscriptions[topic].unregister()
+            if not any(self._left.values()):
+                self.done.set()
+
+    def _warn_of_drops(self) -> None:
+        if time.monotonic() - self._warned > _FULL_S:
+            self._warned = time.monotonic()
+            self._node.log_warn("rosbag record buffer exceeded.  Dropping oldest queued message.")
+
+    # in the writing thread
+
+    def _write_all(self) -> None:
+        try:
+            self._write_until_the_end()
+        except (OSError, RosError) as error:
+            self.error = str(error)
+            self.done.set()
+        finally:
+            with contextlib.suppress(OSError):
+                self._close()
+
+    def _write_until_the_end(self) -> None:
+        flushed = time.monotonic()
+        while True:
+            with self._wake:
+                self._wake.wait_for(lambda: self._queue or self._is_ending, timeout=_FLUSH_S)
+                batch, self._queue = self._queue, deque()
+                self._queued_bytes = 0
+                is_last = self._is_ending
+            for message in batch:
+                self._next_file_if_due(message.stamp_ns)
+                if self.done.is_set() and not self._options.limit:
+                    return
+                if self._first_ns is None:
+                    self._first_ns = message.stamp_ns
+                self._writer.write(message)
+                self.recorded += 1
+            if time.monotonic() - flushed >= _FLUSH_S:
+                self._writer.flush()
+                flushed = time.monotonic()
+            if is_last:
+                return
+
+    def _next_file_if_due(self, stamp_ns: int) -> None:
+        options = self._options
+        is_long = options.max_ns and self._first_ns is not None and stamp_ns - self._first_ns > options.max_ns
+        is_large = options.max_bytes and self._writer.size > options.max_bytes
+        if not (is_long or is_large):
+            return
+        if not options.splits:
+            self.done.set()
+            return
+        self._close()
+        while options.max_splits and len(self._files) >= options.max_splits:
+            self._files.pop(0).unlink(missing_ok=True)
+        self._writer = self._open()
+
+    def _open(self) -> BagWriter:
+        self._first_ns: int | None = None
+        self._path = self._name()
+        self._active = self._path.with_name(f"{self._path.name}.active")
+        self._active.unlink(missing_ok=True)
+        writer = create_bag(self._active, compression=self._options.compression, chunk_bytes=self._options.chunk_bytes)
+        self._say(f"Recording to '{self._path}'.")
+        return writer
+
+    def _close(self) -> None:
+        self._writer.close()
+        self._active.replace(self._path)
+        self._files.append(self._path)
+
+    def _name(self) -> Path:
+        """As the original: NAME.bag or PREFIX_date.bag, with a number if there are several."""
+        options = self._options
+        number = f"_{self._names}" if options.splits else ""
+        self._names += 1
+        if options.path is not None:
+            suffix = options.path.suffix if options.path.suffix in (".bag", ".mcap") else ""
+            stem = str(options.path)[: len(str(options.path)) - len(suffix)]
+            return Path(f"{stem}{number}{suffix or options.suffix}")
+        date = time.strftime("%Y-%m-%d-%H-%M-%S", time.localtime(WallClock().now_ns() / 1e9))
+        return Path("_".join(part for part in (options.prefix, date) if part) + number + options.suffix)

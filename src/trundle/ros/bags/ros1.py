@@ -1,0 +1,162 @@
+"""ROS 1 bags (format 2.0), by the library rosbags."""
+
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Self, cast
+
+import lz4.frame
+from rosbags.rosbag1 import Reader, ReaderError, Writer, WriterError
+from rosbags.rosbag1.writer import WriteChunk
+
+from .bag import BagConnection, BagError, BagMessage, Chunk, UnindexedBagError, Wanted
+from .scan import chunk_at
+
+
+class Ros1Reader:
+    """Reads a .bag file with an index."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.version = "2.0"
+        self._reader = Reader(path)
+        with _told(path):
+            self._reader.open()
+        self._by_id = {c.id: _connection(c) for c in self._reader.connections}
+        self.connections = list(self._by_id.values())
+        self.counts = [int(c.msgcount) for c in self._reader.connections]
+        infos = self._reader.chunk_infos
+        self.start_ns = min((info.start_time for info in infos if info.connection_counts), default=0)
+        self.end_ns = max((info.end_time - 1 for info in infos if info.connection_counts), default=0)
+        with path.open("rb") as file:
+            self.chunks: list[Chunk] = [chunk_at(file, info.pos) for info in infos]
+
+    def messages(
+        self, wanted: Wanted | None = None, *, start_ns: int | None = None, end_ns: int | None = None
+    ) -> Iterator[BagMessage]:
+        """See `BagReader`."""
+        chosen = [c for c in self._reader.connections if wanted is None or wanted(self._by_id[c.id])]
+        if not chosen:
+            return
+        stop = None if end_ns is None else end_ns + 1
+        with _told(self.path):
+            for connection, stamp_ns, data in self._reader.messages(chosen, start_ns, stop):
+                yield BagMessage(self._by_id[connection.id], stamp_ns, data)
+
+    def close(self) -> None:
+        """Close the file."""
+        self._reader.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+class Ros1Writer:
+    """Writes a .bag file."""
+
+    def __init__(self, path: Path, *, compression: str = "none", chunk_bytes: int = 768 * 1024) -> None:
+        self._writer = _FlushingWriter(path)
+        self._writer.chunk_threshold = chunk_bytes
+        if compression != "none":
+            self._writer.set_compression(Writer.CompressionFormat[compression.upper()])
+        if compression == "lz4":
+            self._writer.compressor = _lz4
+        try:
+            self._writer.open()
+        except (WriterError, OSError) as error:
+            raise BagError(f"{path} cannot be written: {error}") from None
+        self._connections: dict[BagConnection, Any] = {}
+
+    def write(self, message: BagMessage) -> None:
+        """Add a message."""
+        connection = self._connections.get(message.connection) or self._add(message.connection)
+        self._writer.write(connection, message.stamp_ns, message.data)
+
+    def flush(self) -> None:
+        """Hand everything so far to the operating system."""
+        self._writer.flush()
+
+    @property
+    def size(self) -> int:
+        """About the file's size [bytes]."""
+        return self._writer.size
+
+    def close(self) -> None:
+        """Write the index and close the file."""
+        self._writer.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _add(self, connection: BagConnection) -> Any:
+        self._connections[connection] = self._writer.add_connection(
+            connection.topic,
+            connection.type.replace("/", "/msg/", 1),
+            msgdef=connection.definition,
+            md5sum=connection.md5sum,
+            callerid=connection.caller or None,
+            latching=int(connection.latching),
+        )
+        return self._connections[connection]
+
+
+def _lz4(data: bytes) -> bytes:
+    """Compress as roslz4 can read: it knows neither linked blocks nor a frame that tells its size."""
+    return bytes(lz4.frame.compress(data, block_linked=False, content_checksum=True, store_size=False))
+
+
+class _FlushingWriter(Writer):
+    """The library's writer, which can also let go of what it has: on disk, and of the index in memory."""
+
+    def write_chunk(self, chunk: WriteChunk) -> None:
+        """Write a chunk, then keep of its index only the counts, which are all that closing needs."""
+        super().write_chunk(chunk)
+        if chunk.pos != -1:
+            counts = {id_: cast("list[tuple[int, int]]", range(len(items))) for id_, items in chunk.connections.items()}
+            chunk.connections = counts
+
+    def flush(self) -> None:
+        """Close the chunk at hand."""
+        assert self.bio is not None
+        self.write_chunk(self.chunks[-1])
+        self.bio.flush()
+
+    @property
+    def size(self) -> int:
+        """Bytes written and waiting."""
+        assert self.bio is not None
+        return self.bio.tell() + self.chunks[-1].data.tell()
+
+
+def _connection(connection: Any) -> BagConnection:
+    return BagConnection(
+        topic=connection.topic,
+        type=connection.msgtype.replace("/msg/", "/", 1),
+        md5sum=connection.digest,
+        definition=connection.msgdef.data,
+        caller=connection.ext.callerid or "",
+        latching=bool(connection.ext.latching),
+    )
+
+
+@contextmanager
+def _told(path: Path) -> Generator[None]:
+    """Turn whatever the library makes of a damaged file into one sentence."""
+    try:
+        yield
+    except ReaderError as error:
+        if "not indexed" in str(error):
+            raise UnindexedBagError(path) from None
+        raise BagError(f"{path} cannot be read: {error}") from None
+    except BagError:
+        raise
+    except Exception as error:  # the library meets arbitrary bytes here
+        raise BagError(
+            f"{path} is damaged: {error or type(error).__name__}; trundle bag reindex saves what is whole"
+        ) from None

@@ -1,0 +1,160 @@
+"""The records of a .bag file as they lie, index or not: http://wiki.ros.org/Bags/Format/2.0."""
+
+import bz2
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+import lz4.frame
+
+from .bag import BagConnection, BagError, BagMessage, Chunk
+
+_MAGIC = b"#ROSBAG V2.0\n"
+_MESSAGE, _CHUNK, _CONNECTION = 2, 5, 7
+_LENGTH = struct.Struct("<I")
+
+
+class _CutOffError(Exception):
+    """The file ends, or stops to make sense, within a record."""
+
+
+def scan_bag(path: Path) -> Iterator[BagMessage]:
+    """Yield every message that is whole, as it lies, of a bag that may end anywhere.
+
+    Raises:
+        BagError: this is no bag.
+    """
+    connections: dict[int, BagConnection] = {}
+    with path.open("rb") as file:
+        if file.read(len(_MAGIC)) != _MAGIC:
+            raise BagError(f"{path} is no ROS 1 bag of format 2.0")
+        try:
+            while head := _head(file):
+                fields, size = head
+                if _operation(fields) == _CHUNK:
+                    yield from _chunk(fields, file, size, connections)
+                else:
+                    yield from _record(fields, _exactly(file, size), connections)
+        except _CutOffError:
+            return
+
+
+def _chunk(
+    fields: dict[str, bytes], file: BinaryIO, size: int, connections: dict[int, BagConnection]
+) -> Iterator[BagMessage]:
+    data = file.read(size)
+    inner = _Bytes(_decompressed(fields.get("compression", b"none").decode("ascii", "replace"), data))
+    while head := _head(inner):
+        yield from _record(head[0], _exactly(inner, head[1]), connections)
+    if len(data) != size:
+        raise _CutOffError
+
+
+def _record(fields: dict[str, bytes], data: bytes, connections: dict[int, BagConnection]) -> Iterator[BagMessage]:
+    operation = _operation(fields)
+    try:
+        if operation == _CONNECTION:
+            (number,) = _LENGTH.unpack(fields["conn"])
+            connections.setdefault(number, _connection(fields["topic"], _fields(data)))
+        elif operation == _MESSAGE:
+            (number,) = _LENGTH.unpack(fields["conn"])
+            seconds, nanoseconds = struct.unpack("<II", fields["time"])
+            yield BagMessage(connections[number], seconds * 10**9 + nanoseconds, data)
+    except (KeyError, struct.error):
+        raise _CutOffError from None
+
+
+def chunk_at(file: BinaryIO, position: int) -> Chunk:
+    """Read how large the chunk at a place in a bag is.
+
+    Raises:
+        BagError: there is no chunk.
+    """
+    file.seek(position)
+    try:
+        head = _head(file)
+        if head is None:
+            raise _CutOffError
+        (size,) = _LENGTH.unpack(head[0]["size"])
+    except (_CutOffError, KeyError, struct.error):
+        raise BagError(f"no chunk at byte {position}; trundle bag reindex saves what is whole") from None
+    return Chunk(compression=head[0]["compression"].decode("ascii", "replace"), size=size, compressed=head[1])
+
+
+class _Bytes:
+    """A chunk's content, read piece by piece."""
+
+    def __init__(self, data: bytes) -> None:
+        self._data = data
+        self._at = 0
+
+    def read(self, size: int) -> bytes:
+        """As a file does."""
+        piece = self._data[self._at : self._at + size]
+        self._at += len(piece)
+        return piece
+
+
+def _head(file: "BinaryIO | _Bytes") -> tuple[dict[str, bytes], int] | None:
+    """Read a record's header and the size of its data; None at the end of the file."""
+    start = file.read(4)
+    if not start:
+        return None
+    if len(start) != 4:
+        raise _CutOffError
+    fields = _fields(_exactly(file, _LENGTH.unpack(start)[0]))
+    return fields, _LENGTH.unpack(_exactly(file, 4))[0]
+
+
+def _exactly(file: "BinaryIO | _Bytes", size: int) -> bytes:
+    data = file.read(size)
+    if len(data) != size:
+        raise _CutOffError
+    return data
+
+
+def _fields(data: bytes) -> dict[str, bytes]:
+    fields: dict[str, bytes] = {}
+    at = 0
+    while at < len(data):
+        if at + 4 > len(data):
+            raise _CutOffError
+        (size,) = _LENGTH.unpack_from(data, at)
+        name, equals, value = data[at + 4 : at + 4 + size].partition(b"=")
+        if not equals or at + 4 + size > len(data):
+            raise _CutOffError
+        fields[name.decode("ascii", "replace")] = value
+        at += 4 + size
+    return fields
+
+
+def _operation(fields: dict[str, bytes]) -> int:
+    value = fields.get("op", b"")
+    return value[0] if len(value) == 1 else 0
+
+
+def _connection(topic: bytes, fields: dict[str, bytes]) -> BagConnection:
+    text = {name: value.decode("utf-8", "replace") for name, value in fields.items()}
+    return BagConnection(
+        topic=topic.decode("utf-8", "replace"),
+        type=text["type"],
+        md5sum=text["md5sum"],
+        definition=text["message_definition"],
+        caller=text.get("callerid", ""),
+        latching=text.get("latching") == "1",
+    )
+
+
+def _decompressed(compression: str, data: bytes) -> bytes:
+    """Decompress a chunk, as far as it goes."""
+    if compression == "none":
+        return data
+    try:
+        if compression == "bz2":
+            return bz2.BZ2Decompressor().decompress(data)
+        if compression == "lz4":
+            return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data))
+    except (OSError, RuntimeError):
+        pass
+    raise _CutOffError

@@ -1,0 +1,203 @@
+"""`trundle bag`, with rosbag's output; bags go both ways between the two."""
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from trundle.ros import BagConnection, BagMessage, MasterProxy, Messages, create_bag, open_bag
+
+STRING = "std_msgs/String"
+START_NS = 1_700_000_000_000_000_000
+
+
+@contextmanager
+def _started(*command: str, **environment: str) -> Iterator["subprocess.Popen[str]"]:
+    if command[0].startswith("-"):
+        command = (sys.executable, *command)
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env={**os.environ, **environment}
+    ) as process:
+        try:
+            yield process
+        finally:
+            if process.poll() is None:
+                process.kill()
+
+
+@pytest.fixture
+def bag(tmp_path: Path) -> Path:
+    """Two topics over one second, one of them latched."""
+    messages = Messages()
+    path = tmp_path / "made.bag"
+    with create_bag(path) as out:
+        for i in range(21):
+            kind, fields = ("geometry_msgs/PointStamped", {"header": {"stamp": {"secs": i}}, "point": {"x": i}})
+            topic = "/points"
+            if i == 5:
+                kind, fields, topic = STRING, {"data": "map"}, "/fixed"
+            connection = BagConnection(
+                topic=topic,
+                type=kind,
+                md5sum=messages.md5(kind),
+                definition=messages.definition(kind),
+                caller="/maker",
+                latching=topic == "/fixed",
+            )
+            data = bytes(messages.serialize(messages.new(kind, fields)))
+            out.write(BagMessage(connection, START_NS + i * 50_000_000, data))
+    return path
+
+
+def _heard_by(graph: Any, name: str) -> set[str]:
+    subscribers = MasterProxy(graph.core.uri).call("getSystemState")[1]
+    return {topic for topic, nodes in subscribers if any(node.startswith(name) for node in nodes)}
+
+
+def _counts(path: Path) -> dict[str, int]:
+    with open_bag(path) as bag:
+        return dict(zip([c.topic for c in bag.connections], bag.counts, strict=True))
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("name", ["x.bag", "x.mcap"])
+def test_a_recording_that_is_ended_can_be_read(graph: Any, tmp_path: Path, name: str, number: signal.Signals) -> None:
+    publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
+    path = tmp_path / name
+    with _started("-m", "trundle", "bag", "record", "-O", str(path), "/a") as process:
+        graph.until(lambda: publisher.has_subscribers)
+        for i in range(200):
+            publisher.publish({"data": str(i)})
+        active = path.with_name(f"{name}.active")
+        graph.until(lambda: active.exists() and active.stat().st_size > 200 * 12)
+        process.send_signal(number)
+        process.wait(30)
+        assert process.stdout is not None
+        lines = process.stdout.read().splitlines()
+    assert [line.partition("]: ")[2] for line in lines] == [f"Recording to '{path}'.", "Subscribing to /a"]
+    if number == signal.SIGKILL:
+        assert not path.exists()
+        assert graph.trundle("bag", "info", str(active))[0] == 1
+        code, out, _ = graph.trundle("bag", "reindex", str(active))
+        assert (code, out) == (0, f"{active}: 200 messages\n")
+        path = active
+    else:
+        assert process.returncode == 130
+        assert not active.exists()
+    assert _counts(path) == {"/a": 200}
+
+
+def test_a_bag_is_played_at_its_pace_with_its_clock(graph: Any, bag: Path) -> None:
+    got: list[tuple[str, float]] = []
+    clock: list[int] = []
+    node = graph.node("listener")
+    node.subscribe("/points", "geometry_msgs/PointStamped", lambda m: got.append(("/points", m.point.x)))
+    node.subscribe("/moved", STRING, lambda m: got.append(("/moved", m.data)))
+    node.subscribe("/clock", "rosgraph_msgs/Clock", lambda m: clock.append(m.clock.sec * 10**9 + m.clock.nanosec))
+    graph.ready(node)
+    code, out, error = graph.trundle(
+        "bag", "play", str(bag), "--clock", "-r", "4", "-s", "0.2", "-u", "0.6", "-d", "1", "/fixed:=/moved"
+    )
+    assert (code, error) == (0, "")
+    assert out.splitlines()[0].endswith(f": Opening {bag}")
+    assert out.endswith("\nWaiting 1 seconds after advertising topics... done.\n\n"
+                        "Hit space to toggle paused, or 's' to step.\n\nDone.\n")  # fmt: skip
+    graph.until(lambda: len(got) >= 13)
+    assert got == [("/points", 4.0), ("/moved", "map"), *(("/points", float(i)) for i in range(6, 17))]
+    assert clock == sorted(clock)
+    assert START_NS + 200_000_000 <= clock[0] <= clock[-1] <= START_NS + 800_000_000
+
+
+def test_bags_are_described_filtered_and_compressed(graph: Any, bag: Path, tmp_path: Path) -> None:
+    code, out, _ = graph.trundle("bag", "info", str(bag))
+    assert code == 0
+    assert "duration:    1.0s\n" in out
+    assert "topics:      /fixed     1 msg     : std_msgs/String " in out
+    assert graph.trundle("bag", "info", "-y", "-k", "topics[1].messages", str(bag))[1] == "20\n"
+    some = tmp_path / "some.bag"
+    assert graph.trundle("bag", "filter", str(bag), str(some), "m.header.stamp.secs > 10 and t.to_sec() > 0")[0] == 1
+    expression = "topic == '/points' and m.header.stamp.secs > 10"
+    assert graph.trundle("bag", "filter", str(bag), str(some), expression)[0] == 0
+    assert _counts(some) == {"/points": 10}
+    for arguments in (["compress"], ["compress", "--lz4", "-f"], ["decompress", "-f"]):
+        code, out, _ = graph.trundle("bag", *arguments, str(some))
+        assert (code, out) == (0, f"{some}: 10 messages\n")
+    assert (tmp_path / "some.orig.bag").exists()
+    code, _, error = graph.trundle("bag", "compress", str(some))
+    assert (code, error.startswith(f"ERROR: Skipping {some}. Backup path")) == (1, True)
+    assert graph.trundle("bag", "check", str(some)) == (0, "Bag file does not need any migrations.\n", "")
+
+
+def test_topics_and_types_are_read_from_a_bag(graph: Any, bag: Path) -> None:
+    assert graph.trundle("topic", "list", "-b", str(bag))[1] == "/points\n/fixed\n"
+    assert graph.trundle("topic", "list", "-b", str(bag), "/fixed")[1].startswith("1 message(s) from ")
+    assert graph.trundle("topic", "echo", "-b", str(bag), "-n", "1", "/points/point/x")[1] == "0.0\n---\n"
+    everything = graph.trundle("topic", "echo", "-b", str(bag), "-a", "-p")[1].splitlines()
+    assert len(everything) == 22
+    assert graph.trundle("msg", "show", "-b", str(bag), STRING)[1] == "string data\n\n"
+    code, _, error = graph.trundle("topic", "echo", "-b", str(bag), "/nope")
+    assert (code, error) == (1, f"ERROR: no topic [/nope] in {bag}; topics there: /fixed, /points\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["record"], "You must specify a topic name"),
+        (["record", "-e", "["], "not a regular expression: '['"),
+        (["record", "-a", "--split"], "Split specified without giving"),
+        (["play"], "You must specify at least 1 bag file"),
+        (["play", "none.bag"], "none.bag] cannot be read"),
+        (["play", "-r", "0", "x.bag"], "a number greater than zero is needed, got '0'"),
+        (["info", "none.bag"], "none.bag] cannot be read"),
+        (["filter", "none.bag", "x.bag", "True"], "Cannot locate input bag file [none.bag]"),
+    ],
+)
+def test_what_cannot_be_done_is_one_sentence(graph: Any, arguments: list[str], complaint: str) -> None:
+    code, _, error = graph.trundle("bag", *arguments)
+    assert code in (1, 2)
+    assert complaint in error
+    assert "Traceback" not in error
+
+
+@pytest.mark.real_ros
+def test_every_line_of_info_is_rosbags(graph: Any, original: Any, bag: Path) -> None:
+    for compression in (None, "-j", "--lz4"):
+        if compression:
+            graph.trundle("bag", "compress", "-f", compression, str(bag))
+        for arguments in ([], ["-y"], ["--freq"], ["-y", "--freq"], ["-y", "-k", "end"]):
+            assert graph.trundle("bag", "info", *arguments, str(bag))[1] == original(
+                "rosbag", "info", *arguments, str(bag)
+            )
+
+
+@pytest.mark.real_ros
+@pytest.mark.parametrize("compression", ["none", "-j", "--lz4"])
+def test_bags_of_ours_are_played_by_the_original_and_its_read_here(
+    graph: Any, original: Any, bag: Path, tmp_path: Path, compression: str
+) -> None:
+    got: list[float] = []
+    node = graph.node("listener")
+    node.subscribe("/points", "geometry_msgs/PointStamped", lambda m: got.append(m.point.x))
+    graph.ready(node)
+    options = [] if compression == "none" else [compression]
+    if options:
+        graph.trundle("bag", "compress", *options, str(bag))
+    theirs = tmp_path / "theirs.bag"
+    record = ["/usr/lib/rosbag/record", *options, "-O", str(theirs), "/points", "/fixed"]
+    with _started(*record, ROS_IP="127.0.0.1", HOME=str(tmp_path)) as process:
+        graph.until(lambda: {"/points", "/fixed"} <= _heard_by(graph, "/record"))
+        with _started(
+            "/usr/lib/rosbag/play", "-d", "1", "-q", str(bag), ROS_IP="127.0.0.1", HOME=str(tmp_path)
+        ) as play:
+            assert play.wait(60) == 0
+        graph.until(lambda: len(got) == 20)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(30) == 0
+    assert _counts(theirs) == {"/points": 20, "/fixed": 1}
+    assert graph.trundle("bag", "play", "-i", "-q", str(theirs))[0] == 0

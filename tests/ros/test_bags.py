@@ -1,0 +1,274 @@
+"""Bags: both formats there and back, cut off anywhere, recorded and played."""
+
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from trundle.ros import (
+    BagConnection,
+    BagError,
+    BagMessage,
+    Messages,
+    MessageView,
+    Player,
+    PlayOptions,
+    Recorder,
+    RecordOptions,
+    UnindexedBagError,
+    create_bag,
+    open_bag,
+    recovered,
+)
+
+FORMATS = [
+    *[("x.bag", compression) for compression in ("none", "bz2", "lz4")],
+    *[("x.mcap", compression) for compression in ("none", "lz4", "zstd")],
+]
+STRING = "std_msgs/String"
+
+
+def _connection(messages: Messages, topic: str, *, caller: str = "/n", latching: bool = False) -> BagConnection:
+    return BagConnection(
+        topic=topic,
+        type=STRING,
+        md5sum=messages.md5(STRING),
+        definition=messages.definition(STRING),
+        caller=caller,
+        latching=latching,
+    )
+
+
+def _stream(messages: Messages, count: int) -> Iterator[BagMessage]:
+    one, two = _connection(messages, "/a"), _connection(messages, "/b", caller="/m", latching=True)
+    for i in range(count):
+        data = bytes(messages.serialize(messages.new(STRING, {"data": f"text {i} " * 5})))
+        yield BagMessage(two if i % 3 == 0 else one, 1_700_000_000_000_000_000 + i * 10_000_000, data)
+
+
+@pytest.mark.parametrize(("name", "compression"), FORMATS)
+def test_what_is_written_is_read(messages: Messages, tmp_path: Path, name: str, compression: str) -> None:
+    written = list(_stream(messages, 200))
+    with create_bag(tmp_path / name, compression=compression, chunk_bytes=2000) as out:
+        for message in written:
+            out.write(message)
+    with open_bag(tmp_path / name) as bag:
+        assert list(bag.messages()) == written
+        assert (bag.start_ns, bag.end_ns) == (written[0].stamp_ns, written[-1].stamp_ns)
+        assert dict(zip([c.topic for c in bag.connections], bag.counts, strict=True)) == {"/b": 67, "/a": 133}
+        assert {chunk.compression for chunk in bag.chunks} == {compression}
+        assert len(bag.chunks) > 3
+        some = bag.messages(lambda c: c.topic == "/b", start_ns=written[3].stamp_ns, end_ns=written[9].stamp_ns)
+        assert list(some) == [written[3], written[6], written[9]]
+    assert list(recovered(tmp_path / name)) == written
+
+
+@pytest.mark.parametrize(("name", "compression"), FORMATS)
+def test_a_bag_cut_off_anywhere_gives_what_was_flushed(
+    messages: Messages, tmp_path: Path, name: str, compression: str
+) -> None:
+    written = list(_stream(messages, 30))
+    path = tmp_path / name
+    out = create_bag(path, compression=compression)
+    flushed: list[int] = []
+    for i, message in enumerate(written):
+        out.write(message)
+        if i % 10 == 9:
+            out.flush()
+            flushed.append(path.stat().st_size)
+    out.close()
+    whole = path.read_bytes()
+    cut = tmp_path / f"cut{path.suffix}"
+    for size in range(0, len(whole), 7):
+        cut.write_bytes(whole[:size])
+        try:
+            found = list(recovered(cut))
+        except BagError:
+            assert size < 13  # not even the format can be told
+            continue
+        assert found == written[: len(found)]
+        assert len(found) >= 10 * sum(size >= end for end in flushed)
+        if size < flushed[-1]:
+            with pytest.raises(BagError):
+                open_bag(cut)
+
+
+@pytest.mark.parametrize(("name", "compression"), FORMATS)
+def test_one_wrong_byte_is_never_a_traceback(messages: Messages, tmp_path: Path, name: str, compression: str) -> None:
+    path = tmp_path / name
+    with create_bag(path, compression=compression) as out:
+        for message in _stream(messages, 6):
+            out.write(message)
+    whole = path.read_bytes()
+    for at in [*range(120), *range(max(120, len(whole) - 900), len(whole), 5)]:
+        path.write_bytes(whole[:at] + bytes([whole[at] ^ 0xFF]) + whole[at + 1 :])
+        for read in (lambda: list(recovered(path)), lambda: _all_of(path)):
+            with suppress(BagError):
+                read()
+
+
+def _all_of(path: Path) -> list[BagMessage]:
+    with open_bag(path) as bag:
+        return list(bag.messages())
+
+
+def test_what_is_no_bag_is_said(tmp_path: Path) -> None:
+    with pytest.raises(BagError, match="cannot be read: No such file"):
+        open_bag(tmp_path / "none.bag")
+    (tmp_path / "text.bag").write_text("hello")
+    with pytest.raises(BagError, match=r"text\.bag cannot be read: File magic is invalid"):
+        open_bag(tmp_path / "text.bag")
+    (tmp_path / "old.bag").write_text("#ROSRECORD V1.1\n")
+    with pytest.raises(BagError, match=r"format 1\.x"):
+        open_bag(tmp_path / "old.bag")
+    with pytest.raises(BagError, match="know no zstd compression"):
+        create_bag(tmp_path / "x.bag", compression="zstd")
+    with pytest.raises(BagError, match="know no bz2 compression"):
+        create_bag(tmp_path / "x.mcap", compression="bz2")
+
+
+@pytest.mark.parametrize("name", ["x.bag", "x.mcap"])
+def test_a_graph_is_recorded_and_played(graph: Any, tmp_path: Path, name: str) -> None:
+    talker, node, listener = graph.node("talker"), graph.node("record"), graph.node("listener")
+    publisher = talker.advertise("/a", STRING, queue_size=None)
+    talker.advertise("/fixed", "geometry_msgs/Point", latch=True).publish({"x": 1.5})
+    recorder = Recorder(node, RecordOptions(all_topics=True, path=tmp_path / name), say=lambda _: None)
+    recorder.start()
+    graph.until(lambda: publisher.has_subscribers)
+    for i in range(100):
+        publisher.publish({"data": str(i)})
+    graph.until(lambda: recorder.recorded >= 101)
+    assert not (tmp_path / name).exists()
+    recorder.stop()
+    assert recorder.files == [tmp_path / name]
+
+    got: list[str] = []
+    with open_bag(tmp_path / name) as bag:
+        assert {(c.topic, c.caller, c.latching) for c in bag.connections} >= {
+            ("/a", "/talker", False),
+            ("/fixed", "/talker", True),
+        }
+        listener.subscribe("/again/a", STRING, lambda m: got.append(m.data), queue_size=None)
+        player = Player(graph.node("play"), [bag], PlayOptions(prefix="/again", immediate=True, queue_size=1000))
+        publishers = player.advertise()
+        graph.until(lambda: any(p.has_subscribers for p in publishers))
+        player.play(lambda: None)
+        graph.until(lambda: len(got) == 100)
+        latched: list[float] = []
+        listener.subscribe("/again/fixed", "geometry_msgs/Point", lambda m: latched.append(m.x))
+        graph.until(lambda: latched == [1.5])
+    assert got == [str(i) for i in range(100)]
+
+
+def test_a_recording_splits_and_keeps_the_newest(graph: Any, tmp_path: Path) -> None:
+    publisher = graph.node("talker").advertise("/a", "std_msgs/UInt8MultiArray", queue_size=None)
+    options = RecordOptions(
+        topics=("/a",), path=tmp_path / "x.bag", splits=True, max_bytes=100_000, max_splits=2, chunk_bytes=10_000
+    )
+    recorder = Recorder(graph.node("record"), options, say=lambda _: None)
+    recorder.start()
+    graph.until(lambda: publisher.has_subscribers)
+    for i in range(50):
+        publisher.publish({"data": bytes(10_000)})
+        graph.until(lambda i=i: recorder.recorded == i + 1)
+    recorder.stop()
+    assert len(recorder.files) <= 3
+    assert sorted(tmp_path.iterdir()) == sorted(recorder.files)
+    assert all(path.name.startswith("x_") for path in recorder.files)
+
+
+def test_what_does_not_fit_the_buffer_is_dropped_and_said(graph: Any, tmp_path: Path, capfd: Any) -> None:
+    publisher = graph.node("talker").advertise("/a", "std_msgs/UInt8MultiArray", queue_size=None)
+    options = RecordOptions(topics=("/a",), path=tmp_path / "x.bag", buffer_bytes=5_000)
+    recorder = Recorder(graph.node("record"), options, say=lambda _: None)
+    recorder.start()
+    graph.until(lambda: publisher.has_subscribers)
+    for size in (10_000, 10_000, 100):
+        publisher.publish({"data": bytes(size)})
+    graph.until(lambda: recorder.recorded + recorder.dropped == 3)
+    recorder.stop()
+    assert recorder.dropped == 2
+    assert capfd.readouterr().err.count("rosbag record buffer exceeded.  Dropping oldest queued message.") == 1
+
+
+def test_a_limit_ends_a_recording(graph: Any, tmp_path: Path) -> None:
+    publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
+    recorder = Recorder(
+        graph.node("record"), RecordOptions(topics=("/a",), path=tmp_path / "x.bag", limit=3), say=lambda _: None
+    )
+    recorder.start()
+    graph.until(lambda: publisher.has_subscribers)
+    for i in range(10):
+        publisher.publish({"data": str(i)})
+    assert recorder.done.wait(20)
+    recorder.stop()
+    with open_bag(tmp_path / "x.bag") as bag:
+        assert bag.counts == [3]
+
+
+def test_an_older_type_is_played_as_it_was_recorded(graph: Any, tmp_path: Path) -> None:
+    """A bag is played by the definition in it, whatever is known here by that name."""
+    old = BagConnection(topic="/a", type=STRING, md5sum="0123", definition="uint8 number\n")
+    with create_bag(tmp_path / "x.bag") as out:
+        out.write(BagMessage(old, 10**9, b"\x07"))
+    got: list[Any] = []
+    graph.node("listener").subscribe("/a", "*", got.append)
+    with open_bag(tmp_path / "x.bag") as bag:
+        player = Player(graph.node("play"), [bag], PlayOptions())
+        publishers = player.advertise()
+        graph.until(lambda: publishers[0].has_subscribers)
+        player.play(lambda: None)
+        graph.until(lambda: got)
+    assert (got[0].md5sum, got[0].definition, got[0].data) == ("0123", "uint8 number\n", b"\x07")
+
+
+def test_a_pause_lets_single_messages_through_and_time_stands_still(
+    graph: Any, messages: Messages, tmp_path: Path
+) -> None:
+    with create_bag(tmp_path / "x.bag") as out:
+        for message in _stream(messages, 5):
+            out.write(message)
+    clock: list[int] = []
+    subscription = graph.node("n").subscribe("/clock", "rosgraph_msgs/Clock", lambda m: clock.append(m.clock.nanosec))
+    with open_bag(tmp_path / "x.bag") as bag:
+        player = Player(graph.node("play"), [bag], PlayOptions(clock_hz=1000.0, rate=0.01))
+        player.advertise()
+        graph.until(lambda: subscription.publishers)
+        player.is_paused = True
+        attended = 0
+
+        def attend() -> None:
+            nonlocal attended
+            attended += 1
+            if player.steps == 0:
+                player.steps = 1
+
+        player.play(attend)
+    assert player.played == 5
+    assert attended == 5
+    graph.until(lambda: clock and clock[-1] == 40_000_000)
+    assert player.now_ns == 1_700_000_000_040_000_000
+
+
+def test_an_unindexed_bag_says_what_to_do(messages: Messages, tmp_path: Path) -> None:
+    for name in ("x.bag", "x.mcap"):
+        out = create_bag(tmp_path / name)
+        for message in _stream(messages, 5):
+            out.write(message)
+        out.flush()
+        with pytest.raises(UnindexedBagError, match="Run trundle bag reindex"):
+            open_bag(tmp_path / name)
+        out.close()
+
+
+def test_expressions_written_for_rospy_are_understood(messages: Messages) -> None:
+    odom = messages.new("nav_msgs/Odometry", {"header": {"stamp": {"secs": 5, "nsecs": 500_000_000}}})
+    m = MessageView(odom)
+    assert m.header.stamp.to_sec() == 5.5
+    assert m.header.stamp.secs == 5
+    assert m.header.stamp.nsecs == 500_000_000
+    assert m.header.stamp > MessageView(messages.stamp(5_400_000_000))
+    tree = MessageView(messages.new("tf2_msgs/TFMessage", {"transforms": [{"child_frame_id": "a"}]}))
+    assert tree.transforms[0].child_frame_id == "a"
