@@ -161,13 +161,13 @@ def test_a_part_that_is_not_there_is_answered_with_the_parts_there_are(tmp_path:
     ("name", "content", "said"),
     [
         ("a.stl", b"", "no triangles|not readable"),
-        ("a.stl", b"\x00\xff garbage that is no mesh" * 9, "no triangles|not readable"),
+        ("a.stl", b"\x00\xff garbage that is no mesh" * 9, r"says \d+ triangles and holds 3"),
         ("a.obj", b"v 0 0 0\nv 1 0 0\n", "no triangles|not readable"),
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "not readable"),
         ("a.obj", b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "not finite|not readable"),
         ("a.dae", b"<COLLADA>", "not readable"),
         ("a.dae", b"", "not readable"),
-        ("a.glb", b"glTF\x02\x00\x00\x00", "not readable"),
+        ("a.glb", b"glTF\x02\x00\x00\x00", "no binary glTF, or cut short"),
         ("a.ply", b"ply", r"\.ply meshes are not read; \.dae, \.glb, \.obj, \.stl are"),
         ("mesh", b"", "files without ending meshes are not read"),
     ],
@@ -190,6 +190,34 @@ def test_a_file_that_is_not_there_is_one_sentence(tmp_path: Path) -> None:
 
 def test_what_the_reader_mutters_to_its_log_does_not_reach_the_user() -> None:
     # trimesh logs a traceback for each missing bump map.
-    code = "import logging, trundle.meshes; logging.getLogger('trimesh').warning('no texture')"
+    code = "import logging, trundle.meshes.glb; logging.getLogger('trimesh').warning('no texture')"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120)
     assert (done.stdout, done.stderr) == ("", "")
+
+
+@pytest.mark.slow
+def test_every_published_mesh_has_the_bounds_that_trimesh_gives_it(shared: Path) -> None:
+    files = [
+        path
+        for folder in ("corpus/repos", "seeds")
+        for path in sorted((shared / folder).rglob("*"))
+        if path.suffix.lower() in (".dae", ".stl", ".obj", ".glb")
+    ]
+    assert len(files) > 150
+    empty: list[str] = []
+    for path in files:
+        theirs = trimesh.load_scene(str(path), process=False)
+        if not theirs.geometry:
+            with pytest.raises(MeshError, match="no triangles"):
+                load_mesh(path)
+            empty.append(path.name)
+            continue
+        scale = meshes_unit(theirs.units) if path.suffix.lower() == ".dae" else 1.0
+        assert bounds(load_mesh(path)) == pytest.approx(theirs.bounds * scale, rel=1e-4, abs=1e-5), path
+    assert empty == ["multi_joint_robot.dae"]
+
+
+def meshes_unit(units: str | None) -> float:
+    """trimesh hands COLLADA's unit on as the text `0.01 * meters`."""
+    number, _, unit = (units or "").rpartition("*")
+    return float(number) if number and unit.strip() == "meters" else 1.0

@@ -1,6 +1,7 @@
 """Vertex arrays from .dae, .stl, .obj and .glb files."""
 
-from .load import MeshError, load_mesh
-from .mesh import Mesh
+from .load import load_mesh
+from .mesh import Mesh, MeshPart
+from .raw import MeshError
 
-__all__ = ["Mesh", "MeshError", "load_mesh"]
+__all__ = ["Mesh", "MeshError", "MeshPart", "load_mesh"]

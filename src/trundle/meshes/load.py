@@ -1,112 +1,152 @@
-"""Reads mesh files through trimesh and pycollada."""
+"""Reads a mesh file of any format, or takes it from the cache."""
 
-import logging
+import hashlib
+import re
+from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from trundle.diagnostics import TrundleError
-
-from .mesh import Mesh
+from . import cache
+from .mesh import Mesh, MeshPart
+from .raw import MOST_TRIANGLES, MeshError, RawPart
+from .texture import find_texture, mean_colour
 
 _MOST_BYTES = 256 * 1024 * 1024
-_FORMATS = frozenset({".dae", ".stl", ".obj", ".glb"})
-_Y_UP = frozenset({".glb"})
-"""glTF is y up by its standard. The others are taken as z up, .dae too whatever its <up_axis> says: Gazebo
-(gazebo-classic#1305) and RViz (rviz#1045) never read that tag, and published robots are made to look right in them."""
-
-logging.getLogger("trimesh").addHandler(logging.NullHandler())  # else it prints a traceback for a missing texture
-
-
-class MeshError(TrundleError):
-    """A mesh file that cannot be used; the text says why."""
+_SLOW = frozenset({".dae", ".glb", ".obj"})
+"""Formats that are worth keeping once read; STL is as fast as the cache."""
+_FORMATS = _SLOW | {".stl"}
+_WORTH_KEEPING = 100_000
+"""[bytes] Smaller files are read again as fast."""
+_LIBRARY = re.compile(rb"^\s*mtllib\s+(.+?)\s*$", re.MULTILINE)
 
 
-@lru_cache(maxsize=256)
 def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -> Mesh:
-    """Read a mesh file into one list of triangles.
+    """Read a mesh file into one list of triangles, in parts of one colour.
 
     The numbers of a file are metres, but for .dae, which states its own unit.
 
     Args:
         path: .dae, .stl, .obj or .glb.
-        submesh: only the part of this name.
-        center: move the middle of that part's bounding box to the origin.
+        submesh: only the parts of this name.
+        center: move the middle of the bounding box of what is left to the origin.
 
     Raises:
         MeshError: unreadable, too large, no triangles, or no such part.
     """
-    import trimesh
-
     suffix = path.suffix.lower()
     if suffix not in _FORMATS:
         raise MeshError(
             f"{path}: {suffix or 'files without ending'} meshes are not read; {', '.join(sorted(_FORMATS))} are"
         )
     try:
-        if path.stat().st_size > _MOST_BYTES:
-            raise MeshError(f"{path}: larger than {_MOST_BYTES >> 20} MiB")
-        scene = trimesh.load_scene(str(path), process=False)
-        parts = _parts(scene, submesh, path)
-    except MeshError:
-        raise
-    except Exception as error:  # every reader behind trimesh fails in its own way
-        raise MeshError(f"{path}: not readable as {suffix}: {error}") from None
-    vertices = np.concatenate([v for v, _, _ in parts])
-    offsets = np.cumsum([0, *(len(v) for v, _, _ in parts[:-1])])
-    faces = np.concatenate([f + offset for (_, f, _), offset in zip(parts, offsets, strict=True)])
-    if len(faces) == 0 or not np.isfinite(vertices).all():
-        raise MeshError(f"{path}: no triangles, or vertices that are not finite")
-    if suffix == ".dae":
-        vertices = vertices * _metres_per_unit(scene)
-    if suffix in _Y_UP:
-        vertices = vertices[:, [0, 2, 1]] * (1.0, -1.0, 1.0)
+        stat = path.stat()
+        return _load(path, suffix, submesh, center, (stat.st_mtime_ns, stat.st_size))
+    except MeshError as error:
+        raise MeshError(f"{path}: {error}") from None
+    except Exception as error:  # every reader fails in its own way
+        what = " ".join(str(error).split()) or type(error).__name__
+        raise MeshError(f"{path}: not readable as {suffix}: {what[:200]}") from None
+
+
+@lru_cache(maxsize=256)
+def _load(path: Path, suffix: str, submesh: str | None, center: bool, state: tuple[int, int]) -> Mesh:
+    if state[1] > _MOST_BYTES:
+        raise MeshError(f"larger than {_MOST_BYTES >> 20} MiB")
+    parts = _parts(path, suffix)
+    if submesh is not None:
+        chosen = [part for part in parts if submesh in part.names]
+        if not chosen:
+            names = sorted({part.names[0] for part in parts if part.names})
+            raise MeshError(f"no part {submesh!r}; parts there: {', '.join(map(repr, names)) or 'none'}")
+        parts = chosen
+    return _joined(parts, path, center)
+
+
+def _parts(path: Path, suffix: str) -> list[RawPart]:
+    data = path.read_bytes()
+    if suffix not in _SLOW or len(data) < _WORTH_KEEPING:
+        return _read(data, suffix, path)
+    key = hashlib.sha256(f"{cache.VERSION} {suffix} ".encode() + data)
+    for name in _LIBRARY.findall(data) if suffix == ".obj" else []:
+        key.update(_beside(path, name.decode("utf-8", "replace")) or b"")
+    kept = cache.load_kept(key.hexdigest())
+    if kept is None:
+        kept = _read(data, suffix, path)
+        cache.keep(key.hexdigest(), kept)
+    return kept
+
+
+def _read(data: bytes, suffix: str, path: Path) -> list[RawPart]:
+    match suffix:
+        case ".stl":
+            from .stl import read_stl
+
+            return read_stl(data)
+        case ".obj":
+            from .obj import read_obj
+
+            return read_obj(data, lambda name: _beside(path, name))
+        case ".glb":
+            from .glb import read_glb
+
+            return read_glb(data)
+        case _:
+            from .collada_file import read_collada
+
+            return read_collada(data)
+
+
+def _beside(path: Path, name: str) -> bytes | None:
+    """A file in the mesh's folder or below; None where there is none, or it lies elsewhere or is too large."""
+    file = path.parent / name.replace("\\", "/")
+    try:
+        inside = file.resolve().is_relative_to(path.parent.resolve())
+        return file.read_bytes() if inside and file.is_file() and file.stat().st_size <= _MOST_BYTES else None
+    except (OSError, ValueError):
+        return None
+
+
+def _joined(parts: Sequence[RawPart], path: Path, center: bool) -> Mesh:
+    parts = [part for part in parts if len(part.faces)]
+    if not parts:
+        raise MeshError("no triangles")
+    if sum(len(part.faces) for part in parts) > MOST_TRIANGLES:
+        raise MeshError(f"more than {MOST_TRIANGLES} triangles")
+    vertices = np.concatenate([part.vertices for part in parts])
+    first_vertex = np.cumsum([0, *(len(part.vertices) for part in parts)])
+    faces = np.concatenate([part.faces + first for part, first in zip(parts, first_vertex, strict=False)])
+    if not np.isfinite(vertices).all() or np.abs(vertices).max() > np.finfo(np.float32).max:
+        raise MeshError("vertices that are not finite")
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        raise MeshError(f"a face names vertex {faces.max()} of {len(vertices)}")
     if center:
         vertices = vertices - (vertices.min(axis=0) + vertices.max(axis=0)) / 2
-    colours = [colour for _, _, colour in parts if colour is not None]
+    described = _described(parts, path)
     return Mesh(
         vertices=np.ascontiguousarray(vertices, dtype=np.float32),
         faces=np.ascontiguousarray(faces, dtype=np.int32),
-        rgba=colours[0] if colours else None,
+        rgba=max(described, key=lambda part: part.face_count).rgba,
+        uv=_uv(parts) if any(part.texture for part in described) else None,
+        parts=described,
     )
 
 
-_Part = tuple[NDArray[np.float64], NDArray[np.int64], "tuple[float, float, float, float] | None"]
+def _described(parts: Sequence[RawPart], path: Path) -> tuple[MeshPart, ...]:
+    described: list[MeshPart] = []
+    first_face = 0
+    for part in parts:
+        texture = find_texture(part.texture, path) if part.texture else None
+        rgba = (mean_colour(texture) if texture else None) or part.rgba
+        name = part.names[0] if part.names else ""
+        described.append(
+            MeshPart(name=name, first_face=first_face, face_count=len(part.faces), rgba=rgba, texture=texture)
+        )
+        first_face += len(part.faces)
+    return tuple(described)
 
 
-def _parts(scene: Any, submesh: str | None, path: Path) -> list[_Part]:
-    """The triangles of a scene, node by node, moved to where the scene has them."""
-    parts: list[_Part] = []
-    names: list[str] = []
-    for node in scene.graph.nodes_geometry:
-        transform, geometry_name = scene.graph[node]
-        geometry = scene.geometry[geometry_name]
-        names.append(str(geometry_name))
-        if submesh is not None and submesh not in (geometry_name, node):
-            continue
-        if not hasattr(geometry, "faces"):
-            continue
-        vertices = geometry.vertices @ transform[:3, :3].T + transform[:3, 3]
-        parts.append((np.asarray(vertices), np.asarray(geometry.faces), _colour(geometry)))
-    if submesh is not None and not parts:
-        raise MeshError(f"{path}: no part {submesh!r}; parts there: {', '.join(map(repr, names)) or 'none'}")
-    if not parts:
-        raise MeshError(f"{path}: no triangles")
-    return parts
-
-
-def _metres_per_unit(scene: Any) -> float:
-    """COLLADA's <unit meter="…">, which trimesh hands on as the text `0.01 * meters`."""
-    number, _, unit = str(scene.units or "").rpartition("*")
-    return float(number) if number and unit.strip() == "meters" else 1.0
-
-
-def _colour(geometry: Any) -> tuple[float, float, float, float] | None:
-    material = getattr(geometry.visual, "material", None)
-    if material is None:
-        return None
-    r, g, b, a = (float(c) / 255.0 for c in material.main_color)
-    return (r, g, b, a)
+def _uv(parts: Sequence[RawPart]) -> np.ndarray:
+    rows = [part.uv if part.uv is not None else np.zeros((len(part.vertices), 2)) for part in parts]
+    return np.nan_to_num(np.concatenate(rows)).astype(np.float32)

@@ -1,9 +1,28 @@
-"""Triangles with a colour."""
+"""Triangles, in parts that each have a colour."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+
+Rgba: TypeAlias = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshPart:
+    """Some faces of a mesh in a row: what a file gives one material."""
+
+    name: str
+    """Of the node or object it comes from."""
+    first_face: int
+    face_count: int
+    rgba: Rgba | None = None
+    """The file's own colour; where there is a texture, its mean. None: the file has none."""
+    texture: Path | None = None
+    """An image, laid out by the mesh's `uv`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -14,8 +33,12 @@ class Mesh:
     """(N, 3) [m]"""
     faces: NDArray[np.int32]
     """(M, 3) indices into the vertices, counter-clockwise from outside."""
-    rgba: tuple[float, float, float, float] | None = None
-    """The file's own colour; None where it has none."""
+    rgba: Rgba | None = None
+    """The colour of its largest part; None where that has none."""
+    uv: NDArray[np.float32] | None = None
+    """(N, 2) places in the textures, (0, 0) at the lower left; None: no part has one."""
+    parts: tuple[MeshPart, ...] = ()
+    """In the order of the faces; none: all of one colour."""
 
     def scaled(self, scale: tuple[float, float, float]) -> "Mesh":
         """The mesh stretched along its axes; a mirrored one keeps its outside outside."""
@@ -23,4 +46,28 @@ class Mesh:
             return self
         mirrored = scale[0] * scale[1] * scale[2] < 0
         faces = self.faces[:, ::-1].copy() if mirrored else self.faces
-        return Mesh(self.vertices * np.asarray(scale, dtype=np.float32), faces, self.rgba)
+        return Mesh(self.vertices * np.asarray(scale, dtype=np.float32), faces, self.rgba, self.uv, self.parts)
+
+    def by_look(self) -> tuple["Mesh", ...]:
+        """The mesh cut into meshes of one colour and one texture each."""
+        return _by_look(self)
+
+
+@lru_cache(maxsize=256)  # a robot's four wheels are to stay instances of one mesh
+def _by_look(mesh: Mesh) -> tuple[Mesh, ...]:
+    looks: dict[tuple[Rgba | None, Path | None], list[MeshPart]] = {}
+    for part in mesh.parts:
+        looks.setdefault((part.rgba, part.texture), []).append(part)
+    return tuple(_cut_out(mesh, parts) for parts in looks.values()) if len(looks) > 1 else (mesh,)
+
+
+def _cut_out(mesh: Mesh, parts: list[MeshPart]) -> Mesh:
+    faces = np.concatenate([mesh.faces[part.first_face : part.first_face + part.face_count] for part in parts])
+    used, renumbered = np.unique(faces, return_inverse=True)
+    return Mesh(
+        vertices=mesh.vertices[used],
+        faces=renumbered.reshape(faces.shape).astype(np.int32),
+        rgba=parts[0].rgba,
+        uv=None if mesh.uv is None else mesh.uv[used],
+        parts=(replace(parts[0], first_face=0, face_count=len(faces)),),
+    )

@@ -79,6 +79,7 @@ def add_shape(
             spec.delete(geom)
             return None
         case MeshFile(path=path):
+            assert path is not None  # caught above
             try:
                 mesh = load_mesh(path, submesh=geometry.submesh, center=geometry.center_submesh)
             except MeshError as error:

@@ -53,14 +53,23 @@ def _shapes(items: tuple[Visual, ...] | tuple[Collision, ...], body: int, report
         if geometry is None:
             continue
         if isinstance(item, Collision):
-            pose, rgba = item.link_from_collision, _COLLISION
-        else:
-            pose = item.link_from_visual
-            own = geometry.rgba if isinstance(geometry, Mesh) and item.material is GREY else None
-            r, g, b, a = own or item.material.diffuse
+            yield Shape(
+                name=item.name, body=body, geometry=geometry, body_from_shape=item.link_from_collision, rgba=_COLLISION
+            )
+            continue
+        for piece, (r, g, b, a) in _painted(geometry, item):
             rgba = (r, g, b, a * (1.0 - item.transparency))
-        if rgba[3] > _BARELY_THERE:
-            yield Shape(name=item.name, body=body, geometry=geometry, body_from_shape=pose, rgba=rgba)
+            if rgba[3] > _BARELY_THERE:
+                yield Shape(name=item.name, body=body, geometry=piece, body_from_shape=item.link_from_visual, rgba=rgba)
+
+
+def _painted(geometry: ShapeGeometry, visual: Visual) -> Iterator[tuple[ShapeGeometry, Rgba]]:
+    """A shape with its colour; a mesh that the description does not paint comes in the colours of its file."""
+    if isinstance(geometry, Mesh) and visual.material is GREY:
+        for piece in geometry.by_look():
+            yield piece, piece.rgba or visual.material.diffuse
+    else:
+        yield geometry, visual.material.diffuse
 
 
 def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeometry | None:
@@ -71,7 +80,7 @@ def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeome
             report.warn(at, f"a {type(geometry).__name__.lower()} is not drawn yet; it is left out")
             return None
         case MeshFile(path=path):
-            pass
+            assert path is not None  # caught above
         case _:
             return geometry
     try:

@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.meshes import Mesh, load_mesh
 from trundle.model import Box, Cylinder, Rgba, Sphere
@@ -25,16 +23,18 @@ def robot_scene(robot: Robot, packages: Packages, report: Diagnostics, *, collis
     for body, link in enumerate(links):
         for shape in link.collisions if collisions else link.visuals:
             geometry = _geometry(shape, packages, report)
-            if geometry is not None:
-                shapes.append(
-                    Shape(
-                        name=shape.name or link.name,
-                        body=body,
-                        geometry=geometry,
-                        body_from_shape=shape.link_from_shape,
-                        rgba=shape.rgba or (geometry.rgba if isinstance(geometry, Mesh) else None) or _UNPAINTED,
-                    )
+            if geometry is None:
+                continue
+            shapes += (
+                Shape(
+                    name=shape.name or link.name,
+                    body=body,
+                    geometry=piece,
+                    body_from_shape=shape.link_from_shape,
+                    rgba=shape.rgba or (piece.rgba if isinstance(piece, Mesh) else None) or _UNPAINTED,
                 )
+                for piece in (geometry.by_look() if isinstance(geometry, Mesh) and shape.rgba is None else (geometry,))
+            )
     return Scene(bodies=tuple(link.name for link in links), shapes=tuple(shapes))
 
 
@@ -52,6 +52,4 @@ def _geometry(shape: RobotShape, packages: Packages, report: Diagnostics) -> Sha
             except TrundleError as error:
                 report.warn(shape.at, f"{error}; this shape is not drawn")
                 return None
-            if scale == (1.0, 1.0, 1.0):
-                return mesh
-            return Mesh(vertices=mesh.vertices * np.array(scale, dtype=np.float32), faces=mesh.faces, rgba=mesh.rgba)
+            return mesh.scaled(scale)

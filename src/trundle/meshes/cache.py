@@ -1,0 +1,104 @@
+"""Meshes that took long to read, kept on disk under a key made of the file's bytes.
+
+A cache that cannot be written, or whose files are damaged, costs time and nothing else.
+"""
+
+import contextlib
+import io
+import json
+import os
+import tempfile
+import zipfile
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .raw import RawPart
+
+VERSION = 1
+"""Part of every key; raised where a reader gives something else for the same bytes."""
+_MOST_BYTES = 512 * 1024 * 1024
+
+
+def folder() -> Path:
+    """Below XDG_CACHE_HOME, or ~/.cache."""
+    root = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    return Path(root) / "trundle" / "meshes"
+
+
+def load_kept(key: str) -> list[RawPart] | None:
+    """What was kept under a key; None where nothing was, or it is damaged."""
+    path = folder() / f"{key}.npz"
+    try:
+        data = path.read_bytes()
+        parts = _unpacked(data)
+        os.utime(path)  # the longest unused go first
+    except FileNotFoundError:
+        return None
+    except Exception:  # damage takes any form
+        with contextlib.suppress(OSError):
+            path.unlink()
+        return None
+    return parts
+
+
+def keep(key: str, parts: Sequence[RawPart]) -> None:
+    """Keep parts under a key, and let go of what was not used for longest."""
+    packed = _packed(parts)
+    if len(packed) > _MOST_BYTES // 8:
+        return
+    try:
+        folder().mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=folder(), suffix=".tmp", delete=False) as file:
+            file.write(packed)
+        os.replace(file.name, folder() / f"{key}.npz")
+        _trim()
+    except OSError:
+        return
+
+
+def _packed(parts: Sequence[RawPart]) -> bytes:
+    arrays: dict[str, Any] = {}
+    heads: list[dict[str, Any]] = []
+    for i, part in enumerate(parts):
+        head = asdict(part)
+        for name in ("vertices", "faces", "uv"):
+            array = head.pop(name)
+            if array is not None:
+                arrays[f"{name}{i}"] = array
+        heads.append(head)
+    arrays["heads"] = np.frombuffer(json.dumps(heads).encode(), dtype=np.uint8)
+    buffer = io.BytesIO()
+    np.savez(buffer, **arrays)
+    return buffer.getvalue()
+
+
+def _unpacked(data: bytes) -> list[RawPart]:
+    if zipfile.ZipFile(io.BytesIO(data)).testzip() is not None:
+        raise ValueError("damaged")
+    with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
+        heads = json.loads(arrays["heads"].tobytes())
+        return [
+            RawPart(
+                names=tuple(head["names"]),
+                vertices=arrays[f"vertices{i}"],
+                faces=arrays[f"faces{i}"],
+                rgba=None if head["rgba"] is None else tuple(head["rgba"]),
+                texture=head["texture"],
+                uv=arrays.get(f"uv{i}"),
+            )
+            for i, head in enumerate(heads)
+        ]
+
+
+def _trim() -> None:
+    files = sorted((path.stat().st_mtime, path.stat().st_size, path) for path in folder().iterdir())
+    total = sum(size for _, size, _ in files)
+    for _, size, path in files:
+        if total <= _MOST_BYTES:
+            return
+        path.unlink(missing_ok=True)
+        total -= size

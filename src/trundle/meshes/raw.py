@@ -1,0 +1,68 @@
+"""What the readers of the formats give: loose parts in the file's own units, in double precision."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.diagnostics import TrundleError
+
+from .mesh import Rgba
+
+MOST_TRIANGLES = 20_000_000
+"""More than any robot; a file can ask for more by naming one part over and over."""
+
+
+class MeshError(TrundleError):
+    """A mesh file that cannot be used; the text says why."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RawPart:
+    """The triangles of one material in one node or object."""
+
+    names: tuple[str, ...]
+    """What a description may call it by, the usual one first."""
+    vertices: NDArray[np.float64]
+    """(N, 3)"""
+    faces: NDArray[np.int64]
+    """(M, 3)"""
+    rgba: Rgba | None = None
+    texture: str | None = None
+    """A path relative to the mesh file, as written."""
+    uv: NDArray[np.float64] | None = None
+    """(N, 2)"""
+
+
+def unrolled(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int64],
+    uv: NDArray[np.float64] | None,
+    uv_faces: NDArray[np.int64] | None,
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None]:
+    """Vertices, faces and uv with one numbering, where a file numbers corners and their uv apart.
+
+    Raises:
+        IndexError: a face names a vertex that is not there.
+    """
+    if len(faces) and (faces.max() >= len(vertices) or faces.min() < 0):
+        raise IndexError(f"a face names vertex {faces.max()} of {len(vertices)}")
+    if uv is None or uv_faces is None or uv_faces.shape != faces.shape:
+        used, renumbered = np.unique(faces, return_inverse=True)
+        return vertices[used], renumbered.reshape(faces.shape), None
+    pairs, renumbered = np.unique(np.stack([faces.ravel(), uv_faces.ravel()], axis=1), axis=0, return_inverse=True)
+    return vertices[pairs[:, 0]], renumbered.reshape(faces.shape), uv[pairs[:, 1]][:, :2]
+
+
+def fans(indices: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The corners of polygons, one after another, as fans of triangles: (M, 3) positions in `indices`.
+
+    Raises:
+        ValueError: the counts do not add up.
+    """
+    if counts.sum() != len(indices) or (len(counts) and counts.min() < 0):
+        raise ValueError("polygons with more corners than there are")
+    triangles = np.maximum(counts - 2, 0)
+    starts = np.repeat(np.cumsum(counts) - counts, triangles)
+    turn = np.arange(len(starts)) - np.repeat(np.cumsum(triangles) - triangles, triangles)
+    return np.stack([starts, starts + turn + 1, starts + turn + 2], axis=1)

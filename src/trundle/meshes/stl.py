@@ -1,0 +1,33 @@
+"""STL: triangles in metres, binary or in letters."""
+
+import re
+
+import numpy as np
+
+from .raw import MeshError, RawPart
+
+_HEADER = 84
+_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)")
+
+
+def read_stl(data: bytes) -> list[RawPart]:
+    """Read either kind; many binary files start with `solid`, so the size decides.
+
+    Raises:
+        MeshError: neither.
+    """
+    count = int.from_bytes(data[80:_HEADER], "little") if len(data) >= _HEADER else 0
+    whole = _HEADER + count * _TRIANGLE.itemsize
+    if count and (len(data) == whole or (len(data) > whole and not data.lstrip().startswith(b"solid"))):
+        corners = np.frombuffer(data, dtype=_TRIANGLE, count=count, offset=_HEADER)["corners"].reshape(-1, 3)
+    elif data.lstrip().startswith(b"solid") and _VERTEX.search(data):
+        numbers = np.array(_VERTEX.findall(data), dtype="S")
+        corners = numbers[: len(numbers) // 3 * 3].astype(np.float64)
+    elif count:
+        there = max(len(data) - _HEADER, 0) // _TRIANGLE.itemsize
+        raise MeshError(f"says {count} triangles and holds {there}")
+    else:
+        raise MeshError("no triangles")
+    unique, faces = np.unique(corners, axis=0, return_inverse=True)
+    return [RawPart(names=("",), vertices=unique.astype(np.float64), faces=faces.reshape(-1, 3))]

@@ -1,0 +1,44 @@
+"""Images that meshes are painted with: where they are, and what colour they have on the whole."""
+
+from functools import lru_cache
+from pathlib import Path
+
+from .mesh import Rgba
+
+_MOST_PIXELS = 64 * 1024 * 1024
+
+
+def find_texture(name: str, mesh: Path) -> Path | None:
+    """A texture's file: beside the mesh, or in the model's `materials/textures`; nowhere else."""
+    model = mesh.parent.parent
+    relative = Path(name.replace("\\", "/"))
+    candidates = (
+        mesh.parent / relative,
+        mesh.parent / relative.name,
+        model / "materials" / "textures" / relative.name,
+        model / "textures" / relative.name,
+    )
+    inside = model.resolve()
+    return next((path for path in candidates if path.is_file() and path.resolve().is_relative_to(inside)), None)
+
+
+def mean_colour(texture: Path) -> Rgba | None:
+    """The colour of an image seen from afar; None where it cannot be read."""
+    try:
+        return _mean(texture, texture.stat().st_mtime_ns)
+    except Exception:  # every decoder behind Pillow fails in its own way
+        return None
+
+
+@lru_cache(maxsize=256)
+def _mean(texture: Path, _changed_ns: int) -> Rgba:
+    from PIL import Image
+
+    with Image.open(texture) as image:
+        if image.width * image.height > _MOST_PIXELS:
+            raise ValueError("too large")
+        image.draft("RGB", (64, 64))
+        pixel = image.convert("RGB").resize((1, 1), Image.Resampling.BOX).getpixel((0, 0))
+    assert isinstance(pixel, tuple)
+    r, g, b = (value / 255.0 for value in pixel[:3])
+    return (r, g, b, 1.0)

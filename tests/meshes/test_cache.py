@@ -1,0 +1,92 @@
+"""The cache on disk: used, invisible, bounded, and harmless when damaged or impossible."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from trundle.meshes import Mesh, cache, load, load_mesh
+
+
+@pytest.fixture
+def large(tmp_path: Path) -> Path:
+    """A ball in colour, large enough to be kept."""
+    ball = trimesh.creation.icosphere(subdivisions=5)
+    path = tmp_path / "ball.obj"
+    path.write_text("mtllib ball.mtl\nusemtl red\n" + ball.export(file_type="obj", include_normals=False))
+    (tmp_path / "ball.mtl").write_text("newmtl red\nKd 1 0 0\n")
+    return path
+
+
+def read_again(path: Path) -> Mesh:
+    """Load without what this process remembers."""
+    load._load.cache_clear()
+    return load_mesh(path)
+
+
+def same(a: Mesh, b: Mesh) -> bool:
+    return bool(np.array_equal(a.vertices, b.vertices) and np.array_equal(a.faces, b.faces) and a.parts == b.parts)
+
+
+def test_what_is_kept_is_what_was_read(large: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = read_again(large)
+    (kept,) = cache_folder.iterdir()
+    assert kept.suffix == ".npz"
+
+    monkeypatch.setattr(load, "_read", lambda *_: pytest.fail("read again"))
+    assert same(read_again(large), first)
+    large.rename(large.with_name("other.obj"))
+    assert same(read_again(large.with_name("other.obj")), first)
+
+
+def test_another_content_is_another_entry(large: Path, cache_folder: Path) -> None:
+    assert read_again(large).rgba == (1.0, 0.0, 0.0, 1.0)
+
+    large.with_suffix(".mtl").write_text("newmtl red\nKd 0 1 0\n")
+
+    assert read_again(large).rgba == (0.0, 1.0, 0.0, 1.0)
+    assert len(list(cache_folder.iterdir())) == 2
+
+
+def test_a_file_that_changes_is_read_again_within_a_process(tmp_path: Path) -> None:
+    path = tmp_path / "a.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert len(load_mesh(path).faces) == 1
+    path.write_text(path.read_text() + "f 3 2 1\n")
+    assert len(load_mesh(path).faces) == 2
+
+
+@pytest.mark.parametrize("spoil", ["cut", "bit", "text", "empty"])
+def test_a_damaged_entry_is_thrown_away(large: Path, cache_folder: Path, spoil: str) -> None:
+    first = read_again(large)
+    (kept,) = cache_folder.iterdir()
+    data = bytearray(kept.read_bytes())
+    data[len(data) // 2] ^= 0x40
+    kept.write_bytes({"cut": data[: len(data) // 2], "bit": data, "text": b"hello", "empty": b""}[spoil])
+
+    assert same(read_again(large), first)
+    assert kept.read_bytes() != data
+
+
+def test_a_cache_that_cannot_be_written_costs_nothing(
+    large: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    blocked = tmp_path / "a_file"
+    blocked.write_text("")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(blocked))
+    assert len(read_again(large).faces) == 20480
+
+
+def test_the_longest_unused_go_first(large: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    parts = load._read(large.read_bytes(), ".obj", large)
+    size = len(cache._packed(parts))
+    monkeypatch.setattr(cache, "_MOST_BYTES", 8 * size)
+    for number in range(12):
+        cache.keep(f"key{number:02}", parts)
+        os.utime(cache_folder / f"key{number:02}.npz", (number, number))
+    assert sorted(path.stem for path in cache_folder.iterdir()) == [f"key{number:02}" for number in range(4, 12)]
+    assert cache.load_kept("key00") is None
+    assert cache.load_kept("key11") is not None
+    assert not list(cache_folder.glob("*.tmp"))
