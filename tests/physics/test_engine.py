@@ -314,3 +314,26 @@ def test_joints_speeding_off_slowly_are_caught_too() -> None:
         one_by_one()
     assert np.isfinite(sim.snapshot().joint_positions).all()
     assert np.isfinite(sim.snapshot().joint_velocities).all()
+
+
+def test_a_blow_up_names_the_joint_and_what_is_touched() -> None:
+    sim = wheel()
+    sim["wheel"].joint("hub").set_effort(1e10)
+    with pytest.raises(SimulationUnstableError, match="'wheel::rim' ran away on joint 'wheel::hub'") as caught:
+        sim.run(10.0)
+    assert caught.value.runaway.joint == "wheel::hub"
+    balls = yard()
+    balls.run(0.1)
+    balls["wild"].apply_wrench(Wrench(force=(1e12, 0.0, -1e12)))
+    with pytest.raises(SimulationUnstableError, match="touching 'ground::l::c'"):
+        balls.run(0.1)
+
+
+def test_a_blow_up_after_a_long_while_costs_a_second_at_most() -> None:
+    sim = wheel(damping=0.0)
+    sim.run(5.0)
+    sim["wheel"].joint("hub").set_effort(1e5)
+    # 1e7 rad/s² reach 1e6 rad/s after 0.1 s.
+    with pytest.raises(SimulationUnstableError):
+        sim.run(100.0)
+    assert 5.0 <= sim.time_ns * 1e-9 <= 5.1

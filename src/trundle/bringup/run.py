@@ -3,18 +3,19 @@
 import os
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
+from typing import Literal, TypeAlias
 
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
 from trundle.physics import RayRenderer
 from trundle.render import scene_of
 from trundle.sensors import mount_cameras
-from trundle.simulation import Simulation
+from trundle.simulation import Simulation, SimulationUnstableError
 
 from .exposure import warn_of_exposure
 from .outcome import Outcome
@@ -25,6 +26,10 @@ from .ros_side import RosSide
 from .showing import Showing
 from .signals import stop_flag
 from .stage import set_stage
+
+OnInstability: TypeAlias = Literal["pause", "reset", "exit"]
+_MOST_RESETS = 10
+"""A world that blows up so often will do so again."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,6 +49,9 @@ class RunOptions:
     ros: bool = True
     sensors: bool = True
     strict: bool = False
+    on_instability: OnInstability | None = None
+    """What to do when the physics blows up; None: pause where there is a page to look at it, exit where there is none.
+    """
 
 
 def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = None) -> Outcome:
@@ -80,7 +88,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         if not options.headless:
             page = open_things.enter_context(Page.open(simulation, cameras, ros, host=options.host, port=options.port))
             show.line(f"see it at {page.url}")
-        wall_s = _drive(simulation, ros, page, options, stop)
+        wall_s = _drive(simulation, ros, page, options, stop, show.line)
         show.findings()
         return Outcome(
             world=stage.written,
@@ -93,22 +101,56 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         )
 
 
-def _drive(simulation: Simulation, ros: RosSide | None, page: Page | None, options: RunOptions, stop: Event) -> float:
-    """Step until the time is over or somebody asks to stop; return the wall time it took [s]."""
+def _drive(
+    simulation: Simulation,
+    ros: RosSide | None,
+    page: Page | None,
+    options: RunOptions,
+    stop: Event,
+    say: Callable[[str], None],
+) -> float:
+    """Step until the time is over or somebody asks to stop; return the wall time it took [s].
+
+    Raises:
+        SimulationUnstableError: the physics blew up, and that is to be the end.
+    """
     end_ns = None if options.duration_s is None else round(options.duration_s * NS)
     pacer = Pacer(options.speed)
     paused = options.paused
+    resets = 0
     started = time.monotonic()
     while not stop.is_set() and (end_ns is None or simulation.time_ns < end_ns):
-        if page is not None:
-            paused = page.obey(pacer, paused=paused)
-            page.feed(pacer, paused=paused)
-        if paused:
-            stop.wait(0.02)
+        try:
+            if page is not None:
+                paused = page.obey(pacer, paused=paused)
+                page.feed(pacer, paused=paused)
+            if paused:
+                stop.wait(0.02)
+                pacer.restart()
+                continue
+            target_ns = pacer.next_target(simulation.time_ns)
+            simulation.advance(target_ns if end_ns is None else min(target_ns, end_ns))
+        except SimulationUnstableError as error:
+            resets += 1
+            paused = _recover(simulation, options, error, resets, say)
             pacer.restart()
             continue
-        target_ns = pacer.next_target(simulation.time_ns)
-        simulation.advance(target_ns if end_ns is None else min(target_ns, end_ns))
         if ros is not None:
             ros.tick(wait=pacer.speed is None)
     return time.monotonic() - started
+
+
+def _recover(
+    simulation: Simulation, options: RunOptions, error: SimulationUnstableError, times: int, say: Callable[[str], None]
+) -> bool:
+    """Do what was asked for when the physics blows up; return whether the simulation is paused now."""
+    match options.on_instability or ("exit" if options.headless else "pause"):
+        case "pause":
+            say(f"{error}; the simulation is paused where it last was sound, at {simulation.time_ns / NS:.3f} s")
+            return True
+        case "reset" if times <= _MOST_RESETS:
+            say(f"{error}; the simulation starts anew")
+            simulation.reset()
+            return False
+        case _:
+            raise error

@@ -30,6 +30,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--no-ros", action="store_true", help="no ROS graph; nothing is bound")
     parser.add_argument("--no-sensors", action="store_true", help="switch every sensor off")
     parser.add_argument("--strict", action="store_true", help="a warning about the file is an error")
+    parser.add_argument(
+        "--on-instability",
+        choices=("pause", "reset", "exit"),
+        help="when the physics blows up (pause where there is a page, exit where there is none)",
+    )
     parser.add_argument("--json", action="store_true", help="print the final state as one JSON object")
     add_allow_outside(parser)
 
@@ -50,6 +55,7 @@ def main(args: argparse.Namespace) -> int:
         ros=not args.no_ros,
         sensors=not args.no_sensors,
         strict=args.strict,
+        on_instability=args.on_instability,
     )
     outcome = run(args.file, options)
     if args.json:

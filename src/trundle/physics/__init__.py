@@ -4,6 +4,7 @@ from .compile import compile_world
 from .engine import Engine, EngineState, SimulationUnstableError
 from .index import CompiledWorld
 from .instant import Instant
+from .postmortem import Runaway
 from .raycaster import RayRenderer
 from .touching import Contact
 
@@ -14,6 +15,7 @@ __all__ = [
     "EngineState",
     "Instant",
     "RayRenderer",
+    "Runaway",
     "SimulationUnstableError",
     "compile_world",
 ]

@@ -16,17 +16,25 @@ from .between import Between
 from .index import CompiledWorld
 from .instant import Instant, Looker
 from .motors import Motors
+from .postmortem import Runaway, find_runaway
 from .reader import StateReader
 from .settings import silence_log
 from .touching import Contact, contacts_of
 
 _BAD = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
-_HUGE = 1e10
-"""MuJoCo's mjMAXVAL: what is larger, it calls unstable."""
+FASTEST = 1e6
+"""[m/s or rad/s] Nothing that a file means moves faster; MuJoCo itself takes offence at 1e10."""
 
 
 class SimulationUnstableError(TrundleError):
     """The physics blew up; the engine holds the last good state."""
+
+    def __init__(self, runaway: Runaway) -> None:
+        super().__init__(
+            f"the physics became unstable {runaway}; "
+            f"a smaller <max_step_size> or more plausible masses and inertias may help"
+        )
+        self.runaway = runaway
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,12 +82,9 @@ class Engine:
         self._advance(count)
         self.reader.changed()
         if self._is_unstable():
-            name, time_s = self._find_runaway(count)
+            runaway = self._find_runaway(count)
             self._go_back(efforts)
-            raise SimulationUnstableError(
-                f"the physics became unstable after {time_s:.3f} s: {name!r} ran away; "
-                f"a smaller <max_step_size> or more plausible masses and inertias may help"
-            )
+            raise SimulationUnstableError(runaway)
 
     def _advance(self, count: int) -> None:
         """In C, unless the world needs something that MuJoCo does not have."""
@@ -91,7 +96,10 @@ class Engine:
 
     def _is_unstable(self) -> bool:
         warnings = self._data.warning
-        return any(warnings[kind].number > 0 for kind in _BAD)
+        if any(warnings[kind].number > 0 for kind in _BAD):
+            return True
+        speeds = self._data.qvel
+        return bool(speeds.size) and not max(float(speeds.max()), -float(speeds.min())) < FASTEST
 
     def _go_back(self, efforts: NDArray[np.float64]) -> None:
         for warning in self._data.warning:
@@ -100,12 +108,8 @@ class Engine:
         self._data.qfrc_actuator[:] = efforts
         self.reader.changed()
 
-    def _find_runaway(self, count: int) -> tuple[str, float]:
-        """Take the same steps again, one by one, up to the bad one: which link began it, and when [s].
-
-        Afterwards nothing is to be seen: the solver spreads one link's NaN over the world. So it is the link that is
-        pushed by no number, or whose accelerations are huge before the solver sees them, or that is the fastest.
-        """
+    def _find_runaway(self, count: int) -> Runaway:
+        """Take the same steps again, one by one, up to the bad one; afterwards nothing is to be seen."""
         self._go_back(self._data.qfrc_actuator)
         time_s, speeds = self._data.time, np.abs(self._data.qvel)
         for _ in range(count):
@@ -113,12 +117,7 @@ class Engine:
             self._advance(1)
             if self._is_unstable():
                 break
-        pushed = np.flatnonzero(~np.isfinite(self._data.xfrc_applied).all(axis=1))
-        if pushed.size:
-            return self._model.body(int(pushed[0])).name, time_s
-        accelerations = np.nan_to_num(np.abs(self._data.qacc_smooth), nan=np.inf)
-        worst = int(np.argmax(accelerations if accelerations.max() > _HUGE else speeds))
-        return self._model.body(int(self._model.dof_bodyid[worst])).name, time_s
+        return find_runaway(self.compiled, self._data, speeds, time_s)
 
     # -- writing
 

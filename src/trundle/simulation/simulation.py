@@ -19,6 +19,8 @@ from .hooks import AfterStep, BeforeStep, ScheduledHook
 from .snapshot import Snapshot
 
 NS = 1_000_000_000
+_LONGEST = 1000
+"""Steps in one stride: what blows up is undone to its beginning."""
 Command: TypeAlias = Callable[["Simulation"], None]
 
 
@@ -98,7 +100,9 @@ class Simulation:
             for hook in hooks:
                 if hook.before is not None and hook.before_alarm.rings(self.steps):
                     hook.before(self)
-            stop = min([target, *(hook.next_step for hook in hooks), *self._wrench_ends.values()])
+            stop = min(
+                [target, self.steps + _LONGEST, *(hook.next_step for hook in hooks), *self._wrench_ends.values()]
+            )
             self.engine.step(stop - self.steps)
             self.steps = stop
             self._end_wrenches()
