@@ -5,7 +5,7 @@ import math
 from collections.abc import Callable
 from importlib import import_module
 
-from .graph import IntermixedParser, original_errors
+from .running import IntermixedParser, original_errors
 
 EXAMPLES = """
   trundle bag record -O drive.bag /odom /tf /scan

@@ -13,7 +13,7 @@ from trundle.diagnostics import UsageError
 from trundle.names import parse_arguments
 from trundle.ros import BagReader, Node, Player, PlayOptions, open_bag
 
-from .graph import running_node
+from .running import running_node
 
 _CONNECTED_S = 0.1
 _TERMINAL_S = 0.1

@@ -12,7 +12,7 @@ from trundle.diagnostics import UsageError
 from trundle.names import parse_arguments
 from trundle.ros import BagError, Recorder, RecordOptions, follow_time
 
-from .graph import running_node
+from .running import running_node
 
 
 def main(args: argparse.Namespace) -> int:

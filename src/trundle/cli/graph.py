@@ -1,77 +1,64 @@
-"""What the commands that look at a running graph share: names, the master, and what to say when nobody answers."""
+"""Draw the graph: which node publishes what to whom, as rqt_graph does."""
 
 import argparse
-import functools
-import os
-import sys
-from argparse import Namespace
-from collections.abc import Callable, Generator
-from contextlib import contextmanager
-from typing import TYPE_CHECKING
+import json
+from pathlib import Path
 
-from trundle.diagnostics import TrundleError
-from trundle.names import Arguments, anonymous_name, resolve_name
-from trundle.ros import MasterProxy, MasterUnreachableError, master_uri_from_env
+from trundle.diagnostics import UsageError
 
-if TYPE_CHECKING:
-    from trundle.ros import GraphLoop, Node
+from .graph_picture import Drawing, Item, as_dot, as_svg
+from .running import master, original_errors
 
-
-class IntermixedParser(argparse.ArgumentParser):
-    """Takes options between positional arguments: `pub /cmd_vel geometry_msgs/Twist -r 10 -- '[1, 0, 0]' …`."""
-
-    _is_inside = False
-
-    def parse_known_args(self, args=None, namespace=None):  # type: ignore[override]
-        if self._is_inside:
-            return super().parse_known_args(args, namespace)
-        self._is_inside = True
-        try:
-            return self.parse_known_intermixed_args(args, namespace)
-        finally:
-            self._is_inside = False
+EXAMPLES = """
+  trundle graph                   as text for Graphviz
+  trundle graph -o graph.svg      as a picture
+"""
+_QUIET = ("/rosout", "/rosout_agg", "/clock", "/diagnostics", "/statistics")
+"""What everybody talks about; rqt_graph hides them too."""
 
 
-def original_errors(function: Callable[[Namespace], int]) -> Callable[[Namespace], int]:
-    """Report what a graph command cannot do as rostopic and its kin do, on stderr and with exit code 1."""
-
-    @functools.wraps(function)
-    def reporting(args: Namespace) -> int:
-        try:
-            return function(args)
-        except MasterUnreachableError as error:
-            print(f"ERROR: Unable to communicate with master!\n{error}", file=sys.stderr)
-        except TrundleError as error:
-            print(f"ERROR: {error}", file=sys.stderr)
-        return 1
-
-    return reporting
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("-o", "--output", metavar="FILE", help="a picture (.svg), or Graphviz' language (.gv, .dot)")
+    parser.add_argument("-a", "--all", action="store_true", help="with /rosout, /clock and topics that nobody hears")
+    parser.add_argument("--json", action="store_true", help="nodes, topics and services as one JSON object")
 
 
-def global_name(name: str, script: str) -> str:
-    """Resolve a name from the command line; ROS_NAMESPACE is where relative ones live."""
-    namespace = "/" + os.environ.get("ROS_NAMESPACE", "").strip("/")
-    return resolve_name(name, f"{namespace.rstrip('/')}/{script}")
+@original_errors
+def main(args: argparse.Namespace) -> int:
+    """Draw the graph as it is now."""
+    publishers, subscribers, services = master("rosgraph").call("getSystemState")
+    if args.json:
+        tables = {"publishers": publishers, "subscribers": subscribers, "services": services}
+        print(json.dumps({name: dict(table) for name, table in tables.items()}))
+        return 0
+    drawing = _drawing(dict(publishers), dict(subscribers), with_all=args.all)
+    if args.output is None:
+        print(as_dot(drawing), end="")
+        return 0
+    target = Path(args.output)
+    if target.suffix not in (".svg", ".gv", ".dot"):
+        raise UsageError(f"{target} ends in none of .svg, .gv, .dot")
+    try:
+        target.write_text(as_svg(drawing) if target.suffix == ".svg" else as_dot(drawing), encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f"{target} cannot be written: {error.strerror}") from None
+    return 0
 
 
-def master(script: str) -> MasterProxy:
-    """A proxy of the master that ROS_MASTER_URI names."""
-    return MasterProxy(caller_id=f"/{script}")
+def _drawing(publishers: dict[str, list[str]], subscribers: dict[str, list[str]], *, with_all: bool) -> Drawing:
+    topics = sorted({*publishers, *subscribers})
+    if not with_all:
+        topics = [t for t in topics if t not in _QUIET and t in publishers and t in subscribers]
+    edges: list[tuple[Item, Item]] = []
+    for topic in topics:
+        item: Item = ("topic", topic)
+        edges.extend((_node(name), item) for name in publishers.get(topic, []))
+        edges.extend((item, _node(name)) for name in subscribers.get(topic, []))
+    everybody = {node for table in (publishers, subscribers) for nodes in table.values() for node in nodes}
+    items: list[Item] = [_node(name) for name in sorted(everybody) if name != "/rosout" or with_all]
+    return Drawing([*items, *(("topic", topic) for topic in topics)], edges)
 
 
-@contextmanager
-def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[GraphLoop, Node]"]:
-    """Run an anonymous node; shut it down at the end, Ctrl-C included.
-
-    Args:
-        base: what its name begins with.
-        words: name and remappings from the command line.
-    """
-    from trundle.ros import GraphLoop, Node
-
-    words = words or Arguments()
-    MasterProxy(caller_id=f"/{base}").call("getPid")
-    with GraphLoop() as loop:
-        name = words.name or anonymous_name(base)
-        node = Node(name, loop=loop, master_uri=master_uri_from_env(), remappings=words.remappings, rosout=False)
-        yield loop, node
+def _node(name: str) -> Item:
+    return "node", name

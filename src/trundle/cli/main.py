@@ -31,6 +31,11 @@ COMMANDS: dict[str, str] = {
     "bag": "record, play, describe and edit bags",
     "msg": "show message types",
     "srv": "show service types",
+    "tf": "print, draw and measure transforms",
+    "graph": "draw who publishes what to whom",
+    "log": "show what nodes log",
+    "exec": "run a node of a package",
+    "pack": "find packages and what they need",
 }
 """Name and one line of help; the order of `trundle --help`."""
 

@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 from trundle.diagnostics import UsageError
 from trundle.ros import MasterError, MasterProxy, RosError, blocking_call
 
-from .graph import global_name, master, original_errors
+from .running import global_name, master, original_errors
 
 EXAMPLES = """
   trundle node list

@@ -14,7 +14,7 @@ from trundle.diagnostics import UsageError
 from trundle.names import join_names
 from trundle.ros import set_leaves
 
-from .graph import global_name, master, original_errors
+from .running import global_name, master, original_errors
 
 EXAMPLES = """
   trundle param list

@@ -22,7 +22,7 @@ from trundle.ros import (
     probe_service,
 )
 
-from .graph import global_name, master, original_errors, running_node
+from .running import global_name, master, original_errors, running_node
 from .yaml_input import piped_documents, yaml_value
 
 EXAMPLES = """

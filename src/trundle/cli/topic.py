@@ -6,7 +6,7 @@ from urllib.parse import urlsplit
 from trundle.diagnostics import UsageError
 from trundle.ros import MasterError, MasterProxy, RosError
 
-from .graph import IntermixedParser, global_name, master, original_errors
+from .running import IntermixedParser, global_name, master, original_errors
 
 EXAMPLES = """
   trundle topic list

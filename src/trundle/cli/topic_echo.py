@@ -11,7 +11,7 @@ from trundle.diagnostics import UsageError
 from trundle.ros import MessagePrinter, Messages, MessageView, RawMessage, WallClock, follow_time, ns_of, open_bag
 
 from .expression import expression
-from .graph import global_name, master, running_node
+from .running import global_name, master, running_node
 from .topic_field import Field, field_type, split_topic, value_at, wait_for_topic
 
 _FIRST_S = 2.0

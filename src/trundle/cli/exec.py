@@ -1,0 +1,69 @@
+"""Run a node of a package, as rosrun does."""
+
+import argparse
+import os
+import re
+import shlex
+import sys
+from pathlib import Path
+
+from trundle.diagnostics import UsageError
+
+EXAMPLES = """
+  trundle exec robot_state_publisher robot_state_publisher
+  trundle exec tf static_transform_publisher 0 0 0.1 0 0 0 base_link laser 100
+  trundle exec my_robot drive.py _rate:=20 cmd_vel:=/base/cmd_vel
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("--prefix", default="", metavar="COMMAND", help="run the program by this: 'gdb -ex run --args'")
+    parser.add_argument("package")
+    parser.add_argument("executable", help="a program anywhere in the package, or a stock node")
+    parser.add_argument("arguments", nargs=argparse.REMAINDER, metavar="...", help="for the node; a:=b remaps names")
+
+
+def main(args: argparse.Namespace) -> int:
+    """Become the program; or run the stand-in for a stock node here, until Ctrl-C."""
+    from trundle.nodes import Executable, Missing, Replacement, find_node
+    from trundle.packages import Packages
+
+    packages = Packages(os.environ, start=Path.cwd())
+    match find_node(args.package, args.executable, packages.find_package, env=os.environ):
+        case Missing(why):
+            raise UsageError(why)
+        case Executable(path):
+            command = [*shlex.split(args.prefix), str(path), *args.arguments]
+            sys.stdout.flush()
+            try:
+                os.execvp(command[0], command)
+            except OSError as error:
+                raise UsageError(f"{command[0]} cannot be run: {error.strerror}") from None
+        case Replacement() as stand_in:
+            if args.prefix:
+                raise UsageError(f"--prefix is for programs; {args.package}/{args.executable} runs in this process")
+            return _stand_in(args, stand_in)
+
+
+def _stand_in(args: argparse.Namespace, stand_in: object) -> int:
+    import yaml
+
+    from trundle.names import parse_arguments
+    from trundle.nodes import Host, Replacement, run_stand_in
+    from trundle.ros import GraphLoop, Node, master_uri_from_env
+
+    assert isinstance(stand_in, Replacement)
+    words = parse_arguments(args.arguments)
+    default = re.sub(r"\W", "_", args.executable.rpartition("/")[2].removesuffix(".py"))
+    with GraphLoop() as loop:
+        node = Node(
+            words.name or default,
+            loop=loop,
+            master_uri=words.master_uri or master_uri_from_env(),
+            namespace=words.namespace or os.environ.get("ROS_NAMESPACE", "/"),
+            remappings=words.remappings,
+            params={name: yaml.safe_load(text) for name, text in words.params.items()},
+            host=words.host,
+        )
+        return loop.run(run_stand_in(stand_in, node, list(words.rest), Host()), None)

@@ -1,0 +1,96 @@
+"""Show what nodes log, as rqt_console does."""
+
+import argparse
+import json
+import queue
+import re
+import sys
+from typing import Any
+
+from trundle.diagnostics import UsageError
+
+from .running import original_errors, running_node
+
+EXAMPLES = """
+  trundle log
+  trundle log -l warn
+  trundle log -n '/move_base.*' -g 'timed? out'
+"""
+_LEVELS = {"debug": 1, "info": 2, "warn": 4, "error": 8, "fatal": 16}
+_COLOURS = {1: "\033[32m", 4: "\033[33m", 8: "\033[31m", 16: "\033[31m"}
+_WAITING = 10_000
+"""Lines kept for a terminal that is slower than the nodes; the oldest go."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("-l", "--level", choices=_LEVELS, default="debug", help="this level and above")
+    parser.add_argument("-n", "--node", metavar="REGEX", help="nodes whose whole name this matches")
+    parser.add_argument("-g", "--grep", metavar="REGEX", help="lines in which this is found")
+    parser.add_argument("-x", "--exclude", metavar="REGEX", help="but not lines in which this is found")
+    parser.add_argument("-c", "--count", type=int, metavar="N", help="stop after so many lines")
+    parser.add_argument("-v", "--verbose", action="store_true", help="with file, line and function")
+    parser.add_argument("--json", action="store_true", help="one JSON object a line")
+
+
+@original_errors
+def main(args: argparse.Namespace) -> int:
+    """Print until enough lines came or Ctrl-C."""
+    node_name, found, excluded = (_pattern(text) for text in (args.node, args.grep, args.exclude))
+    least = _LEVELS[args.level]
+    inbox: queue.Queue[Any] = queue.Queue(_WAITING)
+
+    def take(message: Any) -> None:
+        if inbox.full():
+            inbox.get_nowait()
+        inbox.put_nowait(message)
+
+    printed = 0
+    with running_node("log") as (_, node):
+        node.subscribe("/rosout_agg", "rosgraph_msgs/Log", take, queue_size=None)
+        while args.count is None or printed < args.count:
+            message = inbox.get()
+            if message.level < least or (node_name is not None and not node_name.fullmatch(message.name)):
+                continue
+            if found is not None and not found.search(message.msg):
+                continue
+            if excluded is not None and excluded.search(message.msg):
+                continue
+            print(_as_json(message) if args.json else _as_line(message, verbose=args.verbose), flush=True)
+            printed += 1
+    return 0
+
+
+def _pattern(text: str | None) -> "re.Pattern[str] | None":
+    try:
+        return None if text is None else re.compile(text)
+    except re.error as error:
+        raise UsageError(f"not a regular expression: {text!r}: {error}") from None
+
+
+def _as_line(message: Any, *, verbose: bool) -> str:
+    stamp = f"{message.header.stamp.sec}.{message.header.stamp.nanosec:09d}"
+    line = f"[{_name(message.level).upper():>5}] [{stamp}] [{message.name}]: {message.msg}"
+    if verbose:
+        line += f" ({message.file}:{message.line} {message.function})"
+    colour = _COLOURS.get(message.level, "") if sys.stdout.isatty() else ""
+    return f"{colour}{line}\033[0m" if colour else line
+
+
+def _as_json(message: Any) -> str:
+    return json.dumps(
+        {
+            "level": _name(message.level),
+            "stamp": message.header.stamp.sec + message.header.stamp.nanosec / 1e9,
+            "node": message.name,
+            "text": message.msg,
+            "file": message.file,
+            "line": message.line,
+            "function": message.function,
+            "topics": message.topics,
+        }
+    )
+
+
+def _name(level: int) -> str:
+    return next((name for name, number in _LEVELS.items() if number == level), str(level))

@@ -1,0 +1,123 @@
+"""Find packages and what they need, as rospack does."""
+
+import argparse
+import os
+import sys
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from trundle.diagnostics import TrundleError, UsageError
+from trundle.packages import Packages, needs
+
+EXAMPLES = """
+  trundle pack list
+  trundle pack find smartcar_description
+  trundle pack depends smartcar_description
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    add = commands.add_parser("find", help="folder of a package")
+    add.add_argument("package")
+    add.set_defaults(run=_find)
+    commands.add_parser("list", help="names and folders of all packages").set_defaults(run=_list)
+    commands.add_parser("list-names", help="names of all packages").set_defaults(run=_list_names)
+    for name, run, help_ in (
+        ("depends", _depends, "packages that a package needs, and what those need"),
+        ("depends1", _depends1, "packages that a package itself names"),
+        ("depends-on", _depends_on, "packages that need a package, directly or not"),
+        ("depends-on1", _depends_on1, "packages that name a package"),
+    ):
+        add = commands.add_parser(name, help=help_)
+        add.add_argument("package")
+        add.set_defaults(run=run)
+
+
+def main(args: argparse.Namespace) -> int:
+    """Run the subcommand."""
+    return int(args.run(args, Packages(os.environ, start=Path.cwd())))
+
+
+def _find(args: argparse.Namespace, packages: Packages) -> int:
+    folder = packages.find_package(args.package)
+    if folder is None:
+        raise UsageError(packages.why_not_found(args.package))
+    print(folder)
+    return 0
+
+
+def _list(_: argparse.Namespace, packages: Packages) -> int:
+    for name, folder in sorted(packages.ros_packages().items()):
+        print(f"{name} {folder}")
+    return 0
+
+
+def _list_names(_: argparse.Namespace, packages: Packages) -> int:
+    _print(sorted(packages.ros_packages()))
+    return 0
+
+
+def _depends(args: argparse.Namespace, packages: Packages) -> int:
+    _named(args, packages)
+    _print(_all_needs(args.package, packages.ros_packages()))
+    return 0
+
+
+def _depends1(args: argparse.Namespace, packages: Packages) -> int:
+    _named(args, packages)
+    _print(_own_needs(args.package, packages.ros_packages()))
+    return 0
+
+
+def _depends_on(args: argparse.Namespace, packages: Packages) -> int:
+    _named(args, packages)
+    known = packages.ros_packages()
+    _print(sorted(name for name in known if args.package in _all_needs(name, known)))
+    return 0
+
+
+def _depends_on1(args: argparse.Namespace, packages: Packages) -> int:
+    _named(args, packages)
+    known = packages.ros_packages()
+    _print(sorted(name for name in known if args.package in _own_needs(name, known)))
+    return 0
+
+
+def _named(args: argparse.Namespace, packages: Packages) -> None:
+    if args.package not in packages.ros_packages():
+        raise UsageError(packages.why_not_found(args.package))
+
+
+def _own_needs(name: str, known: Mapping[str, Path]) -> list[str]:
+    """The packages among a package's needs; the rest is the system's business."""
+    try:
+        return [each for each in needs(known[name]) if each in known]
+    except TrundleError as error:
+        print(f"WARNING: {error}", file=sys.stderr)
+        return []
+
+
+def _all_needs(name: str, known: Mapping[str, Path]) -> list[str]:
+    """The same with what those need, the deepest first."""
+    found: dict[str, None] = {}
+    waiting = [(name, iter(_own_needs(name, known)))]
+    entered = {name}
+    while waiting:
+        current, below = waiting[-1]
+        for each in below:
+            if each not in entered:
+                entered.add(each)
+                waiting.append((each, iter(_own_needs(each, known))))
+                break
+        else:
+            waiting.pop()
+            found[current] = None
+    del found[name]
+    return list(found)
+
+
+def _print(names: Iterable[str]) -> None:
+    for name in names:
+        print(name)

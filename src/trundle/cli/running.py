@@ -1,0 +1,77 @@
+"""What the commands that look at a running graph share: names, the master, and what to say when nobody answers."""
+
+import argparse
+import functools
+import os
+import sys
+from argparse import Namespace
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from trundle.diagnostics import TrundleError
+from trundle.names import Arguments, anonymous_name, resolve_name
+from trundle.ros import MasterProxy, MasterUnreachableError, master_uri_from_env
+
+if TYPE_CHECKING:
+    from trundle.ros import GraphLoop, Node
+
+
+class IntermixedParser(argparse.ArgumentParser):
+    """Takes options between positional arguments: `pub /cmd_vel geometry_msgs/Twist -r 10 -- '[1, 0, 0]' …`."""
+
+    _is_inside = False
+
+    def parse_known_args(self, args=None, namespace=None):  # type: ignore[override]
+        if self._is_inside:
+            return super().parse_known_args(args, namespace)
+        self._is_inside = True
+        try:
+            return self.parse_known_intermixed_args(args, namespace)
+        finally:
+            self._is_inside = False
+
+
+def original_errors(function: Callable[[Namespace], int]) -> Callable[[Namespace], int]:
+    """Report what a graph command cannot do as rostopic and its kin do, on stderr and with exit code 1."""
+
+    @functools.wraps(function)
+    def reporting(args: Namespace) -> int:
+        try:
+            return function(args)
+        except MasterUnreachableError as error:
+            print(f"ERROR: Unable to communicate with master!\n{error}", file=sys.stderr)
+        except TrundleError as error:
+            print(f"ERROR: {error}", file=sys.stderr)
+        return 1
+
+    return reporting
+
+
+def global_name(name: str, script: str) -> str:
+    """Resolve a name from the command line; ROS_NAMESPACE is where relative ones live."""
+    namespace = "/" + os.environ.get("ROS_NAMESPACE", "").strip("/")
+    return resolve_name(name, f"{namespace.rstrip('/')}/{script}")
+
+
+def master(script: str) -> MasterProxy:
+    """A proxy of the master that ROS_MASTER_URI names."""
+    return MasterProxy(caller_id=f"/{script}")
+
+
+@contextmanager
+def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[GraphLoop, Node]"]:
+    """Run an anonymous node; shut it down at the end, Ctrl-C included.
+
+    Args:
+        base: what its name begins with.
+        words: name and remappings from the command line.
+    """
+    from trundle.ros import GraphLoop, Node
+
+    words = words or Arguments()
+    MasterProxy(caller_id=f"/{base}").call("getPid")
+    with GraphLoop() as loop:
+        name = words.name or anonymous_name(base)
+        node = Node(name, loop=loop, master_uri=master_uri_from_env(), remappings=words.remappings, rosout=False)
+        yield loop, node

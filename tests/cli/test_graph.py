@@ -1,0 +1,181 @@
+"""`trundle graph`, `log`, `exec` and `pack`: the tools around a graph."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from trundle.cli.graph_picture import Drawing, Item, as_svg
+from trundle.ros import WallClock
+from trundle.xmlnode import parse_xml
+
+STRING = "std_msgs/String"
+
+
+def test_the_graph_is_drawn(graph: Any, tmp_path: Path) -> None:
+    one, two = graph.node("one"), graph.node("two")
+    one.advertise("/a", STRING)
+    one.advertise("/unheard", STRING)
+    two.subscribe("/a", STRING, print)
+    graph.ready(one, two)
+    assert graph.trundle("graph") == (
+        0,
+        'digraph graphname {\n  rankdir=LR;\n  "n_/one" [label="/one", shape=ellipse];\n'
+        '  "n_/two" [label="/two", shape=ellipse];\n  "t_/a" [label="/a", shape=box];\n'
+        '  "n_/one" -> "t_/a";\n  "t_/a" -> "n_/two";\n}\n',
+        "",
+    )
+    assert '"t_/unheard"' in graph.trundle("graph", "-a")[1]
+    assert json.loads(graph.trundle("graph", "--json")[1])["subscribers"]["/a"] == ["/two"]
+    target = tmp_path / "graph.svg"
+    assert graph.trundle("graph", "-o", str(target))[0] == 0
+    texts = parse_xml(target.read_text(), name="graph.svg").all("text")
+    left = {text.text: float(text.attribute("x") or 0) for text in texts}
+    assert left["/one"] < left["/a"] < left["/two"]
+    assert graph.trundle("graph", "-o", "graph.pdf")[0] == 1
+
+
+def test_loops_are_drawn_too() -> None:
+    items: list[Item] = [("node", "/a"), ("topic", "/t"), ("node", "/b"), ("topic", "/u")]
+    circle = [(items[i], items[(i + 1) % 4]) for i in range(4)]
+    picture = parse_xml(as_svg(Drawing(items, circle)), name="x.svg")
+    assert len([path for path in picture.all("path") if path.attribute("marker-end")]) == 4
+    assert len({(rect.attribute("x"), rect.attribute("y")) for rect in picture.all("rect")}) == 5
+    assert parse_xml(as_svg(Drawing([], [])), name="x.svg").all("text") == []
+
+
+@pytest.fixture
+def chatter(graph: Any) -> Any:
+    """A node that says something of each level, again and again."""
+    node, other = graph.node("motor"), graph.node("camera")
+
+    async def talk() -> None:
+        while True:
+            node.log_info("spinning")
+            node.log_warn("getting <hot>")
+            other.log_error("lens cap on")
+            await WallClock().sleep(0.05)
+
+    graph.ready(node, other)
+    talking = graph.loop.spawn(talk())
+    yield node
+    talking.cancel()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "ends"),
+    [
+        (["-l", "warn", "-n", "/motor"], "[/motor]: getting <hot>"),
+        (["-l", "error"], "[/camera]: lens cap on"),
+        (["-g", "spin+ing"], "[/motor]: spinning"),
+        (["-x", "spin|lens"], "[/motor]: getting <hot>"),
+    ],
+)
+def test_what_nodes_log_is_shown_and_filtered(graph: Any, chatter: Any, arguments: list[str], ends: str) -> None:
+    code, out, _ = graph.trundle("log", "-c", "2", *arguments)
+    assert code == 0
+    assert len(out.splitlines()) == 2
+    assert all(line.endswith(ends) for line in out.splitlines())
+
+
+def test_logs_are_json_if_asked(graph: Any, chatter: Any) -> None:
+    line = json.loads(graph.trundle("log", "-c", "1", "--json", "-l", "error")[1])
+    assert (line["level"], line["node"], line["text"]) == ("error", "/camera", "lens cap on")
+    assert graph.trundle("log", "-g", "(")[0] == 1
+
+
+@pytest.fixture
+def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    for name, version, lines in (
+        ("my_robot", 3, "<depend>my_msgs</depend><exec_depend>my_tools</exec_depend><depend>libboost</depend>"),
+        ("my_tools", 1, "<run_depend>my_msgs</run_depend>"),
+        ("my_two", 3, '<depend condition="$ROS_VERSION == 2">my_msgs</depend>'),
+        ("my_msgs", 2, ""),
+    ):
+        folder = tmp_path / "src" / name
+        folder.mkdir(parents=True)
+        (folder / "package.xml").write_text(
+            f'<package format="{version}"><name>{name}</name><version>1.0.0</version><description>x</description>'
+            f'<maintainer email="a@b.c">a</maintainer><license>x</license>{lines}</package>'
+        )
+    script = tmp_path / "src" / "my_robot" / "scripts" / "drive"
+    script.parent.mkdir()
+    script.write_text('#!/bin/sh\necho "$@"\nexit 7\n')
+    script.chmod(0o755)
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "src"))
+    return tmp_path / "src"
+
+
+def test_packages_and_what_they_need_are_found(graph: Any, workspace: Path) -> None:
+    assert graph.trundle("pack", "find", "my_robot")[1] == f"{workspace / 'my_robot'}\n"
+    assert f"my_two {workspace / 'my_two'}\n" in graph.trundle("pack", "list")[1]
+    assert graph.trundle("pack", "depends1", "my_robot")[1] == "my_msgs\nmy_tools\n"
+    assert graph.trundle("pack", "depends", "my_robot")[1] == "my_msgs\nmy_tools\n"
+    assert graph.trundle("pack", "depends-on1", "my_msgs")[1] == "my_robot\nmy_tools\n"
+    assert graph.trundle("pack", "depends-on", "my_two")[1] == ""
+    code, _, error = graph.trundle("pack", "find", "nobody")
+    assert code == 1
+    assert error.startswith("trundle pack: error: no package 'nobody'; looked below ")
+
+
+def test_packages_that_need_each_other_end(graph: Any, workspace: Path) -> None:
+    manifest = workspace / "my_msgs" / "package.xml"
+    manifest.write_text(manifest.read_text().replace("</package>", "<exec_depend>my_robot</exec_depend></package>"))
+    assert graph.trundle("pack", "depends", "my_robot")[1] == "my_msgs\nmy_tools\n"
+
+
+@pytest.mark.real_ros
+def test_packages_are_rospkgs(graph: Any, workspace: Path) -> None:
+    code = (
+        "import rospkg, sys; r = rospkg.RosPack(); n = 'my_robot';"
+        "print(r.get_path(n)); print(sorted(r.get_depends(n, implicit=False))); print(sorted(r.get_depends(n)))"
+    )
+    if not Path("/usr/lib/python3/dist-packages/rospkg").is_dir():
+        pytest.skip("Debian's python3-rospkg is not installed")
+    path, own, all_ = subprocess.run(
+        ["/usr/bin/python3", "-c", code],
+        env={"PATH": "/usr/bin", "ROS_PACKAGE_PATH": str(workspace)},
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    ).stdout.splitlines()
+    assert graph.trundle("pack", "find", "my_robot")[1].strip() == path
+    assert str(sorted(graph.trundle("pack", "depends1", "my_robot")[1].split())) == own
+    assert str(sorted(graph.trundle("pack", "depends", "my_robot")[1].split())) == all_
+
+
+def _exec(*arguments: str) -> "subprocess.Popen[str]":
+    command = [sys.executable, "-m", "trundle", "exec", *arguments]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=dict(os.environ))
+
+
+def test_a_program_of_a_package_is_run(graph: Any, workspace: Path) -> None:
+    with _exec("my_robot", "drive", "-x", "1", "a:=b") as process:
+        out, _ = process.communicate(timeout=60)
+    assert (process.returncode, out) == (7, "-x 1 a:=b\n")
+    with _exec("--prefix", "env -i", "my_robot", "drive") as process:
+        assert process.communicate(timeout=60)[0] == "\n"
+    code, _, error = graph.trundle("exec", "my_robot", "fly")
+    assert code == 1
+    assert "no executable 'fly' in" in error
+
+
+def test_a_stock_node_runs_here(graph: Any) -> None:
+    got: list[Any] = []
+    graph.node("n").subscribe("/tf", "tf2_msgs/TFMessage", got.append)
+    words = ["0", "0", "0.1", "0", "0", "0", "base", "laser", "10", "__name:=mount"]
+    with _exec("tf", "static_transform_publisher", *words) as process:
+        try:
+            graph.until(lambda: got)
+            assert "/mount\n" in graph.trundle("node", "list")[1]
+            process.send_signal(signal.SIGINT)
+            assert process.wait(20) == 130
+        finally:
+            process.kill()
+    graph.until(lambda: "/mount" not in graph.trundle("node", "list")[1])
