@@ -162,7 +162,7 @@ def test_a_controller_that_cannot_be_made_is_named_and_left_out() -> None:
     assert [text for level, text in node.logged if level == "error"] == [
         "Unrecognized controller: omni_controller",
         "controller b: parameter /n/controllers/b/ticks_meter is not set; it is left out",
-        "controller c: follow_controller is not supported; it is left out",
+        "controller c: joints is not set; it names the servos to move; it is left out",
     ]
 
 

@@ -76,3 +76,9 @@ def test_a_script_for_a_ros_that_is_not_installed_gives_way_to_the_stand_in(
     assert find_node("p", "talk.py", lambda _: tmp_path, env={}) == Executable(own)
     found = find_node("arbotix_python", "arbotix_driver", lambda _: tmp_path, env={})
     assert found == Replacement("trundle.nodes.arbotix:ArbotixDriver")
+
+
+def test_what_is_out_of_scope_is_named_with_a_way_out() -> None:
+    found = find_node("move_base", "move_base", lambda _: None, env={})
+    assert isinstance(found, Missing)
+    assert "the real one can run in a container with ROS_MASTER_URI set to this master" in found.why

@@ -3,7 +3,12 @@
 STAND_INS: dict[tuple[str, str], str] = {
     ("arbotix_python", "arbotix_driver"): "trundle.nodes.arbotix:ArbotixDriver",
     ("arbotix_python", "arbotix_driver.py"): "trundle.nodes.arbotix:ArbotixDriver",
+    ("arbotix_python", "arbotix_gui"): "trundle.nodes.windows:RqtWindow",
     ("arbotix_python", "driver.py"): "trundle.nodes.arbotix:ArbotixDriver",
+    (
+        "depthimage_to_laserscan",
+        "depthimage_to_laserscan",
+    ): "trundle.nodes.depthimage_to_laserscan:DepthImageToLaserScan",
     ("gazebo_ros", "debug"): "trundle.nodes.gazebo:GazeboServer",
     ("gazebo_ros", "gazebo"): "trundle.nodes.gazebo:GazeboServer",
     ("gazebo_ros", "gdbrun"): "trundle.nodes.gazebo:GazeboServer",
@@ -12,17 +17,37 @@ STAND_INS: dict[tuple[str, str], str] = {
     ("gazebo_ros", "perf"): "trundle.nodes.gazebo:GazeboServer",
     ("gazebo_ros", "spawn_model"): "trundle.nodes.gazebo:SpawnModel",
     ("gazebo_ros", "urdf_spawner"): "trundle.nodes.gazebo:SpawnModel",
+    ("image_view", "image_view"): "trundle.nodes.windows:ImageView",
     ("joint_state_publisher", "joint_state_publisher"): "trundle.nodes.joint_state_publisher:JointStatePublisher",
-    ("joint_state_publisher_gui", "joint_state_publisher_gui"): (
-        "trundle.nodes.joint_state_publisher:JointStatePublisherGui"
-    ),
-    ("robot_state_publisher", "robot_state_publisher"): "trundle.nodes.robot_state_publisher:RobotStatePublisher",
-    ("robot_state_publisher", "state_publisher"): "trundle.nodes.robot_state_publisher:StatePublisher",
+    (
+        "joint_state_publisher_gui",
+        "joint_state_publisher_gui",
+    ): "trundle.nodes.joint_state_publisher:JointStatePublisherGui",
+    ("joy", "joy_node"): "trundle.nodes.joy_node:JoyNode",
     ("map_server", "map_saver"): "trundle.nodes.map_server:MapSaver",
     ("map_server", "map_server"): "trundle.nodes.map_server:MapServer",
+    (
+        "pointcloud_to_laserscan",
+        "pointcloud_to_laserscan_node",
+    ): "trundle.nodes.pointcloud_to_laserscan:PointCloudToLaserScan",
+    ("robot_state_publisher", "robot_state_publisher"): "trundle.nodes.robot_state_publisher:RobotStatePublisher",
+    ("robot_state_publisher", "state_publisher"): "trundle.nodes.robot_state_publisher:StatePublisher",
+    ("rqt_console", "rqt_console"): "trundle.nodes.windows:RqtWindow",
+    ("rqt_graph", "rqt_graph"): "trundle.nodes.windows:RqtWindow",
+    ("rqt_gui", "rqt_gui"): "trundle.nodes.windows:RqtWindow",
+    ("rqt_image_view", "rqt_image_view"): "trundle.nodes.windows:RqtWindow",
+    ("rqt_joint_trajectory_controller", "rqt_joint_trajectory_controller"): "trundle.nodes.windows:RqtWindow",
+    ("rqt_plot", "rqt_plot"): "trundle.nodes.windows:RqtWindow",
+    ("rqt_reconfigure", "rqt_reconfigure"): "trundle.nodes.windows:RqtWindow",
+    ("rqt_robot_monitor", "rqt_robot_monitor"): "trundle.nodes.windows:RqtWindow",
+    ("rqt_robot_steering", "rqt_robot_steering"): "trundle.nodes.windows:RqtWindow",
+    ("rqt_tf_tree", "rqt_tf_tree"): "trundle.nodes.windows:RqtWindow",
+    ("rqt_topic", "rqt_topic"): "trundle.nodes.windows:RqtWindow",
     ("rviz", "rviz"): "trundle.nodes.rviz:Rviz",
+    ("teleop_twist_joy", "teleop_node"): "trundle.nodes.teleop_twist_joy:TeleopTwistJoy",
     ("teleop_twist_keyboard", "teleop_twist_keyboard.py"): "trundle.nodes.teleop_twist_keyboard:TeleopTwistKeyboard",
     ("tf", "static_transform_publisher"): "trundle.nodes.static_transform_publisher:TfStaticTransformPublisher",
+    ("tf2_ros", "buffer_server"): "trundle.nodes.buffer_server:BufferServer",
     ("tf2_ros", "static_transform_publisher"): "trundle.nodes.static_transform_publisher:Tf2StaticTransformPublisher",
     ("topic_tools", "drop"): "trundle.nodes.topic_tools:Drop",
     ("topic_tools", "mux"): "trundle.nodes.topic_tools:Mux",
@@ -33,6 +58,7 @@ STAND_INS: dict[tuple[str, str], str] = {
     ("turtlesim", "mimic"): "trundle.nodes.turtlesim:Mimic",
     ("turtlesim", "turtle_teleop_key"): "trundle.nodes.turtlesim:TurtleTeleopKey",
     ("turtlesim", "turtlesim_node"): "trundle.nodes.turtlesim:TurtleSim",
+    ("twist_mux", "twist_mux"): "trundle.nodes.twist_mux:TwistMux",
 }
 """(package, type) → "module:Class"."""
 

@@ -12,6 +12,7 @@ from trundle.ros import Node
 
 from .catalog import OURS_ALWAYS, STAND_INS
 from .host import Host, StandIn
+from .missing import WAYS_OUT
 
 _IMPORTS_ROSPY = re.compile(rb"^\s*(?:import|from)\s+(?:rospy|roslib)\b", re.MULTILINE)
 _DEBIAN_MODULES = "/usr/lib/python3/dist-packages"
@@ -76,10 +77,11 @@ def find_node(
         return Replacement(target)
     if plain is not None:
         return Missing(f"{plain} is not executable; run chmod +x on it")
+    way_out = f"; {WAYS_OUT[package]}" if package in WAYS_OUT else ""
     if folder is not None:
-        return Missing(f"no executable {type_name!r} in {folder}, and no stand-in for {package}/{type_name}")
+        return Missing(f"no executable {type_name!r} in {folder}, and no stand-in for {package}/{type_name}{way_out}")
     known = sorted(name for owner, name in STAND_INS if owner == package)
-    there_is = f"; stand-ins of that package: {', '.join(known)}" if known else ""
+    there_is = f"; stand-ins of that package: {', '.join(known)}" if known else way_out
     return Missing(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
 
 

@@ -16,6 +16,7 @@ async def run_stand_in(replacement: Replacement, node: Node, arguments: list[str
         host: what the program offers.
     """
     try:
+        await node.ready()  # its `_name:=value` parameters are set
         await follow_time(node)
         return await replacement.load()(node, arguments, host).run()
     finally:

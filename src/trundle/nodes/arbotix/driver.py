@@ -6,6 +6,7 @@ from ..host import Host
 from ..rate import Cadence, Rate
 from ..settings import SettingError, Settings
 from .diff import DiffController
+from .follow import FollowController
 from .linear import LinearController, LinearJoint
 from .part import Controller, Joint, JointReading
 from .servos import DynamixelServo, HobbyServo, ServoController
@@ -83,7 +84,7 @@ class ArbotixDriver:
                     case "linear_controller_i":
                         self._controllers.append(LinearController(self._node, name, section, incremental=True))
                     case "follow_controller":
-                        self._node.log_error(f"controller {name}: follow_controller is not supported; it is left out")
+                        self._controllers.append(FollowController(self._node, name, section, self._joints))
                     case _:
                         self._node.log_error(f"Unrecognized controller: {kind}")
             except (SettingError, MessageError) as error:

@@ -1,0 +1,127 @@
+"""depthimage_to_laserscan: the middle rows of a depth image as a laser scan."""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.ros import Message, Node
+
+from .host import Host
+from .settings import Settings
+
+_ENCODINGS: dict[str, tuple[type[np.generic], float]] = {
+    "32FC1": (np.float32, 1.0),
+    "16UC1": (np.uint16, 0.001),
+    "mono16": (np.uint16, 0.001),
+}
+"""Encoding → number type and metres of its unit."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pinhole:
+    """What is needed of a camera's calibration, in pixels."""
+
+    focal_px: float
+    center_x_px: float
+    center_y_px: float
+
+
+def scan_of(
+    depths: NDArray[np.float64], camera: Pinhole, *, rows: int, nearest_m: float, farthest_m: float
+) -> tuple[float, float, NDArray[np.float32]]:
+    """Make a scan: angle_min, angle_max [rad] and one range [m] for each column, from right to left.
+
+    Args:
+        depths: (height, width) along the optical axis [m]; NaN or infinite where nothing was measured.
+        camera: the camera.
+        rows: how many about the middle are looked at; the nearest of a column counts.
+        nearest_m: ranges outside are left out: NaN, or infinite where that was measured.
+        farthest_m: likewise.
+    """
+    height, width = depths.shape
+    first = max(0, int(camera.center_y_px - rows / 2))
+    band = depths[first : min(first + rows, height)]
+    slopes = (np.arange(width) - camera.center_x_px) / camera.focal_px
+    ranges = band * np.hypot(1.0, slopes)
+    usable = np.isfinite(ranges) & (ranges >= nearest_m) & (ranges <= farthest_m)
+    nearest = np.where(usable, ranges, np.inf).min(axis=0, initial=np.inf)
+    empty = np.where(np.isinf(band).any(axis=0), np.inf, np.nan)
+    columns = np.where(np.isfinite(nearest), nearest, empty)
+    angle_min, angle_max = -math.atan(slopes[-1]), -math.atan(slopes[0])
+    # The columns are evenly spaced in the image, the scan's rays in angle: where two meet, the nearer counts.
+    increment = (angle_max - angle_min) / max(width - 1, 1)
+    places = np.clip(np.rint((-np.arctan(slopes) - angle_min) / increment).astype(int), 0, width - 1)
+    scan = np.full(width, np.nan)
+    for place, value in zip(places.tolist(), columns.tolist(), strict=True):
+        scan[place] = np.fmin(scan[place], value)
+    return angle_min, angle_max, scan.astype(np.float32)
+
+
+class DepthImageToLaserScan:
+    """Turns `image` with its camera_info into `scan`."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del arguments, host
+        self._node = node
+        self._camera: Pinhole | None = None
+        self._said = False
+
+    async def run(self) -> int:
+        """Convert until cancelled."""
+        node = self._node
+        settings = Settings(await node.get_param("~", {}), node.name)
+        self._rows = int(settings.number("scan_height", 1.0))
+        self._scan_time_s = settings.number("scan_time", 1.0 / 30.0)
+        self._nearest_m, self._farthest_m = settings.number("range_min", 0.45), settings.number("range_max", 10.0)
+        self._frame = settings.text("output_frame_id", settings.text("output_frame", "camera_depth_frame"))
+        self._scan = node.advertise("scan", "sensor_msgs/LaserScan", queue_size=10)
+        topic = node.resolve("image")
+        info = f"{topic.rpartition('/')[0]}/camera_info"
+        node.subscribe(info, "sensor_msgs/CameraInfo", self._calibrate, queue_size=1)
+        node.subscribe("image", "sensor_msgs/Image", self._take, queue_size=1)
+        await node.closed.wait()
+        return 0
+
+    def _calibrate(self, info: Message) -> None:
+        k = [float(value) for value in info.K]
+        self._camera = Pinhole(focal_px=k[0], center_x_px=k[2], center_y_px=k[5]) if k[0] > 0.0 else None
+
+    def _take(self, image: Message) -> None:
+        if self._camera is None or not self._scan.has_subscribers:
+            return
+        if image.encoding not in _ENCODINGS:
+            if not self._said:
+                self._node.log_error(f"encoding {image.encoding!r} is no depth; there are {', '.join(_ENCODINGS)}")
+            self._said = True
+            return
+        self._scan.publish(self._fields(image, self._camera))
+
+    def _fields(self, image: Message, camera: Pinhole) -> dict[str, Any]:
+        nearest, farthest = self._nearest_m, self._farthest_m
+        depths = depths_of(image)
+        low, high, ranges = scan_of(depths, camera, rows=self._rows, nearest_m=nearest, farthest_m=farthest)
+        return {
+            "header": {"stamp": image.header.stamp, "frame_id": self._frame},
+            "angle_min": low,
+            "angle_max": high,
+            "angle_increment": (high - low) / max(len(ranges) - 1, 1),
+            "scan_time": self._scan_time_s,
+            "range_min": nearest,
+            "range_max": farthest,
+            "ranges": ranges,
+        }
+
+
+def depths_of(image: Message) -> NDArray[np.float64]:
+    """(height, width) of a depth image [m]; zero of an integer encoding means nothing was measured."""
+    kind, unit_m = _ENCODINGS[image.encoding]
+    stored = np.dtype(kind).newbyteorder(">" if image.is_bigendian else "<")
+    rows = np.asarray(image.data, dtype=np.uint8).reshape(image.height, image.step)
+    used = np.ascontiguousarray(rows[:, : image.width * stored.itemsize])
+    depths = used.view(stored).astype(np.float64) * unit_m
+    if unit_m != 1.0:
+        depths[depths == 0.0] = np.nan
+    return depths

@@ -1,0 +1,73 @@
+"""teleop_twist_joy/teleop_node: a joystick's axes as a velocity, while a button is held."""
+
+from trundle.ros import Message, Node
+
+from .host import Host
+from .settings import Settings
+
+_MOVES = {"x": ("linear", "x"), "y": ("linear", "y"), "z": ("linear", "z")}
+_TURNS = {"yaw": ("angular", "z"), "pitch": ("angular", "y"), "roll": ("angular", "x")}
+
+
+class TeleopTwistJoy:
+    """Sends cmd_vel while ~enable_button is held, faster with ~enable_turbo_button, and one stop when it is let go."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del arguments, host
+        self._node = node
+        self._sent_stop = True
+
+    async def run(self) -> int:
+        """Drive until cancelled."""
+        node = self._node
+        settings = Settings(await node.get_param("~", {}), node.name)
+        self._enable = int(settings.number("enable_button", 0.0))
+        self._turbo = int(settings.number("enable_turbo_button", -1.0))
+        self._moves = [
+            *_axes(settings, "linear", _MOVES, single=("x", 1)),
+            *_axes(settings, "angular", _TURNS, single=("yaw", 0)),
+        ]
+        self._commands = node.advertise("cmd_vel", "geometry_msgs/Twist", queue_size=1)
+        node.subscribe("joy", "sensor_msgs/Joy", self._take, queue_size=1)
+        await node.closed.wait()
+        return 0
+
+    def _take(self, joy: Message) -> None:
+        if self._turbo >= 0 and _pressed(joy, self._turbo):
+            self._send(joy, turbo=True)
+        elif _pressed(joy, self._enable):
+            self._send(joy, turbo=False)
+        elif not self._sent_stop:  # once, so that others may drive
+            self._commands.publish({})
+            self._sent_stop = True
+
+    def _send(self, joy: Message, *, turbo: bool) -> None:
+        twist: dict[str, dict[str, float]] = {"linear": {}, "angular": {}}
+        for (part, axis), index, scale, turbo_scale in self._moves:
+            value = float(joy.axes[index]) if 0 <= index < len(joy.axes) else 0.0
+            twist[part][axis] = value * (turbo_scale if turbo else scale)
+        self._commands.publish(twist)
+        self._sent_stop = False
+
+
+_Move = tuple[tuple[str, str], int, float, float]
+
+
+def _axes(settings: Settings, part: str, names: dict[str, tuple[str, str]], *, single: tuple[str, int]) -> list[_Move]:
+    """Read axis_… and scale_…: maps of names, or in the old form one number for the one axis there is."""
+    axes, scales = settings.section(f"axis_{part}"), settings.section(f"scale_{part}")
+    turbos = settings.section(f"scale_{part}_turbo")
+    if axes.names():
+        return [
+            (names[name], int(axes.number(name)), scales.number(name, 0.0), turbos.number(name, 0.0))
+            for name in axes.names()
+            if name in names
+        ]
+    name, default = single
+    scale = settings.number(f"scale_{part}", 0.5)
+    turbo = settings.number(f"scale_{part}_turbo", 1.0 if part == "linear" else scale)
+    return [(names[name], int(settings.number(f"axis_{part}", float(default))), scale, turbo)]
+
+
+def _pressed(joy: Message, button: int) -> bool:
+    return 0 <= button < len(joy.buttons) and bool(joy.buttons[button])

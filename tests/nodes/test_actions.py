@@ -1,0 +1,107 @@
+"""Actions: where frames are, and servos along a trajectory."""
+
+from typing import Any
+
+import pytest
+
+SUCCEEDED, ABORTED, PREEMPTED = 3, 4, 2
+ARBOTIX: dict[str, Any] = {
+    "sim": True,
+    "rate": 100.0,
+    "write_rate": 50.0,
+    "read_rate": 50.0,
+    "joints": {"pan": {"id": 1}, "tilt": {"id": 2}},
+    "controllers": {"arm": {"type": "follow_controller", "joints": ["pan", "tilt"]}},
+}
+FOLLOW = "control_msgs/FollowJointTrajectory"
+
+
+def ask(stage, name: str, kind: str, goal: dict[str, Any], *, key: str = "1") -> Any:
+    """Send a goal; the publisher of goals and the results so far."""
+    results = stage.listen(f"{name}/result", f"{kind}ActionResult")
+    goals = stage.speak(f"{name}/goal", f"{kind}ActionGoal")
+    stage.until(lambda: stage.connected(f"{name}/result"))
+    goals.publish({"goal_id": {"id": key}, "goal": goal})
+    return goals, results
+
+
+def point(*positions: float, at_s: float) -> dict[str, Any]:
+    ns = round(at_s * 1e9)
+    return {"positions": list(positions), "time_from_start": {"sec": ns // 10**9, "nanosec": ns % 10**9}}
+
+
+def test_servos_follow_a_trajectory(stage) -> None:
+    stage.start("arbotix_python/arbotix_driver", name="arbotix", **ARBOTIX)
+    states = stage.listen("/joint_states", "sensor_msgs/JointState")
+    trajectory = {"joint_names": ["tilt", "pan"], "points": [point(0.4, -0.2, at_s=0.3), point(0.4, 0.1, at_s=0.6)]}
+    _, results = ask(stage, "/arm/follow_joint_trajectory", FOLLOW, {"trajectory": trajectory})
+    stage.until(lambda: results)
+
+    assert (results[0].status.status, results[0].status.text) == (SUCCEEDED, "Trajectory execution complete")
+
+    def position(joint: str) -> float:
+        return dict(zip(states[-1].name, states[-1].position, strict=True))[joint]
+
+    # Ticks are 0.3 degrees; the last hundredth of a second is not waited for.
+    stage.until(lambda: position("tilt") == pytest.approx(0.4, abs=0.01))
+    stage.until(lambda: position("pan") == pytest.approx(0.1, abs=0.02))
+
+
+@pytest.mark.parametrize(
+    ("trajectory", "text"),
+    [
+        ({"joint_names": ["pan"], "points": [point(0.1, at_s=0.1)]}, "'tilt' is missing"),
+        ({"joint_names": ["pan", "tilt"]}, "Trajectory empty."),
+        ({"joint_names": ["pan", "tilt"], "points": [point(0.1, at_s=0.1)]}, "fewer positions"),
+    ],
+)
+def test_a_trajectory_that_does_not_fit_is_aborted(stage, trajectory: dict[str, Any], text: str) -> None:
+    stage.start("arbotix_python/arbotix_driver", name="arbotix", **ARBOTIX)
+    _, results = ask(stage, "/arm/follow_joint_trajectory", FOLLOW, {"trajectory": trajectory})
+    stage.until(lambda: results)
+    assert results[0].status.status == ABORTED
+    assert text in results[0].status.text
+
+
+def test_a_new_goal_preempts_and_a_cancel_ends_it(stage) -> None:
+    stage.start("arbotix_python/arbotix_driver", name="arbotix", **ARBOTIX)
+    slow = {"trajectory": {"joint_names": ["pan", "tilt"], "points": [point(1.0, 1.0, at_s=100.0)]}}
+    goals, results = ask(stage, "/arm/follow_joint_trajectory", FOLLOW, slow, key="first")
+    status = stage.listen("/arm/follow_joint_trajectory/status", "actionlib_msgs/GoalStatusArray")
+    stage.until(lambda: status and [s.status for s in status[-1].status_list] == [1])
+    goals.publish({"goal_id": {"id": "second"}, "goal": slow})
+    stage.until(lambda: len(results) == 1)
+    assert (results[0].status.goal_id.id, results[0].status.status) == ("first", PREEMPTED)
+
+    stage.speak("/arm/follow_joint_trajectory/cancel", "actionlib_msgs/GoalID").publish({})
+    stage.until(lambda: len(results) == 2)
+    assert (results[1].status.goal_id.id, results[1].status.status) == ("second", PREEMPTED)
+
+
+def test_a_controller_without_its_servos_is_named_and_left_out(stage, capsys) -> None:
+    controllers = {"arm": {"type": "follow_controller", "joints": ["elbow"]}}
+    stage.start("arbotix_python/arbotix_driver", name="arbotix", **{**ARBOTIX, "controllers": controllers})
+    said = ""
+
+    def named() -> bool:
+        nonlocal said
+        said += capsys.readouterr().err
+        return "no servo 'elbow'; servos here: pan, tilt; it is left out" in said
+
+    stage.until(named)
+
+
+def test_the_buffer_server_looks_frames_up(stage) -> None:
+    stage.start("tf2_ros/static_transform_publisher", "1 2 3 0 0 0 base camera", name="still")
+    stage.start("tf2_ros/buffer_server")
+    kind = "tf2_msgs/LookupTransform"
+    goal = {"target_frame": "base", "source_frame": "camera", "timeout": {"sec": 20}}
+    goals, results = ask(stage, "/buffer_server", kind, goal)
+    stage.until(lambda: results)
+    assert results[0].status.status == SUCCEEDED
+    assert results[0].result.transform.transform.translation.y == 2.0
+
+    goals.publish({"goal_id": {"id": "2"}, "goal": {**goal, "source_frame": "moon", "timeout": {}}})
+    stage.until(lambda: len(results) == 2)
+    assert (results[1].status.status, results[1].result.error.error) == (ABORTED, 1)
+    assert "moon" in results[1].result.error.error_string

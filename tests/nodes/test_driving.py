@@ -1,0 +1,103 @@
+"""Nodes between a hand and a robot: joysticks and the choice among commands."""
+
+from typing import Any
+
+import pytest
+
+from trundle.nodes.settings import SettingError
+from trundle.nodes.twist_mux import Source, allowed, read_sources
+
+TWIST = "geometry_msgs/Twist"
+S = 1_000_000_000
+
+
+def source(name: str, priority: int, *, timeout_s: float = 0.5, heard_s: float | None = None) -> Source:
+    return Source(name, name, timeout_s, priority, None if heard_s is None else round(heard_s * S))
+
+
+def test_the_fresh_source_of_highest_priority_drives() -> None:
+    low, high = source("low", 10, heard_s=10.0), source("high", 100, heard_s=9.8)
+    assert not allowed(low, [low, high], [], 10 * S)
+    assert allowed(high, [low, high], [], 10 * S)
+    assert allowed(low, [low, high], [], round(10.4 * S))  # high has fallen silent
+
+
+def test_a_lock_masks_what_is_not_above_it() -> None:
+    low, high = source("low", 10, heard_s=10.0), source("high", 100, heard_s=None)
+    lock = source("lock", 50, timeout_s=0.0)
+    assert allowed(low, [low, high], [lock], 10 * S)
+    lock.closed = True
+    assert not allowed(low, [low, high], [lock], 10 * S)
+    assert allowed(high, [low, high], [lock], 10 * S)
+
+
+def test_a_lock_that_falls_silent_masks() -> None:
+    low, lock = source("low", 10, heard_s=10.0), source("lock", 50, heard_s=9.0)
+    assert not allowed(low, [low], [lock], 10 * S)
+
+
+@pytest.mark.parametrize("value", [{"a": 1}, [{"name": "a"}], [{"name": "a", "topic": "t"}], ["x"]])
+def test_sources_that_are_none_are_refused(value: object) -> None:
+    with pytest.raises(SettingError):
+        read_sources(value, "/twist_mux/topics")
+
+
+def test_twist_mux_passes_on_what_may_drive(stage) -> None:
+    topics = [{"name": "joy", "topic": "joy_vel", "timeout": 60.0, "priority": 100}]
+    topics.append({"name": "nav", "topic": "nav_vel", "timeout": 60.0, "priority": 10})
+    stage.start("twist_mux/twist_mux", topics=topics)
+    heard = stage.listen("/cmd_vel_out", TWIST)
+    nav, joy = stage.speak("/nav_vel", TWIST), stage.speak("/joy_vel", TWIST)
+    stage.until(lambda: stage.connected("/cmd_vel_out"))
+    nav.publish({"linear": {"x": 1.0}})
+    stage.until(lambda: len(heard) == 1)
+    joy.publish({"linear": {"x": 2.0}})
+    stage.until(lambda: len(heard) == 2)
+    nav.publish({"linear": {"x": 3.0}})
+    joy.publish({"linear": {"x": 4.0}})
+    stage.until(lambda: len(heard) == 3)
+
+    assert [m.linear.x for m in heard] == [1.0, 2.0, 4.0]
+
+
+def test_twist_mux_says_what_is_wrong_with_its_topics(stage, capsys) -> None:
+    assert stage.start("twist_mux/twist_mux", topics={"a": 1}).result(30.0) == 1
+    assert "is not a list of topics" in capsys.readouterr().err
+
+
+def test_a_virtual_joystick_drives_while_its_button_is_held(stage) -> None:
+    stage.start("joy/joy_node", autorepeat_rate=50.0)
+    stage.start("teleop_twist_joy/teleop_node", axis_linear=1, scale_linear=0.7, enable_turbo_button=5)
+    heard: list[Any] = stage.listen("/cmd_vel", TWIST)
+    stick = stage.speak("/joy_node/set", "sensor_msgs/Joy")
+    stage.until(lambda: stage.connected("/cmd_vel"))
+    stick.publish({"axes": [0.5, 1.0], "buttons": [1]})
+    stage.until(lambda: heard)
+    assert (heard[-1].linear.x, heard[-1].angular.z) == (pytest.approx(0.7), pytest.approx(0.25))
+
+    stick.publish({"axes": [0.0, 1.0], "buttons": [0, 0, 0, 0, 0, 1]})
+    stage.until(lambda: heard[-1].linear.x == pytest.approx(1.0))
+    stick.publish({"axes": [0.01, 1.0], "buttons": [0]})
+    stage.until(lambda: heard[-1].linear.x == 0.0)
+    count = len(heard)
+    stick.publish({"axes": [0.02, 1.0], "buttons": [0]})
+    stick.publish({"axes": [0.5, 0.5], "buttons": [1]})
+    stage.until(lambda: heard[-1].linear.x != 0.0)
+    assert all(m.linear.x for m in heard[count:])  # one stop, then silence
+
+
+def test_axes_by_name(stage) -> None:
+    stage.start(
+        "teleop_twist_joy/teleop_node",
+        axis_linear={"x": 0, "y": 1},
+        scale_linear={"x": 2.0, "y": 3.0},
+        axis_angular={"yaw": 9},
+        scale_angular={"yaw": 1.0},
+    )
+    heard: list[Any] = stage.listen("/cmd_vel", TWIST)
+    joy = stage.speak("/joy", "sensor_msgs/Joy")
+    stage.until(lambda: stage.connected("/cmd_vel"))
+    joy.publish({"axes": [0.5, 1.0], "buttons": [1]})
+    stage.until(lambda: heard)
+
+    assert (heard[0].linear.x, heard[0].linear.y, heard[0].angular.z) == (1.0, 3.0, 0.0)
