@@ -53,6 +53,17 @@ def test_a_package_is_found_by_its_manifests_name_and_by_its_folders(tmp_path: P
     assert by_name == by_folder == tmp_path / "ws/arm-master/meshes/arm.stl"
 
 
+def test_a_path_relative_to_where_the_user_is_leads_to_an_absolute_one(tmp_path: Path, monkeypatch) -> None:
+    """What is found is handed on to readers that look beside other files."""
+    package(tmp_path / "ws" / "robot")
+    monkeypatch.chdir(tmp_path)
+
+    assert (
+        Packages({"ROS_PACKAGE_PATH": "ws"}, start=tmp_path / "elsewhere").find_package("robot")
+        == tmp_path / "ws/robot"
+    )
+
+
 @pytest.mark.parametrize("space", ["src/group", "devel/share", "install/share", "install/hand/share"])
 def test_every_folder_of_a_workspace_is_searched(tmp_path: Path, space: str) -> None:
     start = write(package(tmp_path / "src/robots/arm") / "urdf/arm.urdf")

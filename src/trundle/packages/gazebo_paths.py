@@ -114,4 +114,4 @@ def _folders(folder: Path) -> list[Path]:
 
 
 def _paths(value: str) -> list[Path]:
-    return [Path(entry).expanduser() for entry in value.split(os.pathsep) if entry]
+    return [Path(entry).expanduser().absolute() for entry in value.split(os.pathsep) if entry]

@@ -29,7 +29,7 @@ class RosPackages:
         """Look along ROS_PACKAGE_PATH, in the workspace around `start`, then beside the package `start` is in."""
         entries = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
         start = start.resolve()
-        self.roots = [*(Path(entry).expanduser() for entry in entries if entry), *workspaces(start)]
+        self.roots = [*(Path(entry).expanduser().absolute() for entry in entries if entry), *workspaces(start)]
         """Folders that are there to hold packages."""
         own = own_package(start)
         self._guessed = [] if own is None or own.parent in self.roots else [own, own.parent]

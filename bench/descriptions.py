@@ -1,0 +1,124 @@
+"""How fast descriptions are read, against the tools that people have."""
+
+import os
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from bench.table import Row
+from trundle.description import load
+from trundle.diagnostics import Diagnostics, TrundleError
+from trundle.packages import Packages
+
+SHARED = Path(__file__).parents[2] / "shared"
+MODELS = SHARED / "corpus/repos/osrf+gazebo_models"
+SMARTCAR = SHARED / "seeds/smartcar_description/urdf/smartcar.urdf.xacro"
+_RUNS = 5
+
+
+def run() -> list[Row]:
+    """Ours and theirs by turns in one run; a peer that is not installed is left out."""
+    if not MODELS.is_dir():
+        return []
+    return [_sdf(), _urdf(), _check()]
+
+
+def _sdf() -> Row:
+    """Every SDF of the model database, read and resolved."""
+    files = sorted(MODELS.rglob("*.sdf"))
+    packages = Packages({"GAZEBO_MODEL_PATH": str(MODELS)}, start=MODELS)
+    with tempfile.TemporaryDirectory() as folder:
+        peer = _sdformat(Path(folder), files)
+        ours, ratio = _by_turns(lambda: _read(files, packages), peer)
+    return Row("SDF, model database", len(files) / ours, "files/s", "libsdformat", ratio)
+
+
+def _urdf() -> Row:
+    """Every plain URDF of the collection."""
+    files = sorted((SHARED / "corpus/repos").rglob("*.urdf"))
+    try:
+        from yourdfpy import URDF  # pyright: ignore[reportMissingImports, reportUnknownVariableType]
+    except ImportError:
+        peer = None
+    else:
+
+        def peer() -> float:
+            start = time.perf_counter()
+            for file in files:
+                try:
+                    URDF.load(str(file), build_scene_graph=False, load_meshes=False)  # pyright: ignore
+                except Exception:
+                    continue
+            return time.perf_counter() - start
+
+    packages = Packages({}, start=SHARED)
+    ours, ratio = _by_turns(lambda: _read(files, packages), peer)
+    return Row("URDF, read and converted", len(files) / ours, "files/s", "yourdfpy", ratio)
+
+
+def _check() -> Row:
+    """`trundle check` of the smartcar, from start to exit, and xacro with check_urdf after it."""
+    tools = [shutil.which("xacro", path=str(Path(sys.executable).parent)), shutil.which("check_urdf")]
+    env = {**os.environ, "ROS_PACKAGE_PATH": str(SHARED / "seeds")}
+
+    def ours() -> float:
+        return _wall([sys.executable, "-m", "trundle", "check", str(SMARTCAR)], env)
+
+    def theirs() -> float:
+        assert tools[0] is not None
+        assert tools[1] is not None
+        with tempfile.NamedTemporaryFile(suffix=".urdf") as expanded:
+            return _wall([tools[0], str(SMARTCAR), "-o", expanded.name], env) + _wall([tools[1], expanded.name], env)
+
+    seconds, ratio = _by_turns(ours, theirs if all(tools) else None)
+    return Row("check smartcar, start to exit", seconds, "s", "xacro + check_urdf", ratio and 1 / ratio)
+
+
+def _wall(command: list[str], env: dict[str, str]) -> float:
+    start = time.perf_counter()
+    subprocess.run(command, env=env, capture_output=True, check=False)
+    return time.perf_counter() - start
+
+
+def _read(files: list[Path], packages: Packages) -> float:
+    start = time.perf_counter()
+    for file in files:
+        try:
+            load(str(file), Diagnostics(), packages=packages)
+        except TrundleError:
+            continue
+    return time.perf_counter() - start
+
+
+def _sdformat(folder: Path, files: list[Path]) -> Callable[[], float] | None:
+    """A small reader built on Debian's libsdformat-dev; None where that is not there."""
+    flags = subprocess.run(
+        ["pkg-config", "--cflags", "--libs", "sdformat12"], capture_output=True, text=True, check=False
+    )
+    if flags.returncode != 0:
+        return None
+    reader, source = folder / "reader", Path(__file__).parent / "sdformat_reader.cc"
+    subprocess.run(["c++", "-O2", "-std=c++17", str(source), "-o", str(reader), *flags.stdout.split()], check=True)
+    names = "\n".join(map(str, files))
+
+    def peer() -> float:
+        done = subprocess.run([str(reader), str(MODELS)], input=names, capture_output=True, text=True, check=True)
+        return float(done.stdout.split()[-1])
+
+    return peer
+
+
+def _by_turns(ours: Callable[[], float], theirs: Callable[[], float] | None) -> tuple[float, float | None]:
+    """Our median time, and the median of theirs over ours, pair by pair: how many times faster ours is."""
+    mine: list[float] = []
+    ratios: list[float] = []
+    for _ in range(_RUNS):
+        mine.append(ours())
+        if theirs is not None:
+            ratios.append(theirs() / mine[-1])
+    return statistics.median(mine), statistics.median(ratios) if ratios else None
