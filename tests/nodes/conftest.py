@@ -1,5 +1,6 @@
 """A graph of its own for each test, stand-ins that run on it, and a node that talks with them."""
 
+import asyncio
 import time
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
@@ -12,6 +13,8 @@ from trundle.nodes import Host, Replacement, run_stand_in
 from trundle.nodes.catalog import STAND_INS
 from trundle.ros import Core, GraphLoop, Message, Messages, Node, Publisher
 
+_FAREWELL_S = 0.1
+"""What processes that ended sent last is taken in before the loop ends: a connection half accepted would leak."""
 PATIENCE_S = 30.0
 """How long anything may take on a busy machine before a test gives up."""
 
@@ -81,6 +84,7 @@ class Stage:
                 future.cancel()
             for _, node in self._running:
                 await node.closed.wait()
+            await asyncio.sleep(_FAREWELL_S)
 
         self.loop.run(end(), PATIENCE_S)
         self._running.clear()

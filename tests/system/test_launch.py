@@ -234,3 +234,27 @@ def test_a_world_that_is_not_there_is_named(launch: Launch, package: Path) -> No
     assert done.returncode == 1
     assert "worlds/nowhere.world: error: no such file or folder" in done.stderr
     assert "Traceback" not in done.stderr + done.stdout
+
+
+def test_what_a_stand_in_says_goes_where_the_launch_file_wants_it(
+    launch: Launch, package: Path, tmp_path: Path
+) -> None:
+    node = '<node pkg="tf2_ros" type="static_transform_publisher" name="{0}" args="0 0 0 0 0 0 x {0}" output="{1}"/>'
+    (package / "main.launch").write_text(
+        f"<launch>{node.format('loud', 'screen')}{node.format('mute', 'log')}</launch>"
+    )
+    done = launch("p", "main.launch", "--headless", "--duration", "2", ROS_LOG_DIR=str(tmp_path / "logs"))
+
+    assert "publishing x to loud" in done.stderr
+    assert "publishing x to mute" not in done.stderr
+    assert "publishing x to mute" in (tmp_path / "logs/latest/mute-2-stdout.log").read_text()
+
+
+def test_a_time_that_nobody_tells_is_said_to_be_missing(start, until, package: Path) -> None:
+    (package / "main.launch").write_text(
+        '<launch><param name="/use_sim_time" value="true"/><node pkg="p" type="talk" name="n"/></launch>'
+    )
+    running = start("launch", "p", "main.launch", "--headless", ROS_PACKAGE_PATH=str(package.parent))
+
+    until("the sentence", lambda: "nothing has published a time on /clock yet" in running.output())
+    assert running.interrupt() == 130

@@ -2,6 +2,7 @@
 
 import os
 import sys
+import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from trundle.diagnostics import Diagnostics
 from trundle.launch import LaunchParam, LaunchPlan, read_arguments, read_launch, resolve_params
 from trundle.nodes import Host
 from trundle.packages import Packages
-from trundle.ros import MasterProxy, MasterUnreachableError, Node, follow_time, master_uri_from_env
+from trundle.ros import Clock, MasterProxy, MasterUnreachableError, Node, follow_time, master_uri_from_env
 from trundle.supervisor import Patience
 from trundle.viewer import GraphPage
 
@@ -33,6 +34,7 @@ from .signals import stop_flag
 NS = 1_000_000_000
 _START_S = 60.0
 """Starting programs takes its time on a busy machine."""
+_SILENCE_S = 5.0
 _LAST_S = 13.0
 """What stopping may take beyond the patience with each program."""
 
@@ -169,8 +171,10 @@ def _run(
                 print(what_runs(running.launched), flush=True)
             end_ns = None if options.duration_s is None else clock.now_ns() + round(options.duration_s * NS)
             over = False
+            silent = _SilentClock(clock, show.line)
             while not stop.wait(0.05) and not over and (end_ns is None or clock.now_ns() < end_ns):
                 show.findings()
+                silent.look()
                 over = running.over and not options.core_only
         finally:
             patience_s = options.patience.interrupt_s + options.patience.terminate_s
@@ -178,6 +182,23 @@ def _run(
         if stop.is_set():
             return 130
         return 1 if running.required_died else 0
+
+
+class _SilentClock:
+    """Says once that simulated time is waited for and nobody tells it, which makes every node stand still."""
+
+    def __init__(self, clock: Clock, say: Callable[[str], None]) -> None:
+        self._clock = clock
+        self._say: Callable[[str], None] | None = say
+        self._due = time.monotonic() + _SILENCE_S
+
+    def look(self) -> None:
+        """See whether there is a time by now."""
+        if self._say is None or self._clock.now_ns() > 0:
+            self._say = None
+        elif time.monotonic() > self._due:
+            self._say("/use_sim_time is true, but nothing has published a time on /clock yet (a simulation, a bag?)")
+            self._say = None
 
 
 def _printed(options: LaunchOptions, plan: LaunchPlan, packages: Packages, env: Mapping[str, str]) -> str:

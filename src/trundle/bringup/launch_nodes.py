@@ -1,5 +1,6 @@
 """Turns a launch file's nodes into jobs: processes, or stand-ins that run here."""
 
+import contextlib
 import shlex
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -72,8 +73,10 @@ class NodeStarter:
                 logs = f"{self.log_folder / name}*.log"
                 return Launched(node=node, kind="process", what=str(path), job=job, log_files=logs)
             case Replacement() as stand_in:
-                job = TaskJob(label, lambda: self._run(node, stand_in))
-                return Launched(node=node, kind="stand-in", what=f"{node.package}/{node.type}", job=job)
+                log = None if (self.output or node.output) == "screen" else self.log_folder / f"{name}-stdout.log"
+                job = TaskJob(label, lambda: self._run(node, stand_in, log))
+                logs = "" if log is None else str(log)
+                return Launched(node=node, kind="stand-in", what=f"{node.package}/{node.type}", job=job, log_files=logs)
             case Missing(why):
                 what = f"node {node.full_name}: {why}"
                 if self.policy(node).required:
@@ -86,8 +89,8 @@ class NodeStarter:
         required = node.required or self.all_required
         return Policy(respawn=node.respawn, respawn_delay_s=node.respawn_delay_s, required=required)
 
-    async def _run(self, node: LaunchNode, stand_in: Replacement) -> int:
-        given = parse_arguments(shlex.split(node.arguments))
+    async def _run(self, node: LaunchNode, stand_in: Replacement, log: Path | None) -> int:
+        given = parse_arguments(_split(node.arguments, node))
         ros_node = Node(
             given.name or node.name,
             loop=self.graph.loop,
@@ -97,7 +100,10 @@ class NodeStarter:
             params={name: _value(text) for name, text in given.params.items()},
             host=self.graph.host,
         )
-        return await run_stand_in(stand_in, ros_node, list(given.rest), self.host)
+        with contextlib.ExitStack() as files:
+            if log is not None:
+                ros_node.quiet_log = files.enter_context(log.open("a", encoding="utf-8"))
+            return await run_stand_in(stand_in, ros_node, list(given.rest), self.host)
 
     def _command(self, node: LaunchNode, label: str, program: Path, env: Mapping[str, str]) -> Command:
         log = self.log_folder / label.replace("/", "-")

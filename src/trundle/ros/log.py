@@ -3,7 +3,7 @@
 import inspect
 import sys
 import threading
-from typing import Literal
+from typing import Literal, TextIO
 
 Level = Literal["debug", "info", "warn", "error", "fatal"]
 LEVELS: dict[str, int] = {"debug": 1, "info": 2, "warn": 4, "error": 8, "fatal": 16}
@@ -14,14 +14,15 @@ _WIDTHS = {"info": "[INFO]", "debug": "[DEBUG]", "warn": "[WARN]", "error": "[ER
 _lock = threading.Lock()
 
 
-def print_log(level: Level, text: str, *, wall_ns: int, sim_ns: int | None) -> None:
-    """Write a line as rospy does: `[INFO] [wall time, simulated time]: text`."""
+def print_log(level: Level, text: str, *, wall_ns: int, sim_ns: int | None, quiet: TextIO | None = None) -> None:
+    """Write a line as rospy does: `[INFO] [wall time, simulated time]: text`; info and below to `quiet`, if given."""
     stamp = f"{wall_ns / 1e9:.6f}" if sim_ns is None else f"{wall_ns / 1e9:.6f}, {sim_ns / 1e9:.6f}"
     line = f"{_WIDTHS[level]} [{stamp}]: {text}"
-    if sys.stderr.isatty() and level in _COLOURS:
+    stream = sys.stderr if quiet is None or LEVELS[level] > LEVELS["info"] else quiet
+    if stream.isatty() and level in _COLOURS:
         line = f"{_COLOURS[level]}{line}\033[0m"
     with _lock:
-        print(line, file=sys.stderr, flush=True)
+        print(line, file=stream, flush=True)
 
 
 def caller(depth: int) -> tuple[str, str, int]:

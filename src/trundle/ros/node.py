@@ -8,7 +8,7 @@ import asyncio
 import contextlib
 import threading
 from collections.abc import Awaitable, Callable, Mapping
-from typing import Any
+from typing import Any, TextIO
 
 from trundle.names import canonical_name, join_names, resolve_name
 
@@ -71,6 +71,7 @@ class Node(NodeCalls, NodeLog):
         self.deliver = deliver
         self.log_level: Level = "info"
         """Messages below this level are not said."""
+        self.quiet_log: TextIO | None = None
         self.closed = asyncio.Event()
         """Set when the node has shut down; awaited on the loop."""
         self._remappings = {

@@ -1,6 +1,7 @@
 """What a node says: on stderr, and on /rosout once somebody gathers it. Any thread may speak."""
 
 import traceback
+from typing import TextIO
 
 from .clock import Clock, WallClock
 from .log import LEVELS, Level, caller, print_log
@@ -14,6 +15,8 @@ class NodeLog:
     clock: Clock
     log_level: Level
     """Messages below this level are not said."""
+    quiet_log: TextIO | None
+    """Takes what is no warning in place of stderr; None: stderr has it all."""
     _rosout: Publisher | None
     _publishers: dict[str, Publisher]
 
@@ -47,7 +50,8 @@ class NodeLog:
             return
         now = self.clock.now_ns()
         wall = WallClock().now_ns()
-        print_log(level, text, wall_ns=wall, sim_ns=None if isinstance(self.clock, WallClock) else now)
+        sim_ns = None if isinstance(self.clock, WallClock) else now
+        print_log(level, text, wall_ns=wall, sim_ns=sim_ns, quiet=self.quiet_log)
         if self._rosout is not None and self._rosout.has_subscribers:
             file, function, line = caller(2)
             fields = {

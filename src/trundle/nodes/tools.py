@@ -1,0 +1,84 @@
+"""ROS' command line tools where launch files start them as nodes: rostopic pub, rosbag record, …"""
+
+import asyncio
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+
+from trundle.ros import Node
+
+from .host import Host
+
+_PATIENCE_S = 5.0
+"""How long a tool may take to end after SIGINT: a bag is closed readable."""
+
+
+class Tool:
+    """Runs `trundle COMMAND…` as a process of its own, and ends with its exit code."""
+
+    command: tuple[str, ...]
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del host
+        self._node = node
+        self._arguments = arguments
+
+    async def run(self) -> int:
+        """Run to the tool's end."""
+        node = self._node
+        environment = {**os.environ, "ROS_MASTER_URI": node.master_uri, "ROS_NAMESPACE": node.name.rpartition("/")[0]}
+        process = await asyncio.create_subprocess_exec(
+            *(sys.executable, "-m", "trundle", *self.command, *self._arguments),
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            start_new_session=os.name == "posix",
+        )
+        try:
+            return await process.wait()
+        finally:
+            await _end(process)
+
+
+async def _end(process: asyncio.subprocess.Process) -> None:
+    """Ask it to end, then make it."""
+    if process.returncode is not None:
+        return
+    with contextlib.suppress(ProcessLookupError):
+        process.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM)
+    try:
+        await asyncio.wait_for(process.wait(), _PATIENCE_S)
+    except TimeoutError:
+        with contextlib.suppress(ProcessLookupError):
+            process.kill()
+
+
+class Rostopic(Tool):
+    """rostopic/rostopic"""
+
+    command = ("topic",)
+
+
+class Rosservice(Tool):
+    """rosservice/rosservice"""
+
+    command = ("service",)
+
+
+class Rosparam(Tool):
+    """rosparam/rosparam"""
+
+    command = ("param",)
+
+
+class RosbagRecord(Tool):
+    """rosbag/record"""
+
+    command = ("bag", "record")
+
+
+class RosbagPlay(Tool):
+    """rosbag/play"""
+
+    command = ("bag", "play")

@@ -1,0 +1,32 @@
+"""Command line tools run where launch files start them as nodes."""
+
+from pathlib import Path
+
+
+def test_rostopic_publishes(stage) -> None:
+    heard = stage.listen("/said", "std_msgs/String")
+    stage.start("rostopic/rostopic", "pub -r 10 /said std_msgs/String hello", name="pub")
+    stage.until(lambda: heard)
+    assert heard[0].data == "hello"
+
+
+def test_rosparam_ends_with_its_exit_code(stage) -> None:
+    assert stage.start("rosparam/rosparam", "set /a 5", name="set").result(30.0) == 0
+    assert stage.loop.run(stage.client.get_param("/a")) == 5
+    assert stage.start("rosparam/rosparam", "get /none", name="get").result(30.0) == 1
+
+
+def test_what_was_recorded_is_played(stage, tmp_path: Path) -> None:
+    bag = tmp_path / "a.bag"
+    source = stage.client.advertise("/said", "std_msgs/String")
+    recorder = stage.start("rosbag/record", f"-O {bag} -l 3 /said", name="record")
+    while not recorder.done():
+        stage.until(lambda: source.has_subscribers or recorder.done())
+        source.publish({"data": "hello"})
+    assert recorder.result() == 0
+    source.unregister()
+    heard = stage.listen("/said", "std_msgs/String")
+    stage.start("rosbag/play", f"-l {bag}", name="play")
+
+    stage.until(lambda: heard)
+    assert heard[0].data == "hello"
