@@ -204,11 +204,12 @@ def test_velocities_decay_by_their_part_at_every_step(load: Load) -> None:
 def test_stepping_through_python_changes_nothing(load: Load) -> None:
     """A world in which something decays, but does not move, ends where the same world without it does."""
     still = "<velocity_decay><linear>0.5</linear></velocity_decay>"
-    ends = []
+    ends: list[list[float]] = []
     for decay in ("", still):
         away = body("away", BALL, pose="5 0 0.1 0 0 0", link=f"<gravity>false</gravity>{decay}")
         sim = load(floor(friction(0.6)), body("b", BLOCK, friction(0.6), pose="0 0 0.3 0.3 0.2 0"), away)
         sim["b"].apply_wrench(Wrench(force=(1.0, 0.0, 0.0)))
         sim.run(1.0)
-        ends.append(sim.snapshot().poses[1].tobytes())
-    assert ends[0] == ends[1]
+        ends.append(sim.snapshot().poses[1].tolist())
+    # Not to the bit: what sleeps is solved island by island.
+    assert ends[0] == pytest.approx(ends[1], abs=1e-9)

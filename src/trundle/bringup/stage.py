@@ -49,6 +49,9 @@ def _on_the_ground(loaded: Loaded, packages: Packages, report: Diagnostics) -> W
     world = loaded.world
     return replace(
         world,
-        models=(*world.models, *(replace(model, added=True) for model in ground)),
+        models=(
+            *world.models,
+            *(replace(m, added=True) for m in ground if m.name not in {t.name for t in world.models}),
+        ),
         lights=(*world.lights, *(replace(light, added=True) for light in sun)),
     )

@@ -16,7 +16,7 @@ from trundle.model import Model
 
 from .settings import SOLIMP, contact_solref, sliding_solref
 from .shapes import ShapeEntry
-from .surfaces import Touch, friction_of, is_plain, may_meet, touch_of
+from .surfaces import Touch, category_of, friction_of, is_plain, may_meet, touch_of
 from .tree import Tree
 
 MOST_PAIRS = 2000
@@ -25,6 +25,7 @@ _STIFFEST = 0.05
 """[1/h²] Stiffness over mass from which on a contact is as hard as MuJoCo's own; a step cannot tell any more."""
 _SOFT = 0.5
 """Impedance of soft contacts: with more, they swing too slowly; with less, friction creeps."""
+_BITS = 0x7FFFFFFF
 _NEVER_FELT = 1e3
 """[m] Deeper than any shape is in another: the two meet and feel nothing before."""
 
@@ -129,7 +130,8 @@ def _let_search(spec: mujoco.MjSpec, moving: Sequence[ShapeEntry], rules: _Rules
         by_model.setdefault(shape.model, []).append(shape)
         mu = friction_of(shape.surface)
         geom = shape.geom
-        geom.contype = geom.conaffinity = 1
+        geom.contype = category_of(shape.surface) & _BITS
+        geom.conaffinity = shape.surface.collide_bitmask & _BITS
         geom.priority = ranks[mu]
         geom.friction = [mu, 0.005, 0.0001]
         geom.condim = 3 if mu > 0 else 1

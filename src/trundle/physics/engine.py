@@ -3,6 +3,7 @@
 Nothing here runs in Python at every step: `step(n)` is one call, and the state is read when somebody asks.
 """
 
+import copy
 from dataclasses import dataclass
 
 import mujoco
@@ -18,6 +19,7 @@ from .instant import Instant, Looker
 from .motors import Motors
 from .postmortem import Runaway, find_runaway
 from .reader import StateReader
+from .rest import EVERY, STATE, Rest
 from .settings import silence_log
 from .touching import Contact, contacts_of
 
@@ -39,11 +41,12 @@ class SimulationUnstableError(TrundleError):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class EngineState:
-    """Everything that decides how the world goes on, and nothing else."""
+    """Everything that decides how the world goes on."""
 
-    numbers: NDArray[np.float64]
-    efforts: NDArray[np.float64]
-    """What the motors exerted in the last step, for who reads them next."""
+    data: mujoco.MjData
+    """A copy: who sleeps is in no vector of numbers."""
+    taken: int
+    sleeps: bool
     gains: NDArray[np.float64]
     biases: NDArray[np.float64]
     ranges: NDArray[np.float64]
@@ -57,17 +60,21 @@ class Engine:
         self.compiled = compiled
         self._model = compiled.model
         self._data = mujoco.MjData(compiled.model)
+        self._rest = Rest(compiled, self._data)
         self.reader = StateReader(compiled, self._data)
-        self.motors = Motors(compiled, self._data)
+        self.motors = Motors(compiled, self._data, self._rest.wake)
         self._between = Between(compiled, self._data)
         self._looker = Looker(compiled)
-        self._spec = mujoco.mjtState.mjSTATE_INTEGRATION
-        self._good = np.empty(mujoco.mj_stateSize(self._model, self._spec))
+        self._good = np.empty(mujoco.mj_stateSize(self._model, STATE))
+        self._taken = 0
+        """Steps, from which follows when to decide who may sleep."""
         self.reset()
 
     def reset(self) -> None:
         """Go back to the world as compiled, at rest, with every motor off."""
+        self._rest.allow(False)
         mujoco.mj_resetData(self._model, self._data)
+        self._taken = 0
         self.motors.switch_off()
         self.reader.changed()
 
@@ -77,13 +84,14 @@ class Engine:
         Raises:
             SimulationUnstableError: naming the link that ran away; the state is the one before this call.
         """
-        mujoco.mj_getState(self._model, self._data, self._good, self._spec)
-        efforts = self._data.qfrc_actuator.copy()
+        mujoco.mj_getState(self._model, self._data, self._good, STATE)
+        efforts, taken = self._data.qfrc_actuator.copy(), self._taken
         self._advance(count)
         self.reader.changed()
         if self._is_unstable():
+            self._go_back(efforts, taken)
             runaway = self._find_runaway(count)
-            self._go_back(efforts)
+            self._go_back(efforts, taken)
             raise SimulationUnstableError(runaway)
 
     def _advance(self, count: int) -> None:
@@ -91,8 +99,14 @@ class Engine:
         if self._between:
             for _ in range(count):
                 self._between.step()
-        else:
-            mujoco.mj_step(self._model, self._data, nstep=count)
+            return
+        while count > 0 and not self._is_unstable():
+            some = min(count, EVERY - self._taken % EVERY)
+            mujoco.mj_step(self._model, self._data, nstep=some)
+            self._taken += some
+            count -= some
+            if self._taken % EVERY == 0 and not self._is_unstable():
+                self._rest.decide()
 
     def _is_unstable(self) -> bool:
         warnings = self._data.warning
@@ -101,16 +115,13 @@ class Engine:
         speeds = self._data.qvel
         return bool(speeds.size) and not max(float(speeds.max()), -float(speeds.min())) < FASTEST
 
-    def _go_back(self, efforts: NDArray[np.float64]) -> None:
-        for warning in self._data.warning:
-            warning.number = 0
-        mujoco.mj_setState(self._model, self._data, self._good, self._spec)
-        self._data.qfrc_actuator[:] = efforts
+    def _go_back(self, efforts: NDArray[np.float64], taken: int) -> None:
+        self._rest.put(self._good, efforts)
+        self._taken = taken
         self.reader.changed()
 
     def _find_runaway(self, count: int) -> Runaway:
         """Take the same steps again, one by one, up to the bad one; afterwards nothing is to be seen."""
-        self._go_back(self._data.qfrc_actuator)
         time_s, speeds = self._data.time, np.abs(self._data.qvel)
         for _ in range(count):
             time_s, speeds = self._data.time, np.abs(self._data.qvel)
@@ -129,6 +140,7 @@ class Engine:
         """Put an axis to a position [rad or m], at rest."""
         self._data.qpos[self.compiled.axis_qpos[axis]] = position
         self._data.qvel[self.compiled.axis_dof[axis]] = 0.0
+        self._rest.wake(int(self.compiled.axis_dof[axis]))
         self.reader.changed()
 
     def set_axis_velocity(self, axis: int, velocity: float) -> None:
@@ -151,6 +163,7 @@ class Engine:
         self._data.qpos[first : first + 7] = (*pose.position, *turned)
         wx, wy, wz = spin.tolist()
         self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=turned).inverse().direction((wx, wy, wz))
+        self._rest.wake(dof)
         self.reader.changed()
 
     def set_tree_twist(self, link: int, twist: Twist) -> None:
@@ -164,6 +177,7 @@ class Engine:
         w, x, y, z = self._data.qpos[first + 3 : first + 7].tolist()
         self._data.qvel[dof : dof + 3] = twist.linear
         self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=(w, x, y, z)).inverse().direction(twist.angular)
+        self._rest.wake(dof)
         self.reader.changed()
 
     def is_free(self, link: int) -> bool:
@@ -181,20 +195,28 @@ class Engine:
         """The state as it is now, for good."""
         return Instant(self._looker, self.reader)
 
+    @property
+    def asleep(self) -> int:
+        """How many groups of links that hang together are at rest and left out of the steps."""
+        return self._rest.asleep
+
     def contacts(self) -> list[Contact]:
-        """What touched what in the last step."""
-        return contacts_of(self.compiled, self._data)
+        """What touches what; MuJoCo keeps no contacts of what sleeps, so these are found anew beside it."""
+        if not self.asleep:
+            return contacts_of(self.compiled, self._model, self._data)
+        state = np.empty_like(self._good)
+        mujoco.mj_getState(self._model, self._data, state, STATE)
+        return self._looker.contacts(state)
 
     # -- keeping
 
     def save(self) -> EngineState:
         """Everything that decides how the world goes on."""
-        numbers = np.empty_like(self._good)
-        mujoco.mj_getState(self._model, self._data, numbers, self._spec)
         model = self._model
         return EngineState(
-            numbers,
-            self._data.qfrc_actuator.copy(),
+            copy.copy(self._data),
+            self._taken,
+            self._rest.is_on,
             model.actuator_gainprm.copy(),
             model.actuator_biasprm.copy(),
             model.actuator_forcerange.copy(),
@@ -202,9 +224,11 @@ class Engine:
 
     def restore(self, state: EngineState) -> None:
         """Go back to a saved state, exactly."""
-        mujoco.mj_setState(self._model, self._data, state.numbers, self._spec)
-        self._data.qfrc_actuator[:] = state.efforts
+        self._rest.allow(state.sleeps)
+        mujoco.mj_copyData(self._data, self._model, state.data)
+        self._taken = state.taken
         self._model.actuator_gainprm[:] = state.gains
         self._model.actuator_biasprm[:] = state.biases
         self._model.actuator_forcerange[:] = state.ranges
+        self.motors.forget()
         self.reader.changed()

@@ -1,5 +1,7 @@
 """The state of a world at one instant, worked out as far as somebody asks."""
 
+import copy
+from dataclasses import replace
 from functools import cached_property
 from threading import Lock
 
@@ -9,25 +11,46 @@ from numpy.typing import NDArray
 
 from .index import CompiledWorld
 from .reader import StateReader
+from .touching import Contact, contacts_of
 
 _Array = NDArray[np.float64]
 
 
 class Looker:
-    """Works out poses beside the engine that goes on; for any thread."""
+    """Works things out beside the engine that goes on, with everybody awake; for any thread."""
 
     def __init__(self, compiled: CompiledWorld) -> None:
         self._compiled = compiled
         self._lock = Lock()
-        self._reader: StateReader | None = None
+
+    @cached_property
+    def _second(self) -> tuple[mujoco.MjModel, mujoco.MjData, StateReader]:
+        """Another engine, made when it is first needed."""
+        model = copy.copy(self._compiled.model)
+        model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+        model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_ISLAND)
+        data = mujoco.MjData(model)
+        return model, data, StateReader(replace(self._compiled, model=model), data)
 
     def bodies(self, qpos: _Array, qvel: _Array) -> tuple[_Array, _Array]:
         """`StateReader.link_poses` and `link_twists` of a state."""
         with self._lock:
-            if self._reader is None:
-                self._reader = StateReader(self._compiled, mujoco.MjData(self._compiled.model))
-            self._reader.show(qpos, qvel)
-            return self._reader.link_poses(), self._reader.link_twists()
+            _, _, reader = self._second
+            reader.show(qpos, qvel)
+            return reader.link_poses(), reader.link_twists()
+
+    def contacts(self, state: _Array) -> list[Contact]:
+        """The contacts of a state, as mjSTATE_INTEGRATION has it."""
+        with self._lock:
+            model, data, reader = self._second
+            motors = self._compiled.model
+            model.actuator_gainprm[:] = motors.actuator_gainprm
+            model.actuator_biasprm[:] = motors.actuator_biasprm
+            model.actuator_forcerange[:] = motors.actuator_forcerange
+            mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
+            mujoco.mj_forward(model, data)
+            reader.changed()
+            return contacts_of(self._compiled, model, data)
 
 
 class Instant:

@@ -1,6 +1,7 @@
 """Drives joints: efforts, speeds and positions, within their limits."""
 
 import math
+from collections.abc import Callable
 
 import mujoco
 
@@ -17,10 +18,19 @@ _HUGE = 1e10
 class Motors:
     """One motor for each axis of a hinge or slide; each does nothing until told to."""
 
-    def __init__(self, compiled: CompiledWorld, data: mujoco.MjData) -> None:
+    def __init__(self, compiled: CompiledWorld, data: mujoco.MjData, wake: Callable[[int], None]) -> None:
+        """Take the engine's arrays.
+
+        Args:
+            compiled: the world.
+            data: its state.
+            wake: called with a degree of freedom that is told something new.
+        """
         self._compiled = compiled
         self._model = compiled.model
         self._data = data
+        self._wake = wake
+        self._orders: dict[int, tuple[float, ...]] = {}
 
     def set_effort(self, axis: int, effort: float) -> None:
         """Hold an effort [N·m or N] on an axis, as far as its limits let it, and switch its motor off.
@@ -32,42 +42,56 @@ class Motors:
         largest, fastest = float(compiled.axis_effort[axis]), float(compiled.axis_velocity[axis])
         effort = min(max(effort, -largest), largest)
         if math.isinf(fastest) or effort == 0.0 or not math.isfinite(effort):
-            self._motor(axis, gain=0.0, position=0.0, velocity=0.0, low=-1.0, high=1.0)
+            self._motor(axis, gain=0.0, position=0.0, velocity=0.0, low=-1.0, high=1.0, command=0.0)
             self._data.qfrc_applied[compiled.axis_dof[axis]] = effort
             return
-        gain = self._motor_gain(axis)
-        self._motor(axis, gain=gain, position=0.0, velocity=gain, low=min(effort, 0.0), high=max(effort, 0.0))
-        self._data.ctrl[compiled.axis_actuator[axis]] = math.copysign(fastest, effort)
+        gain, command = self._motor_gain(axis), math.copysign(fastest, effort)
+        low, high = min(effort, 0.0), max(effort, 0.0)
+        self._motor(axis, gain=gain, position=0.0, velocity=gain, low=low, high=high, command=command)
 
     def set_velocity(self, axis: int, velocity: float, max_effort: float) -> None:
         """Have a motor keep a speed [rad/s or m/s] with at most so much effort."""
         gain = self._motor_gain(axis)
-        self._motor(axis, gain=gain, position=0.0, velocity=gain, low=-max_effort, high=max_effort)
-        self._data.ctrl[self._compiled.axis_actuator[axis]] = velocity
+        self._motor(axis, gain=gain, position=0.0, velocity=gain, low=-max_effort, high=max_effort, command=velocity)
 
     def hold(self, axis: int, position: float, max_effort: float) -> None:
         """Have a motor go to a position [rad or m] and stay there."""
         damping = self._motor_gain(axis)
         gain = HOLD_RATE * damping
-        self._motor(axis, gain=gain, position=gain, velocity=damping, low=-max_effort, high=max_effort)
-        self._data.ctrl[self._compiled.axis_actuator[axis]] = position
+        self._motor(
+            axis, gain=gain, position=gain, velocity=damping, low=-max_effort, high=max_effort, command=position
+        )
 
     def _motor_gain(self, axis: int) -> float:
         """Effort per error of speed, by what the motor has to move with every joint at zero."""
         inertia = float(self._model.dof_M0[self._compiled.axis_dof[axis]])
         return MOTOR_STIFFNESS * inertia / self._model.opt.timestep
 
-    def _motor(self, axis: int, *, gain: float, position: float, velocity: float, low: float, high: float) -> None:
+    def _motor(
+        self, axis: int, *, gain: float, position: float, velocity: float, low: float, high: float, command: float
+    ) -> None:
         """force = gain · command − position · q − velocity · q̇, from low to high."""
-        self._data.qfrc_applied[self._compiled.axis_dof[axis]] = 0.0
-        actuator = self._compiled.axis_actuator[axis]
+        dof, actuator = int(self._compiled.axis_dof[axis]), int(self._compiled.axis_actuator[axis])
+        self._data.qfrc_applied[dof] = 0.0
         if actuator < 0:
             return
+        order = (gain, position, velocity, max(low, -_HUGE), min(high, _HUGE), command)
+        # The same order again, as controllers give it at every turn, wakes nobody.
+        if self._orders.get(actuator) == order:
+            return
+        self._orders[actuator] = order
         self._model.actuator_gainprm[actuator, 0] = gain
         self._model.actuator_biasprm[actuator, 1:3] = (-position, -velocity)
-        self._model.actuator_forcerange[actuator] = (max(low, -_HUGE), min(high, _HUGE))
+        self._model.actuator_forcerange[actuator] = order[3:5]
+        self._data.ctrl[actuator] = command
+        self._wake(dof)
+
+    def forget(self) -> None:
+        """The arrays were changed by somebody else: the next order is a new one."""
+        self._orders.clear()
 
     def switch_off(self) -> None:
         """Every motor."""
         self._model.actuator_gainprm[:] = 0
         self._model.actuator_biasprm[:] = 0
+        self.forget()

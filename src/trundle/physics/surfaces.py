@@ -1,7 +1,7 @@
 """What two surfaces are like where they touch, by ODE's rules as Gazebo uses them."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from trundle.model import Surface
 from trundle.spatial import ZERO, Vector3
@@ -54,18 +54,27 @@ def touch_of(a: Surface, b: Surface) -> Touch:
 
 def may_meet(a: Surface, b: Surface) -> bool:
     """By their bitmasks."""
-    return bool(_category(a) & b.collide_bitmask | _category(b) & a.collide_bitmask)
+    return bool(category_of(a) & b.collide_bitmask | category_of(b) & a.collide_bitmask)
 
 
-def _category(surface: Surface) -> int:
+def category_of(surface: Surface) -> int:
+    """As whom a surface is met."""
     return surface.collide_bitmask if surface.category_bitmask is None else surface.category_bitmask
 
 
 def is_plain(surface: Surface) -> bool:
-    """Whether nothing but friction is written, which a shape can carry by itself."""
+    """Whether a shape can carry by itself all that its contacts need: friction and bitmasks.
+
+    kp and kd are not counted: where shapes find each other by search, contacts are hard.
+    """
     default = Surface()
-    rest = replace(surface, mu=default.mu, mu2=default.mu2, max_vel=default.max_vel, kp=default.kp, kd=default.kd)
-    return rest == default
+    return (
+        surface.fdir1,
+        surface.patch_radius,
+        surface.min_depth,
+        surface.restitution,
+        surface.collide_without_contact,
+    ) == (default.fdir1, default.patch_radius, default.min_depth, default.restitution, default.collide_without_contact)
 
 
 def _friction(mu: float) -> float:

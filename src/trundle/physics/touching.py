@@ -26,7 +26,7 @@ class Contact:
     """What the first does to the second at this point, world axes."""
 
 
-def contacts_of(compiled: CompiledWorld, data: mujoco.MjData) -> list[Contact]:
+def contacts_of(compiled: CompiledWorld, model: mujoco.MjModel, data: mujoco.MjData) -> list[Contact]:
     """Every contact."""
     found: list[Contact] = []
     inside = np.empty(6)
@@ -34,7 +34,7 @@ def contacts_of(compiled: CompiledWorld, data: mujoco.MjData) -> list[Contact]:
         contact = data.contact[i]
         names = [compiled.geom_collisions[int(geom)] for geom in contact.geom]
         frame = contact.frame.reshape(3, 3)
-        mujoco.mj_contactForce(compiled.model, data, i, inside)
+        mujoco.mj_contactForce(model, data, i, inside)
         force, torque = frame.T @ inside[:3], frame.T @ inside[3:]
         found.append(
             Contact(

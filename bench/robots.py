@@ -1,0 +1,132 @@
+"""One, ten and fifty RP2Ws: our simulation of the SDF beside a model that a MuJoCo user would write by hand.
+
+The cost of a robot must not grow with the number of robots: the last rows divide steps by robots.
+"""
+
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import mujoco
+
+import trundle
+from bench.table import Row
+from trundle.diagnostics import Diagnostics
+from trundle.simulation import Simulation
+from trundle.spatial import Pose
+
+ROBOT = Path(__file__).parents[1] / "examples/rp2w"
+_COUNTS = (1, 10, 50)
+_PAIRS = 5
+_SPEED = 2.0
+"""[rad/s] Of driven wheels."""
+_BOXES = (
+    ("body", "chassis", "0.2032 0.19685 0.0635", "0 0.1651 -0.6858", "1 0 0 0"),
+    ("body", "board", "0.1397 0.098425 0.00005", "0 0.11427 0.2253", "0.98481 -0.17365 0 0"),
+    ("base", "bottom", "0.04445 0.04445 0.00005", "0 0 0", "1 0 0 0"),
+    ("base", "height", "0.03175 0.03175 0.01905", "0 0.01905 0", "1 0 0 0"),
+)
+
+
+def run() -> list[Row]:
+    """Alternate the two, so that both see the machine at its fast and slow moments."""
+    rows: list[Row] = []
+    costs: dict[tuple[str, int], float] = {}
+    for rolling in (False, True):
+        what = "rolling" if rolling else "at rest"
+        for count in _COUNTS:
+            steps = 20_000 // count
+            ours, theirs = _ours(count, rolling=rolling), _by_hand(count, rolling=rolling)
+            ours(1024)
+            theirs(1024)
+            pairs = [(_rate(ours, steps), _rate(theirs, steps)) for _ in range(_PAIRS)]
+            value = statistics.median(a for a, _ in pairs)
+            ratio = statistics.median(a / b for a, b in pairs)
+            rows.append(Row(f"{count} RP2W {what}", value, "steps/s", "MuJoCo by hand", ratio))
+            costs[what, count] = 1e6 / (value * count)
+    for (what, count), cost in costs.items():
+        ratio = cost / costs[what, 1]
+        rows.append(Row(f"one of {count} RP2W {what}", cost, "µs a step", "one alone", ratio))
+    return rows
+
+
+def _ours(count: int, *, rolling: bool) -> Callable[[int], None]:
+    alone = trundle.load(str(ROBOT)).world
+    robot = replace(next(m for m in alone.models if not m.static), plugins=())
+    robots = [
+        replace(robot, name=f"r{i}", world_from_model=Pose((2.0 * (i % 10), 2.0 * (i // 10), 0.0)))
+        for i in range(count)
+    ]
+    ground = [model for model in alone.models if model.static]
+    sim = Simulation(replace(alone, models=(*robots, *ground)), Diagnostics())
+    if rolling:
+        for name in (r.name for r in robots):
+            for wheel in ("chassis_left_wheel", "chassis_right_wheel"):
+                sim[name].joint(wheel).set_velocity(_SPEED, max_effort=2.0)
+    return sim.step
+
+
+def _by_hand(count: int, *, rolling: bool) -> Callable[[int], None]:
+    robots = "".join(_mjcf(i, 2.0 * (i % 10), 2.0 * (i // 10)) for i in range(count))
+    names = ("body", "base", "camera", "left", "right", "front")
+    excludes = "".join(
+        f'<exclude body1="{a}{i}" body2="{b}{i}"/>'
+        for i in range(count)
+        for n, a in enumerate(names)
+        for b in names[n + 1 :]
+    )
+    motors = "".join(
+        f'<velocity joint="{side}{i}" kv="5" forcerange="-2 2" forcelimited="true"/>'
+        for i in range(count)
+        for side in ("left", "right")
+    )
+    model = mujoco.MjModel.from_xml_string(
+        '<mujoco><compiler autolimits="true"/><option timestep="0.001" integrator="implicitfast" gravity="0 0 -9.8"/>'
+        f'<worldbody><geom type="plane" size="0 0 1"/>{robots}</worldbody><contact>{excludes}</contact>'
+        + (f"<actuator>{motors}</actuator>" if rolling else "")
+        + "</mujoco>"
+    )
+    data = mujoco.MjData(model)
+    data.ctrl[:] = _SPEED
+    return lambda steps: mujoco.mj_step(model, data, nstep=steps)
+
+
+def _mjcf(i: int, x: float, y: float) -> str:
+    """One robot; as in the file, every link has a moment of inertia of 1 on each axis."""
+
+    def mass(kilograms: float, moment: float = 1.0) -> str:
+        return f'<inertial pos="0 0 0" mass="{kilograms}" diaginertia="{moment} {moment} {moment}"/>'
+
+    def boxes(body: str) -> str:
+        return "".join(
+            f'<geom type="box" size="{size}" pos="{pos}" quat="{quat}"/>'
+            for b, _, size, pos, quat in _BOXES
+            if b == body
+        )
+
+    def wheel(name: str, pos: str, radius: float, half: float, loss: float) -> str:
+        return (
+            f'<body name="{name}{i}" pos="{pos}"><joint name="{name}{i}" axis="1 0 0" frictionloss="{loss}"/>'
+            f'{mass(0.5)}<geom type="cylinder" size="{radius} {half}" quat="0.70711 0 0.70711 0"/></body>'
+        )
+
+    wheels = (
+        wheel("left", "-0.1524 0.2413 -0.7112", 0.0635, 0.01905, 0.3)
+        + wheel("right", "0.1524 0.2413 -0.7112", 0.0635, 0.01905, 0.3)
+        + wheel("front", "0 0 -0.6985", 0.0762, 0.0254, 0.0)
+    )
+    camera = f'<body name="camera{i}" pos="0 0.01905 0.1113"><joint axis="1 0 0" range="-90 90"/>{mass(0.005)}</body>'
+    base = f'<body name="base{i}" pos="0 0 0.6253"><joint axis="0 0 1"/>{mass(0.005)}{boxes("base")}{camera}</body>'
+    pole = '<geom type="cylinder" size="0.0381 0.6223"/>'
+    return (
+        f'<body name="body{i}" pos="{x} {y + 0.0381} 0.7747"><freejoint/>{mass(4.5, 2.0)}{pole}{boxes("body")}'
+        f"{base}{wheels}</body>"
+    )
+
+
+def _rate(work: Callable[[int], None], steps: int) -> float:
+    start = time.perf_counter()
+    work(steps)
+    return steps / (time.perf_counter() - start)
