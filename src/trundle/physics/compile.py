@@ -56,8 +56,8 @@ class _Compiler:
     def compile(self) -> CompiledWorld:
         for place in self.tree.places.values():
             self._place(place)
-        for i, hold in enumerate(self.tree.loops):
-            self._close(hold, i)
+        for hold in self.tree.loops:
+            self._close(hold)
         for place in self.tree.places.values():
             for collision in place.link.collisions:
                 self._add_collision(place, collision)
@@ -105,10 +105,10 @@ class _Compiler:
     def _hold(self, place: Place) -> Hold | None:
         return None if place.fixed else self.tree.held.get(place.name)
 
-    def _close(self, hold: Hold, number: int) -> None:
+    def _close(self, hold: Hold) -> None:
         """Hang a part of a link from another parent."""
         place = self.tree.places[hold.below]
-        part = f"{place.name}::part{number}"
+        part = f"{place.name} on {hold.name}"
         self.joints.add(self._add_body(part, place, hold.above), hold, place.at_zero)
         self.joints.weld(part, place.name)
         self.report.info(hold.joint.at, f"joint {hold.joint.name!r} closes a loop of links; a constraint holds it")

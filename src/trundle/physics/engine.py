@@ -22,6 +22,7 @@ from .reader import StateReader
 from .rest import EVERY, STATE, Rest
 from .settings import silence_log
 from .touching import Contact, contacts_of
+from .transfer import carry_over
 
 _BAD = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
 FASTEST = 1e6
@@ -43,6 +44,7 @@ class SimulationUnstableError(TrundleError):
 class EngineState:
     """Everything that decides how the world goes on."""
 
+    compiled: CompiledWorld
     data: mujoco.MjData
     """A copy: who sleeps is in no vector of numbers."""
     taken: int
@@ -136,6 +138,11 @@ class Engine:
         """Hold a force [N] at the link's centre of mass and a torque [N·m], world axes, until set anew."""
         self._data.xfrc_applied[self.compiled.link_bodies[link]] = [*wrench.force, *wrench.torque]
 
+    def wrench(self, link: int) -> Wrench:
+        """What `set_wrench` holds."""
+        fx, fy, fz, tx, ty, tz = self._data.xfrc_applied[self.compiled.link_bodies[link]].tolist()
+        return Wrench((fx, fy, fz), (tx, ty, tz))
+
     def set_axis_position(self, axis: int, position: float) -> None:
         """Put an axis to a position [rad or m], at rest."""
         self._data.qpos[self.compiled.axis_qpos[axis]] = position
@@ -210,10 +217,18 @@ class Engine:
 
     # -- keeping
 
+    def take_over(self, old: "Engine") -> None:
+        """Go on from where another engine is, with what is in both by the same name."""
+        carry_over((old._model, old._data), (self._model, self._data))
+        self._taken = old._taken
+        self.motors.forget()
+        self.reader.changed()
+
     def save(self) -> EngineState:
         """Everything that decides how the world goes on."""
         model = self._model
         return EngineState(
+            self.compiled,
             copy.copy(self._data),
             self._taken,
             self._rest.is_on,
@@ -223,7 +238,13 @@ class Engine:
         )
 
     def restore(self, state: EngineState) -> None:
-        """Go back to a saved state, exactly."""
+        """Go back to a saved state, exactly.
+
+        Raises:
+            UsageError: the state is of another set of models.
+        """
+        if state.compiled is not self.compiled:
+            raise UsageError("models came or went since this state was saved; it cannot be restored")
         self._rest.allow(state.sleeps)
         mujoco.mj_copyData(self._data, self._model, state.data)
         self._taken = state.taken

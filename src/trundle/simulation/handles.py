@@ -8,14 +8,14 @@ A handle belongs to the thread that owns the simulation.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import UsageError
-from trundle.model import Joint, Link, Model
+from trundle.model import Joint, Link, Model, World
 from trundle.spatial import Pose, Twist, Wrench
 
 if TYPE_CHECKING:
@@ -28,8 +28,22 @@ class LinkHandle:
     def __init__(self, simulation: "Simulation", link: Link, index: int) -> None:
         self._simulation = simulation
         self.link = link
-        self.index = index
-        """Into `Snapshot.poses`."""
+        self._index: int | None = index
+
+    @property
+    def index(self) -> int:
+        """Into `Snapshot.poses`; it changes as models before this one go.
+
+        Raises:
+            UsageError: the model was deleted.
+        """
+        if self._index is None:
+            raise UsageError(f"link {self.name!r} is gone: its model was deleted")
+        return self._index
+
+    def move_to(self, index: int | None) -> None:
+        """Be at another index, or nowhere any more; for the simulation alone."""
+        self._index = index
 
     @property
     def name(self) -> str:
@@ -82,8 +96,22 @@ class JointHandle:
     def __init__(self, simulation: "Simulation", joint: Joint, index: int) -> None:
         self._simulation = simulation
         self.joint = joint
-        self.index = index
-        """Into `Snapshot.joint_positions`."""
+        self._index: int | None = index
+
+    @property
+    def index(self) -> int:
+        """Into `Snapshot.joint_positions`; it changes as models before this one go.
+
+        Raises:
+            UsageError: the model was deleted.
+        """
+        if self._index is None:
+            raise UsageError(f"joint {self.name!r} is gone: its model was deleted")
+        return self._index
+
+    def move_to(self, index: int | None) -> None:
+        """Be at another index, or nowhere any more; for the simulation alone."""
+        self._index = index
 
     @property
     def name(self) -> str:
@@ -213,15 +241,11 @@ class ModelHandle:
         return next((link for link in self.links if link.name == named), self.links[0])
 
     def set_pose(self, pose: Pose) -> None:
-        """Put the model's frame there at once; what hangs from other things stays, speeds stay.
-
-        Raises:
-            UsageError: nothing of the model moves freely.
-        """
+        """Put the model's frame there at once; speeds stay. What hangs from the world is compiled anew there."""
         moved = pose @ self.pose.inverse()
         free = [link for link in self.links if self._simulation.engine.is_free(link.index)]
         if not free:
-            raise UsageError(f"model {self.name!r} cannot be put elsewhere: it hangs from the world")
+            self._simulation.fix_elsewhere(self, moved @ self.model.world_from_model)
         for link, there in [(link, moved @ link.pose) for link in free]:
             link.set_pose(there)
 
@@ -234,6 +258,13 @@ class ModelHandle:
                 x, y, z = (p - p0 for p, p0 in zip(link.pose.position, (x0, y0, z0), strict=True))
                 there = (vx + wy * z - wz * y, vy + wz * x - wx * z, vz + wx * y - wy * x)
                 link.set_twist(Twist(there, twist.angular))
+
+    def move_to(self, first_link: int | None, first_joint: int | None) -> None:
+        """Have other indices, or none any more; for the simulation alone."""
+        for i, link in enumerate(self.links):
+            link.move_to(None if first_link is None else first_link + i)
+        for i, joint in enumerate(self.joints):
+            joint.move_to(None if first_joint is None else first_joint + i)
 
     def link(self, name: str) -> LinkHandle:
         """The link of that name.
@@ -261,3 +292,19 @@ def _named(name: str, there: Iterable[_Named], none: str) -> _Named:
         if one.name == name:
             return one
     raise UsageError(f"{none} {name!r}; there are: {', '.join(repr(one.name) for one in there) or 'none'}")
+
+
+def handles_of(simulation: "Simulation", world: World, known: Mapping[str, ModelHandle]) -> list[ModelHandle]:
+    """One handle for each model, in order; those that are known are moved to where they belong."""
+    handles: list[ModelHandle] = []
+    link, joint = 0, 0
+    for model in world.models:
+        handle = known.get(model.name)
+        if handle is None:
+            handle = ModelHandle(simulation, model, first_link=link, first_joint=joint)
+        else:
+            handle.move_to(link, joint)
+        handles.append(handle)
+        link += len(model.links)
+        joint += len(model.joints)
+    return handles

@@ -6,15 +6,15 @@ are due, let the engine step in C up to the next due time, call the `after_step`
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from trundle.diagnostics import Diagnostics, UsageError
-from trundle.model import World
+from trundle.model import Model, World
 from trundle.physics import Contact, Engine, EngineState, compile_world
-from trundle.spatial import Wrench
+from trundle.spatial import Pose, Wrench
 
-from .handles import JointHandle, ModelHandle
+from .handles import JointHandle, ModelHandle, handles_of
 from .hooks import AfterStep, BeforeStep, ScheduledHook
 from .snapshot import Snapshot
 
@@ -51,15 +51,20 @@ class Simulation:
         """Without nested models: their links and joints are the outer model's, called `inner::name`."""
         self.step_ns = round(world.physics.max_step_size_s * NS)
         self.steps = 0
-        self.models = _handles(self, self.world)
-        first = sum(len(model.joints) for model in self.world.models)
+        self.models = handles_of(self, self.world, {})
+        first = self._first_world_joint
         self.joints = [JointHandle(self, joint, first + i) for i, joint in enumerate(self.world.joints)]
         """Between models, in file order."""
         self._commands: deque[Command] = deque()
         self._hooks: list[ScheduledHook] = []
+        self._on_change: list[Callable[[], None]] = []
         self._on_reset: list[Callable[[], None]] = []
         self._wrench_ends: dict[int, int] = {}
         """Link → the step after which its wrench ends."""
+
+    @property
+    def _first_world_joint(self) -> int:
+        return sum(len(model.joints) for model in self.world.models)
 
     @property
     def time_ns(self) -> int:
@@ -170,6 +175,54 @@ class Simulation:
         """Have a function called after each reset."""
         self._on_reset.append(call)
 
+    # -- models that come and go
+
+    def spawn(self, model: Model) -> ModelHandle:
+        """Add a model; everything else stays as it is, to the bit.
+
+        Raises:
+            UsageError: there is one of that name.
+            DescriptionError: the engine cannot simulate it; nothing has changed.
+        """
+        if any(there.name == model.name for there in self.world.models):
+            raise UsageError(f"there is a model {model.name!r} already")
+        self._change((*self.world.models, model))
+        return self.models[-1]
+
+    def delete(self, name: str) -> None:
+        """Take a model out; everything else stays as it is, to the bit, and its handles remain good.
+
+        Raises:
+            UsageError: with the names there are.
+        """
+        gone = self[name]
+        self._change(tuple(model for model in self.world.models if model.name != name))
+        gone.move_to(None, None)
+
+    def fix_elsewhere(self, handle: ModelHandle, world_from_model: Pose) -> None:
+        """Put a model that hangs from the world elsewhere; see `ModelHandle.set_pose`."""
+        handle.model = replace(handle.model, world_from_model=world_from_model)
+        self._change(tuple(handle.model if m.name == handle.name else m for m in self.world.models))
+
+    def on_change(self, call: Callable[[], None]) -> None:
+        """Have a function called after models came, went or were fixed elsewhere: indices may be others."""
+        self._on_change.append(call)
+
+    def _change(self, models: tuple[Model, ...]) -> None:
+        old = self.engine
+        engine = Engine(compile_world(replace(self.world, models=models), self.report))
+        engine.take_over(old)
+        self.engine, self.world = engine, engine.compiled.world
+        links = {name: index for index, name in enumerate(engine.compiled.link_names)}
+        names = old.compiled.link_names
+        self._wrench_ends = {links[names[link]]: end for link, end in self._wrench_ends.items() if names[link] in links}
+        known = {handle.name: handle for handle in self.models}
+        self.models[:] = handles_of(self, self.world, known)
+        for i, joint in enumerate(self.joints, self._first_world_joint):
+            joint.move_to(i)
+        for call in self._on_change:
+            call()
+
     # -- commands
 
     def post(self, command: Command) -> None:
@@ -191,13 +244,3 @@ class Simulation:
         for link in [link for link, end in self._wrench_ends.items() if end <= self.steps]:
             del self._wrench_ends[link]
             self.engine.set_wrench(link, Wrench())
-
-
-def _handles(simulation: Simulation, world: World) -> list[ModelHandle]:
-    handles: list[ModelHandle] = []
-    link, joint = 0, 0
-    for model in world.models:
-        handles.append(ModelHandle(simulation, model, first_link=link, first_joint=joint))
-        link += len(model.links)
-        joint += len(model.joints)
-    return handles

@@ -1,0 +1,156 @@
+"""Models spawned, deleted and moved while everything else goes on."""
+
+from pathlib import Path
+
+import pytest
+
+import trundle
+from trundle.diagnostics import UsageError
+from trundle.model import Model
+from trundle.simulation import Simulation
+from trundle.spatial import Pose, Twist, Wrench
+
+CART = """<model name="{name}"><pose>{x} 0 0.2 0 0 0</pose><link name="base"><inertial><mass>2</mass></inertial>
+  <collision name="c"><geometry><box><size>0.4 0.2 0.1</size></box></geometry></collision></link>
+  <link name="arm"><pose>0 0 0.3 0 0 0</pose><inertial><mass>0.5</mass></inertial></link>
+  <joint name="hinge" type="revolute"><parent>base</parent><child>arm</child><axis><xyz>0 1 0</xyz></axis></joint>
+  </model>
+"""
+POST = """<model name="post"><static>true</static><pose>5 0 0 0 0 0</pose><link name="l"><collision name="c"><geometry>
+  <box><size>0.2 0.2 1</size></box></geometry></collision></link></model>"""
+FLOOR = """<model name="floor"><static>true</static><link name="l"><collision name="c"><geometry><plane>
+  <normal>0 0 1</normal></plane></geometry></collision></link></model>"""
+
+
+def world(folder: Path, *models: str) -> Simulation:
+    file = folder / "w.world"
+    file.write_text(f'<sdf version="1.6"><world name="w">{"".join(models)}</world></sdf>')
+    return trundle.load(str(file))
+
+
+@pytest.fixture
+def sim(tmp_path: Path) -> Simulation:
+    """Two carts, the second in motion in every way."""
+    sim = world(tmp_path, FLOOR, CART.format(name="one", x=0), CART.format(name="two", x=2), POST)
+    sim["two"].set_twist(Twist((0.3, 0.1, 0.0), (0.0, 0.0, 0.5)))
+    sim["two"].joint("hinge").set_velocity(1.0, max_effort=0.3)
+    sim["two"].link("arm").apply_wrench(Wrench(force=(0.1, 0.0, 0.0)), duration_s=1.0)
+    sim.run(0.3)
+    return sim
+
+
+@pytest.fixture
+def third(tmp_path: Path) -> Model:
+    """A model from a file of its own."""
+    folder = tmp_path / "third"
+    folder.mkdir()
+    return world(folder, CART.format(name="three", x=4)).world.models[0]
+
+
+def state(sim: Simulation, name: str) -> tuple[object, ...]:
+    model = sim[name]
+    hinge = model.joint("hinge")
+    links = [(link.pose, link.twist) for link in model.links]
+    return (links, hinge.positions, hinge.velocities, hinge.efforts)
+
+
+def test_what_is_there_keeps_its_state_to_the_bit(sim: Simulation, third: Model) -> None:
+    before = (state(sim, "one"), state(sim, "two"), sim.time_ns)
+    sim.spawn(third)
+    assert (state(sim, "one"), state(sim, "two"), sim.time_ns) == before
+    sim.delete("one")
+    assert state(sim, "two") == before[1]
+
+
+def test_it_goes_on_as_if_nobody_had_come(sim: Simulation, third: Model) -> None:
+    saved = sim.save()
+    two = sim["two"]
+    sim.run(0.5)
+    position, velocity = two.pose.position, two.joint("hinge").velocity
+    sim.restore(saved)
+    sim.spawn(third)
+    sim.run(0.5)
+    # Not to the bit: the solver, which stops at 1e-8, has one more body in its sums.
+    assert two.pose.position == pytest.approx(position, abs=1e-7)
+    assert two.joint("hinge").velocity == pytest.approx(velocity, abs=1e-7)
+
+
+def test_a_new_model_falls_and_can_be_driven(sim: Simulation, third: Model) -> None:
+    handle = sim.spawn(third)
+    assert handle is sim["three"]
+    assert handle.pose.position == pytest.approx((4.0, 0.0, 0.2))
+    handle.joint("hinge").set_velocity(2.0)
+    sim.run(0.5)
+    assert handle.joint("hinge").velocity == pytest.approx(2.0, rel=0.01)
+    assert handle.link("base").pose.position[2] < 0.1
+
+
+def test_handles_stay_good_and_those_of_what_is_gone_say_so(sim: Simulation) -> None:
+    one, two = sim["one"], sim["two"]
+    hinge, pose = two.joint("hinge"), two.pose
+    sim.delete("one")
+    assert two.pose == pose
+    hinge.set_position(0.5)
+    assert two.joint("hinge").position == 0.5
+    assert [model.name for model in sim.models] == ["floor", "two", "post"]
+    for use in (lambda: one.pose, lambda: one.joint("hinge").position, lambda: one.set_pose(Pose())):
+        with pytest.raises(UsageError, match="is gone: its model was deleted"):
+            use()
+    with pytest.raises(UsageError, match="no model 'one'; there are: 'floor', 'two', 'post'"):
+        sim.delete("one")
+
+
+def test_a_wrench_ends_when_it_should_whatever_goes_meanwhile(sim: Simulation) -> None:
+    sim.delete("one")
+    link = sim["two"].link("arm")
+    sim.run(0.6)
+    assert sim.engine.wrench(link.index) == Wrench(force=(0.1, 0.0, 0.0))
+    sim.run(0.2)
+    assert sim.engine.wrench(link.index) == Wrench()
+
+
+def test_a_name_is_given_once(sim: Simulation, third: Model) -> None:
+    sim.spawn(third)
+    with pytest.raises(UsageError, match="there is a model 'three' already"):
+        sim.spawn(third)
+
+
+def test_what_hangs_from_the_world_can_be_put_elsewhere(sim: Simulation) -> None:
+    before = state(sim, "two")
+    sim["post"].set_pose(Pose((1.0, 2.0, 0.5)))
+    assert sim["post"].pose.position == pytest.approx((1.0, 2.0, 0.5))
+    assert state(sim, "two") == before
+    sim.run(0.1)
+    assert sim["post"].pose.position == pytest.approx((1.0, 2.0, 0.5))
+
+
+def test_whoever_counts_on_the_order_is_told(sim: Simulation, third: Model) -> None:
+    seen: list[int] = []
+    sim.on_change(lambda: seen.append(len(sim.models)))
+    sim.spawn(third)
+    sim.delete("one")
+    assert seen == [5, 4]
+    assert len(sim.snapshot().poses) == len(sim.engine.compiled.link_names)
+
+
+def test_a_state_of_other_models_is_refused(sim: Simulation, third: Model) -> None:
+    saved = sim.save()
+    sim.spawn(third)
+    with pytest.raises(UsageError, match="models came or went since this state was saved"):
+        sim.restore(saved)
+
+
+def test_a_snapshot_outlives_what_it_shows(sim: Simulation) -> None:
+    expected = sim["one"].links[0].pose.position
+    snapshot, index = sim.snapshot(), sim["one"].links[0].index
+    sim.delete("one")
+    sim.run(0.2)
+    assert snapshot.poses[index, :3].tolist() == list(expected)
+
+
+def test_reset_puts_back_what_is_there(sim: Simulation, third: Model) -> None:
+    sim.spawn(third)
+    sim.run(0.2)
+    sim.reset()
+    assert sim["three"].pose.position == pytest.approx((4.0, 0.0, 0.2))
+    assert sim["two"].pose.position == pytest.approx((2.0, 0.0, 0.2))
