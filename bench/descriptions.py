@@ -8,6 +8,8 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
 
 from bench.table import Row
@@ -41,23 +43,18 @@ def _sdf() -> Row:
 def _urdf() -> Row:
     """Every plain URDF of the collection."""
     files = sorted((SHARED / "corpus/repos").rglob("*.urdf"))
-    try:
-        from yourdfpy import URDF  # pyright: ignore[reportMissingImports, reportUnknownVariableType]
-    except ImportError:
-        peer = None
-    else:
 
-        def peer() -> float:
-            start = time.perf_counter()
-            for file in files:
-                try:
-                    URDF.load(str(file), build_scene_graph=False, load_meshes=False)  # pyright: ignore
-                except Exception:
-                    continue
-            return time.perf_counter() - start
+    def peer() -> float:
+        from yourdfpy import URDF  # pyright: ignore
+
+        start = time.perf_counter()
+        for file in files:
+            with suppress(Exception):
+                URDF.load(str(file), build_scene_graph=False, load_meshes=False)  # pyright: ignore
+        return time.perf_counter() - start
 
     packages = Packages({}, start=SHARED)
-    ours, ratio = _by_turns(lambda: _read(files, packages), peer)
+    ours, ratio = _by_turns(lambda: _read(files, packages), peer if find_spec("yourdfpy") else None)
     return Row("URDF, read and converted", len(files) / ours, "files/s", "yourdfpy", ratio)
 
 
@@ -88,10 +85,8 @@ def _wall(command: list[str], env: dict[str, str]) -> float:
 def _read(files: list[Path], packages: Packages) -> float:
     start = time.perf_counter()
     for file in files:
-        try:
+        with suppress(TrundleError):
             load(str(file), Diagnostics(), packages=packages)
-        except TrundleError:
-            continue
     return time.perf_counter() - start
 
 

@@ -5,7 +5,7 @@ Iterative throughout: a chain of thousands is drawn like any other.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from xml.sax.saxutils import escape
+from html import escape
 
 _ROW, _INDENT, _HEIGHT, _CHARACTER = 30, 36, 22, 7.2
 """[px] Rows are this far apart, levels this deep, boxes this high, letters this wide."""

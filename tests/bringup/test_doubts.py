@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup import check
+from trundle.bringup.check import check
 
 BOX = '<collision name="c"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision>'
 

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup import RunOptions, run
-from trundle.bringup.run import OnInstability
+from trundle.bringup.run import OnInstability, RunOptions, run
 from trundle.cli.main import main
 from trundle.simulation import SimulationUnstableError
 

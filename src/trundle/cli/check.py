@@ -30,7 +30,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Read, report, and return 1 where the file is refused."""
     with quiet_imports():
-        from trundle.bringup import check
+        from trundle.bringup.check import check
         from trundle.diagram import tree_svg, tree_text
 
     outcome = check(args.file, dict(os.environ), start=Path.cwd())

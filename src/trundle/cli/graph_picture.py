@@ -1,8 +1,8 @@
 """A graph of nodes and topics: as text for Graphviz, and as an SVG picture in columns from left to right."""
 
 from dataclasses import dataclass
+from html import escape
 from typing import Literal, TypeAlias
-from xml.sax.saxutils import escape
 
 Item: TypeAlias = tuple[Literal["node", "topic"], str]
 _ROW, _GAP, _HEIGHT, _CHARACTER, _MARGIN = 44, 70, 26, 7.2, 16

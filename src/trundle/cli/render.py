@@ -27,7 +27,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Draw one picture."""
-    from trundle.bringup import picture_of
+    from trundle.bringup.picture import picture_of
     from trundle.diagnostics import Diagnostics, UsageError
 
     report = Diagnostics()

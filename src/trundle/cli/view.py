@@ -23,6 +23,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Show until Ctrl-C."""
     with quiet_imports():
-        from trundle.bringup import ViewOptions, view
+        from trundle.bringup.view import ViewOptions, view
 
     return view(ViewOptions(config=args.display_config, fixed_frame=args.fixed_frame, host=args.host, port=args.port))
