@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from trundle.description import Loaded, load
+from trundle.description import Loaded
 from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError
 from trundle.diagram import TreeNode
 from trundle.launch import LaunchPlan, ParamCommand, read_launch
@@ -15,6 +15,7 @@ from trundle.physics import compile_world
 from trundle.sensors import SIMULATED
 
 from .check_json import described, launch_described
+from .described_file import load_described
 from .doubts import name_doubts
 from .kinematic_tree import kinematic_trees
 
@@ -63,7 +64,7 @@ def check(file: str, environment: Mapping[str, str], *, start: Path) -> CheckOut
     """Read a file as far as it can be read, physics included.
 
     Args:
-        file: a path, a folder with model.config, model://NAME or a launch file.
+        file: a path, a folder with model.config, model://NAME, a launch file, or "-" for standard input.
         environment: says where packages and models are.
         start: packages are looked for around it too.
     """
@@ -75,7 +76,7 @@ def check(file: str, environment: Mapping[str, str], *, start: Path) -> CheckOut
             around = packages.around(Path(file))
             loaded = read_launch(Path(file), packages=around, report=report, env=environment)
         else:
-            loaded = load(file, report, packages=packages)
+            loaded = load_described(file, report, packages=packages, start=start)
             _look_closer(loaded, report)
     except DescriptionError as error:
         loaded = None

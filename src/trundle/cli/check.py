@@ -19,7 +19,7 @@ EXAMPLES = """
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("file", metavar="FILE|DIR|model://NAME", help="what to read; no command in it is run")
+    parser.add_argument("file", metavar="FILE|DIR|model://NAME|-", help="what to read; no command in it is run")
     parser.add_argument("--strict", action="store_true", help="a warning is an error")
     parser.add_argument("--json", action="store_true", help="print what was understood as one JSON object")
     add_allow_outside(parser)

@@ -21,6 +21,7 @@ COMMANDS: dict[str, str] = {
     "launch": "start a ROS 1 launch file",
     "view": "show a running ROS graph in the browser, as rviz does",
     "check": "list what is wrong or not supported in a file",
+    "convert": "write what was understood of a file as SDF, URDF or MJCF",
     "render": "make a picture of a robot or a world",
     "xacro": "expand a xacro file",
     "core": "run the ROS master, parameter server and rosout",

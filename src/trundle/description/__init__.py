@@ -1,7 +1,18 @@
-"""Text becomes model: SDF, URDF and xacro, each by its own rules."""
+"""Text becomes model, and model text: SDF, URDF and xacro, each by its own rules."""
 
-from .load import load, load_urdf
+from .load import load, load_text, load_urdf
 from .loaded import Loaded
+from .writing import UriOf, write_sdf, write_urdf, written_uri
 from .xacro import expand_xacro
 
-__all__ = ["Loaded", "expand_xacro", "load", "load_urdf"]
+__all__ = [
+    "Loaded",
+    "UriOf",
+    "expand_xacro",
+    "load",
+    "load_text",
+    "load_urdf",
+    "write_sdf",
+    "write_urdf",
+    "written_uri",
+]

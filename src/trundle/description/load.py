@@ -42,6 +42,27 @@ def load(what: str, report: Diagnostics, *, packages: Packages) -> Loaded:
     return load_sdf(root, path, packages, report)
 
 
+def load_text(text: str, *, name: str, folder: Path, packages: Packages, report: Diagnostics) -> Loaded:
+    """Read a description that is in no file: SDF or URDF.
+
+    Args:
+        text: all of it.
+        name: how messages call it.
+        folder: relative URIs start here.
+        packages: where URIs lead.
+        report: takes everything worth saying.
+
+    Raises:
+        DescriptionError: of which nothing sensible can be made.
+    """
+    root = parse_xml(text, name=name)
+    if root.tag != "robot":
+        return load_sdf(root, folder / name, packages, report)
+    if "xmlns:xacro" in text:
+        raise DescriptionError(root.at, "a xacro file; it is read from a file only, by its name")
+    return load_urdf(text, name, folder / name, packages, report)
+
+
 def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics) -> Loaded:
     """Read a parsed SDF file; `path` is where it is.
 

@@ -1,6 +1,6 @@
 """model → MuJoCo: the compile, and the engine that steps."""
 
-from .compile import compile_world
+from .compile import compile_mjcf, compile_world
 from .engine import Engine, EngineState, SimulationUnstableError
 from .index import CompiledWorld
 from .instant import Instant
@@ -17,5 +17,6 @@ __all__ = [
     "RayRenderer",
     "Runaway",
     "SimulationUnstableError",
+    "compile_mjcf",
     "compile_world",
 ]

@@ -35,6 +35,17 @@ def compile_world(world: World, report: Diagnostics) -> CompiledWorld:
     return _Compiler(flattened(world), report).compile()
 
 
+def compile_mjcf(world: World, report: Diagnostics) -> str:
+    """The world as MuJoCo's own XML, shapes of meshes inside.
+
+    Raises:
+        DescriptionError: as `compile_world`.
+    """
+    compiler = _Compiler(flattened(world), report)
+    compiler.compile()
+    return compiler.spec.to_xml()
+
+
 class _Compiler:
     def __init__(self, world: World, report: Diagnostics) -> None:
         self.world = world

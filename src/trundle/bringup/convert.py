@@ -1,0 +1,80 @@
+"""`trundle convert`: what was understood of a file, written out."""
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Literal, TypeAlias
+
+from trundle.description import Loaded, UriOf, write_sdf, write_urdf, written_uri
+from trundle.diagnostics import DescriptionError, Diagnostics, UsageError
+from trundle.model import flattened
+from trundle.packages import Packages
+
+from .described_file import load_described
+from .mesh_copies import MeshCopies
+
+Format: TypeAlias = Literal["sdf", "urdf", "mjcf"]
+
+
+def convert(
+    file: str,
+    to: Format,
+    environment: Mapping[str, str],
+    report: Diagnostics,
+    *,
+    start: Path,
+    output: Path | None = None,
+) -> str:
+    """Read a file and write it again.
+
+    Args:
+        file: a path, a folder with model.config, model://NAME, or "-" for standard input.
+        to: the format.
+        environment: says where packages and models are.
+        report: takes what was not understood or cannot be written.
+        start: packages are looked for around it too.
+        output: where to write, with copies of the meshes beside; None: only return the text.
+
+    Returns:
+        The text.
+
+    Raises:
+        DescriptionError: the file makes no sense, or not in that format.
+        UsageError: no such model, or the output cannot be written.
+    """
+    loaded = load_described(file, report, packages=Packages(environment, start=start), start=start)
+    if output is None:
+        return _written(loaded, to, written_uri, report)
+    copies = MeshCopies(output, report)
+    text = _written(loaded, to, copies.uri_of, report)
+    copies.copy()
+    _replace(output, text)
+    return text
+
+
+def _written(loaded: Loaded, to: Format, uri_of: UriOf, report: Diagnostics) -> str:
+    match to:
+        case "sdf":
+            return write_sdf(loaded.world, is_world=loaded.kind == "world", uri_of=uri_of, report=report)
+        case "mjcf":
+            from trundle.physics import compile_mjcf  # slow to load, and no other format needs it
+
+            return compile_mjcf(loaded.world, report)
+        case "urdf" if loaded.urdf is not None:
+            return loaded.urdf
+        case "urdf":
+            models = flattened(loaded.world).models
+            if len(models) != 1:
+                raise DescriptionError(loaded.world.at, f"a URDF is one robot; here are {len(models)} models")
+            return write_urdf(models[0], uri_of=uri_of, report=report)
+
+
+def _replace(output: Path, text: str) -> None:
+    """Write a file whole or not at all."""
+    half = output.with_name(f".{output.name}.part")
+    try:
+        half.write_text(text, encoding="utf-8")
+        os.replace(half, output)
+    except OSError as error:
+        half.unlink(missing_ok=True)
+        raise UsageError(f"cannot write {output}: {error.strerror}") from None

@@ -1,0 +1,39 @@
+"""Write what was understood of a file as SDF, URDF or MJCF."""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from .main import add_allow_outside, quiet_imports
+
+EXAMPLES = """
+  trundle convert robot.urdf.xacro --to sdf           what Gazebo would make of it, on standard output
+  trundle convert model.sdf --to urdf -o robot.urdf   meshes are copied into meshes/ beside it
+  trundle convert world.sdf --to mjcf -o world.xml    for MuJoCo: the shapes and joints that are simulated
+  trundle convert old.sdf --to sdf | trundle check -  the same model again, in SDF 1.11
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("file", metavar="FILE|DIR|model://NAME|-", help="what to read; no command in it is run")
+    parser.add_argument("--to", choices=("sdf", "urdf", "mjcf"), required=True, help="the format to write")
+    parser.add_argument("-o", "--output", type=Path, metavar="OUT", help="where to write to (standard output)")
+    parser.add_argument("--strict", action="store_true", help="a warning is an error")
+    add_allow_outside(parser)
+
+
+def main(args: argparse.Namespace) -> int:
+    """Read, write, and say on standard error what was lost."""
+    with quiet_imports():
+        from trundle.bringup.convert import convert
+        from trundle.diagnostics import Diagnostics
+
+    report = Diagnostics(strict=args.strict)
+    text = convert(args.file, args.to, dict(os.environ), report, start=Path.cwd(), output=args.output)
+    for warning in report.warnings:
+        print(warning, file=sys.stderr)
+    if args.output is None:
+        print(text, end="")
+    return 0

@@ -1,0 +1,148 @@
+"""Writes what is on a link: <visual>, <collision> and <sensor>."""
+
+from trundle.diagnostics import Diagnostics
+from trundle.model import (
+    GREY,
+    Box,
+    Capsule,
+    Collision,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Empty,
+    Geometry,
+    Heightmap,
+    Material,
+    MeshFile,
+    Plane,
+    Polyline,
+    Sensor,
+    Sphere,
+    Surface,
+    Visual,
+)
+
+from .meshes import UriOf
+from .tag import Tag
+
+_ALWAYS_WHOLE = frozenset({"contact", "force_torque"})
+"""Sensors with hardly a setting of their own."""
+
+
+def add_visual(link: Tag, visual: Visual, uri_of: UriOf) -> None:
+    """Append <visual>."""
+    tag = link.add("visual", name=visual.name)
+    tag.add_pose(visual.link_from_visual)
+    add_geometry(tag, visual.geometry, uri_of)
+    if visual.material != GREY:
+        _add_material(tag, visual.material)
+    tag.add_unless("transparency", visual.transparency, default=0.0)
+    tag.add_unless("cast_shadows", visual.cast_shadows, default=True)
+    tag.add_unless("laser_retro", visual.laser_retro, default=0.0)
+
+
+def add_collision(link: Tag, collision: Collision, uri_of: UriOf) -> None:
+    """Append <collision>."""
+    tag = link.add("collision", name=collision.name)
+    tag.add_pose(collision.link_from_collision)
+    add_geometry(tag, collision.geometry, uri_of)
+    tag.add_unless("laser_retro", collision.laser_retro, default=0.0)
+    _add_surface(tag.add_optional("surface"), collision.surface)
+
+
+def add_geometry(home: Tag, geometry: Geometry, uri_of: UriOf) -> None:
+    """Append <geometry>."""
+    tag = home.add("geometry")
+    match geometry:
+        case Box(size):
+            tag.add("box").add("size", size)
+        case Cylinder(radius, length) | Capsule(radius, length) | Cone(radius, length):
+            shape = tag.add(type(geometry).__name__.lower())
+            shape.add("radius", radius)
+            shape.add("length", length)
+        case Sphere(radius):
+            tag.add("sphere").add("radius", radius)
+        case Ellipsoid(radii):
+            tag.add("ellipsoid").add("radii", radii)
+        case Plane(normal, size):
+            shape = tag.add("plane")
+            shape.add("normal", normal)
+            shape.add("size", size)
+        case Polyline(outlines, height):
+            for outline in outlines:
+                shape = tag.add("polyline")
+                for corner in outline:
+                    shape.add("point", corner)
+                shape.add("height", height)
+        case Heightmap():
+            shape = tag.add("heightmap")
+            shape.add("uri", uri_of(geometry))
+            shape.add("size", geometry.size)
+            shape.add("pos", geometry.position)
+            shape.add("sampling", geometry.sampling)
+        case MeshFile():
+            shape = tag.add("mesh")
+            shape.add("uri", uri_of(geometry))
+            shape.add_unless("scale", geometry.scale, default=(1.0, 1.0, 1.0))
+            if geometry.submesh is not None:
+                part = shape.add("submesh")
+                part.add("name", geometry.submesh)
+                part.add("center", geometry.center_submesh)
+        case Empty():
+            tag.add("empty")
+
+
+def _add_material(visual: Tag, material: Material) -> None:
+    tag = visual.add("material")
+    for name in ("ambient", "diffuse", "specular", "emissive"):
+        tag.add(name, getattr(material, name))
+    if material.texture is not None:
+        tag.add("pbr").add("metal").add("albedo_map", f"file://{material.texture.resolve()}")
+
+
+def _add_surface(tag: Tag, surface: Surface) -> None:
+    default = Surface()
+    friction = tag.add_optional("friction")
+    ode = friction.add_optional("ode")
+    for name in ("mu", "mu2", "fdir1"):
+        ode.add_unless(name, getattr(surface, name), default=getattr(default, name))
+    torsional = friction.add_optional("torsional")
+    torsional.add_unless("coefficient", surface.torsional_coefficient, default=default.torsional_coefficient)
+    torsional.add_unless("patch_radius", surface.patch_radius, default=default.patch_radius)
+    if surface.surface_radius:
+        torsional.add("use_patch_radius", False)
+        torsional.add("surface_radius", surface.surface_radius)
+    contact = tag.add_optional("contact")
+    contact.add_unless("collide_bitmask", surface.collide_bitmask, default=default.collide_bitmask)
+    contact.add_unless("category_bitmask", surface.category_bitmask, default=default.category_bitmask)
+    contact.add_unless("collide_without_contact", surface.collide_without_contact, default=False)
+    ode = contact.add_optional("ode")
+    for name in ("kp", "kd", "min_depth", "max_vel"):
+        ode.add_unless(name, getattr(surface, name), default=getattr(default, name))
+    bounce = tag.add_optional("bounce")
+    bounce.add_unless("restitution_coefficient", surface.restitution, default=default.restitution)
+    bounce.add_unless("threshold", surface.bounce_threshold, default=default.bounce_threshold)
+
+
+def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
+    """Append <sensor>; settings that the model does not hold are named."""
+    tag = home.add("sensor", name=sensor.name, type=sensor.type)
+    tag.add_pose(sensor.link_from_sensor)
+    tag.add_unless("update_rate", sensor.update_rate_hz, default=0.0)
+    tag.add_unless("always_on", sensor.always_on, default=False)
+    tag.add_unless("visualize", sensor.visualize, default=False)
+    tag.add_unless("topic", sensor.topic, default="")
+    optics = sensor.camera
+    if optics is not None:
+        camera = tag.add("camera")
+        camera.add_pose(optics.sensor_from_camera)
+        camera.add("horizontal_fov", optics.horizontal_fov_rad)
+        image, clip = camera.add("image"), camera.add("clip")
+        image.add("width", optics.width_px)
+        image.add("height", optics.height_px)
+        image.add("format", optics.format)
+        clip.add("near", optics.near_m)
+        clip.add("far", optics.far_m)
+    elif sensor.type not in _ALWAYS_WHOLE:
+        report.warn(sensor.at, f"sensor {sensor.name!r}: the settings of a {sensor.type} sensor are not written yet")
+    tag.children += [plugin.node.xml() for plugin in sensor.plugins]

@@ -1,0 +1,91 @@
+"""XML elements to be written, numbers in the fewest digits that read back the same."""
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from xml.sax.saxutils import escape, quoteattr
+
+from trundle.spatial import Pose
+
+_NOTHING = 1e-14
+"""What rounding leaves of a pose that is none."""
+Value = str | float | bool | Iterable[float] | None
+
+
+@dataclass(slots=True)
+class Tag:
+    """One element: attributes, and a value or children."""
+
+    name: str
+    attributes: Mapping[str, str] = field(default_factory=dict[str, str])
+    text: str = ""
+    children: list["Tag | str"] = field(default_factory=list["Tag | str"])
+    """A str is XML as it stands."""
+    optional: bool = False
+    """Not written while there is nothing in it."""
+
+    def add(self, name: str, text: Value = None, /, **attributes: str) -> "Tag":
+        """Append a child and return it."""
+        child = Tag(name, attributes, spelled(text))
+        self.children.append(child)
+        return child
+
+    def add_optional(self, name: str) -> "Tag":
+        """Append a child that is written only if something is put into it."""
+        child = Tag(name, optional=True)
+        self.children.append(child)
+        return child
+
+    def add_unless(self, name: str, value: Value, default: object) -> None:
+        """Append a child unless it says what its absence says."""
+        if value != default:
+            self.add(name, value)
+
+    def add_pose(self, pose: Pose, relative_to: str | None = None) -> None:
+        """Append <pose>, unless it is as good as none."""
+        attributes = {} if relative_to is None else {"relative_to": relative_to}
+        numbers = pose.as_list()
+        if max(map(abs, numbers)) < _NOTHING and not attributes:
+            return
+        self.children.append(Tag("pose", attributes, spelled(numbers)))
+
+    def lines(self, indent: int = 0) -> list[str]:
+        """The element as lines of XML."""
+        if self._is_blank():
+            return []
+        pad = "  " * indent
+        attributes = "".join(f" {key}={quoteattr(text)}" for key, text in self.attributes.items())
+        if not self.children:
+            end = f">{escape(self.text)}</{self.name}>" if self.text else "/>"
+            return [f"{pad}<{self.name}{attributes}{end}"]
+        inner: list[str] = []
+        for child in self.children:
+            inner += [pad + "  " + child] if isinstance(child, str) else child.lines(indent + 1)
+        return [f"{pad}<{self.name}{attributes}>", *inner, f"{pad}</{self.name}>"]
+
+    def _is_blank(self) -> bool:
+        return self.optional and all(isinstance(child, Tag) and child._is_blank() for child in self.children)
+
+    def document(self) -> str:
+        """The element as a file."""
+        return "\n".join(['<?xml version="1.0"?>', *self.lines()]) + "\n"
+
+
+def spelled(value: Value) -> str:
+    """A value as XML text."""
+    match value:
+        case None:
+            return ""
+        case str():
+            return value
+        case bool():
+            return "true" if value else "false"
+        case float() | int():
+            return _number(value)
+        case _:
+            return " ".join(map(_number, value))
+
+
+def _number(value: float) -> str:
+    whole = math.isfinite(value) and float(value).is_integer() and abs(value) < 1e15
+    return str(int(value)) if whole else repr(value)

@@ -1,0 +1,272 @@
+"""What is written reads back as what it was: the model through SDF, places and axes through URDF."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from trundle.bringup.check_json import described
+from trundle.description import Loaded, load, load_text, write_sdf, write_urdf, written_uri
+from trundle.description.writing.tag import Tag
+from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
+from trundle.model import Joint, Link, Model, flattened, model_from_joint
+from trundle.packages import Packages
+from trundle.spatial import Pose, quaternion_from_rpy
+from trundle.xmlnode import parse_xml
+
+HERE = Path(__file__).parent
+PACKAGES = Packages({"HOME": "/nobody"}, start=HERE)
+
+
+def read(text: str) -> Loaded:
+    return load_text(text, name="<stdin>", folder=HERE, packages=PACKAGES, report=Diagnostics())
+
+
+def sdf_of(loaded: Loaded, report: Diagnostics | None = None) -> str:
+    is_world = loaded.kind == "world"
+    return write_sdf(loaded.world, is_world=is_world, uri_of=written_uri, report=report or Diagnostics())
+
+
+def same(a: Any, b: Any, key: str = "") -> bool:
+    """Equal but for 1e-9 of rounding; poses by their quaternions, since roll and yaw may share a turn as they like."""
+    if key in ("pose", "inertial_pose"):
+        turns = [quaternion_from_rpy(*each[3:]) for each in (a, b)]
+        turned = min(math.dist(turns[0], turns[1]), math.dist(turns[0], [-v for v in turns[1]]))
+        return turned < 1e-9 and math.dist(a[:3], b[:3]) <= 1e-9 * max(1.0, *map(abs, a[:3]))
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(same(a[k], b[k], k) for k in a)
+    if isinstance(a, list) and isinstance(b, list):
+        return len(a) == len(b) and all(map(same, a, b))
+    if isinstance(a, float) and isinstance(b, float):
+        return math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9)
+    return bool(a == b)
+
+
+def comparable(loaded: Loaded) -> dict[str, object]:
+    return {k: v for k, v in described(loaded).items() if k not in ("sdf_version", "urdf")}
+
+
+RICH = """<sdf version="1.9"><world name="w">
+<gravity>0 0 -1.6</gravity><wind><linear_velocity>1 2 3</linear_velocity></wind>
+<physics type="ode"><max_step_size>0.002</max_step_size><real_time_update_rate>0</real_time_update_rate></physics>
+<scene><ambient>0.1 0.2 0.3 1</ambient><sky/><shadows>0</shadows><fog><type>linear</type><end>9</end></fog></scene>
+<spherical_coordinates><latitude_deg>47.5</latitude_deg></spherical_coordinates>
+<light name="lamp" type="spot"><pose>0 0 3 0 0.1 0</pose><spot><inner_angle>0.1</inner_angle>
+ <outer_angle>0.5</outer_angle><falloff>1</falloff></spot><attenuation><range>5</range></attenuation></light>
+<frame name="dock"><pose>1 0 0 0 0 1.5</pose></frame>
+<plugin name="p" filename="libp.so"><a b="1 &lt; 2"/></plugin>
+<model name="cart" canonical_link="b"><pose relative_to="dock">0 2 0 0 1.5707963267948966 0.3</pose>
+ <self_collide>1</self_collide>
+ <link name="a"><pose>0 0 1 0.1 0.2 0.3</pose><inertial><mass>2.5</mass><pose>0 0 0.1 0 0 0.7</pose>
+   <inertia><ixx>0.1</ixx><iyy>0.2</iyy><izz>0.25</izz><ixy>0.01</ixy></inertia></inertial>
+  <gravity>0</gravity><velocity_decay><linear>0.1</linear></velocity_decay>
+  <visual name="v"><geometry><ellipsoid><radii>1 2 3</radii></ellipsoid></geometry><transparency>0.5</transparency>
+   <material><diffuse>1 0 0 1</diffuse></material></visual>
+  <visual name="line"><geometry><polyline><point>0 0</point><point>1 0</point><point>0 1</point><height>2</height>
+   </polyline></geometry></visual>
+  <collision name="c"><pose>1 0 0 0 0 0</pose><geometry><capsule><radius>0.1</radius><length>2</length></capsule>
+   </geometry><surface><friction><ode><mu>0.3</mu></ode></friction><contact><collide_bitmask>3</collide_bitmask>
+   <ode><kp>1e5</kp></ode></contact><bounce><restitution_coefficient>0.5</restitution_coefficient></bounce></surface>
+  </collision>
+  <sensor name="eye" type="camera"><pose>0 0 1 0 0 0</pose><update_rate>20</update_rate><camera>
+   <horizontal_fov>1.2</horizontal_fov><image><width>64</width><height>48</height></image></camera></sensor></link>
+ <link name="b"><pose relative_to="j">0 0 0.5 0 0 0</pose></link>
+ <frame name="tool" attached_to="b"><pose>0.1 0 0 0 0 0</pose></frame>
+ <joint name="j" type="revolute"><pose relative_to="a">0 0.3 0 0.2 0 0</pose><parent>a</parent><child>b</child>
+  <axis><xyz expressed_in="a">0 1 1</xyz><limit><lower>-1</lower><upper>2</upper><effort>5</effort></limit>
+   <dynamics><damping>0.1</damping><spring_stiffness>3</spring_stiffness></dynamics></axis></joint>
+ <joint name="s" type="screw"><parent>tool</parent><child>arm::hand</child><axis><xyz>1 0 0</xyz></axis>
+  <thread_pitch>-3</thread_pitch></joint>
+ <joint name="u" type="universal"><parent>world</parent><child>a</child><axis><xyz>1 0 0</xyz></axis>
+  <axis2><xyz>0 1 0</xyz><limit><upper>1</upper></limit></axis2></joint>
+ <model name="arm"><pose>0 0 2 0 0 0</pose><link name="hand"/><frame name="grip"><pose>0 0 1 0 0 0</pose></frame>
+ </model>
+</model>
+<model name="box"><static>true</static><link name="l"/></model>
+<joint name="between" type="fixed"><parent>cart::arm::grip</parent><child>box</child></joint>
+</world></sdf>"""
+
+
+def test_a_world_of_everything_reads_back_as_it_was() -> None:
+    first = read(RICH)
+    report = Diagnostics()
+    text = sdf_of(first, report)
+    second = read(text)
+
+    assert same(comparable(first), comparable(second))
+    assert report.findings == []
+    assert len(sdf_of(second).splitlines()) == len(text.splitlines())
+    for name in ("physics", "scene", "spherical_coordinates", "wind", "magnetic_field", "atmosphere"):
+        assert getattr(second.world, name) == getattr(first.world, name)
+    (lamp,) = second.world.lights
+    assert (lamp.name, lamp.inner_angle_rad, lamp.outer_angle_rad, lamp.range_m) == ("lamp", 0.1, 0.5, 5.0)
+    a, b = (loaded.world.models[0].link("a") for loaded in (first, second))
+    assert a.collisions[0].surface == b.collisions[0].surface
+    assert [v.geometry for v in a.visuals] == [v.geometry for v in b.visuals]
+    assert a.visuals[0].material == b.visuals[0].material
+    assert a.sensors[0].camera == b.sensors[0].camera
+    assert '<a b="1 &lt; 2"/>' in second.world.plugins[0].node.xml()
+
+
+@given(st.lists(st.floats(-4, 4), min_size=6, max_size=6), st.sampled_from([None, math.pi / 2, -math.pi / 2]))
+def test_any_pose_reads_back_as_it_was(numbers: list[float], pitch: float | None) -> None:
+    if pitch is not None:
+        numbers[4] = pitch
+    pose = Pose.from_rpy(*numbers)
+    tag = Tag("link", {"name": "l"})
+    tag.add_pose(pose)
+    model = f"<sdf version='1.11'><model name='m'>{''.join(tag.lines())}</model></sdf>"
+
+    again = read(model).world.models[0].links[0].model_from_link
+
+    assert again.position == pytest.approx(pose.position, abs=1e-12)
+    signs = [math.dist(pose.quaternion, [s * v for v in again.quaternion]) for s in (1, -1)]
+    assert min(signs) < 1e-9
+
+
+@given(st.text(alphabet=st.characters(min_codepoint=0x20, max_codepoint=0x2FF), min_size=1))
+def test_any_name_reads_back_as_it_was(name: str) -> None:
+    tag = Tag("robot", {"name": name})
+    tag.add("x", name)
+
+    again = parse_xml(tag.document(), name="x.xml")
+
+    assert again.attribute("name") == name
+    assert again.string("x") == name.strip()
+
+
+def test_settings_that_the_model_does_not_hold_are_named() -> None:
+    report = Diagnostics()
+    sensor = "<sensor name='s' type='sonar'><sonar><radius>1</radius></sonar></sensor>"
+    sdf_of(read(f"<sdf version='1.6'><model name='m'><link name='l'>{sensor}</link></model></sdf>"), report)
+
+    assert report.warnings == ["<stdin>:1: warning: sensor 's': the settings of a sonar sensor are not written yet"]
+
+
+def test_names_that_sdf_1_8_refuses_are_written_as_1_7() -> None:
+    text = sdf_of(read("<sdf version='1.6'><model name='m'><link name='a::b'/></model></sdf>"))
+    assert '<sdf version="1.7">' in text
+    assert read(text).world.models[0].links[0].name == "a::b"
+
+
+CART = """<sdf version="1.6"><model name="cart">
+<link name="base"><pose>0 0 1 0 0 0.5</pose><inertial><mass>3</mass></inertial>
+ <collision name="c"><geometry><box><size>1 2 3</size></box></geometry>
+  <surface><friction><ode><mu>0.2</mu></ode></friction></surface></collision></link>
+<link name="wheel"><pose>1 0 1 0 1.2 0</pose><inertial><mass>1</mass><pose>0.1 0 0 0 0 1</pose>
+  <inertia><ixx>0.1</ixx><iyy>0.2</iyy><izz>0.25</izz></inertia></inertial>
+ <visual name="v"><pose>0 0 0.2 0 0 0</pose><geometry><sphere><radius>0.5</radius></sphere></geometry>
+  <material><diffuse>1 0 0 1</diffuse></material></visual>
+ <sensor name="eye" type="camera"><pose>0 1 0 0 0 0</pose><camera><horizontal_fov>1</horizontal_fov></camera></sensor>
+</link>
+<link name="plate"><pose>1 2 1 0 0 0</pose></link>
+<joint name="axle" type="revolute"><pose>0 0.3 0 0.4 0 0</pose><parent>base</parent><child>wheel</child>
+ <axis><xyz>0 1 0</xyz><dynamics><damping>0.5</damping></dynamics></axis></joint>
+<joint name="weld" type="fixed"><parent>wheel</parent><child>plate</child></joint>
+</model></sdf>"""
+
+
+def com(model: Model, link: Link) -> Pose:
+    return model.links[0].model_from_link.inverse() @ link.model_from_link @ link.inertial.link_from_com
+
+
+def axis(model: Model, joint: Joint) -> tuple[float, ...]:
+    assert joint.axis is not None
+    root_from_model = model.links[0].model_from_link.inverse()
+    anchor = root_from_model.point(model_from_joint(model, joint).position)
+    return (*anchor, *root_from_model.direction(joint.axis.direction))
+
+
+def urdf_of(model: Model, report: Diagnostics | None = None) -> str:
+    return write_urdf(model, uri_of=written_uri, report=report or Diagnostics())
+
+
+def test_everything_stays_in_its_place_in_a_urdf() -> None:
+    before = read(CART).world.models[0]
+    loaded = read(urdf_of(before))
+    after = loaded.world.models[0]
+
+    assert [link.name for link in after.links] == ["base", "wheel", "plate"]
+    for link in before.links:
+        again = after.link(link.name)
+        assert com(after, again).as_list() == pytest.approx(com(before, link).as_list(), abs=1e-9)
+        assert again.inertial.moments == pytest.approx(link.inertial.moments)
+    assert axis(after, after.joint("axle")) == pytest.approx(axis(before, before.joint("axle")), abs=1e-9)
+    assert after.joint("axle").axis.damping == 0.5  # type: ignore[union-attr]
+    assert loaded.robot is not None
+    assert [joint.type for joint in loaded.robot.joints] == ["continuous", "fixed"]
+    assert after.link("base").collisions[0].surface.mu == 0.2
+    wheel, was = after.link("wheel"), before.link("wheel")
+    for on_wheel, on_was in (
+        (wheel.visuals[0].link_from_visual, was.visuals[0].link_from_visual),
+        (wheel.sensors[0].link_from_sensor, was.sensors[0].link_from_sensor),
+    ):
+        now = after.links[0].model_from_link.inverse() @ wheel.model_from_link @ on_wheel
+        then = before.links[0].model_from_link.inverse() @ was.model_from_link @ on_was
+        assert now.as_list() == pytest.approx(then.as_list(), abs=1e-9)
+    assert wheel.visuals[0].material.diffuse == pytest.approx((1.0, 0.0, 0.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (('type="fixed"', 'type="ball"'), r"<stdin>:\d+: error: joint 'weld': URDF has no ball joints; --to sdf has"),
+        (("<parent>wheel</parent>", "<parent>world</parent>"), "one link that no joint holds; here: 'base', 'world'"),
+        (("<child>plate</child>", "<child>base</child>"), "link 'base' hangs from itself; URDF is a tree"),
+        (("<parent>wheel</parent>", "<parent>base</parent><child>wheel</child>"), "link 'wheel' has 2 parents"),
+    ],
+)
+def test_what_is_no_tree_of_urdfs_joints_is_refused_with_the_reason(change: tuple[str, str], said: str) -> None:
+    with pytest.raises(DescriptionError, match=said):
+        urdf_of(read(CART.replace(*change)).world.models[0])
+
+
+def test_a_shape_that_urdf_has_not_is_named() -> None:
+    report = Diagnostics()
+    urdf_of(read(CART.replace("<sphere><radius>0.5</radius></sphere>", "<capsule/>")).world.models[0], report)
+    (warning,) = report.warnings
+    assert warning.endswith("visual 'v': URDF has no capsule; it is left out")
+
+
+@pytest.mark.slow
+def test_every_published_sdf_reads_back_as_it_was(shared: Path) -> None:
+    """846 files of SDF 1.0 to 1.9: the same model to 1e-9, and the same text the second time."""
+    environment = {"HOME": "/nobody", "GAZEBO_MODEL_PATH": str(shared / "corpus/repos/osrf+gazebo_models")}
+    count = 0
+    for row in json.loads((shared / "corpus/manifest.json").read_text())["sdf"]:
+        path = shared / "corpus" / row["file"]
+        packages = Packages(environment, start=path)
+        try:
+            first = load(str(path), Diagnostics(), packages=packages)
+        except TrundleError:
+            continue
+        text = sdf_of(first)
+        again = load_text(text, name="<stdin>", folder=path.parent, packages=packages, report=Diagnostics())
+        assert same(comparable(first), comparable(again)), path
+        count += 1
+    assert count > 800
+
+
+@pytest.mark.slow
+def test_published_models_that_a_urdf_can_hold_keep_their_places(shared: Path) -> None:
+    environment = {"HOME": "/nobody", "GAZEBO_MODEL_PATH": str(shared / "corpus/repos/osrf+gazebo_models")}
+    count = 0
+    for path in sorted((shared / "corpus/repos/osrf+gazebo_models").glob("*/model.sdf")):
+        packages = Packages(environment, start=path)
+        for before in flattened(load(str(path), Diagnostics(), packages=packages).world).models:
+            try:
+                text = urdf_of(before)
+            except DescriptionError:
+                continue
+            loaded = load_text(text, name="<stdin>", folder=path.parent, packages=packages, report=Diagnostics())
+            after = loaded.world.models[0]
+            assert [link.name for link in after.links] == [link.name for link in before.links], path
+            for link in before.links:
+                ours, theirs = com(after, after.link(link.name)).position, com(before, link).position
+                assert ours == pytest.approx(theirs, abs=1e-9), path
+            count += 1
+    assert count > 200
