@@ -53,6 +53,11 @@ def normalized(v: Vector3) -> Vector3 | None:
     return (v[0] / length, v[1] / length, v[2] / length)
 
 
+def cross(a: Vector3, b: Vector3) -> Vector3:
+    """The cross product a × b."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
 def quaternion_product(a: Quaternion, b: Quaternion) -> Quaternion:
     """Hamilton product: first b, then a."""
     aw, ax, ay, az = a
@@ -146,3 +151,9 @@ class Wrench:
     """[N]"""
     torque: Vector3 = ZERO
     """[N·m]"""
+
+    def __add__(self, other: "Wrench") -> "Wrench":
+        """Both at once, at one point."""
+        (fx, fy, fz), (tx, ty, tz) = other.force, other.torque
+        force, torque = self.force, self.torque
+        return Wrench((force[0] + fx, force[1] + fy, force[2] + fz), (torque[0] + tx, torque[1] + ty, torque[2] + tz))

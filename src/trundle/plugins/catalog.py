@@ -18,7 +18,13 @@ from trundle.model import PluginTag
 
 from .plugin import Plugin
 
-BUILTIN: dict[str, str] = {}
+BUILTIN: dict[str, str] = {
+    "libBuoyancyPlugin.so": "trundle.plugins.buoyancy:Buoyancy",
+    "libDiffDrivePlugin.so": "trundle.plugins.diff_drive:DiffDrive",
+    "libInitialVelocityPlugin.so": "trundle.plugins.initial_velocity:InitialVelocity",
+    "libLiftDragPlugin.so": "trundle.plugins.lift_drag:LiftDrag",
+    "libSkidSteerDrivePlugin.so": "trundle.plugins.skid_steer_drive:SkidSteerDrive",
+}
 """File name → "module:Class", imported only when a model asks."""
 
 GROUP = "trundle.plugins"

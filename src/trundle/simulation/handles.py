@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from trundle.diagnostics import UsageError
 from trundle.model import Joint, Link, Model, World
-from trundle.spatial import Pose, Twist, Wrench
+from trundle.spatial import Pose, Twist, Vector3, Wrench, cross
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -86,6 +86,20 @@ class LinkHandle:
             duration_s: simulation time; None: until something else is applied.
         """
         self._simulation.apply_wrench(self.index, wrench, duration_s=duration_s)
+
+    def add_wrench(self, wrench: Wrench, *, at: Vector3 | None = None) -> None:
+        """Add to what pushes the link, up to the next hook: what wind, water and air do, called at every step.
+
+        Args:
+            wrench: world axes.
+            at: where in the world the force acts [m]; None: at the centre of mass.
+        """
+        if at is not None:
+            com = self.pose @ self.link.inertial.link_from_com
+            arm = (at[0] - com.position[0], at[1] - com.position[1], at[2] - com.position[2])
+            turning = cross(arm, wrench.force)
+            wrench = wrench + Wrench(torque=turning)
+        self._simulation.add_wrench(self.index, wrench)
 
 
 class JointHandle:

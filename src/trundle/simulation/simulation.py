@@ -61,6 +61,8 @@ class Simulation:
         self._on_reset: list[Callable[[], None]] = []
         self._wrench_ends: dict[int, int] = {}
         """Link → the step after which its wrench ends."""
+        self._added_to: dict[int, Wrench] = {}
+        """Link → its lasting wrench, below what was added for the coming step."""
 
     @property
     def _first_world_joint(self) -> int:
@@ -158,6 +160,7 @@ class Simulation:
         self.steps = saved.steps
         self.engine.restore(saved.engine)
         self._wrench_ends = dict(saved.wrench_ends)
+        self._added_to.clear()
         for hook in self._hooks:
             hook.restart(self.steps, self.step_ns)
 
@@ -166,6 +169,7 @@ class Simulation:
         self.steps = 0
         self.engine.reset()
         self._wrench_ends.clear()
+        self._added_to.clear()
         for hook in self._hooks:
             hook.restart(0, self.step_ns)
         for call in self._on_reset:
@@ -216,6 +220,7 @@ class Simulation:
         links = {name: index for index, name in enumerate(engine.compiled.link_names)}
         names = old.compiled.link_names
         self._wrench_ends = {links[names[link]]: end for link, end in self._wrench_ends.items() if names[link] in links}
+        self._added_to = {links[names[link]]: w for link, w in self._added_to.items() if names[link] in links}
         known = {handle.name: handle for handle in self.models}
         self.models[:] = handles_of(self, self.world, known)
         for i, joint in enumerate(self.joints, self._first_world_joint):
@@ -235,12 +240,22 @@ class Simulation:
 
     def apply_wrench(self, link: int, wrench: Wrench, *, duration_s: float | None = None) -> None:
         """Push and twist a link, by its index; see `LinkHandle.apply_wrench`."""
+        self._added_to.pop(link, None)
         self.engine.set_wrench(link, wrench)
         self._wrench_ends.pop(link, None)
         if duration_s is not None:
             self._wrench_ends[link] = self.steps + max(1, round(duration_s * NS / self.step_ns))
 
+    def add_wrench(self, link: int, wrench: Wrench) -> None:
+        """Add to what pushes a link, up to the next hook; see `LinkHandle.add_wrench`."""
+        now = self.engine.wrench(link)
+        self._added_to.setdefault(link, now)
+        self.engine.set_wrench(link, now + wrench)
+
     def _end_wrenches(self) -> None:
+        for link, lasting in self._added_to.items():
+            self.engine.set_wrench(link, lasting)
+        self._added_to.clear()
         for link in [link for link, end in self._wrench_ends.items() if end <= self.steps]:
             del self._wrench_ends[link]
             self.engine.set_wrench(link, Wrench())

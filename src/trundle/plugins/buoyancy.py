@@ -1,0 +1,94 @@
+"""libBuoyancyPlugin.so: everything is under water."""
+
+import math
+from dataclasses import dataclass
+from typing import Self
+
+from trundle.model import Box, Capsule, Collision, Cone, Cylinder, Ellipsoid, Geometry, Link, PluginTag, Sphere
+from trundle.ros import Node
+from trundle.simulation import LinkHandle, ModelHandle, Simulation
+from trundle.spatial import ZERO, Vector3, Wrench
+
+from .bounds import bounding_box
+from .plugin import Plugin
+
+_WATER = 999.1026
+"""[kg/m³] Gazebo's default fluid."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Volume:
+    link: LinkHandle
+    volume: float
+    """[m³]"""
+    centre: Vector3
+    """In the link's frame [m]."""
+
+
+class Buoyancy(Plugin):
+    """Lifts every link by the weight of the fluid it displaces: −ρ·V·g at the centre of its volume.
+
+    Parameters: <fluid_density> [kg/m³] (999.1026) and for any <link name="…"> its <center_of_volume> [m] and <volume>
+    [m³]; the others' come from their collisions. There is no surface and no drag, as in Gazebo.
+    """
+
+    def __init__(self, volumes: list[_Volume], density: float) -> None:
+        self._volumes = volumes
+        self._density = density
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        del node
+        parameters, report = tag.node, sim.report
+        density = parameters.number("fluid_density", default=_WATER, report=report)
+        given: dict[str, _Volume] = {}
+        for child in parameters.all("link"):
+            link = model.link(child.required_attribute("name"))
+            volume = child.number("volume", default=0.0, report=report)
+            centre = child.vector("center_of_volume", default=ZERO, report=report)
+            child.report_unread(report)
+            if volume <= 0.0:
+                report.warn(child.at, f"link {link.name!r}: a volume of {volume:g} m³ floats nothing; it is left out")
+            given[link.name] = _Volume(link, max(volume, 0.0), centre)
+        parameters.report_unread(report)
+        volumes = [given.get(link.name) or _Volume(link, *_of_collisions(link.link)) for link in model.links]
+        return cls([each for each in volumes if each.volume > 0.0], density)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Lift."""
+        gx, gy, gz = sim.world.physics.gravity
+        for each in self._volumes:
+            mass = self._density * each.volume
+            lift = Wrench(force=(-mass * gx, -mass * gy, -mass * gz))
+            each.link.add_wrench(lift, at=each.link.pose.point(each.centre))
+
+
+def _of_collisions(link: Link) -> tuple[float, Vector3]:
+    """Volume [m³] of all collisions, overlaps counted twice as Gazebo does, and its centre in the link's frame."""
+    parts = [(_volume(collision), collision.link_from_collision.position) for collision in link.collisions]
+    total = sum(volume for volume, _ in parts)
+    if total <= 0.0:
+        return 0.0, ZERO
+    x, y, z = (sum(volume * centre[axis] for volume, centre in parts) / total for axis in range(3))
+    return total, (x, y, z)
+
+
+def _volume(collision: Collision) -> float:
+    geometry: Geometry = collision.geometry
+    match geometry:
+        case Box((x, y, z)):
+            return x * y * z
+        case Cylinder(radius, length):
+            return math.pi * radius**2 * length
+        case Cone(radius, length):
+            return math.pi * radius**2 * length / 3
+        case Capsule(radius, length):
+            return math.pi * radius**2 * (length + 4 / 3 * radius)
+        case Sphere(radius):
+            return 4 / 3 * math.pi * radius**3
+        case Ellipsoid((a, b, c)):
+            return 4 / 3 * math.pi * a * b * c
+        case _:  # of a mesh Gazebo takes the bounding box
+            x, y, z = bounding_box(Link(name="", at=collision.at, collisions=(collision,)))
+            return x * y * z

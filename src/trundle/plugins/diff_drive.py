@@ -1,0 +1,53 @@
+"""libDiffDrivePlugin.so: two driven wheels, as Gazebo's own plugin drives them."""
+
+from typing import Self
+
+from trundle.model import PluginTag, model_from_joint
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation
+from trundle.spatial import Pose
+
+from .bounds import bounding_box
+from .plugin import Plugin
+from .velocity_command import VelocityCommand
+
+
+class DiffDrive(Plugin):
+    """`/<model>/vel_cmd` in; wheel speeds out.
+
+    Parameters: <left_joint>, <right_joint> (required), <torque> [N·m] (5). The wheels' distance is that of their
+    joints' anchors, their radius half the largest side of the left wheel's bounding box. The left wheel gets
+    v + ω·separation/2 and the right one v − ω·separation/2: the opposite of ROS' sense, as in Gazebo.
+    """
+
+    def __init__(self, model: ModelHandle, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
+        parameters = tag.node
+        self._left = model.joint(parameters.string("left_joint"))
+        self._right = model.joint(parameters.string("right_joint"))
+        self._torque = parameters.number("torque", default=5.0, report=sim.report)
+        parameters.report_unread(sim.report)
+        self._separation = _apart(
+            model_from_joint(model.model, self._left.joint), model_from_joint(model.model, self._right.joint)
+        )
+        self._radius = max(bounding_box(model.link(self._left.joint.child).link)) / 2 or 1.0
+        self._command = VelocityCommand(model, node)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        return cls(model, node, tag, sim)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Keep both wheels at their speeds."""
+        del sim
+        half = self._command.turning * self._separation / 2
+        self._left.set_velocity((self._command.speed + half) / self._radius, max_effort=self._torque)
+        self._right.set_velocity((self._command.speed - half) / self._radius, max_effort=self._torque)
+
+    def reset(self) -> None:
+        """Stand still."""
+        self._command.stop()
+
+
+def _apart(one: Pose, other: Pose) -> float:
+    return sum((a - b) ** 2 for a, b in zip(one.position, other.position, strict=True)) ** 0.5

@@ -1,0 +1,42 @@
+"""libInitialVelocityPlugin.so: a model that starts in motion."""
+
+from typing import Self
+
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation
+from trundle.spatial import ZERO, Twist
+
+from .plugin import Plugin
+
+
+class InitialVelocity(Plugin):
+    """Gives the model <linear> [m/s] and <angular> [rad/s], world axes, before the first step."""
+
+    period_ns = 1 << 62  # once, at the start
+
+    def __init__(self, model: ModelHandle, twist: Twist) -> None:
+        self._model = model
+        self._twist = twist
+        self._is_due = True
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        del node
+        parameters = tag.node
+        linear = parameters.vector("linear", default=ZERO, report=sim.report)
+        angular = parameters.vector("angular", default=ZERO, report=sim.report)
+        parameters.report_unread(sim.report)
+        return cls(model, Twist(linear, angular))
+
+    def before_step(self, sim: Simulation) -> None:
+        """Set it going, once."""
+        del sim
+        if self._is_due:
+            self._is_due = False
+            self._model.set_twist(self._twist)
+
+    def reset(self) -> None:
+        """Start again."""
+        self._is_due = True

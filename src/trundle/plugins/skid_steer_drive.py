@@ -1,0 +1,47 @@
+"""libSkidSteerDrivePlugin.so: four driven wheels."""
+
+from typing import Self
+
+from trundle.model import PluginTag, model_from_joint
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation
+
+from .bounds import bounding_box
+from .plugin import Plugin
+from .velocity_command import VelocityCommand
+
+
+class SkidSteerDrive(Plugin):
+    """`/<model>/vel_cmd` in; wheel speeds out.
+
+    The joints are called right_front, right_rear, left_front and left_rear. As in Gazebo, the right wheels turn with
+    v/r + ω·separation/r and the left ones with v/r − ω·separation/r, twice what a slip-free turn needs. <max_force>
+    [N·m] (5) is all it reads.
+    """
+
+    def __init__(self, model: ModelHandle, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
+        self._torque = tag.node.number("max_force", default=5.0, report=sim.report)
+        tag.node.report_unread(sim.report)
+        self._right = [model.joint("right_front"), model.joint("right_rear")]
+        self._left = [model.joint("left_front"), model.joint("left_rear")]
+        right, left = (model_from_joint(model.model, wheels[0].joint).position for wheels in (self._right, self._left))
+        self._separation = sum((a - b) ** 2 for a, b in zip(right, left, strict=True)) ** 0.5
+        self._radius = max(bounding_box(model.link(self._right[0].joint.child).link)) / 2 or 1.0
+        self._command = VelocityCommand(model, node)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        return cls(model, node, tag, sim)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Keep all wheels at their speeds."""
+        del sim
+        for wheels, sign in ((self._right, 1.0), (self._left, -1.0)):
+            speed = (self._command.speed + sign * self._command.turning * self._separation) / self._radius
+            for wheel in wheels:
+                wheel.set_velocity(speed, max_effort=self._torque)
+
+    def reset(self) -> None:
+        """Stand still."""
+        self._command.stop()

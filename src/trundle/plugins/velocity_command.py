@@ -1,0 +1,34 @@
+"""The topic that Gazebo's native drive plugins listen to.
+
+`~/<model>/vel_cmd` carries a Pose whose x is the speed and whose yaw is the turning rate; on the ROS graph it is
+`/<model>/vel_cmd` with a geometry_msgs/Pose.
+"""
+
+import math
+
+from trundle.names import ros_name
+from trundle.ros import Message, Node
+from trundle.simulation import ModelHandle
+from trundle.spatial import rpy_from_quaternion
+
+
+class VelocityCommand:
+    """The last speeds asked for; they hold until the next."""
+
+    def __init__(self, model: ModelHandle, node: Node | None) -> None:
+        self.speed = 0.0
+        """[m/s]"""
+        self.turning = 0.0
+        """[rad/s]"""
+        if node is not None:
+            node.subscribe(f"/{ros_name(model.name)}/vel_cmd", "geometry_msgs/Pose", self._take)
+
+    def stop(self) -> None:
+        """Ask for nothing."""
+        self.speed = self.turning = 0.0
+
+    def _take(self, pose: Message) -> None:
+        turn = pose.orientation
+        yaw = rpy_from_quaternion((turn.w, turn.x, turn.y, turn.z))[2]
+        if math.isfinite(pose.position.x) and math.isfinite(yaw):
+            self.speed, self.turning = float(pose.position.x), yaw
