@@ -10,7 +10,7 @@ from collections import Counter
 import mujoco
 
 from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.model import Collision, Cylinder, Plane, World, flattened
+from trundle.model import Collision, Cylinder, Heightmap, Plane, World, flattened
 from trundle.spatial import Pose
 
 from .contacts import add_contacts, soften
@@ -143,8 +143,10 @@ class _Compiler:
         return body
 
     def _add_collision(self, place: Place, collision: Collision) -> None:
-        if isinstance(collision.geometry, Plane) and place.name not in self.tree.still:
-            self.report.warn(collision.at, f"collision {collision.name!r}: a plane cannot move; it is left out")
+        fixed = place.name in self.tree.still
+        if isinstance(collision.geometry, Plane | Heightmap) and not fixed:
+            what = "plane" if isinstance(collision.geometry, Plane) else "heightmap"
+            self.report.warn(collision.at, f"collision {collision.name!r}: a {what} cannot move; it is left out")
             return
         body, wheel = self.bodies[place.name], collision
         name = self._shape_name(f"{place.name}::{collision.name}")
@@ -153,11 +155,20 @@ class _Compiler:
             tread = add_tread(body, collision, collision.geometry, f"{name}::tread")
             self._keep(tread, f"{name}::tread", place, collision, is_tread=True)
             wheel = without_tread(collision, collision.geometry)
-        geom = add_shape(self.spec, body, wheel, name, self.report)
-        if geom is not None:
-            self._keep(geom, name, place, collision, is_tread=False)
+        geoms = add_shape(self.spec, body, wheel, name, self.report, fixed=fixed)
+        for geom in geoms:
+            self._keep(geom, geom.name, place, collision, is_piece=len(geoms) > 1)
 
-    def _keep(self, geom: mujoco.MjsGeom, name: str, place: Place, collision: Collision, *, is_tread: bool) -> None:
+    def _keep(
+        self,
+        geom: mujoco.MjsGeom,
+        name: str,
+        place: Place,
+        collision: Collision,
+        *,
+        is_tread: bool = False,
+        is_piece: bool = False,
+    ) -> None:
         self.shapes.append(
             ShapeEntry(
                 geom,
@@ -167,6 +178,7 @@ class _Compiler:
                 link=place.name,
                 fixed=place.name in self.tree.still,
                 surface=collision.surface,
+                is_piece=is_piece,
                 is_tread=is_tread,
             )
         )

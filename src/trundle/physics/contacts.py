@@ -41,6 +41,10 @@ def add_contacts(
     fixed = [shape for shape in shapes if shape.fixed]
     moving = [shape for shape in shapes if not shape.fixed]
     solid = [shape for shape in moving if not shape.is_tread]
+    pieces = [shape for shape in fixed if shape.is_piece]
+    if len(pieces) * len(moving) > MOST_PAIRS:
+        fixed = [shape for shape in fixed if not shape.is_piece]
+        _let_find(spec, pieces, moving)
     _add_pairs(spec, product(moving, fixed), rules, touches)
     if len(solid) * (len(solid) - 1) <= 2 * MOST_PAIRS:
         _add_pairs(spec, combinations(solid, 2), rules, touches)
@@ -121,22 +125,42 @@ def soften(model: mujoco.MjModel, touches: Mapping[tuple[str, str], Touch]) -> N
         model.pair_solimp[pair, :2] = _SOFT
 
 
+def _let_find(spec: mujoco.MjSpec, pieces: Sequence[ShapeEntry], moving: Sequence[ShapeEntry]) -> None:
+    """Let moving shapes find the many pieces of meshes that stand; they do not find each other so."""
+    ranks = _ranks([*pieces, *moving])
+    for shape in pieces:
+        _carry(spec, shape, ranks)
+        shape.geom.contype = category_of(shape.surface) & _BITS
+    for shape in moving:
+        _carry(spec, shape, ranks)
+        shape.geom.conaffinity = shape.surface.collide_bitmask & _BITS
+
+
+def _ranks(shapes: Sequence[ShapeEntry]) -> dict[float, int]:
+    """Priorities: the smaller friction, the higher."""
+    return {mu: -i for i, mu in enumerate(sorted({friction_of(s.surface) for s in shapes}))}
+
+
+def _carry(spec: mujoco.MjSpec, shape: ShapeEntry, ranks: Mapping[float, int]) -> None:
+    """Write what contacts found by search need on the shape itself."""
+    h = spec.option.timestep
+    mu, geom = friction_of(shape.surface), shape.geom
+    geom.priority = ranks[mu]
+    geom.friction = [mu, 0.005, 0.0001]
+    geom.condim = 3 if mu > 0 else 1
+    geom.solref = contact_solref(h)
+    geom.solimp = SOLIMP
+
+
 def _let_search(spec: mujoco.MjSpec, moving: Sequence[ShapeEntry], rules: _Rules) -> None:
     """Let moving shapes of different models find each other; the one with the smaller friction decides."""
-    h = spec.option.timestep
-    ranks = {mu: -i for i, mu in enumerate(sorted({friction_of(s.surface) for s in moving}))}
+    ranks = _ranks(moving)
     by_model: dict[int, list[ShapeEntry]] = {}
     for shape in moving:
         by_model.setdefault(shape.model, []).append(shape)
-        mu = friction_of(shape.surface)
-        geom = shape.geom
-        geom.contype = category_of(shape.surface) & _BITS
-        geom.conaffinity = shape.surface.collide_bitmask & _BITS
-        geom.priority = ranks[mu]
-        geom.friction = [mu, 0.005, 0.0001]
-        geom.condim = 3 if mu > 0 else 1
-        geom.solref = contact_solref(h)
-        geom.solimp = SOLIMP
+        _carry(spec, shape, ranks)
+        shape.geom.contype = category_of(shape.surface) & _BITS
+        shape.geom.conaffinity = shape.surface.collide_bitmask & _BITS
     apart = {
         tuple(sorted((a.link, b.link)))
         for shapes in by_model.values()

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.meshes import MeshError, load_mesh
+from trundle.meshes import Mesh, MeshError, load_mesh
 from trundle.model import (
     Box,
     Capsule,
@@ -27,6 +27,10 @@ from trundle.model import (
 )
 from trundle.spatial import IDENTITY_QUATERNION, Pose, Quaternion, Vector3
 
+from .pieces import convex_pieces
+from .terrain import add_terrain
+
+_CONE_SIDES = 32
 THINNEST = 1e-4
 """[m] What a thickness of zero becomes: 0.1 mm."""
 
@@ -45,16 +49,41 @@ class ShapeEntry:
     fixed: bool
     """Part of the world: nothing moves it."""
     surface: Surface
+    is_piece: bool = False
+    """One of several of a mesh."""
     is_tread: bool = False
     """Of a wheel; touches what is fixed."""
 
 
 def add_shape(
-    spec: mujoco.MjSpec, body: mujoco.MjsBody, collision: Collision, name: str, report: Diagnostics
-) -> mujoco.MjsGeom | None:
-    """Add a collision to a body; None after a warning where it cannot be one."""
+    spec: mujoco.MjSpec, body: mujoco.MjsBody, collision: Collision, name: str, report: Diagnostics, *, fixed: bool
+) -> list[mujoco.MjsGeom]:
+    """Add a collision to a body, in pieces where it takes several; none after a warning where it cannot be one."""
     geometry = _mended(collision, report)
     pose = collision.link_from_collision
+    match geometry:
+        case MeshFile(path=None) | Empty():
+            return []
+        case MeshFile(path=path):
+            assert path is not None  # caught above
+            try:
+                mesh = load_mesh(path, submesh=geometry.submesh, center=geometry.center_submesh)
+            except MeshError as error:
+                report.warn(collision.at, f"{error}; the collision is left out")
+                return []
+            return _add_pieces(spec, body, collision, name, report, mesh.scaled(geometry.scale), fixed=fixed)
+        case Cone(radius, length):
+            turns = np.linspace(0.0, 2 * np.pi, _CONE_SIDES, endpoint=False)
+            base = np.column_stack([radius * np.cos(turns), radius * np.sin(turns), np.full(_CONE_SIDES, -length / 2)])
+            return [_add_hull(spec, body, collision, name, np.vstack([base, [0.0, 0.0, length / 2]]))]
+        case Polyline():
+            what = "a polyline is not simulated yet; it is left out"
+            report.warn(collision.at, f"collision {collision.name!r}: {what}")
+            return []
+        case Heightmap():
+            return add_terrain(spec, body, collision, geometry, name, report)
+        case _:
+            pass
     geom = body.add_geom(name=name, pos=pose.position, quat=pose.quaternion, group=3)
     match geometry:
         case Box(size):
@@ -70,26 +99,38 @@ def add_shape(
         case Plane(normal, _):
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_PLANE, [0, 0, 1]
             geom.quat = (pose @ Pose(quaternion=upright(normal))).quaternion
-        case MeshFile(path=None) | Empty():
-            spec.delete(geom)
-            return None
-        case Cone() | Polyline() | Heightmap():
-            what = type(geometry).__name__.lower()
-            report.warn(collision.at, f"collision {collision.name!r}: a {what} is not simulated yet; it is left out")
-            spec.delete(geom)
-            return None
-        case MeshFile(path=path):
-            assert path is not None  # caught above
-            try:
-                mesh = load_mesh(path, submesh=geometry.submesh, center=geometry.center_submesh)
-            except MeshError as error:
-                report.warn(collision.at, f"{error}; the collision is left out")
-                spec.delete(geom)
-                return None
-            corners = _thick_hull(mesh.scaled(geometry.scale).vertices.astype(float), collision, report)
-            # Without faces: meshes touch by their convex hulls, which MuJoCo makes of the corners.
-            spec.add_mesh(name=name, uservert=corners.reshape(-1), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
-            geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, name
+    return [geom]
+
+
+def _add_pieces(
+    spec: mujoco.MjSpec,
+    body: mujoco.MjsBody,
+    collision: Collision,
+    name: str,
+    report: Diagnostics,
+    mesh: Mesh,
+    *,
+    fixed: bool,
+) -> list[mujoco.MjsGeom]:
+    pieces = convex_pieces(mesh.vertices.astype(float), mesh.faces.astype(np.intp), fixed=fixed)
+    if not pieces.is_exact:
+        why = "it has too many pieces" if fixed else "it moves"
+        what = f"a hollow mesh of {len(mesh.faces)} triangles; physics fills it, as {why}"
+        report.info(collision.at, f"collision {collision.name!r}: {what}")
+    corners = [_thick_hull(piece, collision, report) for piece in pieces.corners]
+    if len(corners) == 1:
+        return [_add_hull(spec, body, collision, name, corners[0])]
+    return [_add_hull(spec, body, collision, f"{name}#{i}", piece) for i, piece in enumerate(corners)]
+
+
+def _add_hull(
+    spec: mujoco.MjSpec, body: mujoco.MjsBody, collision: Collision, name: str, corners: NDArray[np.float64]
+) -> mujoco.MjsGeom:
+    """Add the convex hull of some corners (N, 3) [m], which MuJoCo makes of a mesh without faces."""
+    spec.add_mesh(name=name, uservert=corners.reshape(-1), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
+    pose = collision.link_from_collision
+    geom = body.add_geom(name=name, pos=pose.position, quat=pose.quaternion, group=3)
+    geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, name
     return geom
 
 

@@ -1,0 +1,169 @@
+"""Meshes that are hollow, in several parts or too fine, and terrain."""
+
+import itertools
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import trundle
+from trundle.physics.pieces import MOST_PIECES, convex_pieces
+from trundle.simulation import Simulation
+from trundle.spatial import Pose, Twist
+
+Load = Callable[..., Simulation]
+Corner = tuple[float, float, float]
+
+
+def obj(*quads: tuple[Corner, Corner, Corner, Corner]) -> str:
+    lines = [f"v {x} {y} {z}" for quad in quads for x, y, z in quad]
+    lines += [f"f {i} {i + 1} {i + 2} {i + 3}" for i in range(1, 4 * len(quads), 4)]
+    return "\n".join(lines) + "\n"
+
+
+def tray(half: float = 1.0, high: float = 0.5) -> str:
+    """A floor and four walls without thickness, seen from inside."""
+    a, b, c, d = ((x * half, y * half, 0.0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+
+    def wall(p: Corner, q: Corner) -> tuple[Corner, Corner, Corner, Corner]:
+        return (q, p, (*p[:2], high), (*q[:2], high))
+
+    return obj((a, b, c, d), wall(a, b), wall(b, c), wall(c, d), wall(d, a))
+
+
+def cube(x: float, half: float = 0.25) -> list[tuple[Corner, Corner, Corner, Corner]]:
+    quads: list[tuple[Corner, Corner, Corner, Corner]] = []
+    for axis, sign in itertools.product(range(3), (-1.0, 1.0)):
+        ring = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)][:: int(sign)]
+        corners = [list(np.insert(np.array(two), axis, sign) * half + [x, 0.0, half]) for two in ring]
+        quads.append(tuple((float(p[0]), float(p[1]), float(p[2])) for p in corners))  # type: ignore[arg-type]
+    return quads
+
+
+@pytest.fixture
+def load(tmp_path: Path) -> Load:
+    """Load a mesh that stands, or moves, and a ball of 0.1 m somewhere."""
+
+    def load(mesh: str, ball: str, *, static: bool = True, geometry: str = "") -> Simulation:
+        (tmp_path / "m.obj").write_text(mesh)
+        geometry = geometry or "<mesh><uri>m.obj</uri></mesh>"
+        inertial = "<inertial><mass>1</mass></inertial>"
+        file = tmp_path / "w.world"
+        file.write_text(
+            f'<sdf version="1.6"><world name="w"><model name="m"><static>{static}</static><link name="l">{inertial}'
+            f'<collision name="c"><geometry>{geometry}</geometry></collision></link></model><model name="ball">'
+            f'<pose>{ball} 0 0 0</pose><link name="l"><inertial><mass>1</mass><inertia><ixx>0.004</ixx><iyy>0.004</iyy>'
+            "<izz>0.004</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial><collision name='c'><geometry>"
+            "<sphere><radius>0.1</radius></sphere></geometry></collision></link></model></world></sdf>"
+        )
+        return trundle.load(str(file))
+
+    return load
+
+
+def test_a_room_can_be_entered_and_its_walls_hold(load: Load) -> None:
+    sim = load(tray(), "0 0 0.3")
+    ball = sim["ball"].link("l")
+    sim.run(1.0)
+    assert ball.pose.position == pytest.approx((0.0, 0.0, 0.1), abs=1e-3)
+    ball.set_twist(Twist((2.0, 0.0, 0.0), (0.0, 20.0, 0.0)))
+    furthest = 0.0
+    for _ in range(1000):
+        sim.step()
+        furthest = max(furthest, ball.pose.position[0])
+    assert furthest == pytest.approx(0.9, abs=5e-3)
+
+
+def test_a_ball_rolls_over_the_seams_of_a_floor_without_a_bump(load: Load) -> None:
+    edges = np.linspace(-1.0, 1.0, 9)
+    tiles = [
+        ((x, y, 0.0), (x2, y, 0.0), (x2, y2, 0.0), (x, y2, 0.0))
+        for (x, x2), (y, y2) in itertools.product(itertools.pairwise(edges.tolist()), repeat=2)
+    ]
+    step = ((1.0, -1.0, 0.0), (1.0, 1.0, 0.0), (1.0, 1.0, 0.5), (1.0, -1.0, 0.5))
+    sim = load(obj(*tiles, step), "-0.8 0.05 0.1")
+    sim["ball"].link("l").set_twist(Twist((0.5, 0.0, 0.0), (0.0, 5.0, 0.0)))
+    heights: list[float] = []
+    for _ in range(200):
+        sim.run(0.01)
+        heights.append(sim["ball"].pose.position[2])
+    assert sim["ball"].pose.position[0] == pytest.approx(0.2, abs=0.01)
+    assert max(heights) - min(heights) < 1e-4
+
+
+def test_parts_of_a_mesh_are_shapes_of_their_own(load: Load) -> None:
+    sim = load(obj(*cube(-0.5), *cube(0.5)), "0 0 0.6")
+    # The gap is 0.5 m wide: the ball falls through it.
+    sim.run(1.0)
+    assert sim["ball"].pose.position[2] < -1.0
+    assert sim.engine.compiled.geom_collisions.count("m::l::c") == 2
+
+
+def test_what_is_hollow_and_moves_is_filled_aloud(load: Load) -> None:
+    sim = load(tray(), "0 0 5", static=False)
+    (finding,) = [f.what for f in sim.report.findings if "hollow" in f.what]
+    assert finding == "collision 'c': a hollow mesh of 10 triangles; physics fills it, as it moves"
+    assert sim.engine.compiled.geom_collisions.count("m::l::c") == 1
+
+
+def test_a_mesh_of_too_many_pieces_is_filled() -> None:
+    # Twice as many bent strips as there may be pieces.
+    count = 2 * MOST_PIECES
+    bent = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0]])
+    vertices = np.concatenate([bent + np.array([3.0 * i, 0.0, 0.0]) for i in range(count)])
+    faces = np.concatenate([np.array([[0, 1, 2], [0, 2, 3]]) + 4 * i for i in range(count)])
+    pieces = convex_pieces(vertices, faces, fixed=True)
+    assert len(pieces.corners) == 1
+    assert not pieces.is_exact
+
+
+@pytest.mark.parametrize("faces", [[], [[0, 0, 0]], [[0, 1, 1]]])
+def test_a_mesh_without_area_is_its_hull(faces: list[list[int]]) -> None:
+    corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    pieces = convex_pieces(corners, np.array(faces, dtype=np.intp).reshape(-1, 3), fixed=True)
+    assert len(pieces.corners) == 1
+
+
+def test_a_convex_mesh_stays_whole_whatever_its_faces() -> None:
+    turns = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)
+    ring = np.column_stack([np.cos(turns), np.sin(turns)])
+    vertices = np.concatenate([np.column_stack([ring, np.full(24, z)]) for z in (0.0, 1.0)])
+    sides = [[i, (i + 1) % 24, 24 + i] for i in range(24)] + [
+        [(i + 1) % 24, 24 + (i + 1) % 24, 24 + i] for i in range(24)
+    ]
+    caps = [[0, i + 1, i] for i in range(1, 23)] + [[24, 24 + i, 25 + i] for i in range(1, 23)]
+    for fixed in (True, False):
+        pieces = convex_pieces(vertices, np.array(sides + caps), fixed=fixed)
+        assert (len(pieces.corners), pieces.is_exact) == (1, True)
+
+
+def test_a_ball_slides_off_the_tip_of_a_cone(load: Load) -> None:
+    cone = "<cone><radius>0.5</radius><length>1</length></cone>"
+    sim = load("", "0 0 0.7", geometry=cone)
+    sim.engine.set_tree_pose(sim["ball"].links[0].index, Pose((0.0, 0.0, 0.9)))
+    assert sim.engine.compiled.geom_collisions.count("m::l::c") == 1
+    sim.run(0.3)
+    # The tip is at 0.5: the ball is stopped by it.
+    assert 0.55 < sim["ball"].pose.position[2] < 0.62
+
+
+def test_a_ball_lies_on_terrain_as_high_as_its_image_is_bright(load: Load, tmp_path: Path) -> None:
+    # 0 in the south, 200 in the north (the upper rows), flat in the middle of each half.
+    heights = np.zeros((33, 33), dtype=np.uint8)
+    heights[:16] = 200
+    heights[16] = 100
+    Image.fromarray(heights).save(tmp_path / "hills.png")
+    terrain = "<heightmap><uri>hills.png</uri><size>8 8 2</size><pos>0 0 0.5</pos></heightmap>"
+    for ball, expected in (("0 2 2.5", 0.5 + 2.0 * 200 / 255), ("0 -2 1.0", 0.5)):
+        sim = load("", ball, geometry=terrain)
+        sim.run(1.5)
+        assert sim["ball"].pose.position[2] == pytest.approx(expected + 0.1, abs=2e-3)
+
+
+def test_a_heightmap_that_is_no_image_is_left_out_aloud(load: Load, tmp_path: Path) -> None:
+    (tmp_path / "hills.png").write_bytes(b"no picture")
+    sim = load("", "0 0 1", geometry="<heightmap><uri>hills.png</uri><size>8 8 2</size></heightmap>")
+    assert any("heightmap 'hills.png'" in w and "left out" in w for w in sim.report.warnings)
