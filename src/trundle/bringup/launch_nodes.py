@@ -52,13 +52,16 @@ class NodeStarter:
     """Overrides what the launch file says."""
     all_required: bool = False
 
-    def prepare(self, node: LaunchNode, label: str, *, show: Callable[[str, str], None]) -> Launched:
+    def prepare(
+        self, node: LaunchNode, label: str, *, show: Callable[[str, str], None], more: tuple[str, ...] = ()
+    ) -> Launched:
         """Find what runs a node; where nothing can, a warning says so.
 
         Args:
             node: to be run.
             label: what messages call it.
             show: takes the label and a line of output.
+            more: words of a program's command line behind those of the launch file.
 
         Raises:
             DescriptionError: nothing can run it, and the launch requires it.
@@ -69,7 +72,7 @@ class NodeStarter:
         name = label.replace("/", "-")
         match find_node(node.package, node.type, self.packages.find_package, env=env):
             case Executable(path):
-                job = ProcessJob(self._command(node, label, path, env), show)
+                job = ProcessJob(self._command(node, label, path, env, more), show)
                 logs = f"{self.log_folder / name}*.log"
                 return Launched(node=node, kind="process", what=str(path), job=job, log_files=logs)
             case Replacement() as stand_in:
@@ -105,7 +108,9 @@ class NodeStarter:
                 ros_node.quiet_log = files.enter_context(log.open("a", encoding="utf-8"))
             return await run_stand_in(stand_in, ros_node, list(given.rest), self.host)
 
-    def _command(self, node: LaunchNode, label: str, program: Path, env: Mapping[str, str]) -> Command:
+    def _command(
+        self, node: LaunchNode, label: str, program: Path, env: Mapping[str, str], more: tuple[str, ...]
+    ) -> Command:
         log = self.log_folder / label.replace("/", "-")
         return Command(
             name=label,
@@ -113,6 +118,7 @@ class NodeStarter:
                 *_split(node.launch_prefix, node),
                 str(program),
                 *_split(node.arguments, node),
+                *more,
                 *(f"{there}:={here}" for there, here in node.remappings),
                 f"__name:={node.name}",
                 f"__log:={log}.log",

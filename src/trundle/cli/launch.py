@@ -64,7 +64,8 @@ def main(args: argparse.Namespace) -> int:
     if args.core and args.words:
         raise UsageError("--core launches no files")
     with quiet_imports():
-        from trundle.bringup.launch import LaunchOptions, launch
+        from trundle.bringup.launch import launch
+        from trundle.bringup.launch_options import LaunchOptions
         from trundle.supervisor import Patience
 
     options = LaunchOptions(

@@ -1,0 +1,33 @@
+"""How to launch."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from trundle.supervisor import Patience
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LaunchOptions:
+    """What the command line may say; the defaults are those of `trundle launch`."""
+
+    headless: bool = False
+    duration_s: float | None = None
+    """ROS time; None: until every node has ended."""
+    master_port: int | None = None
+    view_port: int | None = None
+    host: str = "127.0.0.1"
+    output: Literal["screen", "log"] | None = None
+    """Of every node, whatever the file says."""
+    all_required: bool = False
+    wait_for_master: bool = False
+    summary: bool = True
+    verbose: bool = False
+    core_only: bool = False
+    pid_file: Path | None = None
+    patience: Patience = Patience()
+    strict: bool = False
+    only: Literal["nodes", "files", "find-node", "args", "arguments", "params"] | None = None
+    """Print these and start nothing."""
+    node: str = ""
+    """Which node `find-node` and `args` are about."""

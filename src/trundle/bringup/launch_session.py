@@ -1,0 +1,151 @@
+"""One launch from its graph to its nodes: opened, started, watched, closed."""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Self
+
+from trundle.diagnostics import Diagnostics
+from trundle.launch import LaunchNode, LaunchParam, LaunchPlan
+from trundle.nodes import Host
+from trundle.packages import Packages
+from trundle.ros import Clock, Node, follow_time
+from trundle.viewer import GraphPage
+
+from . import launch_print
+from .gazebo_world import GazeboWorld
+from .graph import Graph
+from .launch_logs import log_folder
+from .launch_nodes import NodeStarter
+from .launch_options import LaunchOptions
+from .launch_params import set_params
+from .launch_running import RunningNodes, what_runs
+from .showing import Showing
+
+_START_S = 60.0
+"""Starting programs takes its time on a busy machine."""
+_SILENCE_S = 5.0
+_LAST_S = 13.0
+"""What stopping may take beyond the patience with each program."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReadLaunch:
+    """A launch that was read: its commands have run, nothing of it is started."""
+
+    plan: LaunchPlan
+    params: Sequence[LaunchParam]
+    packages: Packages
+    env: Mapping[str, str]
+    report: Diagnostics
+    show: Showing
+
+
+class LaunchSession:
+    """A graph with the launch's parameters on it, and its nodes once they are started."""
+
+    def __init__(self, read: ReadLaunch, options: LaunchOptions, *, any_port: bool = False) -> None:
+        """Join or start a graph and set the parameters.
+
+        Args:
+            read: what to launch.
+            options: how.
+            any_port: where no master is named, start one on a free port, as tests do.
+        """
+        self._read = read
+        self._options = options
+        self._open_things = ExitStack()
+        self._running: RunningNodes | None = None
+        try:
+            self._open(any_port=any_port)
+        except BaseException:
+            self._open_things.close()
+            raise
+
+    def _open(self, *, any_port: bool) -> None:
+        read, options, show = self._read, self._options, self._read.show
+        graph = self.graph = self._open_things.enter_context(Graph.open(read.env, host=options.host, any_port=any_port))
+        show.line(graph.story)
+        launcher = Node("/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False)
+        if options.summary and not options.core_only:
+            core = {name: str(graph.loop.run(launcher.get_param(name, ""))).strip() for name in _SHOWN}
+            values = {**core, **{param.name: param.value for param in read.params}}
+            print(launch_print.summary(read.plan, values), flush=True)
+        graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
+        self.clock = graph.loop.run(follow_time(launcher))
+        page = None
+        if not options.headless:
+            page = GraphPage(packages=read.packages, report=read.report, host=options.host, port=options.view_port)
+            self._open_things.callback(page.close)
+        logs = log_folder(read.env, str(graph.loop.run(launcher.get_param("/run_id", ""))))
+        gazebo = GazeboWorld(
+            graph=graph,
+            packages=read.packages,
+            env=read.env,
+            report=read.report,
+            folder=logs / "spawned",
+            say=show.line,
+            window=None if options.headless else (options.host, options.view_port),
+        )
+        self._open_things.callback(gazebo.close)
+        self.starter = NodeStarter(
+            graph=graph,
+            packages=read.packages,
+            env=read.env,
+            report=read.report,
+            host=Host(display=page, simulator=gazebo),
+            log_folder=logs,
+            output=options.output,
+            all_required=options.all_required,
+        )
+
+    def start(self, nodes: Sequence[LaunchNode]) -> RunningNodes:
+        """Start nodes, and say what runs."""
+        loop, patience = self.graph.loop, self._options.patience
+        running = self._running = RunningNodes(self.starter, nodes, patience=patience)
+        loop.run(running.start(), timeout_s=_START_S)
+        self._read.show.findings()
+        if running.launched:
+            print(what_runs(running.launched), flush=True)
+        return running
+
+    def close(self) -> None:
+        """Stop the nodes, the last started first, then everything else."""
+        patience = self._options.patience
+        try:
+            if self._running is not None:
+                timeout_s = patience.interrupt_s + patience.terminate_s + _LAST_S
+                self.graph.loop.run(self._running.stop(), timeout_s=timeout_s)
+        finally:
+            self._open_things.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+_SHOWN = ("/rosdistro", "/rosversion")
+"""Parameters of the core that roslaunch's summary shows."""
+
+
+class SilentClock:
+    """Says once that simulated time is waited for and nobody tells it, which makes every node stand still."""
+
+    def __init__(self, clock: Clock, say: Callable[[str], None]) -> None:
+        self._clock = clock
+        self._say: Callable[[str], None] | None = say
+        self._due = time.monotonic() + _SILENCE_S
+
+    def look(self) -> None:
+        """See whether there is a time by now."""
+        if self._say is None or self._clock.now_ns() > 0:
+            self._say = None
+        elif time.monotonic() > self._due:
+            self._say("/use_sim_time is true, but nothing has published a time on /clock yet (a simulation, a bag?)")
+            self._say = None

@@ -1,0 +1,97 @@
+"""`trundle test` runs the tests of launch files as rostest does."""
+
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import pytest
+
+_MANIFEST = """<package><name>p</name><version>1.0.0</version><description>d</description>
+<maintainer email="a@b.c">m</maintainer><license>x</license></package>"""
+# What a gtest or rosunit program does: it writes its results where it is told to.
+_CHECK = """#!/usr/bin/env python3
+import sys, pathlib
+out = next(w.partition("xml:")[2] for w in sys.argv if w.startswith("--gtest_output="))
+verdict = sys.argv[1]
+cases = '<testcase name="sees" classname="C" time="0.5"/>'
+if verdict == "fail":
+    cases += '<testcase name="hears" classname="C" time="0.1"><failure message="no &lt;sound&gt;"/></testcase>'
+if verdict == "flaky":
+    mark = pathlib.Path(sys.argv[2])
+    cases += "" if mark.exists() else '<testcase name="hears" classname="C"><error>first try</error></testcase>'
+    mark.touch()
+if verdict == "silent":
+    print("I crash before I write"); sys.exit(3)
+if verdict == "slow":
+    import os; os.execvp("sleep", ["sleep", "100"])
+pathlib.Path(out).write_text(f'<testsuite name="s">{cases}</testsuite>')
+"""
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    folder = tmp_path / "ws" / "p"
+    folder.mkdir(parents=True)
+    (folder / "package.xml").write_text(_MANIFEST)
+    (folder / "check").write_text(_CHECK)
+    (folder / "check").chmod(0o755)
+    return folder
+
+
+def written(package: Path, *tests: str) -> None:
+    (package / "a.test").write_text(f"<launch><param name='x' value='1'/>{''.join(tests)}</launch>")
+
+
+def a_test(name: str, verdict: str, more: str = "") -> str:
+    return f'<test pkg="p" type="check" test-name="{name}" args="{verdict}" {more}/>'
+
+
+def test_cases_pass_and_fail_and_a_ci_server_can_read_it(trundle, package: Path, tmp_path: Path) -> None:
+    written(package, a_test("good", "pass"), a_test("bad", "fail"))
+    junit = tmp_path / "out" / "results.xml"
+    done = trundle("test", "p", "a.test", "--junit", str(junit), ROS_PACKAGE_PATH=str(package.parent))
+
+    assert done.returncode == 1
+    assert "[p.good/sees][passed]" in done.stdout
+    assert "[p.bad/hears][failed]\n  no <sound>" in done.stdout
+    assert done.stdout.endswith("SUMMARY\n * RESULT: FAIL\n * TESTS: 3\n * ERRORS: 0\n * FAILURES: 1\n")
+    suites = ET.parse(junit).getroot().findall("testsuite")
+    assert [(s.get("name"), s.get("tests"), s.get("failures")) for s in suites] == [
+        ("p.good", "1", "0"),
+        ("p.bad", "2", "1"),
+    ]
+    failure = suites[1].find("testcase/failure")
+    assert failure is not None
+    assert failure.get("message") == "no <sound>"
+
+
+def test_all_passed_is_zero_and_a_flaky_one_may_try_again(trundle, package: Path, tmp_path: Path) -> None:
+    written(package, a_test("flaky", f"flaky {tmp_path / 'mark'}", 'retry="1"'))
+    done = trundle("test", "p", "a.test", ROS_PACKAGE_PATH=str(package.parent))
+
+    assert done.returncode == 0
+    assert "1 more try" in done.stderr
+    assert "RESULT: SUCCESS" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("test", "said"),
+    [
+        (a_test("t", "silent"), "[p.t/t][error]\n  it wrote no results"),
+        (a_test("t", "slow", 'time-limit="1"'), "[p.t/t][failed]\n  it took more than its 1 s"),
+        ('<test pkg="p" type="gone" test-name="t"/>', "[p.t/t][error]\n  no executable 'gone'"),
+    ],
+)
+def test_a_test_that_says_nothing_is_no_success(trundle, package: Path, test: str, said: str) -> None:
+    written(package, test)
+    done = trundle("test", "p", "a.test", ROS_PACKAGE_PATH=str(package.parent))
+
+    assert done.returncode == 1
+    assert said in done.stdout
+    assert "Traceback" not in done.stdout + done.stderr
+
+
+def test_a_file_without_tests_is_named(trundle, package: Path) -> None:
+    written(package)
+    done = trundle("test", "p", "a.test", ROS_PACKAGE_PATH=str(package.parent))
+    assert done.returncode == 1
+    assert "no <test>" in done.stderr
