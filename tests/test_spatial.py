@@ -39,3 +39,12 @@ def test_rotations_are_about_fixed_axes_x_then_y_then_z() -> None:
     pose = Pose.from_rpy(0, 0, 0, math.pi / 2, 0, math.pi / 2)
 
     assert pose.direction((0.0, 0.0, 1.0)) == pytest.approx((1.0, 0.0, 0.0), abs=1e-12)
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 1e-3])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_close_to_the_pole_no_digits_are_lost(off: float, sign: int) -> None:
+    """The formula with asin is off by up to 1e-6 there: URDF, which has no quaternions, cannot afford it."""
+    q = quaternion_from_rpy(0.4, sign * (math.pi / 2 - off), 1.1)
+    again = quaternion_from_rpy(*rpy_from_quaternion(q))
+    assert min(math.dist(q, again), math.dist(q, [-v for v in again])) < 1e-10

@@ -13,6 +13,8 @@ Quaternion: TypeAlias = tuple[float, float, float, float]
 
 IDENTITY_QUATERNION: Quaternion = (1.0, 0.0, 0.0, 0.0)
 ZERO: Vector3 = (0.0, 0.0, 0.0)
+_POLE = 1e-10
+"""Cosine of a pitch at which roll and yaw turn about the same axis."""
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
@@ -29,20 +31,18 @@ def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
 
 
 def rpy_from_quaternion(q: Quaternion) -> Vector3:
-    """Return roll, pitch, yaw [rad]; at pitch ±π/2, where they are not unique, yaw is 0.
+    """Return roll, pitch, yaw [rad]; within 1e-10 of pitch ±π/2, where they are not unique, yaw is 0.
 
-    Within 1e-7 of the pole a direct formula loses half its digits; the split there follows from
-    R = Rz(yaw) Ry(±π/2) Rx(roll), whose entries hold only roll ∓ yaw.
+    Roll is what is left when yaw and pitch are undone: near the pole neither is exact by itself, their sum is.
     """
     w, x, y, z = q
-    sin_pitch = 2 * (w * y - z * x)
-    if abs(sin_pitch) > 1 - 1e-12:
-        return (2 * math.atan2(x, w), math.copysign(math.pi / 2, sin_pitch), 0.0)
-    return (
-        math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
-        math.asin(sin_pitch),
-        math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
-    )
+    r00, r10 = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)
+    cos_pitch = math.hypot(r00, r10)
+    pitch = math.atan2(2 * (w * y - z * x), cos_pitch)
+    yaw = math.atan2(r10, r00) if cos_pitch > _POLE else 0.0
+    without_yaw = quaternion_product((math.cos(yaw / 2), 0.0, 0.0, -math.sin(yaw / 2)), q)
+    rest = quaternion_product((math.cos(pitch / 2), 0.0, -math.sin(pitch / 2), 0.0), without_yaw)
+    return (math.remainder(2 * math.atan2(rest[1], rest[0]), math.tau), pitch, yaw)
 
 
 def normalized(v: Vector3) -> Vector3 | None:
