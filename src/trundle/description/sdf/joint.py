@@ -101,16 +101,19 @@ def _read_axis(node: XmlNode | None, joint: XmlNode, name: str, frame: FrameOf, 
     def of(parent: XmlNode | None, tag: str, default: float) -> float:
         return default if parent is None else _number(parent, tag, default, context)
 
+    def dynamic(tag: str) -> float:
+        return 0.0 if dynamics is None else dynamics.number(tag, default=0.0, report=report)
+
     axis = JointAxis(
         direction=direction,
         lower=_limit(of(limit, "lower", -UNLIMITED)),
         upper=_limit(of(limit, "upper", UNLIMITED)),
         effort=_positive(of(limit, "effort", -1.0)),
         velocity=_positive(of(limit, "velocity", -1.0)),
-        damping=of(dynamics, "damping", 0.0),
-        friction=of(dynamics, "friction", 0.0),
-        spring_reference=of(dynamics, "spring_reference", 0.0),
-        spring_stiffness=of(dynamics, "spring_stiffness", 0.0),
+        damping=dynamic("damping"),
+        friction=dynamic("friction"),
+        spring_reference=dynamic("spring_reference"),
+        spring_stiffness=dynamic("spring_stiffness"),
         stop_stiffness=of(limit, "stiffness", 1e8),
         stop_dissipation=of(limit, "dissipation", 1.0),
         mimic=_mimic(node, context),
