@@ -4,6 +4,7 @@ Indigo's xacro took `<property>`, `<macro>`, … and calls of macros without the
 the output as plain XML, without a word, and a robot has no links. The pass rewrites them and says so.
 """
 
+import itertools
 import re
 import threading
 import xml.dom.minidom
@@ -19,6 +20,12 @@ from xacro import substitution_args
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.packages import Packages
 
+from .xacro_expression import bounded_eval
+
+_REPEATED = re.compile(r"<class '[\w.]+'>: (.*?) \1")
+"""How the package words an error of $(…): its class, then what it says, twice."""
+_MOST_ELEMENTS = 500_000
+"""What macros may expand to; the largest published robot has some 5,000."""
 _LOCK = threading.Lock()
 """The package keeps its state in module globals."""
 _CORE = {
@@ -101,7 +108,7 @@ def expand_xacro(path: Path, arguments: Mapping[str, str], *, packages: Packages
         except ExpatError as error:
             raise DescriptionError(Source(_where(path).file, error.lineno), f"not well-formed XML: {error}") from None
         except Exception as error:  # xacro evaluates the file's own Python: anything may come out of it
-            what = " ".join(str(error).split()) or type(error).__name__
+            what = _REPEATED.sub(r"\1", " ".join(str(error).split())) or type(error).__name__
             raise DescriptionError(_where(path), what) from None
 
 
@@ -125,19 +132,33 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
 
     modules: Any = (xacro, substitution_args)
     package, arguments = modules
-    kept = (package.parse, package.handle_macro_call, package.warning, package.print_location, arguments._eval_find)
-    package.parse = _parse_for(kept[0], packages, report)
-    package.handle_macro_call = _call_for(kept[1], report, path)
+    names = ("parse", "handle_macro_call", "warning", "print_location", "safe_eval")
+    kept = {name: getattr(package, name) for name in names}
+    own_find = arguments._eval_find
+    package.parse = _parse_for(kept["parse"], packages, report)
+    package.handle_macro_call = _call_for(kept["handle_macro_call"], report, path)
+    package.safe_eval = bounded_eval
     package.warning = warn
     package.print_location = lambda: None  # it writes to stderr where a warning was; `_where` says it
     arguments._eval_find = arguments._eval_dict["find"] = find
+    arguments.eval = _substitution_eval  # in its module, in place of the builtin one
     package.all_includes.clear()
     try:
         yield
     finally:
-        package.parse, package.handle_macro_call, package.warning, package.print_location = kept[:4]
-        arguments._eval_find = arguments._eval_dict["find"] = kept[4]
+        for name, function in kept.items():
+            setattr(package, name, function)
+        arguments._eval_find = arguments._eval_dict["find"] = own_find
+        del arguments.eval
         package.filestack = package.macrostack = None
+
+
+_HARMLESS = (abs, bool, dict, float, int, len, list, max, min, range, round, sorted, str, sum, tuple)
+
+
+def _substitution_eval(expression: str, _: object, symbols: Any) -> object:
+    """What `$(eval …)` means: the original lets it have every builtin."""
+    return bounded_eval(expression, {function.__name__: function for function in _HARMLESS}, symbols)
 
 
 def _parse_for(original: Callable[..., Any], packages: Packages, report: Diagnostics) -> Callable[..., Any]:
@@ -170,7 +191,11 @@ def _prefix_core_tags(document: Any, filename: str, report: Diagnostics) -> None
 
 
 def _call_for(original: Callable[..., bool], report: Diagnostics, path: Path) -> Callable[..., bool]:
+    calls = itertools.count()
+
     def handle_macro_call(node: Any, macros: Any, symbols: Any) -> bool:
+        if next(calls) > _MOST_ELEMENTS:
+            raise DescriptionError(_where(path), f"macros that expand to more than {_MOST_ELEMENTS} elements")
         name = str(node.tagName)
         if ":" not in name and name not in _URDF and name in macros:
             report.warn(_where(path), f"<{name}> calls a macro without the prefix xacro:; read as <xacro:{name}>")
