@@ -226,3 +226,27 @@ def test_spawn_model_says_what_is_wrong_and_ends_with_1(gazebo: Gazebo, words: s
     assert gazebo.loop.run(SpawnModel(node, words.split(), gazebo.host).run(), timeout_s=60.0) == 1
     assert "spawn_model: " in capsys.readouterr().err
     gazebo.loop.run(node.shutdown())
+
+
+def test_what_falls_goes_on_falling_while_another_comes(gazebo: Gazebo) -> None:
+    """After one second of free fall: 9.8 m/s, whoever was spawned meanwhile."""
+    gazebo.spawn(_BALL.replace("<pose>0 0 1", "<pose>0 0 100"), "ball")
+    gazebo.call("unpause_physics")
+    gazebo.until_s(0.5)
+    gazebo.spawn(_BALL, "other", x=1.0)
+    gazebo.until_s(1.0)
+    gazebo.call("pause_physics")
+    seconds = gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties").sim_time
+
+    assert gazebo.state("ball").twist.linear.z == pytest.approx(-9.8 * seconds, rel=1e-3)
+
+
+def test_a_model_is_given_a_velocity(gazebo: Gazebo) -> None:
+    gazebo.spawn(_BALL, "ball")
+    state = {"model_name": "ball", "pose": {"position": {"z": 50.0}}, "twist": {"linear": {"x": 2.0}}}
+    assert gazebo.call("set_model_state", "gazebo_msgs/SetModelState", model_state=state).success
+    assert gazebo.state("ball").twist.linear.x == pytest.approx(2.0)
+
+    gazebo.call("unpause_physics")
+    gazebo.until_s(1.0)
+    assert gazebo.state("ball").pose.position.x == pytest.approx(2.0, abs=0.2)

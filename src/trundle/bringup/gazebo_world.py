@@ -5,13 +5,13 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from trundle.bridge import ClockTopic
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
-from trundle.model import Model, World
+from trundle.model import World
 from trundle.packages import Packages
 from trundle.physics import RayRenderer
 from trundle.render import scene_of
@@ -29,14 +29,6 @@ from .plugins import load_plugins
 _IDLE_S = 0.01
 _END_S = 2.0
 _CALL_S = 30.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Arrival:
-    """Where a model was when it came, for resets."""
-
-    world_from_model: Pose
-    joints: dict[str, float]
 
 
 class GazeboWorld:
@@ -77,7 +69,9 @@ class GazeboWorld:
         self._simulation: Simulation | None = None
         self._cameras: list[CameraSensor] = []
         self._plugin_nodes: list[Node] = []
-        self._arrivals: dict[str, _Arrival] = {}
+        """Of the models whose plugins are being loaded."""
+        self._nodes: dict[str, list[Node]] = {}
+        """Model → nodes of its plugins."""
         self._clock = SimClock(graph.loop)
         self._pacer = Pacer(1.0)
         self._page: Page | None = None
@@ -100,7 +94,7 @@ class GazeboWorld:
         def build() -> None:
             error: TrundleError | None = None
             try:
-                self._build(loaded.world, time_ns=0, joints={})
+                self._build(loaded.world)
             except TrundleError as failure:
                 error = failure
             self._graph.loop.call_soon(lambda: built.set_exception(error) if error else built.set_result(None))
@@ -149,38 +143,34 @@ class GazeboWorld:
 
     def spawn(self, xml: str, *, name: str, world_from_model: Pose, namespace: str) -> None:
         """Add a model."""
-        if any(model.name == name for model in self.simulation.models):
+        simulation = self.simulation
+        if any(model.name == name for model in simulation.models):
             raise UsageError(f"SpawnModel: Failure - model name {name} already exist.")
         model = read_spawned(
             xml, name=name, namespace=namespace, folder=self._folder, packages=self._packages, report=self._report
         )
-        model = replace(model, name=name, world_from_model=world_from_model @ model.world_from_model)
-        self._change((*self._current(), model))
+        pose = world_from_model @ model.world_from_model
+        handle = simulation.spawn(replace(model, name=name, world_from_model=pose))
+        self._look_anew(simulation)
+        self._load_plugins(simulation, [handle])
 
     def delete(self, name: str) -> None:
         """Remove a model."""
-        self.simulation[name]
-        self._arrivals.pop(name, None)
-        self._change(tuple(model for model in self._current() if model.name != name))
-
-    def place(self, name: str, world_from_model: Pose, joints: Mapping[str, float]) -> None:
-        """Put a model somewhere, at rest."""
-        handle = self.simulation[name]
-        if world_from_model == handle.pose:
-            for joint, position in joints.items():
-                handle.joint(joint).set_position(position)
-            return
-        models = [replace(m, world_from_model=world_from_model) if m.name == name else m for m in self._current()]
-        self._change(tuple(models), moved={name: dict(joints)})
+        simulation = self.simulation
+        simulation.delete(name)
+        for node in self._nodes.pop(name, []):
+            self._graph.loop.run(node.shutdown(), timeout_s=_CALL_S)
+        self._look_anew(simulation)
 
     def reset(self, *, time: bool) -> None:
         """Put everything back to where it came."""
-        models = tuple(
-            replace(model, world_from_model=self._arrivals[model.name].world_from_model)
-            for model in self.simulation.world.models
-        )
-        joints = {name: arrival.joints for name, arrival in self._arrivals.items()}
-        self._change(models, moved=joints, time_ns=0 if time else None)
+        simulation = self.simulation
+        steps = simulation.steps
+        simulation.reset()
+        if not time:
+            simulation.steps = steps
+        self._clock.set(simulation.time_ns)
+        self._pacer.restart()
 
     # -- inside
 
@@ -216,51 +206,38 @@ class GazeboWorld:
         for _ in range(len(self._commands)):
             self._commands.popleft()()
 
-    def _current(self) -> tuple[Model, ...]:
-        """Every model where it is now."""
-        return tuple(replace(handle.model, world_from_model=handle.pose) for handle in self.simulation.models)
-
-    def _change(
-        self,
-        models: tuple[Model, ...],
-        *,
-        moved: Mapping[str, dict[str, float]] | None = None,
-        time_ns: int | None = None,
-    ) -> None:
-        """Go on with other models, or with some elsewhere; those that stay keep their joints and come to rest."""
-        old = self.simulation
-        joints = {handle.name: _positions(handle) for handle in old.models}
-        for name, positions in (moved or {}).items():
-            joints.setdefault(name, {}).update(positions)
-        world = replace(old.world, models=models)
-        self._build(world, time_ns=old.time_ns if time_ns is None else time_ns, joints=joints)
-
-    def _build(self, world: World, *, time_ns: int, joints: Mapping[str, Mapping[str, float]]) -> None:
+    def _build(self, world: World) -> None:
         assert self._node is not None
         simulation = Simulation(world, self._report)
-        simulation.steps = time_ns // simulation.step_ns
-        for handle in simulation.models:
-            for name, position in joints.get(handle.name, {}).items():
-                handle.joint(name).set_position(position)
-            arrival = _Arrival(world_from_model=handle.model.world_from_model, joints=_positions(handle))
-            self._arrivals.setdefault(handle.name, arrival)
         clock = ClockTopic(self._node)
         simulation.add_hook(clock, period_ns=clock.period_ns, wanted=clock.wanted)
-        self._cameras = mount_cameras(world, lambda: RayRenderer(scene_of(world, self._report)), self._report)
-        for camera in self._cameras:
-            simulation.add_hook(camera, period_ns=camera.period_ns, wanted=camera.wanted)
-        self._forget_plugins()
+        self._look_anew(simulation)
         self._simulation = simulation
-        self._clock.set(simulation.time_ns)
-        load_plugins(simulation, self._make_node, self._env, say=self._say)
+        self._load_plugins(simulation, None)
+
+    def _look_anew(self, simulation: Simulation) -> None:
+        """Have cameras and the page see the world as it is now."""
+        world = simulation.world
+        cameras = self._cameras = mount_cameras(world, lambda: RayRenderer(scene_of(world, self._report)), self._report)
+        for camera in cameras:
+
+            def wanted(camera: CameraSensor = camera) -> bool:
+                return self._cameras is cameras and camera.wanted()
+
+            simulation.add_hook(camera, period_ns=camera.period_ns, wanted=wanted)
         if self._page is not None:
-            self._page.replace(simulation, self._cameras)
+            self._page.replace(simulation, cameras)
         self._pacer.restart()
 
-    def _forget_plugins(self) -> None:
-        nodes, self._plugin_nodes = self._plugin_nodes, []
-        for node in nodes:
-            self._graph.loop.run(node.shutdown(), timeout_s=_CALL_S)
+    def _load_plugins(self, simulation: Simulation, models: list[ModelHandle] | None) -> None:
+        for handle in simulation.models if models is None else models:
+            self._plugin_nodes = []
+            load_plugins(simulation, self._make_node, self._env, say=self._say, models=[handle])
+            self._nodes[handle.name] = self._plugin_nodes
+        for tag in simulation.world.plugins if models is None else ():
+            self._report.warn(
+                tag.at, f"world plugin {tag.name!r} ({tag.filename}) is not supported; the world is without"
+            )
 
     def _make_node(self, name: str) -> Node:
         graph = self._graph
@@ -278,8 +255,3 @@ class GazeboWorld:
             node.log_error(str(error))
         else:
             self._say(f"see the simulation at {self._page.url}")
-
-
-def _positions(handle: ModelHandle) -> dict[str, float]:
-    """Where the joints are that can be put somewhere."""
-    return {joint.name: joint.position for joint in handle.joints if joint.is_driven}

@@ -1,6 +1,6 @@
 """What a stand-in is, and what it may ask of the program it runs in."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
@@ -46,7 +46,7 @@ class Simulator(Protocol):
 
     @property
     def simulation(self) -> "Simulation":
-        """The world as it is now; another object after a model came or went."""
+        """The world in motion."""
         ...
 
     @property
@@ -79,14 +79,6 @@ class Simulator(Protocol):
 
         Raises:
             TrundleError: there is none.
-        """
-        ...
-
-    def place(self, name: str, world_from_model: Pose, joints: Mapping[str, float]) -> None:
-        """Put a model somewhere at once, at rest, and some of its joints into a position [rad or m].
-
-        Raises:
-            TrundleError: no such model or joint.
         """
         ...
 

@@ -55,7 +55,7 @@ class GazeboServer:
         topics = StateTopics(node, simulator)
         self._advertise(simulator)
         while not node.closed.is_set():
-            # The simulation is another object after each spawn, so that the topics are polled, not hooked in.
+            # By the wall's clock: a paused world is still told of.
             if topics.wanted():
                 simulator.post(topics.publish)
             await asyncio.sleep(topics.period_s)

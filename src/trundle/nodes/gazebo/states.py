@@ -32,7 +32,7 @@ class StateTopics:
         """Say where everything is; on the simulation's thread."""
         simulation = self._simulator.simulation
         if self._models.has_subscribers:
-            rows = [(m.name, m.pose, m.links[0].twist if m.links else Twist()) for m in simulation.models]
+            rows = [(m.name, m.pose, m.base.twist if m.links else Twist()) for m in simulation.models]
             self._models.publish(_arrays(rows))
         if self._links.has_subscribers:
             self._links.publish(_arrays([(name, link.pose, link.twist) for name, link in scoped_links(simulation)]))
@@ -40,7 +40,7 @@ class StateTopics:
 
 def advertise_states(node: Node, simulator: Simulator) -> None:
     """Provide get_ and set_model_state, get_ and set_link_state, set_model_configuration, and the two set_ topics."""
-    states = _States(node, simulator)
+    states = _States(simulator)
     for name, kind, work in (
         ("get_model_state", "GetModelState", states.get_model),
         ("get_link_state", "GetLinkState", states.get_link),
@@ -57,16 +57,14 @@ def advertise_states(node: Node, simulator: Simulator) -> None:
 
 
 class _States:
-    def __init__(self, node: Node, simulator: Simulator) -> None:
-        self._node = node
+    def __init__(self, simulator: Simulator) -> None:
         self._simulator = simulator
-        self._said_twist = False
 
     def get_model(self, request: Message) -> dict[str, Any]:
         simulation = self._simulator.simulation
         model = find_model(simulation, request.model_name)
         frame = world_from(simulation, request.relative_entity_name)
-        twist = model.links[0].twist if model.links else Twist()
+        twist = model.base.twist if model.links else Twist()
         return {
             "header": {"stamp": simulation.time_ns, "frame_id": request.relative_entity_name or "world"},
             "pose": pose_fields(frame.inverse() @ model.pose),
@@ -95,22 +93,19 @@ class _States:
 
     def set_model(self, state: Message) -> dict[str, Any]:
         simulation = self._simulator.simulation
-        pose = world_from(simulation, state.reference_frame) @ pose_of(state.pose)
-        self._simulator.place(state.model_name, pose, {})
-        self._mind_twist(twist_of(state.twist))
+        model = find_model(simulation, state.model_name)
+        frame = world_from(simulation, state.reference_frame)
+        model.set_pose(frame @ pose_of(state.pose))
+        if not model.model.static:
+            model.set_twist(_turned(frame, twist_of(state.twist)))
         return {}
 
     def set_link(self, state: Message) -> dict[str, Any]:
         simulation = self._simulator.simulation
         link = find_link(simulation, state.link_name)
-        wanted = world_from(simulation, state.reference_frame) @ pose_of(state.pose)
-        model = next(model for model in simulation.models if link in model.links)
-        if link is not model.links[0]:
-            raise UsageError(
-                f"link {state.link_name!r}: only a model's first link can be placed; its joints hold the rest"
-            )
-        self._simulator.place(model.name, wanted @ link.pose.inverse() @ model.pose, {})
-        self._mind_twist(twist_of(state.twist))
+        frame = world_from(simulation, state.reference_frame)
+        link.set_pose(frame @ pose_of(state.pose))
+        link.set_twist(_turned(frame, twist_of(state.twist)))
         return {}
 
     def configure(self, request: Message) -> dict[str, Any]:
@@ -121,15 +116,15 @@ class _States:
             name.rpartition("::")[2]: float(p)
             for name, p in zip(request.joint_names, request.joint_positions, strict=True)
         }
-        for name in joints:
-            model.joint(name)
-        self._simulator.place(model.name, model.pose, joints)
+        handles = {name: model.joint(name) for name in joints}
+        for name, position in joints.items():
+            handles[name].set_position(position)
         return {}
 
-    def _mind_twist(self, twist: Twist) -> None:
-        if any((*twist.linear, *twist.angular)) and not self._said_twist:
-            self._said_twist = True
-            self._node.log_warn("a model is placed at rest: setting its velocity is not supported")
+
+def _turned(frame: Pose, twist: Twist) -> Twist:
+    """A velocity given in a frame's axes, in the world's."""
+    return Twist(frame.direction(twist.linear), frame.direction(twist.angular))
 
 
 def _seen_from(simulation: Simulation, frame: Pose, entity: str, pose: Pose, twist: Twist) -> Twist:
@@ -153,7 +148,7 @@ def _carrier(simulation: Simulation, entity: str) -> LinkHandle | None:
     """The link whose motion is an entity's; None: the world."""
     for model in simulation.models:
         if model.name == entity:
-            return model.links[0] if model.links else None
+            return model.base if model.links else None
     return None if entity in ("", "world", "map", "/map") else find_link(simulation, entity)
 
 
