@@ -94,7 +94,7 @@ def test_a_recording_that_is_ended_can_be_read(graph: Any, tmp_path: Path, name:
 
 
 def test_a_bag_is_played_at_its_pace_with_its_clock(graph: Any, bag: Path) -> None:
-    got: list[tuple[str, float]] = []
+    got: list[tuple[str, Any]] = []
     clock: list[int] = []
     node = graph.node("listener")
     node.subscribe("/points", "geometry_msgs/PointStamped", lambda m: got.append(("/points", m.point.x)))
@@ -109,7 +109,8 @@ def test_a_bag_is_played_at_its_pace_with_its_clock(graph: Any, bag: Path) -> No
     assert out.endswith("\nWaiting 1 seconds after advertising topics... done.\n\n"
                         "Hit space to toggle paused, or 's' to step.\n\nDone.\n")  # fmt: skip
     graph.until(lambda: len(got) >= 13)
-    assert got == [("/points", 4.0), ("/moved", "map"), *(("/points", float(i)) for i in range(6, 17))]
+    assert [value for topic, value in got if topic == "/points"] == [4.0, *map(float, range(6, 17))]
+    assert ("/moved", "map") in got
     assert clock == sorted(clock)
     assert START_NS + 200_000_000 <= clock[0] <= clock[-1] <= START_NS + 800_000_000
 

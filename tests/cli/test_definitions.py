@@ -70,7 +70,7 @@ def test_every_line_is_rosmsgs(capsys: pytest.CaptureFixture[str], original: Any
             (tmp_path / package / folder).mkdir(parents=True, exist_ok=True)
             (tmp_path / package / "package.xml").write_text(
                 f'<package format="2"><name>{package}</name><version>1.0.0</version><description>x</description>'
-                f'<maintainer email="a@b.c">a</maintainer><license>x</license></package>'
+                f'<maintainer email="a@example.com">a</maintainer><license>x</license></package>'
             )
             (tmp_path / package / folder / f"{base}.{folder}").write_text(text(name))
     for arguments in (

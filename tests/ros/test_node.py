@@ -313,3 +313,28 @@ def test_a_node_waits_for_a_master_that_comes_later(graph: Any, capfd: Any) -> N
     graph.loop.run(graph.core.start())
     graph.ready(node)
     assert MasterProxy(graph.core.uri).call("lookupNode", "/early") == node.uri
+
+
+def test_a_node_is_told_when_a_parameter_changes(graph: Any) -> None:
+    watcher, other = graph.node("watcher", namespace="/r"), graph.node("other")
+    graph.ready(watcher, other)
+    told: list[tuple[str, Any]] = []
+    graph.loop.run(other.set_param("/r/gains", {"p": 1.0}))
+    now = graph.loop.run(watcher.watch_param("gains", lambda name, value: told.append((name, value))))
+    assert now == {"p": 1.0}
+    graph.loop.run(other.set_param("/r/gains/p", 2.0))
+    graph.until(lambda: told == [("/r/gains/p", 2.0)])
+    graph.loop.run(other.set_param("/r/unwatched", 3))
+    graph.loop.run(other.delete_param("/r/gains"))
+    graph.until(lambda: len(told) == 2)
+    assert told[1] == ("/r/gains", {})
+    graph.loop.run(watcher.shutdown())
+    graph.loop.run(other.set_param("/r/gains", {"p": 5.0}))
+    assert len(told) == 2
+
+
+def test_a_node_finds_the_parameters_it_was_made_with(graph: Any) -> None:
+    """Even when it asks before anything else: they were there first."""
+    nodes = [graph.node(f"n{i}", params={"rate": i, "mode": "fast"}) for i in range(10)]
+    assert [graph.loop.run(node.get_param("~rate", None)) for node in nodes] == list(range(10))
+    assert graph.loop.run(graph.node("other", params={"x": 1}).has_param("~x"))

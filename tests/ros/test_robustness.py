@@ -1,5 +1,7 @@
 """Peers that are slow, gone, broken or hostile: nothing they send stops a node or the master."""
 
+import asyncio
+import gc
 import os
 import signal
 import socket
@@ -7,12 +9,12 @@ import struct
 import subprocess
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from typing import Any
 
 import pytest
 
-from trundle.ros import MasterProxy, ServiceError, blocking_call
+from trundle.ros import Core, GraphLoop, MasterProxy, Node, ServiceError, blocking_call
 from trundle.ros.rpc_server import RpcServer
 from trundle.ros.tcpros import decode_header, encode_header
 
@@ -260,3 +262,96 @@ def test_stopping_a_busy_graph_leaves_nothing_behind(graph: Any, far: Any) -> No
     assert all(node.closed.is_set() for node in nodes)
     state = MasterProxy(graph.core.uri).call("getSystemState")
     assert not [name for table in state for name, _ in table if name == "/a"]
+
+
+def test_a_loop_that_is_left_in_the_middle_leaves_nothing_open(messages: Any) -> None:
+    """Servers half opened, connections just accepted and tasks that nobody ended: pytest's filter hears of each."""
+    for _ in range(5):
+        loop = GraphLoop(messages=messages)
+        loop.start()
+        core = Core(loop, port=0)
+        loop.run(core.start())
+        opening = Node("opening", loop=loop, master_uri=core.uri)
+        callers = [socket.create_connection(("127.0.0.1", core.port)) for _ in range(20)]
+        late = socket.socket()
+        loop.call_soon(lambda late=late, port=core.port: late.connect(("127.0.0.1", port)))
+        loop.stop()
+        for caller in (*callers, late):
+            caller.close()
+        del opening, core, loop
+        gc.collect()
+
+
+def test_a_server_whose_opening_is_cancelled_is_closed(messages: Any) -> None:
+    """Whenever that happens: asyncio lets go of a server that listens already."""
+
+    async def open_and_give_up(passes: int) -> None:
+        server = RpcServer(lambda _method, _arguments: (1, "", 0))
+        task = asyncio.create_task(server.start("127.0.0.1", 0))
+        for _ in range(passes):
+            await asyncio.sleep(0)
+        task.cancel()
+        await asyncio.gather(task, return_exceptions=True)
+        await server.stop()
+
+    for passes in range(1, 12):
+        with GraphLoop(messages=messages) as loop:
+            loop.run(open_and_give_up(passes))
+        del loop
+        gc.collect()
+
+
+@pytest.mark.parametrize("server", ["master", "node"])
+def test_a_flood_of_silent_connections_shuts_nobody_out(
+    graph: Any, monkeypatch: pytest.MonkeyPatch, server: str
+) -> None:
+    monkeypatch.setattr("trundle.ros.rpc_server._MAX_CLIENTS", 20)
+    monkeypatch.setattr("trundle.ros.slave._MAX_NEWCOMERS", 20)
+    node = graph.node("n")
+    node.advertise("/a", STRING)
+    port = _tcpros_port(graph, node) if server == "node" else graph.core.port
+    with ExitStack() as stack:
+        flood = [stack.enter_context(_connected(port)) for _ in range(60)]
+        assert all(_ends(connection) for connection in flood[:40])
+        assert MasterProxy(graph.core.uri).call("getPid") == os.getpid()
+        _still_works(graph, node)
+
+
+def test_udpros_is_refused_politely(graph: Any) -> None:
+    node = graph.node("n")
+    node.advertise("/a", STRING)
+    graph.ready(node)
+    udp = ["UDPROS", b"", "127.0.0.1", 5, 1500]
+    answer = blocking_call(node.uri, "requestTopic", "/me", "/a", [udp], timeout_s=20.0)
+    assert answer == [0, "no supported protocol implementations", []]
+    answer = blocking_call(node.uri, "requestTopic", "/me", "/a", [udp, ["TCPROS"]], timeout_s=20.0)
+    assert (answer[0], answer[2][0]) == (1, "TCPROS")
+
+
+def test_two_hundred_topics_at_once_stay_bounded(graph: Any, far: Any) -> None:
+    """One subscriber reads each topic, another never does: nothing piles up but what the queues allow."""
+    node, reader = graph.node("n"), far.node("reader")
+    topics = [f"/t{i}" for i in range(200)]
+    publishers = [node.advertise(topic, "std_msgs/UInt8MultiArray", queue_size=5) for topic in topics]
+    got: dict[str, int] = dict.fromkeys(topics, 0)
+
+    def count(topic: str, number: int) -> None:
+        got[topic] = number
+
+    for topic in topics:
+        reader.subscribe(topic, "std_msgs/UInt8MultiArray", lambda m, t=topic: count(t, int(m.data[0])))
+    port = _tcpros_port(graph, node, "/t0")
+    with ExitStack() as stack:
+        for topic in topics[:50]:
+            deaf = stack.enter_context(_connected(port))
+            deaf.sendall(encode_header({"topic": topic, "md5sum": "*", "callerid": "/deaf", "type": "*"}))
+        graph.until(lambda: all(p.subscribers == 1 + (p.topic in topics[:50]) for p in publishers))
+        for number in range(1, 101):
+            for publisher in publishers:
+                publisher.publish({"data": bytes([number]) * 20_000})
+            graph.until(lambda number=number: all(last == number for last in got.values()))
+        for publisher in publishers[:50]:
+            links = next(links for topic, _, links in node.statistics()[0] if topic == publisher.topic)
+            fewest = min(sent for _, _, sent, _ in links)
+            assert 100 - publisher.dropped - fewest <= 5
+    assert all(publisher.dropped == 0 for publisher in publishers[50:])

@@ -159,7 +159,25 @@ def _numbers(kind: str, given: Any, path: str) -> Any:
     if not isinstance(given, Sequence):
         raise MessageError(f"field {path!r} is a list of {kind}, got {given!r}")
     elements = cast("Sequence[Any]", given)
+    quick = _at_once(elements, dtype)
+    if quick is not None:
+        return quick
     return np.array([_scalar(kind, item, f"{path}[{i}]") for i, item in enumerate(elements)], dtype)
+
+
+def _at_once(elements: "Sequence[Any]", dtype: "np.dtype[Any]") -> "np.ndarray[Any, Any] | None":
+    """Convert a list of plain numbers that fit; None where one by one must say which does not."""
+    try:
+        array = np.asarray(elements)
+    except (ValueError, OverflowError):
+        return None
+    if array.ndim != 1 or array.dtype.kind not in ("iuf" if dtype.kind == "f" else "iu"):
+        return None
+    if dtype.kind != "f" and array.size:
+        limits = np.iinfo(dtype)
+        if array.min() < limits.min or array.max() > limits.max:
+            return None
+    return array.astype(dtype)
 
 
 def _refuse(kind: str, given: object, path: str) -> Any:

@@ -1,7 +1,6 @@
 """The thread everything between nodes happens in: one asyncio loop, shared by the nodes of this process."""
 
 import asyncio
-import contextlib
 import logging
 import threading
 from collections.abc import Callable, Coroutine, Mapping
@@ -17,6 +16,8 @@ _T = TypeVar("_T")
 _log = logging.getLogger(__name__)
 _LAST_CALLBACK_S = 8.0
 """How much longer a callback at work may hold the thread: a loop that is left behind leaks its sockets."""
+_OPENING_S, _ENDING_S = 1.0, 1.0
+"""How long servers may take to open, and tasks to end, when the loop is left."""
 _CALM_PASSES = 5
 """Passes of the loop without a delivery after which `settle` calls it quiet; coroutine callbacks that wait for
 nothing outside the process get this many steps."""
@@ -39,7 +40,7 @@ class GraphLoop:
         """Batches of published messages being handed on, by which `settle` knows that there are more."""
         self._unsettled = False
         """Whether the loop was given anything to do since `settle` was last called."""
-        self._loop = asyncio.new_event_loop()
+        self._loop = _ClosingLoop()
         self._thread = threading.Thread(target=self._work, name="trundle-graph", daemon=True)
         self._tasks: set[asyncio.Task[Any]] = set()
 
@@ -136,33 +137,67 @@ class GraphLoop:
             seen = self._deliveries
 
     async def _wind_up(self, timeout_s: float) -> None:
-        nodes = [node.shutdown() for node in list(self.members)]
-        with contextlib.suppress(TimeoutError):
-            await asyncio.wait_for(asyncio.gather(*nodes, return_exceptions=True), timeout_s)
-        mine = asyncio.current_task()
-        others = [task for task in asyncio.all_tasks() if task is not mine]
-        for task in others:
-            task.cancel()
-        await asyncio.gather(*others, return_exceptions=True)
-        for _ in range(_CALM_PASSES):  # transports close their sockets in a pass of their own
-            await asyncio.sleep(0)
+        """Let the nodes say farewell."""
+        farewells = [asyncio.create_task(node.shutdown()) for node in list(self.members)]
+        if farewells:
+            await asyncio.wait(farewells, timeout=timeout_s)
 
     def _work(self) -> None:
         asyncio.set_event_loop(self._loop)
         try:
             self._loop.run_forever()
         finally:
-            self._loop.run_until_complete(self._close_transports())
+            self._loop.run_until_complete(self._loop.leave_nothing_open())
             self._loop.run_until_complete(self._loop.shutdown_asyncgens())
             self._loop.close()
 
-    async def _close_transports(self) -> None:
-        """Close what came in while everything wound down; asyncio keeps the list to itself before Python 3.12."""
-        transports: Mapping[int, asyncio.Transport] = getattr(self._loop, "_transports", {})
+
+class _ClosingLoop(asyncio.SelectorEventLoop):
+    """An event loop that can close whatever was opened in it, however far that had come."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._servers: set[asyncio.Server] = set()
+        self._opening: set[asyncio.Task[asyncio.Server]] = set()
+
+    async def create_server(self, *args: Any, **options: Any) -> asyncio.Server:
+        """As asyncio's, but a server is closed in the end even if whoever asked for it is cancelled meanwhile."""
+        task = self.create_task(super().create_server(*args, **options))
+        self._opening.add(task)
+        task.add_done_callback(self._opened)
+        return await asyncio.shield(task)
+
+    async def leave_nothing_open(self) -> None:
+        """Close servers, end tasks, drop connections; in this order, so that nothing new comes in between."""
+        if self._opening:
+            await asyncio.wait(self._opening, timeout=_OPENING_S)
+        for server in self._servers:
+            server.close()
+        # A connection that was accepted just now becomes a transport in a pass of its own; cancelled before, its
+        # socket would belong to nobody.
+        await _passes()
+        mine = asyncio.current_task()
+        others = [task for task in asyncio.all_tasks() if task is not mine]
+        for task in others:
+            task.cancel()
+        if others:
+            await asyncio.wait(others, timeout=_ENDING_S)
+        # asyncio keeps the list to itself before Python 3.12.
+        transports: Mapping[int, asyncio.Transport] = getattr(self, "_transports", {})
         for transport in list(transports.values()):
             transport.abort()
-        for _ in range(_CALM_PASSES):
-            await asyncio.sleep(0)
+        await _passes()
+
+    def _opened(self, task: "asyncio.Task[asyncio.Server]") -> None:
+        self._opening.discard(task)
+        if not task.cancelled() and task.exception() is None:
+            self._servers.add(task.result())
+
+
+async def _passes() -> None:
+    """Let the loop go round a few times: transports open and close their sockets in passes of their own."""
+    for _ in range(_CALM_PASSES):
+        await asyncio.sleep(0)
 
 
 def _copy(task: "asyncio.Task[_T]", future: "Future[_T]") -> None:

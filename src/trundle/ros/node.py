@@ -18,7 +18,7 @@ from .log import LEVELS, Level, print_log
 from .loop import GraphLoop
 from .messages import ANY_TYPE, Message
 from .network import master_uri_from_env, server_address
-from .node_calls import NodeCalls
+from .node_calls import NodeCalls, ParamCallback
 from .node_log import NodeLog
 from .publisher import Publisher
 from .service import Service, ServiceCallback
@@ -85,11 +85,13 @@ class Node(NodeCalls, NodeLog):
         self._subscriptions: dict[str, list[Subscription]] = {}
         self._publisher_uris: dict[str, list[str]] = {}
         self._services: dict[str, Service] = {}
+        self.watched: dict[str, list[ParamCallback]] = {}
         self._rosout: Publisher | None = None
         self._wants_rosout = rosout
         self._actions: asyncio.Queue[_Action] = asyncio.Queue()
         self._listens = asyncio.Event()
         self._started = asyncio.Event()
+        self._params_told = asyncio.Event()
         self._worker: asyncio.Task[None] | None = None
         self._on_shutdown: list[Callable[[str], None]] = []
         self._is_down = False
@@ -238,6 +240,11 @@ class Node(NodeCalls, NodeLog):
         self.loop.call_soon(service.close)
         self._do(lambda: self._tell("unregisterService", service.name, self._slave.service_uri))
 
+    async def params_told(self) -> None:
+        """Wait until the parameters this node was made with are set, or nobody is there to take them."""
+        if self._params and not self._is_down:
+            await self._params_told.wait()
+
     # -- the end, and waiting for the beginning: on the loop
 
     async def ready(self) -> None:
@@ -287,6 +294,7 @@ class Node(NodeCalls, NodeLog):
         farewells = [self._tell("unregisterService", name, self._slave.service_uri) for name in self._services]
         farewells += [self._tell("unregisterSubscriber", topic, self.uri) for topic in self._subscriptions]
         farewells += [self._tell("unregisterPublisher", topic, self.uri) for topic in self._publishers]
+        farewells += [self._tell("unsubscribeParam", self.uri, name) for name in self.watched]
         await asyncio.gather(*farewells, return_exceptions=True)
 
     # -- for this node's servers, on the loop
@@ -365,6 +373,7 @@ class Node(NodeCalls, NodeLog):
             self.log_warn(self._address.warning)
         for name, value in self._params.items():
             await self._insist(lambda name=name, value=value: self.set_param(f"~{name}", value))
+        self._params_told.set()
         if self._wants_rosout and self.name != "/rosout":  # that one would gather its own log for ever
             self._rosout = self.advertise("/rosout", "rosgraph_msgs/Log", queue_size=100)
         if self._wants_rosout:
@@ -380,6 +389,7 @@ class Node(NodeCalls, NodeLog):
             try:
                 await action()
             except MasterUnreachableError as error:
+                self._params_told.set()  # whoever waits for them learns the reason by asking
                 if not self._waits_for_master:
                     self._waits_for_master = True
                     self.log_warn(f"{error}; {self.name} goes on trying")

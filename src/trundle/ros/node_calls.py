@@ -2,7 +2,8 @@
 
 import asyncio
 import contextlib
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 from .clock import Clock
 from .errors import MasterError, MasterUnreachableError, ParameterError, ServiceError, WireError
@@ -12,6 +13,8 @@ from .rpc_client import call_value
 from .service import call_service
 from .xmlrpc import FaultError
 
+ParamCallback: TypeAlias = Callable[[str, Any], None]
+"""Gets the name of what changed, without a slash at its end, and its new value; {} where it was deleted."""
 _UNSET: Any = object()
 _MASTER_S = 5.0
 """How long the master may take for an answer."""
@@ -24,9 +27,20 @@ class NodeCalls:
     master_uri: str
     loop: GraphLoop
     clock: Clock
+    watched: dict[str, list[ParamCallback]]
+    """Parameters that this node is told about."""
+
+    @property
+    def uri(self) -> str:
+        """Address of the node's XML-RPC interface."""
+        raise NotImplementedError
 
     def resolve(self, name: str) -> str:
         """Return the global name this node means by `name`."""
+        raise NotImplementedError
+
+    async def params_told(self) -> None:
+        """Wait until the node's own parameters are set."""
         raise NotImplementedError
 
     @property
@@ -64,6 +78,7 @@ class NodeCalls:
             MasterUnreachableError: nobody answers.
         """
         full = self.resolve(name)
+        await self.params_told()
         try:
             return await self.ask("getParam", full)
         except MasterError:
@@ -98,10 +113,12 @@ class NodeCalls:
 
     async def has_param(self, name: str) -> bool:
         """Tell whether a parameter or a namespace is set."""
+        await self.params_told()
         return bool(await self.ask("hasParam", self.resolve(name)))
 
     async def search_param(self, key: str) -> str | None:
         """Find the full name of the nearest parameter upwards from this node."""
+        await self.params_told()
         try:
             return str(await self.ask("searchParam", key))
         except MasterError:
@@ -110,6 +127,24 @@ class NodeCalls:
     async def param_names(self) -> list[str]:
         """Name every parameter of the graph."""
         return list(await self.ask("getParamNames"))
+
+    async def watch_param(self, name: str, callback: ParamCallback) -> Any:
+        """Have a function called, on the loop, whenever a parameter or something below it changes.
+
+        Returns:
+            The value now; {} if it is not set.
+        """
+        full = self.resolve(name)
+        self.watched.setdefault(full, []).append(callback)
+        return await self.ask("subscribeParam", self.uri, full)
+
+    def param_changed(self, key: str, value: Any) -> None:
+        """Tell those who watch a parameter."""
+        name = key.rstrip("/") or "/"
+        for watched, callbacks in self.watched.items():
+            if watched == "/" or name == watched or name.startswith(f"{watched}/"):
+                for callback in callbacks:
+                    callback(name, value)
 
     async def call_service(
         self,

@@ -20,6 +20,9 @@ _REQUEST_S = 15.0
 _BACKLOG = 512
 """Connections waiting to be accepted: a big launch starts a hundred nodes within a second."""
 
+_MAX_CLIENTS = 512
+"""Connections held at once; the one that has been silent longest makes room, which a client takes for an idle end."""
+
 Dispatch = Callable[[str, list[Any]], "Awaitable[object] | object"]
 """Answers one call; an exception becomes a fault."""
 
@@ -34,7 +37,8 @@ class RpcServer:
     def __init__(self, dispatch: Dispatch) -> None:
         self._dispatch = dispatch
         self._server: asyncio.Server | None = None
-        self._clients: set[asyncio.StreamWriter] = set()
+        self._clients: dict[asyncio.StreamWriter, None] = {}
+        """The one that has been silent longest comes first."""
         self.port = 0
 
     async def start(self, host: str, port: int) -> None:
@@ -65,17 +69,22 @@ class RpcServer:
             writer.close()
 
     async def _serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        self._clients.add(writer)
+        self._clients[writer] = None
+        if len(self._clients) > _MAX_CLIENTS:
+            silent = next(iter(self._clients))
+            del self._clients[silent]
+            silent.transport.abort()
         try:
             while self._is_serving and await self._exchange(reader, writer):
-                pass
+                self._clients.pop(writer, None)
+                self._clients[writer] = None
         except (OSError, asyncio.IncompleteReadError, asyncio.CancelledError, TimeoutError):
             pass  # the peer went away, fell silent, or this server stops
         except (WireError, asyncio.LimitOverrunError) as error:
             with contextlib.suppress(OSError):
                 writer.write(answer("400 Bad Request", str(error).encode(), keep_alive=False))
         finally:
-            self._clients.discard(writer)
+            self._clients.pop(writer, None)
             writer.close()
 
     async def _exchange(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> bool:

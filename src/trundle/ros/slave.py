@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from .service import Service
 
 _BACKLOG = 128
+_MAX_NEWCOMERS = 512
+"""Connections that have not said yet what they want; the oldest makes room."""
 
 
 class Slave:
@@ -25,6 +27,7 @@ class Slave:
         self._rpc = RpcServer(self._dispatch)
         self._server: asyncio.Server | None = None
         self._links: set[_Inbound] = set()
+        self._newcomers: dict[_Inbound, None] = {}
         self.uri = ""
         self.tcp_port = 0
 
@@ -34,7 +37,7 @@ class Slave:
         self.uri = f"http://{self._address.advertise}:{self._rpc.port}/"
         loop = asyncio.get_running_loop()
         self._server = await loop.create_server(
-            lambda: _Inbound(self._node, self._links), self._address.bind, 0, backlog=_BACKLOG
+            lambda: _Inbound(self._node, self._links, self._newcomers), self._address.bind, 0, backlog=_BACKLOG
         )
         self.tcp_port = self._server.sockets[0].getsockname()[1]
 
@@ -70,7 +73,8 @@ class Slave:
             case "publisherUpdate", [_, str(topic), list(uris)]:
                 self._node.publishers_changed(topic, [str(uri) for uri in uris])
                 return 1, "", 0
-            case "paramUpdate", [_, str(_), _]:
+            case "paramUpdate", [_, str(key), value]:
+                self._node.param_changed(key, value)
                 return 1, "", 0
             case "shutdown", [_, *reason]:
                 self._node.asked_to_shut_down(str(reason[0]) if reason else "")
@@ -92,18 +96,23 @@ class Slave:
 class _Inbound(FrameProtocol):
     """A peer that connected: its header says whether it wants a topic or a service."""
 
-    def __init__(self, node: "Node", links: "set[_Inbound]") -> None:
+    def __init__(self, node: "Node", links: "set[_Inbound]", newcomers: "dict[_Inbound, None]") -> None:
         super().__init__()
         self._node = node
         self._links = links
+        self._newcomers = newcomers
         self._target: Publisher | Service | None = None
 
     def connected(self) -> None:
         self._links.add(self)
+        self._newcomers[self] = None
+        if len(self._newcomers) > _MAX_NEWCOMERS:
+            next(iter(self._newcomers)).close("others wait, too")
         if self._node.is_shut_down:  # accepted in the same moment
             self.close("the node shuts down")
 
     def header_received(self, header: dict[str, str]) -> None:
+        self._newcomers.pop(self, None)
         name = header.get("topic", header.get("service"))
         if name is None:
             self.refuse("Missing required 'topic' or 'service' field")
@@ -131,5 +140,6 @@ class _Inbound(FrameProtocol):
 
     def closed(self, _: str, /) -> None:
         self._links.discard(self)
+        self._newcomers.pop(self, None)
         if self._target is not None:
             self._target.release(self)
