@@ -6,10 +6,12 @@ import pytest
 
 from trundle import packages as room
 from trundle.cli import main
-from trundle.diagnostics import DescriptionError, Source, UsageError
+from trundle.description import expand_xacro
+from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError
 from trundle.packages import Packages
 
 AT = Source("robot.urdf", 7)
+XACRO = "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'>{}</robot>"
 
 
 def write(path: Path, text: str = "") -> Path:
@@ -219,3 +221,27 @@ class TestReadingOutside:
         assert "secret.stl; a description reads only below its own folders" in capsys.readouterr().out
         assert main(["check", str(robot), "--allow-outside"]) == 0
         assert "reads only below" not in capsys.readouterr().out
+
+    @pytest.mark.parametrize(
+        "prying",
+        [
+            "<xacro:include filename='{secret}'/>",
+            "<xacro:include filename='$(find arm)/../../secret.xml'/>",
+            "<link name='${{xacro.load_yaml(\"{secret}\")}}'/>",
+        ],
+    )
+    def test_nor_does_a_xacro(self, robot: Path, tmp_path: Path, prying: str) -> None:
+        secret = write(tmp_path / "secret.xml", "<robot><link name='secret'/></robot>")
+        inside = prying.format(secret=secret)
+        path = write(robot.with_name("arm.xacro"), XACRO.format(inside))
+        allowing = Packages({room.ALLOW_OUTSIDE: "1"}, start=robot)
+
+        with pytest.raises(DescriptionError, match="reads only below"):
+            expand_xacro(path, {}, packages=Packages({}, start=robot), report=Diagnostics())
+        assert "secret" in expand_xacro(path, {}, packages=allowing, report=Diagnostics())
+
+    def test_a_xacro_reads_yaml_of_its_own(self, robot: Path) -> None:
+        write(robot.parent.parent / "config/arm.yaml", "mass: 7")
+        mass = '${xacro.load_yaml("../config/arm.yaml")["mass"]}'
+        path = write(robot.with_name("arm.xacro"), XACRO.format(f"<link name='{mass}'/>"))
+        assert 'name="7"' in expand_xacro(path, {}, packages=Packages({}, start=robot), report=Diagnostics())

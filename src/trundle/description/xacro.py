@@ -11,7 +11,7 @@ import xml.dom.minidom
 from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 from xml.parsers.expat import ExpatError
 
 import xacro
@@ -130,6 +130,10 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
     def warn(*words: object) -> None:
         report.warn(_where(path), " ".join(map(str, words)))
 
+    def open_readable(name: str) -> TextIO:
+        packages.check_readable(Path(name), _where(path), told="load_yaml")
+        return Path(name).open(encoding="utf-8")
+
     modules: Any = (xacro, substitution_args)
     package, arguments = modules
     names = ("parse", "handle_macro_call", "warning", "print_location", "safe_eval")
@@ -139,6 +143,7 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
     package.handle_macro_call = _call_for(kept["handle_macro_call"], report, path)
     package.safe_eval = bounded_eval
     package.warning = warn
+    package.open = open_readable  # shadows the builtin that its load_yaml would open any file with
     package.print_location = lambda: None  # it writes to stderr where a warning was; `_where` says it
     arguments._eval_find = arguments._eval_dict["find"] = find
     arguments.eval = _substitution_eval  # in its module, in place of the builtin one
@@ -151,6 +156,7 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
         arguments._eval_find = arguments._eval_dict["find"] = own_find
         del arguments.eval
         package.filestack = package.macrostack = None
+        del package.open
 
 
 _HARMLESS = (abs, bool, dict, float, int, len, list, max, min, range, round, sorted, str, sum, tuple)

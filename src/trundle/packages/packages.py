@@ -103,9 +103,9 @@ class Packages:
         """
         if self._environment.get(ALLOW_OUTSIDE) == "1":
             return
-        if root is not None and Confinement([root]).allows(path):
+        if Confinement([self._own, *([] if root is None else [root])]).allows(path):
             return
-        folders = [self._own, *self._ros.roots, *self._gazebo.model_folders, *self._gazebo.resource_folders]
+        folders = [*self._ros.roots, *self._gazebo.model_folders, *self._gazebo.resource_folders]
         if not Confinement([*folders, *self._ros.all().values()]).allows(path):
             raise DescriptionError(
                 at,
