@@ -81,6 +81,26 @@ def test_meshes_are_copied_beside_with_what_they_name(cart: Path, tmp_path: Path
     assert [shape.uri for shape in shapes if isinstance(shape, MeshFile)] == ["meshes/part.obj", "meshes/part_2.obj"]
 
 
+def test_a_scripts_texture_is_copied_too(cart: Path, tmp_path: Path) -> None:
+    (cart.parent / "paint.material").write_text(
+        "material Paint { technique { pass { texture_unit { texture a/paint.png } } } }"
+    )
+    script = "<script><uri>paint.material</uri><name>Paint</name></script>"
+    box = f"<visual name='v'><geometry><box/></geometry><material>{script}</material></visual>"
+    cart.write_text(MODEL.format(visuals=box))
+
+    assert run("convert", str(cart), "--to", "sdf", "-o", "cart.sdf")[0] == 0
+
+    assert "<albedo_map>textures/paint.png</albedo_map>" in (tmp_path / "cart.sdf").read_text()
+    assert (tmp_path / "textures/paint.png").is_file()
+
+
+def test_a_description_is_converted_from_standard_input() -> None:
+    code, text = run("convert", "-", "--to", "urdf", stdin=MODEL.format(visuals=""))
+    assert code == 0
+    assert '<robot name="cart">' in text
+
+
 def test_an_sdf_model_becomes_a_urdf(cart: Path, tmp_path: Path) -> None:
     code, text = run("convert", str(cart), "--to", "urdf")
 

@@ -11,7 +11,7 @@ from trundle.model import flattened
 from trundle.packages import Packages
 
 from .described_file import load_described
-from .mesh_copies import MeshCopies
+from .file_copies import FileCopies
 
 Format: TypeAlias = Literal["sdf", "urdf", "mjcf"]
 
@@ -45,7 +45,7 @@ def convert(
     loaded = load_described(file, report, packages=Packages(environment, start=start), start=start)
     if output is None:
         return _written(loaded, to, written_uri, report)
-    copies = MeshCopies(output, report)
+    copies = FileCopies(output, report)
     text = _written(loaded, to, copies.uri_of, report)
     copies.copy()
     _replace(output, text)

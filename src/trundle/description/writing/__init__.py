@@ -1,6 +1,6 @@
 """Model becomes text: SDF and URDF."""
 
-from .meshes import UriOf, written_uri
+from .files import UriOf, written_uri
 from .sdf import write_sdf
 from .urdf import write_urdf
 

@@ -8,7 +8,7 @@ import math
 from trundle.diagnostics import Diagnostics
 from trundle.model import Frame, Joint, JointAxis, JointType, Link, Model, World, model_from_joint
 
-from .meshes import UriOf
+from .files import UriOf
 from .sdf_environment import add_light, add_surroundings
 from .sdf_shapes import add_collision, add_sensor, add_visual
 from .tag import Tag
@@ -24,7 +24,7 @@ def write_sdf(world: World, *, is_world: bool, uri_of: UriOf, report: Diagnostic
     Args:
         world: as read.
         is_world: write <world>, not only what is in it.
-        uri_of: what to call meshes and terrains.
+        uri_of: what to call meshes, terrains and textures.
         report: takes what the model does not hold, and so cannot be written.
     """
     scoped = any(_has_scoped_names(model) for model in world.models)

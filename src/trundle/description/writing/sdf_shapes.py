@@ -22,7 +22,7 @@ from trundle.model import (
     Visual,
 )
 
-from .meshes import UriOf
+from .files import UriOf
 from .tag import Tag
 
 _ALWAYS_WHOLE = frozenset({"contact", "force_torque"})
@@ -35,7 +35,7 @@ def add_visual(link: Tag, visual: Visual, uri_of: UriOf) -> None:
     tag.add_pose(visual.link_from_visual)
     add_geometry(tag, visual.geometry, uri_of)
     if visual.material != GREY:
-        _add_material(tag, visual.material)
+        _add_material(tag, visual.material, uri_of)
     tag.add_unless("transparency", visual.transparency, default=0.0)
     tag.add_unless("cast_shadows", visual.cast_shadows, default=True)
     tag.add_unless("laser_retro", visual.laser_retro, default=0.0)
@@ -76,13 +76,13 @@ def add_geometry(home: Tag, geometry: Geometry, uri_of: UriOf) -> None:
                 shape.add("height", height)
         case Heightmap():
             shape = tag.add("heightmap")
-            shape.add("uri", uri_of(geometry))
+            shape.add("uri", uri_of(geometry.path, geometry.uri))
             shape.add("size", geometry.size)
             shape.add("pos", geometry.position)
             shape.add("sampling", geometry.sampling)
         case MeshFile():
             shape = tag.add("mesh")
-            shape.add("uri", uri_of(geometry))
+            shape.add("uri", uri_of(geometry.path, geometry.uri))
             shape.add_unless("scale", geometry.scale, default=(1.0, 1.0, 1.0))
             if geometry.submesh is not None:
                 part = shape.add("submesh")
@@ -92,12 +92,12 @@ def add_geometry(home: Tag, geometry: Geometry, uri_of: UriOf) -> None:
             tag.add("empty")
 
 
-def _add_material(visual: Tag, material: Material) -> None:
+def _add_material(visual: Tag, material: Material, uri_of: UriOf) -> None:
     tag = visual.add("material")
     for name in ("ambient", "diffuse", "specular", "emissive"):
         tag.add(name, getattr(material, name))
     if material.texture is not None:
-        tag.add("pbr").add("metal").add("albedo_map", f"file://{material.texture.resolve()}")
+        tag.add("pbr").add("metal").add("albedo_map", uri_of(material.texture, ""))
 
 
 def _add_surface(tag: Tag, surface: Surface) -> None:

@@ -26,7 +26,7 @@ from trundle.model import (
 )
 from trundle.spatial import Pose
 
-from .meshes import UriOf
+from .files import UriOf
 from .sdf_environment import add_light
 from .sdf_shapes import add_sensor
 from .tag import Tag, spelled
@@ -154,7 +154,9 @@ class _Writer:
             case Sphere(radius):
                 return Tag("sphere", {"radius": spelled(radius)})
             case MeshFile(submesh=None):
-                return Tag("mesh", {"filename": self.uri_of(geometry), "scale": spelled(geometry.scale)})
+                return Tag(
+                    "mesh", {"filename": self.uri_of(geometry.path, geometry.uri), "scale": spelled(geometry.scale)}
+                )
             case _:
                 return None
 

@@ -1,0 +1,79 @@
+"""Copies the files that a written description needs into folders beside it."""
+
+import re
+import shutil
+from pathlib import Path
+
+from trundle.description import written_uri
+from trundle.diagnostics import Diagnostics, Source, UsageError
+from trundle.meshes import MeshError, load_mesh
+
+_LIBRARY = re.compile(r"^\s*mtllib\s+(.+?)\s*$", re.MULTILINE)
+
+
+_IMAGES = frozenset({".bmp", ".dds", ".jpeg", ".jpg", ".png", ".tga", ".tif", ".tiff"})
+
+
+class FileCopies:
+    """Gives every file a place in `meshes` or `textures` beside the output, and puts it there when asked."""
+
+    def __init__(self, output: Path, report: Diagnostics) -> None:
+        self._output = output
+        self._report = report
+        self._places: dict[Path, Path] = {}
+        """Of each file, relative to the output's folder."""
+
+    def uri_of(self, path: Path | None, uri: str) -> str:
+        """A relative URI; that of a file that was not found stays as written."""
+        if path is None:
+            return written_uri(path, uri)
+        path = path.resolve()
+        if path not in self._places:
+            taken = {str(place).lower() for place in self._places.values()}
+            folder = "textures" if path.suffix.lower() in _IMAGES else "meshes"
+            place, number = Path(folder, path.name), 1
+            while str(place).lower() in taken:
+                number += 1
+                place = Path(folder, f"{path.stem}_{number}{path.suffix}")
+            self._places[path] = place
+        return self._places[path].as_posix()
+
+    def copy(self) -> None:
+        """Copy the files, their textures and material libraries with them.
+
+        Raises:
+            UsageError: the folders cannot be written.
+        """
+        folder = self._output.parent
+        try:
+            for path, place in self._places.items():
+                target = folder / place
+                _copy(path, target)
+                for extra in _companions(path):
+                    inside = extra.is_relative_to(path.parent)
+                    _copy(extra, target.parent / (extra.relative_to(path.parent) if inside else extra.name))
+        except OSError as error:
+            raise UsageError(f"cannot write below {folder}: {error.strerror}") from None
+        if self._places:
+            self._report.info(Source(str(self._output)), f"{len(self._places)} files were copied beside it")
+
+
+def _companions(path: Path) -> list[Path]:
+    """What a mesh file names in its turn."""
+    if path.suffix.lower() in _IMAGES:
+        return []
+    found: list[Path] = []
+    if path.suffix.lower() == ".obj":
+        libraries = _LIBRARY.findall(path.read_text(encoding="utf-8", errors="replace"))
+        found += [file for name in libraries if (file := (path.parent / name).resolve()).is_file()]
+    try:
+        found += [part.texture.resolve() for part in load_mesh(path).parts if part.texture is not None]
+    except MeshError:
+        return found  # a part of it may be named that can be read
+    return [file for file in dict.fromkeys(found) if file.is_relative_to(path.parent.parent)]
+
+
+def _copy(source: Path, target: Path) -> None:
+    if source != target.resolve():
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(source, target)
