@@ -167,3 +167,34 @@ def test_a_heightmap_that_is_no_image_is_left_out_aloud(load: Load, tmp_path: Pa
     (tmp_path / "hills.png").write_bytes(b"no picture")
     sim = load("", "0 0 1", geometry="<heightmap><uri>hills.png</uri><size>8 8 2</size></heightmap>")
     assert any("heightmap 'hills.png'" in w and "left out" in w for w in sim.report.warnings)
+
+
+def test_an_arm_on_a_wall_of_many_pieces_moves_and_others_meet_the_wall(tmp_path: Path) -> None:
+    # Forty walls and seventy balls are more pairs than are listed one by one; the arm is joined to the first wall.
+    box = "<geometry><box><size>0.2 0.2 0.2</size></box></geometry>"
+    ball = "<geometry><sphere><radius>0.1</radius></sphere></geometry>"
+    walls = "".join(
+        f'<model name="w{i}"><static>true</static><pose>{i} 0 0 0 0 0</pose><link name="l"><collision name="c">{box}'
+        "</collision></link></model>"
+        for i in range(40)
+    )
+    balls = "".join(
+        f'<model name="b{i}"><pose>{0.6 * i} 0.03 0.5 0 0 0</pose><link name="l"><collision name="c">{ball}</collision>'
+        "</link></model>"
+        for i in range(70)
+    )
+    arm = (
+        f'<model name="arm"><pose>0 0 0 0 0 0</pose><link name="l"><collision name="c">{box}</collision></link></model>'
+        '<joint name="j" type="revolute"><parent>w0::l</parent><child>arm::l</child><axis><xyz>0 0 1</xyz></axis>'
+        "</joint>"
+    )
+    file = tmp_path / "w.world"
+    file.write_text(f'<sdf version="1.10"><world name="w">{walls}{balls}{arm}</world></sdf>')
+    sim = trundle.load(str(file))
+    assert sim.engine.compiled.model.npair < 100
+    sim.joints[0].set_velocity(1.0)
+    sim.run(0.25)
+    assert sim.joints[0].velocity == pytest.approx(1.0, rel=0.01)
+    # b0 hits the arm on w0, b5 falls on w3, b6 between walls.
+    assert sim["b5"].pose.position[2] == pytest.approx(0.2, abs=2e-3)
+    assert sim["b6"].pose.position[2] == pytest.approx(0.5 - 9.8 * 0.25**2 / 2, rel=0.02)

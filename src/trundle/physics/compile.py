@@ -157,7 +157,7 @@ class _Compiler:
             wheel = without_tread(collision, collision.geometry)
         geoms = add_shape(self.spec, body, wheel, name, self.report, fixed=fixed)
         for geom in geoms:
-            self._keep(geom, geom.name, place, collision, is_piece=len(geoms) > 1)
+            self._keep(geom, geom.name, place, collision)
 
     def _keep(
         self,
@@ -167,7 +167,6 @@ class _Compiler:
         collision: Collision,
         *,
         is_tread: bool = False,
-        is_piece: bool = False,
     ) -> None:
         self.shapes.append(
             ShapeEntry(
@@ -178,7 +177,6 @@ class _Compiler:
                 link=place.name,
                 fixed=place.name in self.tree.still,
                 surface=collision.surface,
-                is_piece=is_piece,
                 is_tread=is_tread,
             )
         )

@@ -20,7 +20,7 @@ from .surfaces import Touch, category_of, friction_of, is_plain, may_meet, touch
 from .tree import Tree
 
 MOST_PAIRS = 2000
-"""Beyond these, moving shapes meet by MuJoCo's own search: a pair costs about 10 ns a step whether it meets or not."""
+"""Beyond these, shapes meet by MuJoCo's own search: a pair costs about 10 ns a step whether it meets or not."""
 _STIFFEST = 0.05
 """[1/h²] Stiffness over mass from which on a contact is as hard as MuJoCo's own; a step cannot tell any more."""
 _SOFT = 0.5
@@ -38,14 +38,20 @@ def add_contacts(
     for shape in shapes:
         shape.geom.contype = shape.geom.conaffinity = 0
     rules = _Rules(models, tree)
+    ranks = {mu: -i for i, mu in enumerate(sorted({friction_of(shape.surface) for shape in shapes}))}
     fixed = [shape for shape in shapes if shape.fixed]
     moving = [shape for shape in shapes if not shape.fixed]
     solid = [shape for shape in moving if not shape.is_tread]
-    pieces = [shape for shape in fixed if shape.is_piece]
-    if len(pieces) * len(moving) > MOST_PAIRS:
-        fixed = [shape for shape in fixed if not shape.is_piece]
-        _let_find(spec, pieces, moving)
-    _add_pairs(spec, product(moving, fixed), rules, touches)
+    if len(fixed) * len(moving) > MOST_PAIRS:
+        # Planes, which most things stand on, keep their pairs: only a pair can keep what slides from hopping.
+        found = [shape for shape in fixed if is_plain(shape.surface) and not _is_plane(shape)]
+        finding = [shape for shape in moving if is_plain(shape.surface)]
+        _let_find(found, finding, h=spec.option.timestep, ranks=ranks)
+        _keep_apart(spec, product(finding, found), rules)
+        met = {(a.name, b.name) for a, b in product(finding, found)}
+        _add_pairs(spec, ((a, b) for a, b in product(moving, fixed) if (a.name, b.name) not in met), rules, touches)
+    else:
+        _add_pairs(spec, product(moving, fixed), rules, touches)
     if len(solid) * (len(solid) - 1) <= 2 * MOST_PAIRS:
         _add_pairs(spec, combinations(solid, 2), rules, touches)
         return touches
@@ -53,7 +59,11 @@ def add_contacts(
     special = [shape for shape in solid if not is_plain(shape.surface)]
     _add_pairs(spec, product(special, plain), rules, touches)
     _add_pairs(spec, combinations(special, 2), rules, touches)
-    _let_search(spec, plain, rules)
+    _let_search(plain, h=spec.option.timestep, ranks=ranks)
+    by_model: dict[int, list[ShapeEntry]] = {}
+    for shape in plain:
+        by_model.setdefault(shape.model, []).append(shape)
+    _keep_apart(spec, (pair for own in by_model.values() for pair in combinations(own, 2)), rules)
     return touches
 
 
@@ -66,8 +76,10 @@ class _Rules:
         }
 
     def may_touch(self, a: ShapeEntry, b: ShapeEntry) -> bool:
-        if not may_meet(a.surface, b.surface):
-            return False
+        return may_meet(a.surface, b.surface) and self.links_may_touch(a, b)
+
+    def links_may_touch(self, a: ShapeEntry, b: ShapeEntry) -> bool:
+        """Whether the links of two shapes may touch, whatever their bitmasks say."""
         if a.link == b.link or frozenset((a.link, b.link)) in self._joined:
             return False
         return a.model != b.model or (self._self_collides[a.link] and self._self_collides[b.link])
@@ -125,25 +137,28 @@ def soften(model: mujoco.MjModel, touches: Mapping[tuple[str, str], Touch]) -> N
         model.pair_solimp[pair, :2] = _SOFT
 
 
-def _let_find(spec: mujoco.MjSpec, pieces: Sequence[ShapeEntry], moving: Sequence[ShapeEntry]) -> None:
-    """Let moving shapes find the many pieces of meshes that stand; they do not find each other so."""
-    ranks = _ranks([*pieces, *moving])
-    for shape in pieces:
-        _carry(spec, shape, ranks)
+def _let_find(
+    fixed: Sequence[ShapeEntry], moving: Sequence[ShapeEntry], *, h: float, ranks: Mapping[float, int]
+) -> None:
+    """Let moving shapes find what stands; they do not find each other so."""
+    for shape in fixed:
+        _carry(shape, h, ranks)
         shape.geom.contype = category_of(shape.surface) & _BITS
     for shape in moving:
-        _carry(spec, shape, ranks)
+        _carry(shape, h, ranks)
         shape.geom.conaffinity = shape.surface.collide_bitmask & _BITS
 
 
-def _ranks(shapes: Sequence[ShapeEntry]) -> dict[float, int]:
-    """Priorities: the smaller friction, the higher."""
-    return {mu: -i for i, mu in enumerate(sorted({friction_of(s.surface) for s in shapes}))}
+def _let_search(moving: Sequence[ShapeEntry], *, h: float, ranks: Mapping[float, int]) -> None:
+    """Let moving shapes find each other."""
+    for shape in moving:
+        _carry(shape, h, ranks)
+        shape.geom.contype = category_of(shape.surface) & _BITS
+        shape.geom.conaffinity = shape.surface.collide_bitmask & _BITS
 
 
-def _carry(spec: mujoco.MjSpec, shape: ShapeEntry, ranks: Mapping[float, int]) -> None:
-    """Write what contacts found by search need on the shape itself."""
-    h = spec.option.timestep
+def _carry(shape: ShapeEntry, h: float, ranks: Mapping[float, int]) -> None:
+    """Write what contacts found by search need on the shape itself; the smaller friction has the higher priority."""
     mu, geom = friction_of(shape.surface), shape.geom
     geom.priority = ranks[mu]
     geom.friction = [mu, 0.005, 0.0001]
@@ -152,20 +167,16 @@ def _carry(spec: mujoco.MjSpec, shape: ShapeEntry, ranks: Mapping[float, int]) -
     geom.solimp = SOLIMP
 
 
-def _let_search(spec: mujoco.MjSpec, moving: Sequence[ShapeEntry], rules: _Rules) -> None:
-    """Let moving shapes of different models find each other; the one with the smaller friction decides."""
-    ranks = _ranks(moving)
-    by_model: dict[int, list[ShapeEntry]] = {}
-    for shape in moving:
-        by_model.setdefault(shape.model, []).append(shape)
-        _carry(spec, shape, ranks)
-        shape.geom.contype = category_of(shape.surface) & _BITS
-        shape.geom.conaffinity = shape.surface.collide_bitmask & _BITS
+def _keep_apart(spec: mujoco.MjSpec, pairs: Iterable[tuple[ShapeEntry, ShapeEntry]], rules: _Rules) -> None:
+    """Exclude links from the search that must not touch."""
     apart = {
-        tuple(sorted((a.link, b.link)))
-        for shapes in by_model.values()
-        for a, b in combinations(shapes, 2)
-        if a.link != b.link and not rules.may_touch(a, b)
+        (min(a.link, b.link), max(a.link, b.link))
+        for a, b in pairs
+        if a.link != b.link and not rules.links_may_touch(a, b)
     }
     for one, other in sorted(apart):
         spec.add_exclude(bodyname1=one, bodyname2=other)
+
+
+def _is_plane(shape: ShapeEntry) -> bool:
+    return shape.geom.type == mujoco.mjtGeom.mjGEOM_PLANE

@@ -49,8 +49,6 @@ class ShapeEntry:
     fixed: bool
     """Part of the world: nothing moves it."""
     surface: Surface
-    is_piece: bool = False
-    """One of several of a mesh."""
     is_tread: bool = False
     """Of a wheel; touches what is fixed."""
 

@@ -65,16 +65,15 @@ def category_of(surface: Surface) -> int:
 def is_plain(surface: Surface) -> bool:
     """Whether a shape can carry by itself all that its contacts need: friction and bitmasks.
 
-    kp and kd are not counted: where shapes find each other by search, contacts are hard.
+    kp, kd and min_depth are not counted: where shapes find each other by search, contacts are hard.
     """
     default = Surface()
-    return (
-        surface.fdir1,
-        surface.patch_radius,
-        surface.min_depth,
-        surface.restitution,
-        surface.collide_without_contact,
-    ) == (default.fdir1, default.patch_radius, default.min_depth, default.restitution, default.collide_without_contact)
+    return (surface.fdir1, surface.patch_radius, surface.restitution, surface.collide_without_contact) == (
+        default.fdir1,
+        default.patch_radius,
+        default.restitution,
+        default.collide_without_contact,
+    )
 
 
 def _friction(mu: float) -> float:
