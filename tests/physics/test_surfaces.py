@@ -89,6 +89,13 @@ def test_a_patch_of_contact_resists_turning(load: Load) -> None:
     assert ball.twist.angular[2] == pytest.approx(0.0, abs=1e-3)
 
 
+def test_a_patch_that_grows_from_a_radius_is_named(load: Load) -> None:
+    torsional = "<torsional><use_patch_radius>false</use_patch_radius><surface_radius>0.1</surface_radius></torsional>"
+    sim = load(floor(), body("b", BALL, friction(1.0, torsional=torsional), pose="0 0 0.1 0 0 0"))
+    said = "collision 'c': torsional friction by surface_radius is left out; patch_radius is simulated"
+    assert any(said in warning for warning in sim.report.warnings)
+
+
 def test_a_soft_contact_gives_by_its_stiffness(load: Load) -> None:
     contact = "<contact><ode><kp>2000</kp><kd>40</kd></ode></contact>"
     sim = load(floor(), body("b", BALL, contact, pose="0 0 0.1 0 0 0", mass=2.0))

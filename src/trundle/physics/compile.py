@@ -148,6 +148,9 @@ class _Compiler:
             what = "plane" if isinstance(collision.geometry, Plane) else "heightmap"
             self.report.warn(collision.at, f"collision {collision.name!r}: a {what} cannot move; it is left out")
             return
+        if collision.surface.surface_radius > 0 and collision.surface.patch_radius <= 0:
+            what = "torsional friction by surface_radius is left out; patch_radius is simulated"
+            self.report.warn(collision.at, f"collision {collision.name!r}: {what}")
         body, wheel = self.bodies[place.name], collision
         name = self._shape_name(f"{place.name}::{collision.name}")
         hold = self.tree.held.get(place.name)
