@@ -250,3 +250,17 @@ def test_a_model_is_given_a_velocity(gazebo: Gazebo) -> None:
     gazebo.call("unpause_physics")
     gazebo.until_s(1.0)
     assert gazebo.state("ball").pose.position.x == pytest.approx(2.0, abs=0.2)
+
+
+def test_a_spawned_camera_is_on_a_topic(gazebo: Gazebo) -> None:
+    camera = '<sensor name="eye" type="camera"><update_rate>10</update_rate><camera><image><width>64</width>'
+    camera += "<height>48</height></image></camera></sensor></link>"
+    heard: list[Message] = []
+    assert gazebo.spawn(_BALL.replace("</link>", camera), "robot").success
+    gazebo.client.subscribe("/robot/link/eye/image_raw", "sensor_msgs/Image", heard.append)
+    gazebo.call("unpause_physics")
+    end = time.monotonic() + 30.0
+    while not heard:
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    assert (heard[0].width, heard[0].height) == (64, 48)

@@ -8,14 +8,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from trundle.bridge import ClockTopic
+from trundle.bridge import CameraTopics, ClockTopic
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import World
 from trundle.packages import Packages
 from trundle.physics import RayRenderer
 from trundle.render import scene_of
-from trundle.ros import Node, SimClock
+from trundle.ros import Node, SimClock, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, mount_cameras
 from trundle.simulation import ModelHandle, Simulation, SimulationUnstableError
 from trundle.spatial import Pose
@@ -76,6 +76,7 @@ class GazeboWorld:
         self._pacer = Pacer(1.0)
         self._page: Page | None = None
         self._node: Node | None = None
+        self._still: StaticTransformBroadcaster | None = None
         self._paused = False
 
     # -- any thread
@@ -84,7 +85,7 @@ class GazeboWorld:
         """Read a world and let it run."""
         if self._thread is not None:
             raise UsageError("a simulation runs already; a launch has one")
-        self._node, self._paused = node, paused
+        self._node, self._still, self._paused = node, StaticTransformBroadcaster(node), paused
         loaded = await asyncio.to_thread(load, world, self._report, packages=self._packages)
         if loaded.kind != "world":
             raise UsageError(f"{world} is a model; a world is needed")
@@ -217,6 +218,8 @@ class GazeboWorld:
 
     def _look_anew(self, simulation: Simulation) -> None:
         """Have cameras and the page see the world as it is now."""
+        assert self._node is not None
+        assert self._still is not None
         world = simulation.world
         cameras = self._cameras = mount_cameras(world, lambda: RayRenderer(scene_of(world, self._report)), self._report)
         for camera in cameras:
@@ -225,6 +228,7 @@ class GazeboWorld:
                 return self._cameras is cameras and camera.wanted()
 
             simulation.add_hook(camera, period_ns=camera.period_ns, wanted=wanted)
+            CameraTopics(self._node, self._still, camera, world)
         if self._page is not None:
             self._page.replace(simulation, cameras)
         self._pacer.restart()
