@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 from PIL import Image
 
 from trundle.meshes import MeshError, load_mesh
@@ -199,3 +200,13 @@ def test_a_mesh_is_cut_into_one_mesh_per_look(tmp_path: Path) -> None:
     assert mesh.by_look() is mesh.by_look()
     same = load_mesh(collada(tmp_path / "car.dae", second="red"))
     assert same.by_look() == (same,)
+
+
+def test_a_texture_inside_a_glb_gives_its_mean_colour(tmp_path: Path) -> None:
+    box = trimesh.creation.box()
+    image = Image.new("RGB", (2, 2), (0, 102, 255))
+    material = trimesh.visual.material.PBRMaterial(baseColorTexture=image)
+    box.visual = trimesh.visual.TextureVisuals(uv=np.zeros((8, 2)), material=material)
+    (tmp_path / "box.glb").write_bytes(trimesh.Scene(box).export(file_type="glb"))
+
+    assert load_mesh(tmp_path / "box.glb").rgba == pytest.approx((0.0, 0.4, 1.0, 1.0))

@@ -148,7 +148,10 @@ def test_a_fuel_model_comes_from_the_cache_of_gazebos_own_tool_or_not_at_all(tmp
 @pytest.mark.parametrize(
     ("uri", "said"),
     [
-        ("https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground Plane", "model://ground_plane is here"),
+        (
+            "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground Plane",
+            "write model://ground_plane, which is here",
+        ),
         ("http://example.org/cup.dae", "nothing is fetched from the network; copy the file beside this one"),
         ("ftp://example.org/cup.dae", "ftp:// is not known; package://, model://, file:// and relative paths are"),
         ("meshes/lost.dae", "no such file .*meshes/lost.dae"),

@@ -123,6 +123,27 @@ def test_a_mesh_has_its_own_colour_unless_the_visual_gives_it_one(tmp_path: Path
     assert [shape.rgba[:3] for shape in drawn(plain, blue).shapes] == [(1.0, 0.0, 0.0), (0.0, 0.0, 1.0)]
 
 
+def test_a_mesh_of_two_colours_is_two_shapes_unless_the_visual_paints_it(tmp_path: Path) -> None:
+    (tmp_path / "car.mtl").write_text("newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 0 1\n")
+    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+    (tmp_path / "car.obj").write_text(f"mtllib car.mtl\n{corners}usemtl a\nf 1 2 3\nusemtl b\nf 1 3 2\n")
+    plain = Visual(name="plain", geometry=MeshFile(path=tmp_path / "car.obj", uri="car.obj"), at=AT, transparency=0.5)
+    assert [shape.rgba for shape in drawn(plain).shapes] == [(1.0, 0.0, 0.0, 0.5), (0.0, 0.0, 1.0, 0.5)]
+    assert [shape.rgba[:3] for shape in drawn(replace(plain, material=RED)).shapes] == [(1.0, 0.0, 0.0)]
+
+
+def test_a_texture_that_is_not_there_is_named(tmp_path: Path) -> None:
+    (tmp_path / "car.mtl").write_text("newmtl a\nmap_Kd paint.png\n")
+    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+    (tmp_path / "car.obj").write_text(f"mtllib car.mtl\n{corners}usemtl a\nf 1/1 2/2 3/3\n")
+    report = Diagnostics()
+    scene_of(world(visual(geometry=MeshFile(path=tmp_path / "car.obj", uri="car.obj"))), report)
+    (said,) = report.findings
+    assert str(said).endswith(
+        "car.obj: info: its texture 'paint.png' is nowhere in the model's folder; a plain colour is drawn"
+    )
+
+
 def test_a_mesh_that_cannot_be_read_is_left_out_aloud(tmp_path: Path) -> None:
     report = Diagnostics()
     lost = MeshFile(path=tmp_path / "lost.dae", uri="model://m/lost.dae")

@@ -9,6 +9,7 @@ import numpy as np
 
 from .mesh import Rgba
 from .raw import MOST_TRIANGLES, MeshError, RawPart
+from .texture import mean_of
 
 _JSON = b"JSON"
 
@@ -16,7 +17,7 @@ logging.getLogger("trimesh").addHandler(logging.NullHandler())  # else it prints
 
 
 def read_glb(data: bytes) -> list[RawPart]:
-    """Read a GLB without following any reference out of it; its textures, which are inside, give no colour yet.
+    """Read a GLB without following any reference out of it; of a texture inside, only the mean colour is kept.
 
     Raises:
         Exception: trimesh's own, in its own words.
@@ -66,4 +67,10 @@ def _colour(geometry: Any) -> Rgba | None:
     if material is None:
         return None
     r, g, b, a = (float(value) / 255.0 for value in material.main_color)
-    return (r, g, b, a)
+    image = getattr(material, "baseColorTexture", None)
+    if image is None:
+        return (r, g, b, a)
+    if material.baseColorFactor is None:
+        r = g = b = a = 1.0
+    mean = mean_of(image)
+    return (r * mean[0], g * mean[1], b * mean[2], a)

@@ -141,7 +141,14 @@ def _described(parts: Sequence[RawPart], path: Path) -> tuple[MeshPart, ...]:
         rgba = (mean_colour(texture) if texture else None) or part.rgba
         name = part.names[0] if part.names else ""
         described.append(
-            MeshPart(name=name, first_face=first_face, face_count=len(part.faces), rgba=rgba, texture=texture)
+            MeshPart(
+                name=name,
+                first_face=first_face,
+                face_count=len(part.faces),
+                rgba=rgba,
+                texture=texture,
+                lost_texture=part.texture if texture is None else None,
+            )
         )
         first_face += len(part.faces)
     return tuple(described)

@@ -23,6 +23,8 @@ class MeshPart:
     """The file's own colour; where there is a texture, its mean. None: the file has none."""
     texture: Path | None = None
     """An image, laid out by the mesh's `uv`."""
+    lost_texture: str | None = None
+    """What the file names and is not there."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

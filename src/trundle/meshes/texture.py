@@ -2,10 +2,16 @@
 
 from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .mesh import Rgba
 
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
 _MOST_PIXELS = 64 * 1024 * 1024
+_BOX = 4
+"""Pillow's number for the filter that takes the mean."""
 
 
 def find_texture(name: str, mesh: Path) -> Path | None:
@@ -35,10 +41,19 @@ def _mean(texture: Path, _changed_ns: int) -> Rgba:
     from PIL import Image
 
     with Image.open(texture) as image:
-        if image.width * image.height > _MOST_PIXELS:
-            raise ValueError("too large")
         image.draft("RGB", (64, 64))
-        pixel = image.convert("RGB").resize((1, 1), Image.Resampling.BOX).getpixel((0, 0))
+        return mean_of(image)
+
+
+def mean_of(image: "Image") -> Rgba:
+    """The mean colour of an image.
+
+    Raises:
+        ValueError: it is larger than any texture.
+    """
+    if image.width * image.height > _MOST_PIXELS:
+        raise ValueError("too large")
+    pixel = image.convert("RGB").resize((1, 1), resample=_BOX).getpixel((0, 0))
     assert isinstance(pixel, tuple)
     r, g, b = (value / 255.0 for value in pixel[:3])
     return (r, g, b, 1.0)

@@ -150,7 +150,7 @@ class Packages:
         if "fuel" not in url:
             advice = "copy the file beside this one"
         elif self._gazebo.find_model(local) is not None:
-            advice = f"model://{local} is here"
+            advice = f"write model://{local}, which is here"
         else:
             advice = "fetch it with `gz fuel download -u URL`, or put its folder on GAZEBO_MODEL_PATH"
         raise DescriptionError(at, f"{url}: nothing is fetched from the network; {advice}")

@@ -88,4 +88,8 @@ def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeome
     except MeshError as error:
         report.warn(at, f"{error}; the shape is left out")
         return None
+    for name in sorted({part.lost_texture for part in mesh.parts if part.lost_texture is not None}):
+        report.info(
+            Source(str(path)), f"its texture {name!r} is nowhere in the model's folder; a plain colour is drawn"
+        )
     return mesh.scaled(geometry.scale)
