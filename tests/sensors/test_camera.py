@@ -170,6 +170,6 @@ def test_all_cameras_share_one_renderer_and_a_world_without_makes_none() -> None
 
 def test_a_sensor_that_does_not_measure_yet_is_named() -> None:
     report = Diagnostics()
-    laser = Sensor(name="laser", type="ray", at=AT)
-    assert mount_cameras(world(laser), CountingRenderer, report) == []
-    assert report.warnings == ["robot.sdf:9: warning: sensor 'laser': ray sensors are not simulated yet"]
+    sonar = Sensor(name="sonar", type="sonar", at=AT)
+    assert mount_cameras(world(sonar), CountingRenderer, report) == []
+    assert report.warnings == ["robot.sdf:9: warning: sensor 'sonar': sonar sensors are not simulated yet"]

@@ -4,15 +4,19 @@ from .camera import CameraTopics
 from .clock import ClockTopic
 from .frames import SimulationFrames
 from .joint_states import JointStates
+from .measuring import ImuTopic, ScanTopic, sensor_topics
 from .naming import WORLD_FRAME, has_plain_frames, link_frame_name, link_frames
 
 __all__ = [
     "WORLD_FRAME",
     "CameraTopics",
     "ClockTopic",
+    "ImuTopic",
     "JointStates",
+    "ScanTopic",
     "SimulationFrames",
     "has_plain_frames",
     "link_frame_name",
     "link_frames",
+    "sensor_topics",
 ]

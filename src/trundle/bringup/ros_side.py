@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Self
 
-from trundle.bridge import CameraTopics, ClockTopic, JointStates, SimulationFrames
+from trundle.bridge import CameraTopics, ClockTopic, JointStates, SimulationFrames, sensor_topics
 from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
-from trundle.sensors import CameraSensor
+from trundle.sensors import CameraSensor, ImuSensor, RangeSensor
 from trundle.simulation import Simulation
 
 from .graph import Graph
@@ -30,7 +30,14 @@ class RunningClock(SimClock):
 class RosSide:
     """Everything of one simulation that other ROS nodes see."""
 
-    def __init__(self, graph: Graph, simulation: Simulation, cameras: Sequence[CameraSensor], stage: Stage) -> None:
+    def __init__(
+        self,
+        graph: Graph,
+        simulation: Simulation,
+        cameras: Sequence[CameraSensor],
+        sensors: Sequence[ImuSensor | RangeSensor],
+        stage: Stage,
+    ) -> None:
         self._graph = graph
         self._simulation = simulation
         self.clock = RunningClock(graph.loop, simulation)
@@ -45,6 +52,7 @@ class RosSide:
         simulation.add_hook(frames, period_ns=frames.period_ns, wanted=frames.wanted)
         for camera in cameras:
             CameraTopics(self.node, still, camera, stage.world)
+        sensor_topics(self.node, still, sensors, stage.world)
         if stage.urdf is not None:
             loop.run(self.node.set_param("/robot_description", stage.urdf))
             states = JointStates(self.node, simulation.models[0])
@@ -57,6 +65,7 @@ class RosSide:
         simulation: Simulation,
         stage: Stage,
         cameras: Sequence[CameraSensor],
+        sensors: Sequence[ImuSensor | RangeSensor],
         environment: Mapping[str, str],
         *,
         host: str,
@@ -64,7 +73,7 @@ class RosSide:
         """Join or start a graph and put the simulation on it."""
         graph = Graph.open(environment, host=host, any_port=True)
         try:
-            return cls(graph, simulation, cameras, stage)
+            return cls(graph, simulation, cameras, sensors, stage)
         except BaseException:
             graph.close()
             raise

@@ -14,7 +14,7 @@ from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
 from trundle.physics import RayRenderer
 from trundle.render import scene_of
-from trundle.sensors import mount_cameras
+from trundle.sensors import mount_cameras, mount_sensors
 from trundle.simulation import Simulation, SimulationUnstableError
 
 from .exposure import warn_of_exposure
@@ -73,14 +73,16 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         stage = set_stage(file, Packages(env, start=Path.cwd()), report)
         simulation = Simulation(stage.world, report, seed=options.seed)
         cameras = mount_cameras(stage.world, lambda: RayRenderer(scene_of(stage.world, report)), report)
+        sensors = mount_sensors(simulation)
         if not options.sensors:
             cameras.clear()
-        for camera in cameras:
-            simulation.add_hook(camera, period_ns=camera.period_ns, wanted=camera.wanted)
+            sensors.clear()
+        for sensor in (*cameras, *sensors):
+            simulation.add_hook(sensor, period_ns=sensor.period_ns, wanted=sensor.wanted)
         show.findings()
         ros = None
         if options.ros:
-            ros = open_things.enter_context(RosSide.open(simulation, stage, cameras, env, host=options.host))
+            ros = open_things.enter_context(RosSide.open(simulation, stage, cameras, sensors, env, host=options.host))
             show.line(ros.story)
         load_plugins(simulation, None if ros is None else ros.make_node, env, say=show.line)
         show.findings()

@@ -24,7 +24,7 @@ from .link import Collision, Link, Visual
 from .material import GREY, Material, Rgba
 from .model import Frame, Model
 from .plugin import PluginTag
-from .sensor import CameraOptics, Sensor
+from .sensor import CameraOptics, ImuNoise, Noise, RangeScan, ScanAxis, Sensor
 from .surface import Surface
 from .world import World
 
@@ -44,6 +44,7 @@ __all__ = [
     "Frame",
     "Geometry",
     "Heightmap",
+    "ImuNoise",
     "Inertial",
     "Joint",
     "JointAxis",
@@ -54,11 +55,14 @@ __all__ = [
     "MeshFile",
     "Mimic",
     "Model",
+    "Noise",
     "PhysicsSettings",
     "Plane",
     "PluginTag",
     "Polyline",
+    "RangeScan",
     "Rgba",
+    "ScanAxis",
     "SceneSettings",
     "Sensor",
     "Solid",

@@ -22,6 +22,50 @@ class CameraOptics:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Noise:
+    """What is added to every value: a Gaussian and a bias drawn once, of either sign."""
+
+    mean: float = 0.0
+    stddev: float = 0.0
+    bias_mean: float = 0.0
+    bias_stddev: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScanAxis:
+    """The angles of a fan of rays."""
+
+    samples: int = 1
+    resolution: float = 1.0
+    """Values reported for each ray, interpolated between them."""
+    min_angle: float = 0.0
+    """[rad]"""
+    max_angle: float = 0.0
+    """[rad]"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RangeScan:
+    """Rays from the sensor's origin, about its z axis and then up by its vertical angles; 0, 0 looks along +x."""
+
+    horizontal: ScanAxis = ScanAxis()
+    vertical: ScanAxis = ScanAxis()
+    min_m: float = 0.0
+    max_m: float = 0.0
+    noise: Noise = Noise()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImuNoise:
+    """Noise about each axis of the sensor, x y z."""
+
+    angular_velocity: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
+    """[rad/s]"""
+    linear_acceleration: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
+    """[m/s²]"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Sensor:
     """A sensor mounted on a link."""
 
@@ -37,4 +81,8 @@ class Sensor:
     topic: str = ""
     camera: CameraOptics | None = None
     """Set for cameras."""
+    scan: RangeScan | None = None
+    """Set for ray sensors and lidars."""
+    imu: ImuNoise | None = None
+    """Set for imus."""
     plugins: tuple[PluginTag, ...] = ()

@@ -1,6 +1,5 @@
 """Camera sensors: a snapshot becomes a picture."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +10,8 @@ from trundle.render import Intrinsics, Renderer
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
-NS = 1_000_000_000
+from .mounted import MountedSensor
+
 FASTEST_HZ = 30.0
 """Of a camera whose update_rate is 0. Gazebo then draws at every step, which nobody means."""
 
@@ -26,13 +26,7 @@ class CameraReading:
     """(height, width, 3)"""
 
 
-@dataclass(slots=True)
-class _Listener:
-    call: Callable[[CameraReading], None]
-    wanted: Callable[[], bool]
-
-
-class CameraSensor:
+class CameraSensor(MountedSensor[CameraReading]):
     """A hook that takes a picture when it is due and somebody wants it."""
 
     def __init__(self, model: Model, link: Link, sensor: Sensor, *, link_index: int, renderer: Renderer) -> None:
@@ -47,10 +41,7 @@ class CameraSensor:
         """
         optics = sensor.camera
         assert optics is not None, f"{sensor.name!r} is no camera"
-        self.model = model
-        self.link = link
-        self.sensor = sensor
-        self.link_index = link_index
+        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
         self.link_from_camera: Pose = sensor.link_from_sensor @ optics.sensor_from_camera
         self.intrinsics = Intrinsics(
             width_px=optics.width_px,
@@ -59,36 +50,13 @@ class CameraSensor:
             near_m=optics.near_m,
             far_m=optics.far_m,
         )
-        self.period_ns = round(NS / (sensor.update_rate_hz or FASTEST_HZ))
         self.images = 0
         """Pictures finished."""
         self._renderer = renderer
-        self._listeners: list[_Listener] = []
-
-    @property
-    def name(self) -> str:
-        """As in the file."""
-        return self.sensor.name
-
-    def listen(self, call: Callable[[CameraReading], None], *, wanted: Callable[[], bool] = lambda: True) -> None:
-        """Have a function called with each picture; while nobody wants one, none is taken."""
-        self._listeners.append(_Listener(call, wanted))
-
-    def wanted(self) -> bool:
-        """Whether the sensor is always on, or anybody wants its pictures."""
-        return self.sensor.always_on or any(listener.wanted() for listener in self._listeners)
-
-    def after_step(self, snapshot: Snapshot) -> None:
-        """Take a picture."""
-        reading = self.take(snapshot)
-        for listener in self._listeners:
-            if listener.wanted():
-                listener.call(reading)
 
     def take(self, snapshot: Snapshot) -> CameraReading:
         """Take a picture of this instant."""
-        x, y, z, qw, qx, qy, qz = snapshot.poses[self.link_index].tolist()
-        world_from_camera = Pose((x, y, z), (qw, qx, qy, qz)) @ self.link_from_camera
+        world_from_camera = self.world_from_link(snapshot) @ self.link_from_camera
         self._renderer.update(snapshot.poses)
         picture = self._renderer.render(world_from_camera, self.intrinsics)
         self.images += 1

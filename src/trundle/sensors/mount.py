@@ -7,9 +7,10 @@ from trundle.model import CameraOptics, Sensor, World
 from trundle.render import Renderer
 
 from .camera import CameraSensor
+from .mount_measuring import MEASURING
 
 _RGB = ("R8G8B8", "RGB_INT8")
-SIMULATED = frozenset({"camera"})
+SIMULATED = frozenset({"camera"}) | MEASURING
 """SDF's sensor types that measure."""
 
 
@@ -27,7 +28,9 @@ def mount_cameras(world: World, renderer: Callable[[], Renderer], report: Diagno
     for model in world.models:
         for link in model.links:
             for sensor in link.sensors:
-                if sensor.type not in SIMULATED or sensor.camera is None:
+                if sensor.type in MEASURING:
+                    continue
+                if sensor.camera is None:
                     report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")
                     continue
                 _name_unsupported(sensor, sensor.camera, report)

@@ -1,4 +1,4 @@
-"""Reads <sensor>; cameras in full, the others by name and type."""
+"""Reads <sensor>; cameras, ray sensors and imus in full, the others by name and type."""
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import CameraOptics, PluginTag, Sensor
@@ -6,6 +6,7 @@ from trundle.xmlnode import XmlNode
 
 from .context import Context, read_pose
 from .frames import FrameGraph
+from .measuring import RANGING, read_imu, read_scan
 
 
 def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -> Sensor:
@@ -23,9 +24,11 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
         visualize=node.flag("visualize", default=False, report=report),
         topic=node.string("topic"),
         camera=_optics(camera, context) if camera is not None and type_ == "camera" else None,
+        scan=read_scan(node, context) if type_ in RANGING else None,
+        imu=read_imu(node, context) if type_ == "imu" else None,
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
     )
-    if sensor.camera is not None:
+    if sensor.camera or sensor.scan or sensor.imu:
         node.report_unread(report)
     return sensor
 

@@ -1,0 +1,110 @@
+"""Readings of imus, ray sensors and lidars on ROS topics: `<model>/<link>/<sensor>/imu`, `…/scan`, `…/points`."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from trundle.model import World
+from trundle.names import ros_name
+from trundle.ros import Node, StaticTransformBroadcaster, Transform
+from trundle.sensors import ImuReading, ImuSensor, RangeReading, RangeSensor, directions_of
+
+from .naming import has_plain_frames, link_frame_name
+
+_FLOAT32 = 7
+"""sensor_msgs/PointField's number for it."""
+
+
+def sensor_topics(
+    node: Node, still: StaticTransformBroadcaster, sensors: Iterable[ImuSensor | RangeSensor], world: World
+) -> None:
+    """Put every sensor's readings on topics of its own."""
+    for sensor in sensors:
+        if isinstance(sensor, ImuSensor):
+            ImuTopic(node, still, sensor, world)
+        else:
+            ScanTopic(node, still, sensor, world)
+
+
+def _place(sensor: ImuSensor | RangeSensor, still: StaticTransformBroadcaster, world: World) -> tuple[str, str]:
+    """Put the sensor's own frame on its link; return the frame and the start of its topics."""
+    plain = has_plain_frames(world)
+    frame = link_frame_name(sensor.model, sensor.name, plain=plain)
+    carrier = link_frame_name(sensor.model, sensor.link.name, plain=plain)
+    if frame == carrier:
+        frame = f"{frame}_sensor"
+    pose = sensor.sensor.link_from_sensor
+    still.send(Transform(parent=carrier, child=frame, translation=pose.position, rotation=pose.quaternion))
+    return frame, f"/{ros_name(sensor.model.name)}/{ros_name(sensor.link.name)}/{ros_name(sensor.name)}"
+
+
+class ImuTopic:
+    """sensor_msgs/Imu on `…/imu`."""
+
+    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: ImuSensor, world: World) -> None:
+        """Advertise, and place the sensor's frame."""
+        self._frame, base = _place(sensor, still, world)
+        self._imu = node.advertise(f"{base}/imu", "sensor_msgs/Imu", queue_size=10)
+        sensor.listen(self._publish, wanted=lambda: self._imu.has_subscribers)
+
+    def _publish(self, reading: ImuReading) -> None:
+        qw, qx, qy, qz = reading.orientation
+        self._imu.publish(
+            {
+                "header": {"stamp": reading.time_ns, "frame_id": self._frame},
+                "orientation": {"x": qx, "y": qy, "z": qz, "w": qw},
+                "angular_velocity": dict(zip("xyz", reading.angular_velocity, strict=True)),
+                "linear_acceleration": dict(zip("xyz", reading.linear_acceleration, strict=True)),
+            }
+        )
+
+
+class ScanTopic:
+    """sensor_msgs/LaserScan on `…/scan` for one row of rays, sensor_msgs/PointCloud2 on `…/points` for several."""
+
+    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: RangeSensor, world: World) -> None:
+        """Advertise, and place the sensor's frame."""
+        self._frame, base = _place(sensor, still, world)
+        self._period_s = sensor.period_ns / 1e9
+        self._directions = directions_of(sensor.scan)
+        if sensor.scan.vertical.samples == 1:
+            self._topic = node.advertise(f"{base}/scan", "sensor_msgs/LaserScan", queue_size=5)
+            sensor.listen(self._publish_scan, wanted=lambda: self._topic.has_subscribers)
+        else:
+            self._topic = node.advertise(f"{base}/points", "sensor_msgs/PointCloud2", queue_size=2)
+            sensor.listen(self._publish_points, wanted=lambda: self._topic.has_subscribers)
+
+    def _publish_scan(self, reading: RangeReading) -> None:
+        fan = reading.scan.horizontal
+        self._topic.publish(
+            {
+                "header": {"stamp": reading.time_ns, "frame_id": self._frame},
+                "angle_min": fan.min_angle,
+                "angle_max": fan.max_angle,
+                "angle_increment": (fan.max_angle - fan.min_angle) / max(fan.samples - 1, 1),
+                "scan_time": self._period_s,
+                "range_min": reading.scan.min_m,
+                "range_max": reading.scan.max_m,
+                "ranges": reading.ranges[0].astype(np.float32),
+            }
+        )
+
+    def _publish_points(self, reading: RangeReading) -> None:
+        """Points in the sensor's frame, without those that found nothing."""
+        ranges = reading.ranges.reshape(-1)
+        seen = np.isfinite(ranges)
+        points = (self._directions[seen] * ranges[seen, None]).astype("<f4")
+        self._topic.publish(
+            {
+                "header": {"stamp": reading.time_ns, "frame_id": self._frame},
+                "height": 1,
+                "width": len(points),
+                "fields": [
+                    {"name": name, "offset": 4 * i, "datatype": _FLOAT32, "count": 1} for i, name in enumerate("xyz")
+                ],
+                "point_step": 12,
+                "row_step": 12 * len(points),
+                "data": np.frombuffer(points.tobytes(), dtype=np.uint8),
+                "is_dense": True,
+            }
+        )

@@ -1,0 +1,106 @@
+"""Reads what ray sensors, lidars and imus measure, and with how much noise."""
+
+from trundle.model import ImuNoise, Noise, RangeScan, ScanAxis
+from trundle.xmlnode import XmlNode
+
+from .context import Context
+
+RANGING = frozenset({"ray", "gpu_ray", "lidar", "gpu_lidar"})
+_MOST_RAYS = 2_000_000
+
+
+def read_scan(sensor: XmlNode, context: Context) -> RangeScan:
+    """Read <ray> or <lidar>; a fan that no machine can cast is cut down, aloud."""
+    report = context.report
+    node = sensor.find("ray") or sensor.find("lidar")
+    if node is None:
+        report.warn(sensor.at, f"sensor {sensor.attribute('name')!r} has no <ray>; it sees nothing")
+        return RangeScan()
+    scan, limits = node.find("scan"), node.find("range")
+    horizontal, vertical = (_axis(scan, tag, context) for tag in ("horizontal", "vertical"))
+    low = 0.0 if limits is None else max(0.0, limits.number("min", default=0.0, report=report))
+    high = 0.0 if limits is None else limits.number("max", default=0.0, report=report)
+    if not high > low:
+        report.warn(node.at, f"range min {low:g}, max {high:g} holds nothing; the sensor sees nothing")
+    if horizontal.samples * vertical.samples > _MOST_RAYS:
+        report.warn(node.at, f"{horizontal.samples} x {vertical.samples} rays are too many; one row of 640 is cast")
+        horizontal, vertical = ScanAxis(samples=640, min_angle=-1.0, max_angle=1.0), ScanAxis()
+    result = RangeScan(
+        horizontal=horizontal,
+        vertical=vertical,
+        min_m=low,
+        max_m=high,
+        noise=_noise(node.find("noise"), context),
+    )
+    if limits is not None:
+        limits.find("resolution")  # Gazebo reads it and rounds nothing
+        limits.report_unread(report)
+    if scan is not None:
+        scan.report_unread(report)
+    node.report_unread(report)
+    return result
+
+
+def _axis(scan: XmlNode | None, tag: str, context: Context) -> ScanAxis:
+    node = None if scan is None else scan.find(tag)
+    if node is None:
+        return ScanAxis(samples=640 if tag == "horizontal" else 1)
+    report = context.report
+    axis = ScanAxis(
+        samples=max(1, node.integer("samples", default=640 if tag == "horizontal" else 1, report=report)),
+        resolution=node.number("resolution", default=1.0, report=report),
+        min_angle=node.number("min_angle", default=0.0, report=report),
+        max_angle=node.number("max_angle", default=0.0, report=report),
+    )
+    node.report_unread(report)
+    return axis
+
+
+def read_imu(sensor: XmlNode, context: Context) -> ImuNoise:
+    """Read <imu>: SDF 1.6 has noise for each axis, 1.4 and 1.5 one for all rates and one for all accelerations."""
+    node = sensor.find("imu")
+    if node is None:
+        return ImuNoise()
+    old = node.find("noise")
+    rates = _axes(node, "angular_velocity", None if old is None else old.find("rate"), context)
+    accelerations = _axes(node, "linear_acceleration", None if old is None else old.find("accel"), context)
+    frame = node.find("orientation_reference_frame")
+    if frame is not None:
+        context.report.info(
+            frame.at, "<orientation_reference_frame> is not supported; orientation is in the world frame"
+        )
+    for tag in ("topic", "enable_orientation"):
+        node.find(tag)
+    node.report_unread(context.report)
+    return ImuNoise(angular_velocity=rates, linear_acceleration=accelerations)
+
+
+def _axes(imu: XmlNode, tag: str, old: XmlNode | None, context: Context) -> tuple[Noise, Noise, Noise]:
+    node = imu.find(tag)
+    if node is None:
+        every = Noise() if old is None else _noise(old, context)
+        return every, every, every
+    x, y, z = (None if (axis := node.find(name)) is None else axis.find("noise") for name in "xyz")
+    return _noise(x, context), _noise(y, context), _noise(z, context)
+
+
+def _noise(node: XmlNode | None, context: Context) -> Noise:
+    """Gaussian noise; every other type is none."""
+    if node is None:
+        return Noise()
+    type_ = node.attribute("type") or node.string("type") or "gaussian"
+    if type_ == "none":
+        return Noise()
+    report = context.report
+    noise = Noise(
+        mean=node.number("mean", default=0.0, report=report),
+        stddev=abs(node.number("stddev", default=0.0, report=report)),
+        bias_mean=node.number("bias_mean", default=0.0, report=report),
+        bias_stddev=abs(node.number("bias_stddev", default=0.0, report=report)),
+    )
+    for tag in ("precision", "dynamic_bias_stddev", "dynamic_bias_correlation_time"):
+        node.find(tag)
+    if not type_.startswith("gaussian"):
+        report.warn(node.at, f"no noise type {type_!r}; gaussian is used")
+    node.report_unread(report)
+    return noise

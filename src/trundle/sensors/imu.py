@@ -1,0 +1,89 @@
+"""Inertial measurement units."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from trundle.model import ImuNoise, Link, Model, Sensor
+from trundle.simulation import Snapshot
+from trundle.spatial import Pose, Quaternion, Vector3, cross
+
+from .mounted import NS, MountedSensor
+from .noise import NoiseSource
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImuReading:
+    """What an imu felt."""
+
+    time_ns: int
+    orientation: Quaternion
+    """world_from_sensor, wxyz."""
+    angular_velocity: Vector3
+    """In the sensor's frame [rad/s]."""
+    linear_acceleration: Vector3
+    """Specific force in the sensor's frame [m/s²]: +g upwards at rest, nothing in free fall."""
+
+
+class ImuSensor(MountedSensor[ImuReading]):
+    """Feels how its point of the link moves, as the mean over the time since its last reading."""
+
+    def __init__(
+        self,
+        model: Model,
+        link: Link,
+        sensor: Sensor,
+        *,
+        link_index: int,
+        gravity: Vector3,
+        random: np.random.Generator,
+    ) -> None:
+        """Mount an imu; see `MountedSensor`.
+
+        Args:
+            model: whose it is.
+            link: that carries it.
+            sensor: with its imu.
+            link_index: of the link in `Snapshot.poses`.
+            gravity: of the world [m/s²].
+            random: for its noise.
+        """
+        super().__init__(model, link, sensor, link_index=link_index)
+        noise = sensor.imu or ImuNoise()
+        self._gravity = gravity
+        self._rates = [NoiseSource(each, random) for each in noise.angular_velocity]
+        self._accelerations = [NoiseSource(each, random) for each in noise.linear_acceleration]
+        self._before: tuple[int, Vector3] | None = None
+        """When and with which velocity it last read."""
+
+    def take(self, snapshot: Snapshot) -> ImuReading:
+        """Read at this instant; the first reading knows no acceleration but gravity."""
+        world_from_link = self.world_from_link(snapshot)
+        world_from_sensor = world_from_link @ self.sensor.link_from_sensor
+        vx, vy, vz, wx, wy, wz = snapshot.twists[self.link_index].tolist()
+        turning = (wx, wy, wz)
+        sx, sy, sz = cross(turning, world_from_link.direction(self.sensor.link_from_sensor.position))
+        velocity = (vx + sx, vy + sy, vz + sz)
+        felt = self._felt(snapshot.time_ns, velocity)
+        sensor_from_world = Pose(quaternion=world_from_sensor.quaternion).inverse()
+        return ImuReading(
+            time_ns=snapshot.time_ns,
+            orientation=world_from_sensor.quaternion,
+            angular_velocity=_disturbed(sensor_from_world.direction(turning), self._rates),
+            linear_acceleration=_disturbed(sensor_from_world.direction(felt), self._accelerations),
+        )
+
+    def _felt(self, time_ns: int, velocity: Vector3) -> Vector3:
+        """Acceleration less gravity, world axes."""
+        before, self._before = self._before, (time_ns, velocity)
+        gx, gy, gz = self._gravity
+        if before is None or time_ns <= before[0]:
+            return (-gx, -gy, -gz)
+        elapsed = (time_ns - before[0]) / NS
+        ax, ay, az = ((now - then) / elapsed for now, then in zip(velocity, before[1], strict=True))
+        return (ax - gx, ay - gy, az - gz)
+
+
+def _disturbed(values: Vector3, sources: list[NoiseSource]) -> Vector3:
+    x, y, z = (float(source.disturb(np.array([value]))[0]) for value, source in zip(values, sources, strict=True))
+    return (x, y, z)

@@ -1,0 +1,71 @@
+"""What all sensors share: a place on a link, a rate, and those who want its readings."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from trundle.model import Link, Model, Sensor
+from trundle.simulation import Snapshot
+from trundle.spatial import Pose
+
+NS = 1_000_000_000
+Reading = TypeVar("Reading")
+
+
+@dataclass(slots=True)
+class _Listener(Generic[Reading]):
+    call: Callable[[Reading], None]
+    wanted: Callable[[], bool]
+
+
+class MountedSensor(Generic[Reading]):
+    """A hook that measures when it is due and somebody wants it; one that nobody wants costs nothing."""
+
+    def __init__(
+        self, model: Model, link: Link, sensor: Sensor, *, link_index: int, fastest_hz: float | None = None
+    ) -> None:
+        """Mount a sensor.
+
+        Args:
+            model: whose it is.
+            link: that carries it.
+            sensor: as described.
+            link_index: of the link in `Snapshot.poses`.
+            fastest_hz: where update_rate is 0; None: at every step.
+        """
+        self.model = model
+        self.link = link
+        self.sensor = sensor
+        self.link_index = link_index
+        rate = sensor.update_rate_hz or fastest_hz
+        self.period_ns = 0 if rate is None else round(NS / rate)
+        self._listeners: list[_Listener[Reading]] = []
+
+    @property
+    def name(self) -> str:
+        """As in the file."""
+        return self.sensor.name
+
+    def listen(self, call: Callable[[Reading], None], *, wanted: Callable[[], bool] = lambda: True) -> None:
+        """Have a function called with each reading; while nobody wants one, none is taken."""
+        self._listeners.append(_Listener(call, wanted))
+
+    def wanted(self) -> bool:
+        """Whether the sensor is always on, or anybody wants its readings."""
+        return self.sensor.always_on or any(listener.wanted() for listener in self._listeners)
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Measure, and tell those who want to know."""
+        reading = self.take(snapshot)
+        for listener in self._listeners:
+            if listener.wanted():
+                listener.call(reading)
+
+    def take(self, snapshot: Snapshot) -> Reading:
+        """Measure at this instant."""
+        raise NotImplementedError
+
+    def world_from_link(self, snapshot: Snapshot) -> Pose:
+        """Where the link that carries it is."""
+        x, y, z, qw, qx, qy, qz = snapshot.poses[self.link_index].tolist()
+        return Pose((x, y, z), (qw, qx, qy, qz))

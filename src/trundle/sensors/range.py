@@ -1,0 +1,86 @@
+"""Ray sensors and lidars: how far it is, in many directions at once."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import Link, Model, RangeScan, ScanAxis, Sensor
+from trundle.simulation import Snapshot
+from trundle.spatial import Vector3
+
+from .mounted import MountedSensor
+from .noise import NoiseSource
+
+FASTEST_HZ = 40.0
+"""Of a sensor whose update_rate is 0."""
+Distances: TypeAlias = Callable[[Vector3, NDArray[np.float64], float, int], NDArray[np.float64]]
+"""Origin, (rays, 3) directions, reach [m] and the link to look through, to (rays,) distances [m]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RangeReading:
+    """What a scan found."""
+
+    time_ns: int
+    scan: RangeScan
+    ranges: NDArray[np.float64]
+    """(vertical samples, horizontal samples) [m]; inf where nothing is within reach, −inf nearer than the least."""
+
+
+class RangeSensor(MountedSensor[RangeReading]):
+    """Casts a fan of rays against the collision shapes, but for those of its own link."""
+
+    def __init__(
+        self,
+        model: Model,
+        link: Link,
+        sensor: Sensor,
+        *,
+        link_index: int,
+        distances: Distances,
+        random: np.random.Generator,
+    ) -> None:
+        """Mount a ray sensor; see `MountedSensor`.
+
+        Args:
+            model: whose it is.
+            link: that carries it.
+            sensor: with its scan.
+            link_index: of the link in `Snapshot.poses`.
+            distances: asks the engine.
+            random: for its noise.
+        """
+        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
+        assert sensor.scan is not None, f"{sensor.name!r} has no scan"
+        self.scan = sensor.scan
+        self._distances = distances
+        self._noise = NoiseSource(sensor.scan.noise, random)
+        self._directions = directions_of(sensor.scan)
+
+    def take(self, snapshot: Snapshot) -> RangeReading:
+        """Look round from where the sensor is now."""
+        scan = self.scan
+        pose = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
+        axes = np.array([pose.direction(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))])
+        found = self._distances(pose.position, self._directions @ axes, scan.max_m, self.link_index)
+        seen = np.isfinite(found)
+        found[seen] = self._noise.disturb(found[seen])
+        found[found >= scan.max_m] = np.inf
+        found[found < scan.min_m] = -np.inf
+        shape = (scan.vertical.samples, scan.horizontal.samples)
+        return RangeReading(time_ns=snapshot.time_ns, scan=scan, ranges=found.reshape(shape))
+
+
+def directions_of(scan: RangeScan) -> NDArray[np.float64]:
+    """(vertical · horizontal, 3) unit vectors in the sensor's frame, row by row from the lowest."""
+    yaw, pitch = np.meshgrid(angles_of(scan.horizontal), angles_of(scan.vertical))
+    flat = np.cos(pitch)
+    return np.stack([flat * np.cos(yaw), flat * np.sin(yaw), np.sin(pitch)], axis=-1).reshape(-1, 3)
+
+
+def angles_of(axis: ScanAxis) -> NDArray[np.float64]:
+    """(samples,) [rad], both ends included; one ray alone looks along the least angle."""
+    return np.linspace(axis.min_angle, axis.max_angle, axis.samples)

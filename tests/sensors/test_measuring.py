@@ -1,0 +1,140 @@
+"""Imus and ray sensors against what geometry and mechanics say."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import trundle
+from trundle.sensors import ImuReading, ImuSensor, RangeReading, RangeSensor, mount_sensors
+from trundle.simulation import Simulation
+from trundle.spatial import Twist
+
+BODY = "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
+
+
+def load(folder: Path, body: str, *, gravity: str = "0 0 -9.8", others: str = "", seed: int = 0) -> Simulation:
+    file = folder / "w.sdf"
+    model = f'<model name="m">{body}</model>'
+    file.write_text(f'<sdf version="1.6"><world name="w"><gravity>{gravity}</gravity>{model}{others}</world></sdf>')
+    return trundle.load(str(file), seed=seed)
+
+
+def read(sim: Simulation, seconds: float, *, before: object = None) -> list[ImuReading] | list[RangeReading]:
+    """Every reading of the one sensor over some time."""
+    (sensor,) = mount_sensors(sim)
+    readings: list = []
+    sensor.listen(readings.append)
+    sim.add_hook(sensor, period_ns=sensor.period_ns, wanted=sensor.wanted)
+    sim.run(seconds)
+    return readings
+
+
+def imu(noise: str = "", pose: str = "0 0 0 0 0 0", rate: int = 100) -> str:
+    pose = f"<pose>{pose}</pose><update_rate>{rate}</update_rate>"
+    return f'<link name="a">{BODY}<sensor name="i" type="imu">{pose}<imu>{noise}</imu></sensor></link>'
+
+
+def test_an_imu_at_rest_reads_g_upwards_in_its_own_frame(tmp_path: Path) -> None:
+    """The model hangs from the world; its imu lies on its side."""
+    still = '<joint name="j" type="fixed"><parent>world</parent><child>a</child></joint>'
+    readings = read(load(tmp_path, imu(pose=f"0 0 0 {math.pi / 2} 0 0") + still), 1.0)
+
+    assert len(readings) == 100
+    assert readings[-1].linear_acceleration == pytest.approx((0, 9.8, 0), abs=1e-9)
+    assert readings[-1].angular_velocity == pytest.approx((0, 0, 0), abs=1e-12)
+    assert readings[-1].orientation == pytest.approx((math.sqrt(0.5), math.sqrt(0.5), 0, 0))
+
+
+def test_an_imu_in_free_fall_reads_nothing(tmp_path: Path) -> None:
+    readings = read(load(tmp_path, imu()), 0.5)
+
+    assert readings[-1].linear_acceleration == pytest.approx((0, 0, 0), abs=1e-9)
+
+
+def test_an_imu_on_a_turning_platform_reads_the_rate_and_the_pull_inwards(tmp_path: Path) -> None:
+    """Half a metre out at 2 rad/s: 2 m/s² towards the axis, in the frame that turns with it."""
+    sim = load(tmp_path, imu(pose="0.5 0 0 0 0 0", rate=200), gravity="0 0 0")
+    sim["m"].set_twist(Twist(angular=(0.0, 0.0, 2.0)))
+
+    reading = read(sim, 1.0)[-1]
+
+    assert reading.angular_velocity == pytest.approx((0, 0, 2), rel=5e-3)
+    assert math.hypot(*reading.linear_acceleration) == pytest.approx(2.0, rel=5e-3)
+    assert reading.linear_acceleration[0] == pytest.approx(-2.0, rel=5e-3)
+
+
+def test_noise_is_gaussian_and_repeats_with_the_seed(tmp_path: Path) -> None:
+    still = '<joint name="j" type="fixed"><parent>world</parent><child>a</child></joint>'
+    noise = "".join(
+        f'<{axis}><noise type="gaussian"><mean>0.1</mean><stddev>0.5</stddev></noise></{axis}>' for axis in "xyz"
+    )
+    body = imu(f"<angular_velocity>{noise}</angular_velocity>", rate=1000) + still
+
+    first, again, other = (
+        [r.angular_velocity for r in read(load(tmp_path, body, seed=seed), 3.0)] for seed in (1, 1, 2)
+    )
+
+    assert first == again
+    assert first != other
+    assert np.mean(first) == pytest.approx(0.1, abs=0.02)
+    assert np.std(first) == pytest.approx(0.5, abs=0.02)
+
+
+def ray(horizontal: str, vertical: str = "", *, noise: str = "", type_: str = "ray") -> str:
+    scan = (
+        f"<scan><horizontal>{horizontal}</horizontal>{vertical}</scan><range><min>0.2</min><max>5</max></range>{noise}"
+    )
+    own = '<collision name="own"><geometry><sphere><radius>0.3</radius></sphere></geometry></collision>'
+    sensor = f'<sensor name="s" type="{type_}"><update_rate>10</update_rate><ray>{scan}</ray></sensor>'
+    return f'<static>1</static><link name="a">{own}{sensor}</link>'
+
+
+def thing(name: str, pose: str, shape: str) -> str:
+    collision = f'<collision name="c"><geometry>{shape}</geometry></collision>'
+    return f'<model name="{name}"><static>1</static><pose>{pose}</pose><link name="l">{collision}</link></model>'
+
+
+WALL = thing("wall", "2 0 0 0 0 0", "<box><size>0.2 20 20</size></box>")
+
+
+@pytest.mark.parametrize("type_", ["ray", "gpu_ray"])
+def test_a_scan_measures_a_wall_exactly(tmp_path: Path, type_: str) -> None:
+    """A wall 1.9 m ahead is 1.9 / cos(angle) away; what is beyond 5 m is not there, nor the sensor's own link."""
+    fan = f"<samples>181</samples><min_angle>{-math.pi / 2}</min_angle><max_angle>{math.pi / 2}</max_angle>"
+    reading = read(load(tmp_path, ray(fan, type_=type_), others=WALL), 0.1)[-1]
+
+    (row,) = reading.ranges
+    angles = np.linspace(-math.pi / 2, math.pi / 2, 181)
+    wall = 1.9 / np.cos(angles)
+    assert row[wall < 5.0] == pytest.approx(wall[wall < 5.0], abs=1e-5)
+    assert np.isinf(row[wall > 5.0]).all()
+    assert reading.time_ns == 100_000_000
+
+
+def test_rows_of_rays_look_up_and_down(tmp_path: Path) -> None:
+    ball = thing("ball", "3 0 0 0 0 0", "<sphere><radius>1</radius></sphere>")
+    rows = "<vertical><samples>3</samples><min_angle>-0.6</min_angle><max_angle>0.6</max_angle></vertical>"
+    one = "<samples>1</samples><min_angle>0</min_angle><max_angle>0</max_angle>"
+
+    ranges = read(load(tmp_path, ray(one, rows), others=ball), 0.1)[-1].ranges
+
+    assert ranges.shape == (3, 1)
+    assert ranges[1, 0] == pytest.approx(2.0, abs=1e-5)
+    assert np.isinf(ranges[[0, 2], 0]).all()
+
+
+def test_what_is_nearer_than_the_least_range_is_told_apart(tmp_path: Path) -> None:
+    near = thing("near", "0.6 0 0 0 0 0", "<box><size>1 1 1</size></box>")
+    one = "<samples>1</samples><min_angle>0</min_angle><max_angle>0</max_angle>"
+
+    assert read(load(tmp_path, ray(one), others=near), 0.1)[-1].ranges[0, 0] == -np.inf
+
+
+def test_a_sensor_that_nobody_wants_measures_nothing(tmp_path: Path) -> None:
+    sim = load(tmp_path, ray("<samples>1</samples>") + imu().replace('"a"', '"b"'), others=WALL)
+    sensors = mount_sensors(sim)
+
+    assert [type(sensor) for sensor in sensors] == [RangeSensor, ImuSensor]
+    assert not any(sensor.wanted() for sensor in sensors)
