@@ -18,7 +18,7 @@ import numpy as np
 
 from .raw import RawPart
 
-VERSION = 1
+VERSION = 2
 """Part of every key; raised where a reader gives something else for the same bytes."""
 _MOST_BYTES = 512 * 1024 * 1024
 
