@@ -154,3 +154,15 @@ def test_the_page_ends_with_its_owner_in_silence(how: signal.Signals) -> None:
     with pytest.raises(urllib.error.URLError):
         _get(url)
     assert _boxes_of(owner.pid) == []
+
+
+def test_scenes_replaced_faster_than_they_are_drawn_leave_the_last(
+    viewer: Viewer, car_scene: Callable[..., ViewerScene], car_state: Callable[..., ViewerState]
+) -> None:
+    """A launch spawns its robots one after the other: each is a new scene before the page has drawn the last one."""
+    for _ in range(20):
+        viewer.replace(car_scene(), state=car_state())
+
+    time.sleep(0.5)
+    assert viewer.alive
+    assert _get(viewer.url) == 200

@@ -48,12 +48,18 @@ class Page:
         self._framed: Extent | None = None
         self._fixed_by_owner = ""
 
-    def show(self, show: Show) -> None:
-        """Draw another scene; the toggles stay as the person set them."""
+    def show(self, show: Show) -> bool:
+        """Draw another scene; the toggles stay as the person set them.
+
+        False: its mailboxes are gone, as the owner has replaced it already; the newer scene is on its way.
+        """
         server, scene = self._server, show.scene
-        self._state_box = Mailbox.open(show.state_box)
-        self._image_boxes = [Mailbox.open(path) for path in show.image_boxes]
-        for box in (self._state_box, *self._image_boxes):
+        try:
+            boxes = [Mailbox.open(path) for path in (show.state_box, *show.image_boxes)]
+        except FileNotFoundError:
+            return False
+        self._state_box, *self._image_boxes = boxes
+        for box in boxes:
             box.unlink()  # nothing is left behind, however the two processes end
         fixed = scene.fixed_frame or scene.root_frame
         if self._display is None:
@@ -74,6 +80,7 @@ class Page:
             )
         self._state = None
         self.tick()
+        return True
 
     def tick(self) -> None:
         """Draw the newest state and images, if there are any."""
@@ -173,7 +180,8 @@ def main() -> None:
         mouth.say(Refused(f"cannot serve the viewer at {serve.host}:{serve.port}: the port was just taken"))
         os._exit(0)
     page = Page(server, mouth)
-    page.show(show)
+    while not page.show(show):
+        show = pickle.load(sys.stdin.buffer)
     reachable = "127.0.0.1" if serve.host in ("0.0.0.0", "") else serve.host
     mouth.say(Served(f"http://{f'[{reachable}]' if ':' in reachable else reachable}:{server.get_port()}"))
     shows: queue.SimpleQueue[Show] = queue.SimpleQueue()
