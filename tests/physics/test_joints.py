@@ -281,6 +281,15 @@ def test_a_child_may_come_before_its_parent(load: Load) -> None:
     assert sim["m"].link("tip").pose.position == pytest.approx((1.0, 1.0, 0.0), abs=1e-9)
 
 
+def test_two_parallel_axes_are_one_freedom_and_said_so(load: Load) -> None:
+    axes = axis("0 0 1") + axis("0 0 -1", tag="axis2")
+    sim = load(link("a"), joint("j", "universal", "world", "a", axes), gravity=0.0)
+    assert any("'j': its two axes are parallel" in warning for warning in sim.report.warnings)
+    sim["m"].joint("j").set_velocity(1.0)
+    sim.run(0.5)
+    assert sim["m"].joint("j").velocity == pytest.approx(1.0, rel=0.01)
+
+
 @pytest.mark.parametrize("what", ["damping", "friction"])
 def test_a_loss_below_zero_is_mended_aloud(load: Load, what: str) -> None:
     dynamics = f"<dynamics><{what}>-1</{what}></dynamics>"

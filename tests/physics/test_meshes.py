@@ -11,6 +11,7 @@ from PIL import Image
 
 import trundle
 from trundle.physics.pieces import MOST_PIECES, convex_pieces
+from trundle.physics.polygons import triangles_of
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist
 
@@ -198,3 +199,52 @@ def test_an_arm_on_a_wall_of_many_pieces_moves_and_others_meet_the_wall(tmp_path
     # b0 hits the arm on w0, b5 falls on w3, b6 between walls.
     assert sim["b5"].pose.position[2] == pytest.approx(0.2, abs=5e-3)  # still coming to rest
     assert sim["b6"].pose.position[2] == pytest.approx(0.5 - 9.8 * 0.25**2 / 2, rel=0.02)
+
+
+def test_a_polyline_is_as_high_as_it_says_and_hollow_where_it_says(load: Load) -> None:
+    # A square ring of 2 m, its hole 1 m wide; then an L.
+    def points(*corners: tuple[float, float]) -> str:
+        return "".join(f"<point>{x} {y}</point>" for x, y in corners)
+
+    outer, inner = (
+        points((-1, -1), (1, -1), (1, 1), (-1, 1)),
+        points((-0.5, -0.5), (-0.5, 0.5), (0.5, 0.5), (0.5, -0.5)),
+    )
+    ring = f"<polyline>{outer}<height>0.4</height></polyline><polyline>{inner}<height>0.4</height></polyline>"
+    for ball, lands in (("0.75 0.75 1", True), ("0 0.75 1", True), ("0 0 1", False), ("0.3 0.3 1", False)):
+        sim = load("", ball, geometry=ring)
+        sim.run(1.5)
+        assert (sim["ball"].pose.position[2] == pytest.approx(0.5, abs=1e-3)) is lands, ball
+    corner = f"<polyline>{points((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))}<height>0.4</height></polyline>"
+    for ball, lands in (("0.5 1.7 1", True), ("1.7 0.5 1", True), ("1.6 1.6 1", False)):
+        sim = load("", ball, geometry=corner)
+        sim.run(1.5)
+        assert (sim["ball"].pose.position[2] == pytest.approx(0.5, abs=1e-3)) is lands, ball
+
+
+def area(triangles: list[tuple[tuple[float, float], ...]]) -> float:
+    return sum(abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2 for a, b, c in triangles)
+
+
+def test_triangles_cover_a_star_with_two_holes_and_an_island() -> None:
+    def circle(x: float, y: float, radii: tuple[float, ...], count: int) -> list[tuple[float, float]]:
+        turns = [2 * math.pi * i / count for i in range(count)]
+        return [
+            (x + radii[i % len(radii)] * math.cos(t), y + radii[i % len(radii)] * math.sin(t))
+            for i, t in enumerate(turns)
+        ]
+
+    def covered(ring: list[tuple[float, float]]) -> float:
+        return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, [*ring[1:], ring[0]], strict=True))) / 2
+
+    star = circle(0.0, 0.0, (3.0, 2.0), 14)
+    holes = [circle(-0.9, 0.1, (0.6,), 9), circle(0.9, 0.0, (0.8,), 12)[::-1]]
+    island = circle(0.9, 0.0, (0.3,), 6)
+    triangles = triangles_of([star, *holes, island])
+    expected = covered(star) - covered(holes[0]) - covered(holes[1]) + covered(island)
+    assert area([*triangles]) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("outline", [[(0.0, 0.0)], [(0.0, 0.0), (1.0, 0.0)], [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)]])
+def test_an_outline_without_area_is_nothing(outline: list[tuple[float, float]]) -> None:
+    assert triangles_of([outline]) == []

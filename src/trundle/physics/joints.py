@@ -19,6 +19,8 @@ from .tree import Hold, Tree, is_rigid
 
 _NO_EFFORT = 1e-9
 """[N·m or N] What an effort limit of zero becomes: MuJoCo wants a range that is not empty."""
+_PARALLEL = 0.9999
+"""Cosine of 0.8 degrees."""
 _TWO_HINGES = frozenset({JointType.UNIVERSAL, JointType.REVOLUTE2})
 _SLIDING = frozenset({JointType.PRISMATIC})
 
@@ -62,6 +64,10 @@ class JointMaker:
         written = [(joint.axis, "")]
         if joint.type in _TWO_HINGES:
             written = [(joint.axis, "::axis"), (joint.axis2, "::axis2")]
+            if joint.axis is not None and joint.axis2 is not None and _parallel(joint.axis, joint.axis2):
+                what = "its two axes are parallel, which is one freedom; the second is left out"
+                self._report.warn(joint.at, f"joint {joint.name!r}: {what}")
+                written.pop()
         made: list[Axis] = []
         # The first joint of a body is the outermost: turned round, the last axis comes first.
         for axis, suffix in reversed(written) if hold.turned else written:
@@ -183,3 +189,7 @@ class JointMaker:
                 wanted = gearbox.world_from_axes.direction(axis.direction)
                 return axes[0].engine_joint, math.copysign(sign, sum(a * b for a, b in zip(along, wanted, strict=True)))
         return None
+
+
+def _parallel(a: JointAxis, b: JointAxis) -> bool:
+    return abs(sum(x * y for x, y in zip(a.direction, b.direction, strict=True))) > _PARALLEL

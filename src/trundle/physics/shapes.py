@@ -28,9 +28,12 @@ from trundle.model import (
 from trundle.spatial import IDENTITY_QUATERNION, Pose, Quaternion, Vector3
 
 from .pieces import convex_pieces
+from .polygons import triangles_of
 from .terrain import add_terrain
 
 _CONE_SIDES = 32
+_MOST_CORNERS = 1000
+"""Of a polyline: cutting it up takes time by their cube."""
 THINNEST = 1e-4
 """[m] What a thickness of zero becomes: 0.1 mm."""
 
@@ -74,10 +77,8 @@ def add_shape(
             turns = np.linspace(0.0, 2 * np.pi, _CONE_SIDES, endpoint=False)
             base = np.column_stack([radius * np.cos(turns), radius * np.sin(turns), np.full(_CONE_SIDES, -length / 2)])
             return [_add_hull(spec, body, collision, name, np.vstack([base, [0.0, 0.0, length / 2]]))]
-        case Polyline():
-            what = "a polyline is not simulated yet; it is left out"
-            report.warn(collision.at, f"collision {collision.name!r}: {what}")
-            return []
+        case Polyline(outlines, height):
+            return _add_prisms(spec, body, collision, name, report, outlines, height)
         case Heightmap():
             return add_terrain(spec, body, collision, geometry, name, report)
         case _:
@@ -119,6 +120,27 @@ def _add_pieces(
     if len(corners) == 1:
         return [_add_hull(spec, body, collision, name, corners[0])]
     return [_add_hull(spec, body, collision, f"{name}#{i}", piece) for i, piece in enumerate(corners)]
+
+
+def _add_prisms(
+    spec: mujoco.MjSpec,
+    body: mujoco.MjsBody,
+    collision: Collision,
+    name: str,
+    report: Diagnostics,
+    outlines: tuple[tuple[tuple[float, float], ...], ...],
+    height: float,
+) -> list[mujoco.MjsGeom]:
+    """A polyline as one prism for each triangle of its ground plan."""
+    if sum(map(len, outlines)) > _MOST_CORNERS or not height > 0:
+        what = f"a polyline of more than {_MOST_CORNERS} corners, or without height; it is left out"
+        report.warn(collision.at, f"collision {collision.name!r}: {what}")
+        return []
+    geoms: list[mujoco.MjsGeom] = []
+    for i, triangle in enumerate(triangles_of(outlines)):
+        corners = np.array([(x, y, z) for z in (0.0, height) for x, y in triangle])
+        geoms.append(_add_hull(spec, body, collision, f"{name}#{i}", _thick_hull(corners, collision, report)))
+    return geoms
 
 
 def _add_hull(
@@ -165,6 +187,9 @@ def _mended(collision: Collision, report: Diagnostics) -> Geometry:
         case Cylinder(radius, length):
             radius, length, _ = thick((radius, length, 1.0), "radius length")
             return Cylinder(radius, length)
+        case Cone(radius, length):
+            radius, length, _ = thick((radius, length, 1.0), "radius length")
+            return Cone(radius, length)
         case Capsule(radius, length):
             radius, length, _ = thick((radius, length, 1.0), "radius length")
             return Capsule(radius, length)
