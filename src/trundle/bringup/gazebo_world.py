@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from trundle.bridge import CameraTopics, ClockTopic
+from trundle.bridge import CameraTopics, ClockTopic, sensor_topics
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import World
@@ -16,7 +16,7 @@ from trundle.packages import Packages
 from trundle.physics import RayRenderer
 from trundle.render import scene_of
 from trundle.ros import Node, SimClock, StaticTransformBroadcaster
-from trundle.sensors import CameraSensor, mount_cameras
+from trundle.sensors import CameraSensor, ImuSensor, RangeSensor, mount_cameras, mount_sensors
 from trundle.simulation import ModelHandle, Simulation, SimulationUnstableError
 from trundle.spatial import Pose
 
@@ -217,18 +217,21 @@ class GazeboWorld:
         self._load_plugins(simulation, None)
 
     def _look_anew(self, simulation: Simulation) -> None:
-        """Have cameras and the page see the world as it is now."""
+        """Have sensors and the page see the world as it is now."""
         assert self._node is not None
         assert self._still is not None
         world = simulation.world
         cameras = self._cameras = mount_cameras(world, lambda: RayRenderer(scene_of(world, self._report)), self._report)
+        sensors = mount_sensors(simulation)
+        for sensor in (*cameras, *sensors):
+
+            def wanted(sensor: CameraSensor | ImuSensor | RangeSensor = sensor) -> bool:
+                return self._cameras is cameras and sensor.wanted()
+
+            simulation.add_hook(sensor, period_ns=sensor.period_ns, wanted=wanted)
         for camera in cameras:
-
-            def wanted(camera: CameraSensor = camera) -> bool:
-                return self._cameras is cameras and camera.wanted()
-
-            simulation.add_hook(camera, period_ns=camera.period_ns, wanted=wanted)
             CameraTopics(self._node, self._still, camera, world)
+        sensor_topics(self._node, self._still, sensors, world)
         if self._page is not None:
             self._page.replace(simulation, cameras)
         self._pacer.restart()
