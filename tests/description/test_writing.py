@@ -270,3 +270,23 @@ def test_published_models_that_a_urdf_can_hold_keep_their_places(shared: Path) -
                 assert ours == pytest.approx(theirs, abs=1e-9), path
             count += 1
     assert count > 200
+
+
+def test_imus_and_ray_sensors_are_written_with_their_settings() -> None:
+    noise = "<noise type='gaussian'><mean>0.1</mean><stddev>0.2</stddev><bias_mean>0.3</bias_mean></noise>"
+    scan = "<horizontal><samples>9</samples><min_angle>-1</min_angle><max_angle>1</max_angle></horizontal>"
+    text = (
+        '<sdf version="1.6"><model name="m"><link name="a"><sensor name="r" type="gpu_ray"><ray>'
+        f"<scan>{scan}</scan><range><min>0.1</min><max>8</max></range>{noise}</ray></sensor>"
+        f'<sensor name="i" type="imu"><imu><angular_velocity><y>{noise}</y></angular_velocity></imu></sensor>'
+        "</link></model></sdf>"
+    )
+
+    before = read(text).world.models[0].links[0].sensors
+    report = Diagnostics()
+    after = read(sdf_of(read(text), report)).world.models[0].links[0].sensors
+
+    assert report.warnings == []
+    assert [(s.scan, s.imu) for s in after] == [(s.scan, s.imu) for s in before]
+    assert before[0].scan is not None
+    assert before[0].scan.noise.bias_mean == 0.3

@@ -10,7 +10,8 @@ from trundle.model import Frame, Joint, JointAxis, JointType, Link, Model, World
 
 from .files import UriOf
 from .sdf_environment import add_light, add_surroundings
-from .sdf_shapes import add_collision, add_sensor, add_visual
+from .sdf_sensor import add_sensor
+from .sdf_shapes import add_collision, add_visual
 from .tag import Tag
 
 _VERSION = "1.11"

@@ -1,6 +1,5 @@
-"""Writes what is on a link: <visual>, <collision> and <sensor>."""
+"""Writes what is on a link: <visual> and <collision>."""
 
-from trundle.diagnostics import Diagnostics
 from trundle.model import (
     GREY,
     Box,
@@ -16,7 +15,6 @@ from trundle.model import (
     MeshFile,
     Plane,
     Polyline,
-    Sensor,
     Sphere,
     Surface,
     Visual,
@@ -24,9 +22,6 @@ from trundle.model import (
 
 from .files import UriOf
 from .tag import Tag
-
-_ALWAYS_WHOLE = frozenset({"contact", "force_torque"})
-"""Sensors with hardly a setting of their own."""
 
 
 def add_visual(link: Tag, visual: Visual, uri_of: UriOf) -> None:
@@ -122,27 +117,3 @@ def _add_surface(tag: Tag, surface: Surface) -> None:
     bounce = tag.add_optional("bounce")
     bounce.add_unless("restitution_coefficient", surface.restitution, default=default.restitution)
     bounce.add_unless("threshold", surface.bounce_threshold, default=default.bounce_threshold)
-
-
-def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
-    """Append <sensor>; settings that the model does not hold are named."""
-    tag = home.add("sensor", name=sensor.name, type=sensor.type)
-    tag.add_pose(sensor.link_from_sensor)
-    tag.add_unless("update_rate", sensor.update_rate_hz, default=0.0)
-    tag.add_unless("always_on", sensor.always_on, default=False)
-    tag.add_unless("visualize", sensor.visualize, default=False)
-    tag.add_unless("topic", sensor.topic, default="")
-    optics = sensor.camera
-    if optics is not None:
-        camera = tag.add("camera")
-        camera.add_pose(optics.sensor_from_camera)
-        camera.add("horizontal_fov", optics.horizontal_fov_rad)
-        image, clip = camera.add("image"), camera.add("clip")
-        image.add("width", optics.width_px)
-        image.add("height", optics.height_px)
-        image.add("format", optics.format)
-        clip.add("near", optics.near_m)
-        clip.add("far", optics.far_m)
-    elif sensor.type not in _ALWAYS_WHOLE:
-        report.warn(sensor.at, f"sensor {sensor.name!r}: the settings of a {sensor.type} sensor are not written yet")
-    tag.children += [plugin.node.xml() for plugin in sensor.plugins]

@@ -28,7 +28,7 @@ from trundle.spatial import Pose
 
 from .files import UriOf
 from .sdf_environment import add_light
-from .sdf_shapes import add_sensor
+from .sdf_sensor import add_sensor
 from .tag import Tag, spelled
 
 _UNLIMITED = 1e16

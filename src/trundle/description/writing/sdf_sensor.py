@@ -1,0 +1,74 @@
+"""Writes <sensor>."""
+
+from trundle.diagnostics import Diagnostics
+from trundle.model import CameraOptics, ImuNoise, Noise, RangeScan, Sensor
+
+from .tag import Tag
+
+_ALWAYS_WHOLE = frozenset({"contact", "force_torque"})
+"""Sensors with hardly a setting of their own."""
+
+
+def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
+    """Append <sensor>; settings that the model does not hold are named."""
+    tag = home.add("sensor", name=sensor.name, type=sensor.type)
+    tag.add_pose(sensor.link_from_sensor)
+    tag.add_unless("update_rate", sensor.update_rate_hz, default=0.0)
+    tag.add_unless("always_on", sensor.always_on, default=False)
+    tag.add_unless("visualize", sensor.visualize, default=False)
+    tag.add_unless("topic", sensor.topic, default="")
+    if sensor.camera is not None:
+        _add_camera(tag, sensor.camera)
+    elif sensor.scan is not None:
+        _add_scan(tag, sensor.scan)
+    elif sensor.imu is not None:
+        _add_imu(tag, sensor.imu)
+    elif sensor.type not in _ALWAYS_WHOLE:
+        report.warn(sensor.at, f"sensor {sensor.name!r}: the settings of a {sensor.type} sensor are not written yet")
+    tag.children += [plugin.node.xml() for plugin in sensor.plugins]
+
+
+def _add_camera(sensor: Tag, optics: CameraOptics) -> None:
+    camera = sensor.add("camera")
+    camera.add_pose(optics.sensor_from_camera)
+    camera.add("horizontal_fov", optics.horizontal_fov_rad)
+    image, clip = camera.add("image"), camera.add("clip")
+    image.add("width", optics.width_px)
+    image.add("height", optics.height_px)
+    image.add("format", optics.format)
+    clip.add("near", optics.near_m)
+    clip.add("far", optics.far_m)
+
+
+def _add_scan(sensor: Tag, scan: RangeScan) -> None:
+    ray = sensor.add("ray")
+    fans = ray.add("scan")
+    for name, fan in (("horizontal", scan.horizontal), ("vertical", scan.vertical)):
+        axis = fans.add(name)
+        axis.add("samples", fan.samples)
+        axis.add("resolution", fan.resolution)
+        axis.add("min_angle", fan.min_angle)
+        axis.add("max_angle", fan.max_angle)
+    limits = ray.add("range")
+    limits.add("min", scan.min_m)
+    limits.add("max", scan.max_m)
+    _add_noise(ray, scan.noise)
+
+
+def _add_imu(sensor: Tag, imu: ImuNoise) -> None:
+    tag = sensor.add("imu")
+    for name, noises in (("angular_velocity", imu.angular_velocity), ("linear_acceleration", imu.linear_acceleration)):
+        if any(noise != Noise() for noise in noises):
+            quantity = tag.add(name)
+            for axis, noise in zip("xyz", noises, strict=True):
+                _add_noise(quantity.add(axis), noise)
+
+
+def _add_noise(home: Tag, noise: Noise) -> None:
+    if noise == Noise():
+        return
+    tag = home.add("noise", type="gaussian")
+    tag.add("mean", noise.mean)
+    tag.add("stddev", noise.stddev)
+    tag.add_unless("bias_mean", noise.bias_mean, default=0.0)
+    tag.add_unless("bias_stddev", noise.bias_stddev, default=0.0)
