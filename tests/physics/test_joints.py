@@ -268,6 +268,15 @@ def test_an_effort_is_cut_to_its_limit_and_ends_at_the_limit_of_speed(load: Load
     assert j.velocity == pytest.approx(4.0, rel=1e-6)
 
 
+def test_a_soft_stop_gives_by_its_stiffness(load: Load) -> None:
+    limit = "<limit><lower>-0.2</lower><upper>0.2</upper><stiffness>60</stiffness><dissipation>8</dissipation></limit>"
+    sim = load(link("a"), joint("j", "revolute", "world", "a", axis("0 0 1", limit)), gravity=0.0)
+    j = sim["m"].joint("j")
+    j.set_effort(3.0)
+    sim.run(3.0)
+    assert j.position == pytest.approx(0.2 + 3.0 / 60.0, rel=5e-3)
+
+
 def test_a_child_may_come_before_its_parent(load: Load) -> None:
     sim = load(
         link("tip", pose="2 0 0 0 0 0"),

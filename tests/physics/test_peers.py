@@ -187,8 +187,9 @@ def test_joint_damping_slows_a_wheel(load: Load) -> None:
     assert wheel.velocity == pytest.approx(20.0 * math.exp(-1.0), rel=5e-3)
 
 
-def test_two_driven_wheels_turn_a_robot_as_a_unicycle_turns(load: Load) -> None:
-    sim = load("e_diffdrive_noplugin")
+@pytest.mark.parametrize("step", ["0.001", "0.002", "0.005", "0.01"])
+def test_two_driven_wheels_turn_a_robot_as_a_unicycle_turns(load: Load, step: str) -> None:
+    sim = load("e_diffdrive_noplugin", ("<max_step_size>0.001<", f"<max_step_size>{step}<"))
     vehicle = sim["veh"]
     # 0.5 m/s and 0.5 rad/s on wheels of 0.1 m that are 0.34 m apart.
     vehicle.joint("left_j").set_velocity((0.5 - 0.5 * 0.17) / 0.1)

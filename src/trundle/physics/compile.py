@@ -16,7 +16,7 @@ from trundle.spatial import Pose
 from .contacts import add_contacts, soften
 from .index import CompiledWorld, index_world
 from .inertia import principal_inertia
-from .joints import JointMaker
+from .joints import JointMaker, soften_stops
 from .settings import apply_settings
 from .shapes import ShapeEntry, add_shape
 from .tree import WORLD, Hold, Place, Tree
@@ -81,6 +81,7 @@ class _Compiler:
         collisions = {shape.name: shape.collision for shape in self.shapes}
         compiled = self._compile_spec()
         soften(compiled, touches)
+        soften_stops(compiled, (axis for axes in self.joints.axes.values() for axis in axes))
         return index_world(self.world, self.tree, self.joints.axes, touches, collisions, compiled)
 
     def _compile_spec(self) -> mujoco.MjModel:

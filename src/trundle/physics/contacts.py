@@ -14,17 +14,13 @@ import mujoco
 
 from trundle.model import Model
 
-from .settings import SOLIMP, contact_solref, sliding_solref
+from .settings import SOFT, SOLIMP, contact_solref, sliding_solref, soft_spring
 from .shapes import ShapeEntry
 from .surfaces import Touch, category_of, friction_of, is_plain, may_meet, touch_of
 from .tree import Tree
 
 MOST_PAIRS = 2000
 """Beyond these, shapes meet by MuJoCo's own search: a pair costs about 10 ns a step whether it meets or not."""
-_STIFFEST = 0.05
-"""[1/h²] Stiffness over mass from which on a contact is as hard as MuJoCo's own; a step cannot tell any more."""
-_SOFT = 0.5
-"""Impedance of soft contacts: with more, they swing too slowly; with less, friction creeps."""
 _BITS = 0x7FFFFFFF
 _NEVER_FELT = 1e3
 """[m] Deeper than any shape is in another: the two meet and feel nothing before."""
@@ -117,24 +113,14 @@ def _pair_name(a: str, b: str) -> str:
 
 
 def soften(model: mujoco.MjModel, touches: Mapping[tuple[str, str], Touch]) -> None:
-    """Give contacts that ODE would make soft the static depth that kp gives them.
-
-    A contact of impedance d and inverse mass A rests at a depth of f A (1 − d) / (d K), which is f / kp for the K here.
-    """
-    h = model.opt.timestep
+    """Give contacts that ODE would make soft the static depth that kp gives them."""
     for (a, b), touch in touches.items():
         bodies = [int(model.geom_bodyid[model.geom(name).id]) for name in (a, b)]
         inverse_mass = float(sum(model.body_invweight0[body, 0] for body in bodies))
-        stiffness = touch.kp * inverse_mass
-        if not 0.0 < stiffness * h * h < _STIFFEST:
-            continue
-        pair = model.pair(_pair_name(a, b)).id
-        share = (1 - _SOFT) / _SOFT
-        # ODE's implicit step adds h · kp to the damping.
-        damping = min((touch.kd + h * touch.kp) * inverse_mass * share, 1 / h)
-        # MuJoCo divides what it is given by the impedance.
-        model.pair_solref[pair] = (-stiffness * share * _SOFT, -damping * _SOFT)
-        model.pair_solimp[pair, :2] = _SOFT
+        soft = soft_spring(touch.kp, touch.kd, inverse_mass, model.opt.timestep)
+        if soft is not None:
+            pair = model.pair(_pair_name(a, b)).id
+            model.pair_solref[pair], model.pair_solimp[pair, :2] = soft, SOFT
 
 
 def _let_find(

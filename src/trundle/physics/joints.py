@@ -5,7 +5,7 @@ loop has its limits, its motor and its position as any other.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import mujoco
@@ -14,7 +14,7 @@ from trundle.diagnostics import Diagnostics
 from trundle.model import Joint, JointAxis, JointType, Mimic
 from trundle.spatial import Pose, Vector3
 
-from .settings import SOLIMP, contact_solref, friction_solref, tie_solref
+from .settings import SOFT, SOLIMP, contact_solref, friction_solref, soft_spring, tie_solref
 from .tree import Hold, Tree, is_rigid
 
 _NO_EFFORT = 1e-9
@@ -36,6 +36,19 @@ class Axis:
     """None: a ball."""
     sign: float = 1.0
     """−1 where the engine's position runs the other way."""
+
+
+def soften_stops(model: mujoco.MjModel, axes: Iterable[Axis]) -> None:
+    """Let limits give as their stiffness says, where it is low enough to be seen."""
+    for axis in axes:
+        if axis.axis is None:
+            continue
+        joint = model.joint(axis.engine_joint)
+        inverse_inertia = float(model.dof_invweight0[joint.dofadr[0]])
+        h = model.opt.timestep
+        soft = soft_spring(axis.axis.stop_stiffness, max(axis.axis.stop_dissipation, 0.0), inverse_inertia, h)
+        if soft is not None:
+            model.jnt_solref[joint.id], model.jnt_solimp[joint.id, :2] = soft, SOFT
 
 
 class JointMaker:

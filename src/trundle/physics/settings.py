@@ -9,6 +9,30 @@ import mujoco
 CONTACT_DAMPING_RATIO = 2.0
 """1 lets a box bounce 25 to 35 mm after a drop of 1 m; 2 does not."""
 SOLIMP = (0.99, 0.99, 0.001, 0.5, 2.0)
+SOFT = 0.5
+"""Impedance of springs that give: with more, they swing too slowly; with less, friction creeps."""
+_STIFFEST = 0.05
+"""[1/h²] Stiffness over mass from which on a step cannot tell a spring from MuJoCo's own hard contact."""
+
+
+def soft_spring(stiffness: float, damping: float, inverse_mass: float, h: float) -> tuple[float, float] | None:
+    """The solref of a contact or stop that a force f presses in by f / stiffness; None where that is not to be seen.
+
+    A constraint of impedance d and inverse mass A rests at f A (1 − d) / (d K), which gives K.
+
+    Args:
+        stiffness: [N/m] or [N·m/rad]
+        damping: [N·s/m] or [N·m·s/rad]
+        inverse_mass: [1/kg] or [1/(kg·m²)] of what it moves.
+        h: time step [s].
+    """
+    if not 0.0 < stiffness * inverse_mass * h * h < _STIFFEST:
+        return None
+    share = inverse_mass * (1 - SOFT) / SOFT
+    # ODE's implicit step adds h · stiffness to the damping.
+    resistance = min((damping + h * stiffness) * share, 1 / h)
+    # MuJoCo divides what it is given by the impedance.
+    return (-stiffness * share * SOFT, -resistance * SOFT)
 
 
 def contact_solref(h: float) -> tuple[float, float]:
