@@ -13,7 +13,6 @@ from trundle.bringup.graph import Graph
 from trundle.diagnostics import Diagnostics
 from trundle.nodes import Host
 from trundle.nodes.gazebo import GazeboServer, SpawnModel
-from trundle.packages import Packages
 from trundle.ros import Core, GraphLoop, Message, Node
 
 _BALL = """<sdf version="1.6"><model name="as_written"><pose>0 0 1 0 0 0</pose><link name="link">
@@ -37,11 +36,10 @@ class Gazebo:
         self.loop = loop
         self.said: list[str] = []
         self.report = Diagnostics()
-        packages = Packages({"HOME": str(folder)}, start=folder)
         self.world = GazeboWorld(
             graph=Graph(loop, uri, None, "127.0.0.1"),
-            packages=packages,
-            env={},
+            start=folder,
+            env={"HOME": str(folder)},
             report=self.report,
             folder=folder,
             say=self.said.append,
@@ -264,3 +262,19 @@ def test_a_spawned_camera_is_on_a_topic(gazebo: Gazebo) -> None:
         assert time.monotonic() < end
         time.sleep(0.01)
     assert (heard[0].width, heard[0].height) == (64, 48)
+
+
+def test_a_plugin_that_raises_pauses_the_world_and_is_named(gazebo: Gazebo, tmp_path: Path) -> None:
+    (tmp_path / "bad.py").write_text(
+        "from trundle.plugins import Plugin\n\n\nclass Bad(Plugin):\n    @classmethod\n"
+        "    def load(cls, sim, model, node, tag):\n        return cls()\n\n"
+        "    def before_step(self, sim):\n        raise ValueError('no such thing')\n"
+    )
+    plugin = '<plugin name="bad" filename="libbad.so"/></model>'
+    assert gazebo.spawn(_BALL.replace("</model>", plugin), "robot").success
+    gazebo.call("unpause_physics")
+    end = time.monotonic() + 30.0
+    while not any("ValueError: no such thing; the simulation is paused" in line for line in gazebo.said):
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    assert gazebo.call("get_physics_properties", "gazebo_msgs/GetPhysicsProperties").pause is True

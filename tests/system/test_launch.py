@@ -258,3 +258,22 @@ def test_a_time_that_nobody_tells_is_said_to_be_missing(start, until, package: P
 
     until("the sentence", lambda: "nothing has published a time on /clock yet" in running.output())
     assert running.interrupt() == 130
+
+
+def test_a_launch_file_may_say_where_models_are(start, trundle, until, package: Path, tmp_path: Path) -> None:
+    model = tmp_path / "models" / "rock"
+    model.mkdir(parents=True)
+    (model / "model.config").write_text("<model><name>rock</name><sdf version='1.6'>model.sdf</sdf></model>")
+    (model / "model.sdf").write_text("<sdf version='1.6'><model name='rock'><link name='l'/></model></sdf>")
+    (package / "my.world").write_text(
+        "<sdf version='1.6'><world name='w'><include><uri>model://rock</uri></include></world></sdf>"
+    )
+    (package / "main.launch").write_text(
+        f'<launch><env name="GAZEBO_MODEL_PATH" value="{model.parent}"/>'
+        '<include file="$(find gazebo_ros)/launch/empty_world.launch">'
+        '<arg name="world_name" value="$(dirname)/my.world"/></include></launch>'
+    )
+    running = start("launch", "p", "main.launch", "--headless", ROS_PACKAGE_PATH=str(package.parent))
+    models = "/gazebo/get_world_properties"
+    until("the rock", lambda: "rock" in trundle("service", "call", models).stdout)
+    assert running.interrupt() == 130

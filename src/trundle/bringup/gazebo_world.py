@@ -38,7 +38,7 @@ class GazeboWorld:
         self,
         *,
         graph: Graph,
-        packages: Packages,
+        start: Path,
         env: Mapping[str, str],
         report: Diagnostics,
         folder: Path,
@@ -49,15 +49,15 @@ class GazeboWorld:
 
         Args:
             graph: where its nodes live.
-            packages: where URIs lead.
-            env: for plugins.
+            start: a file of the launch; packages are searched around it, too.
+            env: says where packages, models and plugins are.
             report: takes what files and physics leave to be said.
             folder: takes the text of each spawned model, which messages name lines of.
             say: tells the user a thing.
             window: host and port of the page; None: headless.
         """
         self._graph = graph
-        self._packages = packages
+        self._start = start
         self._env = env
         self._report = report
         self._folder = folder
@@ -81,10 +81,12 @@ class GazeboWorld:
 
     # -- any thread
 
-    async def open(self, node: Node, world: str, *, paused: bool) -> None:
+    async def open(self, node: Node, world: str, *, paused: bool, env: Mapping[str, str]) -> None:
         """Read a world and let it run."""
         if self._thread is not None:
             raise UsageError("a simulation runs already; a launch has one")
+        self._env = {**self._env, **env}
+        self._packages = Packages(self._env, start=self._start)
         self._node, self._still, self._paused = node, StaticTransformBroadcaster(node), paused
         loaded = await asyncio.to_thread(load, world, self._report, packages=self._packages)
         if loaded.kind != "world":
@@ -199,9 +201,14 @@ class GazeboWorld:
         try:
             simulation.advance(self._pacer.next_target(simulation.time_ns))
         except SimulationUnstableError as error:
-            self._paused = True
-            self._say(f"{error}; the simulation is paused")
+            self._stand_still(str(error))
+        except Exception as error:  # a plugin's code may raise anything
+            self._stand_still(f"{type(error).__name__}: {error}")
         self._clock.set(simulation.time_ns)
+
+    def _stand_still(self, why: str) -> None:
+        self._paused = True
+        self._say(f"{why}; the simulation is paused (/gazebo/unpause_physics tries to go on)")
 
     def _drain(self) -> None:
         for _ in range(len(self._commands)):

@@ -61,8 +61,8 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
     show = Showing(sys.stderr, report)
     packages = Packages(env, start=Path.cwd())
     request = LaunchRequest() if options.core_only else read_words(words, packages)
-    if request.files:
-        packages = packages.around(request.files[0])
+    start = request.files[0] if request.files else Path.cwd()
+    packages = packages.around(start)
     if options.only == "arguments":
         for file in request.files:
             declared = read_arguments(file, packages=packages, report=report, arguments=request.arguments, env=env)
@@ -84,7 +84,7 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
     if options.only == "params":
         print(launch_print.parameters(params))
         return None
-    return ReadLaunch(plan=plan, params=params, packages=packages, env=env, report=report, show=show)
+    return ReadLaunch(plan=plan, params=params, packages=packages, start=start, env=env, report=report, show=show)
 
 
 def _run(read: ReadLaunch, options: LaunchOptions, stop: Event) -> int:

@@ -106,7 +106,7 @@ class NodeStarter:
         with contextlib.ExitStack() as files:
             if log is not None:
                 ros_node.quiet_log = files.enter_context(log.open("a", encoding="utf-8"))
-            return await run_stand_in(stand_in, ros_node, list(given.rest), self.host)
+            return await run_stand_in(stand_in, ros_node, list(given.rest), replace(self.host, env=dict(node.env)))
 
     def _command(
         self, node: LaunchNode, label: str, program: Path, env: Mapping[str, str], more: tuple[str, ...]

@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
+from pathlib import Path
 from types import TracebackType
 from typing import Self
 
@@ -38,6 +39,8 @@ class ReadLaunch:
     plan: LaunchPlan
     params: Sequence[LaunchParam]
     packages: Packages
+    start: Path
+    """What packages are searched around."""
     env: Mapping[str, str]
     report: Diagnostics
     show: Showing
@@ -82,7 +85,7 @@ class LaunchSession:
         logs = log_folder(read.env, str(graph.loop.run(launcher.get_param("/run_id", ""))))
         gazebo = GazeboWorld(
             graph=graph,
-            packages=read.packages,
+            start=read.start,
             env=read.env,
             report=read.report,
             folder=logs / "spawned",

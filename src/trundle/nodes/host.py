@@ -1,6 +1,6 @@
 """What a stand-in is, and what it may ask of the program it runs in."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
@@ -52,8 +52,10 @@ class Simulator(Protocol):
     @property
     def paused(self) -> bool: ...
 
-    async def open(self, node: Node, world: str, *, paused: bool) -> None:
+    async def open(self, node: Node, world: str, *, paused: bool, env: Mapping[str, str]) -> None:
         """Read a world and let it run; `node` publishes its time, and its callbacks run on the thread.
+
+        `env` are variables beside the launch's own, such as GAZEBO_MODEL_PATH.
 
         Raises:
             TrundleError: no such world, one that cannot be read, or there is one already.
@@ -99,6 +101,8 @@ class Host:
     """None: headless; rviz idles."""
     simulator: Simulator | None = None
     """None: nothing can be simulated here."""
+    env: Mapping[str, str] = field(default_factory=dict[str, str])
+    """Variables that the launch file sets for this node."""
     profile: Profile = field(default=PROFILES["noetic"])
 
 

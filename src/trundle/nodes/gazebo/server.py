@@ -36,6 +36,7 @@ class GazeboServer:
         self._node = node
         self._arguments = arguments
         self._simulator = host.simulator
+        self._env = host.env
 
     async def run(self) -> int:
         """Simulate until cancelled."""
@@ -47,7 +48,7 @@ class GazeboServer:
         if not await node.has_param("/use_sim_time"):
             await node.set_param("/use_sim_time", True)
         try:
-            await simulator.open(node, world, paused=paused)
+            await simulator.open(node, world, paused=paused, env=self._env)
         except TrundleError as error:
             node.log_fatal(str(error))
             return 1
