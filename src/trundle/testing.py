@@ -1,0 +1,31 @@
+"""For people who test their robots: the pytest fixture `trundle_sim`, there as soon as Trundle is installed.
+
+def test_the_arm_holds_its_weight(trundle_sim):
+    sim = trundle_sim("arm.urdf")
+    sim.run(2.0)
+    assert abs(sim["arm"].joint("shoulder").position) < 0.01
+"""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from trundle.simulation import Simulation
+
+
+@pytest.fixture
+def trundle_sim(request: pytest.FixtureRequest) -> "Callable[..., Simulation]":
+    """Simulations of files, relative to the test's own file: `trundle_sim(file, seed=0)`.
+
+    A warning of the reader fails nothing; it is in the simulation's `report`.
+    """
+
+    def make(file: str, *, seed: int = 0) -> "Simulation":
+        from trundle import load
+
+        beside = request.path.parent / file
+        return load(str(beside) if "://" not in file and beside.exists() else file, seed=seed)
+
+    return make
