@@ -1,12 +1,13 @@
 """Models spawned, deleted and moved while everything else goes on."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import trundle
 from trundle.diagnostics import UsageError
-from trundle.model import Model
+from trundle.model import Inertial, Model
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist, Wrench
 
@@ -154,3 +155,27 @@ def test_reset_puts_back_what_is_there(sim: Simulation, third: Model) -> None:
     sim.reset()
     assert sim["three"].pose.position == pytest.approx((4.0, 0.0, 0.2))
     assert sim["two"].pose.position == pytest.approx((2.0, 0.0, 0.2))
+
+
+def test_gravity_and_masses_can_be_edited_while_everything_goes_on(sim: Simulation) -> None:
+    before = state(sim, "two")
+    heavy = replace(sim["one"].links[0].link, inertial=Inertial(mass=20.0))
+    one = replace(sim["one"].model, links=(heavy, *sim["one"].model.links[1:]))
+    models = tuple(one if model.name == "one" else model for model in sim.world.models)
+    physics = replace(sim.world.physics, gravity=(0.0, 0.0, 3.0))
+    sim.edit(replace(sim.world, models=models, physics=physics))
+    assert state(sim, "two") == before
+    assert sim["one"].links[0].link.inertial.mass == 20.0
+    sim["one"].links[0].apply_wrench(Wrench(force=(20.5, 0.0, 0.0)))
+    speed, height = sim["one"].links[0].twist.linear[0], sim["one"].pose.position[2]
+    sim.run(0.5)
+    # 20 kg and an arm of half a kilogram, rising.
+    assert sim["one"].links[0].twist.linear[0] - speed == pytest.approx(0.5, rel=0.05)
+    assert sim["one"].pose.position[2] > height + 0.3
+
+
+def test_an_edited_world_has_the_same_steps_and_things(sim: Simulation, third: Model) -> None:
+    with pytest.raises(UsageError, match="spawn and delete change those"):
+        sim.edit(replace(sim.world, models=(*sim.world.models, third)))
+    with pytest.raises(UsageError, match="the time step of a running simulation cannot be changed"):
+        sim.edit(replace(sim.world, physics=replace(sim.world.physics, max_step_size_s=0.01)))

@@ -273,6 +273,14 @@ class ModelHandle:
                 there = (vx + wy * z - wz * y, vy + wz * x - wx * z, vz + wx * y - wy * x)
                 link.set_twist(Twist(there, twist.angular))
 
+    def describe(self, model: Model) -> None:
+        """Stand for an edited model of the same links and joints; for the simulation alone."""
+        self.model = model
+        for handle, link in zip(self.links, model.links, strict=True):
+            handle.link = link
+        for handle, joint in zip(self.joints, model.joints, strict=True):
+            handle.joint = joint
+
     def move_to(self, first_link: int | None, first_joint: int | None) -> None:
         """Have other indices, or none any more; for the simulation alone."""
         for i, link in enumerate(self.links):
@@ -317,6 +325,7 @@ def handles_of(simulation: "Simulation", world: World, known: Mapping[str, Model
         if handle is None:
             handle = ModelHandle(simulation, model, first_link=link, first_joint=joint)
         else:
+            handle.describe(model)
             handle.move_to(link, joint)
         handles.append(handle)
         link += len(model.links)

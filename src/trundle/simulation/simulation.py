@@ -190,7 +190,7 @@ class Simulation:
         """
         if any(there.name == model.name for there in self.world.models):
             raise UsageError(f"there is a model {model.name!r} already")
-        self._change((*self.world.models, model))
+        self._go_on_with(replace(self.world, models=(*self.world.models, model)))
         return self.models[-1]
 
     def delete(self, name: str) -> None:
@@ -200,21 +200,37 @@ class Simulation:
             UsageError: with the names there are.
         """
         gone = self[name]
-        self._change(tuple(model for model in self.world.models if model.name != name))
+        self._go_on_with(replace(self.world, models=tuple(m for m in self.world.models if m.name != name)))
         gone.move_to(None, None)
 
     def fix_elsewhere(self, handle: ModelHandle, world_from_model: Pose) -> None:
         """Put a model that hangs from the world elsewhere; see `ModelHandle.set_pose`."""
-        handle.model = replace(handle.model, world_from_model=world_from_model)
-        self._change(tuple(handle.model if m.name == handle.name else m for m in self.world.models))
+        moved = replace(handle.model, world_from_model=world_from_model)
+        self.edit(replace(self.world, models=tuple(moved if m.name == handle.name else m for m in self.world.models)))
+
+    def edit(self, world: World) -> None:
+        """Go on with other gravity, masses, surfaces or limits; everything keeps its state, to the bit.
+
+        Args:
+            world: this simulation's, with whatever is to be different; the same models, links and joints.
+
+        Raises:
+            UsageError: the time step, or what there is, is different.
+            DescriptionError: the engine cannot simulate it; nothing has changed.
+        """
+        if world.physics.max_step_size_s != self.world.physics.max_step_size_s:
+            raise UsageError("the time step of a running simulation cannot be changed")
+        if _names_of(world) != _names_of(self.world):
+            raise UsageError("an edited world has other models, links or joints; spawn and delete change those")
+        self._go_on_with(world)
 
     def on_change(self, call: Callable[[], None]) -> None:
-        """Have a function called after models came, went or were fixed elsewhere: indices may be others."""
+        """Have a function called after models came, went or were edited: indices may be others."""
         self._on_change.append(call)
 
-    def _change(self, models: tuple[Model, ...]) -> None:
+    def _go_on_with(self, world: World) -> None:
         old = self.engine
-        engine = Engine(compile_world(replace(self.world, models=models), self.report))
+        engine = Engine(compile_world(world, self.report))
         engine.take_over(old)
         self.engine, self.world = engine, engine.compiled.world
         links = {name: index for index, name in enumerate(engine.compiled.link_names)}
@@ -259,3 +275,7 @@ class Simulation:
         for link in [link for link, end in self._wrench_ends.items() if end <= self.steps]:
             del self._wrench_ends[link]
             self.engine.set_wrench(link, Wrench())
+
+
+def _names_of(world: World) -> list[tuple[str, list[str], list[str]]]:
+    return [(m.name, [link.name for link in m.links], [joint.name for joint in m.joints]) for m in world.models]
