@@ -277,3 +277,16 @@ def test_a_launch_file_may_say_where_models_are(start, trundle, until, package: 
     models = "/gazebo/get_world_properties"
     until("the rock", lambda: "rock" in trundle("service", "call", models).stdout)
     assert running.interrupt() == 130
+
+
+def test_a_script_that_asks_for_python_runs_where_there_is_only_python3(
+    launch: Launch, package: Path, tmp_path
+) -> None:
+    script = package / "old.py"
+    script.write_text("#!/usr/bin/env python\nimport sys\nprint('I run on Python', sys.version_info.major)\n")
+    script.chmod(0o755)
+    (package / "main.launch").write_text('<launch><node pkg="p" type="old.py" name="old" output="screen"/></launch>')
+    done = launch("p", "main.launch", "--headless", PATH=str(tmp_path))
+
+    assert "I run on Python 3" in done.stdout
+    assert done.returncode == 0

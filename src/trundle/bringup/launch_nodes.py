@@ -1,7 +1,11 @@
 """Turns a launch file's nodes into jobs: processes, or stand-ins that run here."""
 
 import contextlib
+import os
+import re
 import shlex
+import shutil
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -116,6 +120,7 @@ class NodeStarter:
             name=label,
             argv=(
                 *_split(node.launch_prefix, node),
+                *interpreter(program, env),
                 str(program),
                 *_split(node.arguments, node),
                 *more,
@@ -128,6 +133,17 @@ class NodeStarter:
             output=self.output or node.output,
             log_file=log.with_name(f"{log.name}-stdout.log"),
         )
+
+
+def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
+    """What has to run a program: Python 3, where it asks for a `python` that machines of today do not have."""
+    try:
+        with program.open("rb") as file:
+            first = file.readline(200)
+    except OSError:
+        return []
+    asks = re.match(rb"#!\s*(?:/usr/bin/env\s+python|\S*/python)\s*$", first) is not None
+    return [sys.executable] if asks and shutil.which("python", path=env.get("PATH", os.defpath)) is None else []
 
 
 def _split(text: str, node: LaunchNode) -> list[str]:

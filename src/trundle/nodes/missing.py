@@ -1,12 +1,14 @@
 """Well-known executables that nothing stands in for, and the way out of each."""
 
-_OVER_THE_WIRE = "the real one can run in a container with ROS_MASTER_URI set to this master"
-_NAVIGATION = f"planning and localisation are out of scope; {_OVER_THE_WIRE}"
+OVER_THE_WIRE = "the real one can run in a container with ROS_MASTER_URI set to this master"
+_NAVIGATION = f"planning and localisation are out of scope; {OVER_THE_WIRE}"
 _DRIVER = "a driver of real hardware; the simulator's sensors publish the same topics where the model has them"
+_CONTROL = "the controllers of ros_control are not simulated; a plugin of the model can drive its joints"
 
 WAYS_OUT: dict[str, str] = {
     "amcl": _NAVIGATION,
     "cartographer_ros": _NAVIGATION,
+    "controller_manager": _CONTROL,
     "costmap_2d": _NAVIGATION,
     "explore_lite": _NAVIGATION,
     "frontier_exploration": _NAVIGATION,
@@ -23,10 +25,10 @@ WAYS_OUT: dict[str, str] = {
     "moveit_setup_assistant": "a tool that writes files; run the real one once, what it wrote is read here",
     "octomap_server": _NAVIGATION,
     "rtabmap_ros": _NAVIGATION,
-    "robot_localization": f"it fuses sensors; the simulator's odometry is exact already, or {_OVER_THE_WIRE}",
-    "robot_pose_ekf": f"it fuses sensors; the simulator's odometry is exact already, or {_OVER_THE_WIRE}",
+    "robot_localization": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
+    "robot_pose_ekf": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
     "laser_scan_matcher": _NAVIGATION,
-    "nodelet": f"nodelets are compiled code of their packages; {_OVER_THE_WIRE}",
+    "nodelet": f"nodelets are compiled code of their packages; {OVER_THE_WIRE}",
     "usb_cam": _DRIVER,
     "uvc_camera": _DRIVER,
     "hokuyo_node": _DRIVER,

@@ -21,14 +21,19 @@ class Tool:
     command: tuple[str, ...]
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
-        del host
+        self._env = host.env
         self._node = node
         self._arguments = arguments
 
     async def run(self) -> int:
         """Run to the tool's end."""
         node = self._node
-        environment = {**os.environ, "ROS_MASTER_URI": node.master_uri, "ROS_NAMESPACE": node.name.rpartition("/")[0]}
+        environment = {
+            **os.environ,
+            **self._env,
+            "ROS_MASTER_URI": node.master_uri,
+            "ROS_NAMESPACE": node.name.rpartition("/")[0],
+        }
         process = await asyncio.create_subprocess_exec(
             *(sys.executable, "-m", "trundle", *self.command, *self._arguments),
             env=environment,
