@@ -26,6 +26,7 @@ STAND_INS: dict[tuple[str, str], str] = {
     ("joy", "joy_node"): "trundle.nodes.joy_node:JoyNode",
     ("map_server", "map_saver"): "trundle.nodes.map_server:MapSaver",
     ("map_server", "map_server"): "trundle.nodes.map_server:MapServer",
+    ("nodelet", "nodelet"): "trundle.nodes.nodelet:Nodelet",
     (
         "pointcloud_to_laserscan",
         "pointcloud_to_laserscan_node",

@@ -28,7 +28,6 @@ WAYS_OUT: dict[str, str] = {
     "robot_localization": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
     "robot_pose_ekf": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
     "laser_scan_matcher": _NAVIGATION,
-    "nodelet": f"nodelets are compiled code of their packages; {OVER_THE_WIRE}",
     "usb_cam": _DRIVER,
     "uvc_camera": _DRIVER,
     "hokuyo_node": _DRIVER,
