@@ -132,6 +132,48 @@ def test_what_is_nearer_than_the_least_range_is_told_apart(tmp_path: Path) -> No
     assert read(load(tmp_path, ray(one), others=near), 0.1)[-1].ranges[0, 0] == -np.inf
 
 
+def gps(place: str) -> str:
+    return f'<static>1</static><link name="a"><pose>{place} 0 0 0</pose><sensor name="g" type="gps"/></link>'
+
+
+@pytest.mark.parametrize(
+    ("latitude", "longitude", "heading", "place", "expected"),
+    [
+        (0, 0, 0, "0 0 5", (0, 0, 5)),
+        (0, 0, 0, "111319.4908 0 0", (0, 0.99990, 971.5)),
+        (45, 7, 0, "0 1000 0", (45.0089987, 7, 0.0785)),
+        (45, 7, 90, "1000 0 0", (45.0089987, 7, 0.0785)),
+        (-33.9, 18.4, 0, "0 -500 10", (-33.9045074, 18.4, 10.0196)),
+    ],
+)
+def test_a_fix_is_where_the_tangent_plane_says(tmp_path: Path, latitude, longitude, heading, place, expected) -> None:
+    """A degree of the equator is 111319.4908 m; a plane rises above the ellipsoid by d²/2R."""
+    origin = (
+        f"<latitude_deg>{latitude}</latitude_deg><longitude_deg>{longitude}</longitude_deg><elevation>0</elevation>"
+    )
+    origin = f"<spherical_coordinates>{origin}<heading_deg>{heading}</heading_deg></spherical_coordinates>"
+
+    fix = read(load(tmp_path, gps(place), others=origin), 0.1)[-1]
+
+    assert (fix.latitude_deg, fix.longitude_deg) == pytest.approx(expected[:2], abs=2e-6 if expected[2] < 500 else 2e-4)
+    assert fix.altitude == pytest.approx(expected[2], abs=1e-3 if expected[2] < 500 else 1.0)
+
+
+def test_a_bumper_carries_the_weight_of_what_rests_on_its_collisions(tmp_path: Path) -> None:
+    """A 2 kg cube stands on the floor: what the floor does to it sums to 19.6 N upwards."""
+    shape = "<geometry><box><size>0.2 0.2 0.2</size></box></geometry>"
+    sensor = '<sensor name="b" type="contact"><contact><collision>m::a::foot</collision></contact></sensor>'
+    body = BODY.replace("<mass>1</mass>", "<mass>2</mass>")
+    link = f'<link name="a"><pose>0 0 0.1 0 0 0</pose>{body}<collision name="foot">{shape}</collision>{sensor}</link>'
+    floor = thing("floor", "0 0 -0.5 0 0 0", "<box><size>9 9 1</size></box>")
+
+    touches = read(load(tmp_path, link, others=floor), 1.0)[-1].touches
+
+    assert {(touch.own, touch.other) for touch in touches} == {("m::a::foot", "floor::l::c")}
+    assert sum(touch.wrench.force[2] for touch in touches) == pytest.approx(19.6, rel=5e-3)
+    assert all(touch.normal == pytest.approx((0, 0, 1), abs=1e-9) for touch in touches)
+
+
 def test_a_sensor_that_nobody_wants_measures_nothing(tmp_path: Path) -> None:
     sim = load(tmp_path, ray("<samples>1</samples>") + imu().replace('"a"', '"b"'), others=WALL)
     sensors = mount_sensors(sim)

@@ -1,4 +1,4 @@
-"""Readings of imus, ray sensors and lidars on ROS topics: `<model>/<link>/<sensor>/imu`, `…/scan`, `…/points`."""
+"""Readings on ROS topics of their own: `<model>/<link>/<sensor>/imu`, `…/scan` or `…/points`, `…/fix`, `…/contacts`."""
 
 from collections.abc import Iterable
 
@@ -7,26 +7,43 @@ import numpy as np
 from trundle.model import World
 from trundle.names import ros_name
 from trundle.ros import Node, StaticTransformBroadcaster, Transform
-from trundle.sensors import ImuReading, ImuSensor, RangeReading, RangeSensor, directions_of
+from trundle.sensors import (
+    ContactReading,
+    ContactSensor,
+    GpsReading,
+    GpsSensor,
+    ImuReading,
+    ImuSensor,
+    MeasuringSensor,
+    RangeReading,
+    RangeSensor,
+    directions_of,
+)
+from trundle.spatial import Vector3, Wrench
 
-from .naming import has_plain_frames, link_frame_name
+from .naming import WORLD_FRAME, has_plain_frames, link_frame_name
 
 _FLOAT32 = 7
 """sensor_msgs/PointField's number for it."""
 
 
 def sensor_topics(
-    node: Node, still: StaticTransformBroadcaster, sensors: Iterable[ImuSensor | RangeSensor], world: World
+    node: Node, still: StaticTransformBroadcaster, sensors: Iterable[MeasuringSensor], world: World
 ) -> None:
     """Put every sensor's readings on topics of its own."""
     for sensor in sensors:
-        if isinstance(sensor, ImuSensor):
-            ImuTopic(node, still, sensor, world)
-        else:
-            ScanTopic(node, still, sensor, world)
+        match sensor:
+            case ImuSensor():
+                ImuTopic(node, still, sensor, world)
+            case RangeSensor():
+                ScanTopic(node, still, sensor, world)
+            case GpsSensor():
+                FixTopic(node, still, sensor, world)
+            case ContactSensor():
+                ContactsTopic(node, sensor)
 
 
-def _place(sensor: ImuSensor | RangeSensor, still: StaticTransformBroadcaster, world: World) -> tuple[str, str]:
+def _place(sensor: MeasuringSensor, still: StaticTransformBroadcaster, world: World) -> tuple[str, str]:
     """Put the sensor's own frame on its link; return the frame and the start of its topics."""
     plain = has_plain_frames(world)
     frame = link_frame_name(sensor.model, sensor.name, plain=plain)
@@ -35,7 +52,11 @@ def _place(sensor: ImuSensor | RangeSensor, still: StaticTransformBroadcaster, w
         frame = f"{frame}_sensor"
     pose = sensor.sensor.link_from_sensor
     still.send(Transform(parent=carrier, child=frame, translation=pose.position, rotation=pose.quaternion))
-    return frame, f"/{ros_name(sensor.model.name)}/{ros_name(sensor.link.name)}/{ros_name(sensor.name)}"
+    return frame, _base(sensor)
+
+
+def _base(sensor: MeasuringSensor) -> str:
+    return f"/{ros_name(sensor.model.name)}/{ros_name(sensor.link.name)}/{ros_name(sensor.name)}"
 
 
 class ImuTopic:
@@ -108,3 +129,64 @@ class ScanTopic:
                 "is_dense": True,
             }
         )
+
+
+class FixTopic:
+    """sensor_msgs/NavSatFix on `…/fix`."""
+
+    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: GpsSensor, world: World) -> None:
+        """Advertise, and place the sensor's frame."""
+        self._frame, base = _place(sensor, still, world)
+        across, up = sensor.variances
+        self._covariance = [across, 0.0, 0.0, 0.0, across, 0.0, 0.0, 0.0, up]
+        self._fix = node.advertise(f"{base}/fix", "sensor_msgs/NavSatFix", queue_size=5)
+        sensor.listen(self._publish, wanted=lambda: self._fix.has_subscribers)
+
+    def _publish(self, reading: GpsReading) -> None:
+        self._fix.publish(
+            {
+                "header": {"stamp": reading.time_ns, "frame_id": self._frame},
+                "status": {"status": 0, "service": 1},
+                "latitude": reading.latitude_deg,
+                "longitude": reading.longitude_deg,
+                "altitude": reading.altitude,
+                "position_covariance": self._covariance,
+                "position_covariance_type": 2,
+            }
+        )
+
+
+class ContactsTopic:
+    """gazebo_msgs/ContactsState on `…/contacts`, in the world frame; one state for each pair of collisions."""
+
+    def __init__(self, node: Node, sensor: ContactSensor) -> None:
+        """Advertise."""
+        self._contacts = node.advertise(f"{_base(sensor)}/contacts", "gazebo_msgs/ContactsState", queue_size=5)
+        sensor.listen(self._publish, wanted=lambda: self._contacts.has_subscribers)
+
+    def _publish(self, reading: ContactReading) -> None:
+        states: list[dict[str, object]] = []
+        for pair in dict.fromkeys((touch.own, touch.other) for touch in reading.touches):
+            touches = [touch for touch in reading.touches if (touch.own, touch.other) == pair]
+            total = sum((touch.wrench for touch in touches), start=Wrench())
+            states.append(
+                {
+                    "info": "",
+                    "collision1_name": pair[0],
+                    "collision2_name": pair[1],
+                    "wrenches": [_wrench(touch.wrench) for touch in touches],
+                    "total_wrench": _wrench(total),
+                    "contact_positions": [_vector(touch.position) for touch in touches],
+                    "contact_normals": [_vector(touch.normal) for touch in touches],
+                    "depths": [touch.depth for touch in touches],
+                }
+            )
+        self._contacts.publish({"header": {"stamp": reading.time_ns, "frame_id": WORLD_FRAME}, "states": states})
+
+
+def _wrench(wrench: Wrench) -> dict[str, object]:
+    return {"force": _vector(wrench.force), "torque": _vector(wrench.torque)}
+
+
+def _vector(vector: Vector3) -> dict[str, float]:
+    return dict(zip("xyz", vector, strict=True))

@@ -16,7 +16,7 @@ from trundle.packages import Packages
 from trundle.physics import RayRenderer
 from trundle.render import scene_of
 from trundle.ros import Node, SimClock, StaticTransformBroadcaster
-from trundle.sensors import CameraSensor, ImuSensor, RangeSensor, mount_cameras, mount_sensors
+from trundle.sensors import CameraSensor, MeasuringSensor, mount_cameras, mount_sensors
 from trundle.simulation import ModelHandle, Simulation, SimulationUnstableError
 from trundle.spatial import Pose
 
@@ -232,7 +232,7 @@ class GazeboWorld:
         sensors = mount_sensors(simulation)
         for sensor in (*cameras, *sensors):
 
-            def wanted(sensor: CameraSensor | ImuSensor | RangeSensor = sensor) -> bool:
+            def wanted(sensor: CameraSensor | MeasuringSensor = sensor) -> bool:
                 return self._cameras is cameras and sensor.wanted()
 
             simulation.add_hook(sensor, period_ns=sensor.period_ns, wanted=wanted)

@@ -6,7 +6,7 @@ from typing import Self
 
 from trundle.bridge import CameraTopics, ClockTopic, JointStates, SimulationFrames, sensor_topics
 from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
-from trundle.sensors import CameraSensor, ImuSensor, RangeSensor
+from trundle.sensors import CameraSensor, MeasuringSensor
 from trundle.simulation import Simulation
 
 from .graph import Graph
@@ -35,7 +35,7 @@ class RosSide:
         graph: Graph,
         simulation: Simulation,
         cameras: Sequence[CameraSensor],
-        sensors: Sequence[ImuSensor | RangeSensor],
+        sensors: Sequence[MeasuringSensor],
         stage: Stage,
     ) -> None:
         self._graph = graph
@@ -65,7 +65,7 @@ class RosSide:
         simulation: Simulation,
         stage: Stage,
         cameras: Sequence[CameraSensor],
-        sensors: Sequence[ImuSensor | RangeSensor],
+        sensors: Sequence[MeasuringSensor],
         environment: Mapping[str, str],
         *,
         host: str,

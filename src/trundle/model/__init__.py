@@ -24,7 +24,7 @@ from .link import Collision, Link, Visual
 from .material import GREY, Material, Rgba
 from .model import Frame, Model
 from .plugin import PluginTag
-from .sensor import CameraOptics, ImuNoise, Noise, RangeScan, ScanAxis, Sensor
+from .sensor import CameraOptics, GpsNoise, ImuNoise, Noise, RangeScan, ScanAxis, Sensor
 from .surface import Surface
 from .world import World
 
@@ -43,6 +43,7 @@ __all__ = [
     "Fog",
     "Frame",
     "Geometry",
+    "GpsNoise",
     "Heightmap",
     "ImuNoise",
     "Inertial",

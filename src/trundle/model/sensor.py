@@ -66,6 +66,14 @@ class ImuNoise:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class GpsNoise:
+    """Noise of a position fix [m]."""
+
+    horizontal: Noise = Noise()
+    vertical: Noise = Noise()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Sensor:
     """A sensor mounted on a link."""
 
@@ -85,4 +93,8 @@ class Sensor:
     """Set for ray sensors and lidars."""
     imu: ImuNoise | None = None
     """Set for imus."""
+    gps: GpsNoise | None = None
+    """Set for gps and navsat sensors."""
+    touching: tuple[str, ...] | None = None
+    """Set for contact sensors: the collisions of the link that feel; none named stands for all."""
     plugins: tuple[PluginTag, ...] = ()

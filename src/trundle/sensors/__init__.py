@@ -1,17 +1,24 @@
 """Snapshots become readings."""
 
 from .camera import CameraReading, CameraSensor
+from .contact import ContactReading, ContactSensor
+from .gps import GpsReading, GpsSensor
 from .imu import ImuReading, ImuSensor
 from .mount import SIMULATED, mount_cameras
-from .mount_measuring import mount_sensors
+from .mount_measuring import MeasuringSensor, mount_sensors
 from .range import RangeReading, RangeSensor, angles_of, directions_of
 
 __all__ = [
     "SIMULATED",
     "CameraReading",
     "CameraSensor",
+    "ContactReading",
+    "ContactSensor",
+    "GpsReading",
+    "GpsSensor",
     "ImuReading",
     "ImuSensor",
+    "MeasuringSensor",
     "RangeReading",
     "RangeSensor",
     "angles_of",

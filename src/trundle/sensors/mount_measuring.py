@@ -1,40 +1,86 @@
 """Mounts the sensors of a running world that need no picture."""
 
+from collections.abc import Callable
+from typing import TypeAlias
+
 import numpy as np
 
+from trundle.model import Link, Model, Sensor
 from trundle.simulation import Simulation
 
+from .contact import ContactSensor
+from .gps import GpsSensor
 from .imu import ImuSensor
 from .range import RangeSensor
 
-MEASURING = frozenset({"imu", "ray", "gpu_ray", "lidar", "gpu_lidar"})
-"""SDF's types of them."""
+MeasuringSensor: TypeAlias = ContactSensor | GpsSensor | ImuSensor | RangeSensor
 
 
-def mount_sensors(simulation: Simulation) -> list[ImuSensor | RangeSensor]:
-    """Every imu, ray sensor and lidar, in file order; each has a stream of random numbers of its own."""
-    mounted: list[ImuSensor | RangeSensor] = []
+def mount_sensors(simulation: Simulation) -> list[MeasuringSensor]:
+    """Every imu, ray sensor, lidar, gps and contact sensor, in file order; each has random numbers of its own."""
+    mounted: list[MeasuringSensor] = []
     index = number = 0
     for model in simulation.world.models:
         for link in model.links:
             for sensor in link.sensors:
                 number += 1
-                random = np.random.default_rng([simulation.seed, number])
-                if sensor.imu is not None:
-                    gravity = simulation.world.physics.gravity
-                    mounted.append(ImuSensor(model, link, sensor, link_index=index, gravity=gravity, random=random))
-                elif sensor.scan is not None:
-                    mounted.append(
-                        RangeSensor(
-                            model,
-                            link,
-                            sensor,
-                            link_index=index,
-                            distances=lambda origin, directions, reach, exclude: simulation.engine.reader.distances(
-                                origin, directions, reach=reach, exclude=exclude
-                            ),
-                            random=random,
-                        )
-                    )
+                make = _MAKERS.get(sensor.type)
+                if make is not None:
+                    random = np.random.default_rng([simulation.seed, number])
+                    mounted.append(make(simulation, model, link, sensor, index, random))
             index += 1
     return mounted
+
+
+_Maker: TypeAlias = Callable[[Simulation, Model, Link, Sensor, int, np.random.Generator], MeasuringSensor]
+
+
+def _imu(
+    simulation: Simulation, model: Model, link: Link, sensor: Sensor, index: int, random: np.random.Generator
+) -> ImuSensor:
+    gravity = simulation.world.physics.gravity
+    return ImuSensor(model, link, sensor, link_index=index, gravity=gravity, random=random)
+
+
+def _range(
+    simulation: Simulation, model: Model, link: Link, sensor: Sensor, index: int, random: np.random.Generator
+) -> RangeSensor:
+    # The engine is another after models came or went: it is asked for at each scan.
+    return RangeSensor(
+        model,
+        link,
+        sensor,
+        link_index=index,
+        distances=lambda origin, directions, reach, exclude: simulation.engine.reader.distances(
+            origin, directions, reach=reach, exclude=exclude
+        ),
+        random=random,
+    )
+
+
+def _gps(
+    simulation: Simulation, model: Model, link: Link, sensor: Sensor, index: int, random: np.random.Generator
+) -> GpsSensor:
+    origin = simulation.world.spherical_coordinates
+    return GpsSensor(model, link, sensor, link_index=index, origin=origin, random=random)
+
+
+def _contact(
+    simulation: Simulation, model: Model, link: Link, sensor: Sensor, index: int, random: np.random.Generator
+) -> ContactSensor:
+    del random
+    return ContactSensor(model, link, sensor, link_index=index, contacts=simulation.contacts)
+
+
+_MAKERS: dict[str, _Maker] = {
+    "imu": _imu,
+    "ray": _range,
+    "gpu_ray": _range,
+    "lidar": _range,
+    "gpu_lidar": _range,
+    "gps": _gps,
+    "navsat": _gps,
+    "contact": _contact,
+}
+MEASURING = frozenset(_MAKERS)
+"""SDF's types of them."""

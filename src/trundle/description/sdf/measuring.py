@@ -1,6 +1,6 @@
 """Reads what ray sensors, lidars and imus measure, and with how much noise."""
 
-from trundle.model import ImuNoise, Noise, RangeScan, ScanAxis
+from trundle.model import GpsNoise, ImuNoise, Noise, RangeScan, ScanAxis
 from trundle.xmlnode import XmlNode
 
 from .context import Context
@@ -73,6 +73,33 @@ def read_imu(sensor: XmlNode, context: Context) -> ImuNoise:
         node.find(tag)
     node.report_unread(context.report)
     return ImuNoise(angular_velocity=rates, linear_acceleration=accelerations)
+
+
+def read_gps(sensor: XmlNode, context: Context) -> GpsNoise:
+    """Read <gps> or <navsat>; velocities are not reported, so their noise is not either."""
+    node = sensor.find("gps") or sensor.find("navsat")
+    if node is None:
+        return GpsNoise()
+    position = node.find("position_sensing")
+    node.find("velocity_sensing")
+    node.report_unread(context.report)
+    if position is None:
+        return GpsNoise()
+    across, up = (
+        None if (way := position.find(tag)) is None else way.find("noise") for tag in ("horizontal", "vertical")
+    )
+    return GpsNoise(horizontal=_noise(across, context), vertical=_noise(up, context))
+
+
+def read_touching(sensor: XmlNode, context: Context) -> tuple[str, ...]:
+    """Read <contact>: collisions of the sensor's own link, by their names or by `model::link::collision`."""
+    node = sensor.find("contact")
+    if node is None:
+        return ()
+    names = [child.text.rpartition("::")[2] for child in node.all("collision")]
+    node.find("topic")
+    node.report_unread(context.report)
+    return tuple(name for name in names if name not in ("", "__default__"))
 
 
 def _axes(imu: XmlNode, tag: str, old: XmlNode | None, context: Context) -> tuple[Noise, Noise, Noise]:

@@ -1,4 +1,4 @@
-"""Reads <sensor>; cameras, ray sensors and imus in full, the others by name and type."""
+"""Reads <sensor>; what is simulated in full, the others by name and type."""
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import CameraOptics, PluginTag, Sensor
@@ -6,7 +6,10 @@ from trundle.xmlnode import XmlNode
 
 from .context import Context, read_pose
 from .frames import FrameGraph
-from .measuring import RANGING, read_imu, read_scan
+from .measuring import RANGING, read_gps, read_imu, read_scan, read_touching
+
+WHOLE = RANGING | {"camera", "imu", "gps", "navsat", "contact"}
+"""Types whose every setting is read."""
 
 
 def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -> Sensor:
@@ -26,9 +29,11 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
         camera=_optics(camera, context) if camera is not None and type_ == "camera" else None,
         scan=read_scan(node, context) if type_ in RANGING else None,
         imu=read_imu(node, context) if type_ == "imu" else None,
+        gps=read_gps(node, context) if type_ in ("gps", "navsat") else None,
+        touching=read_touching(node, context) if type_ == "contact" else None,
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
     )
-    if sensor.camera or sensor.scan or sensor.imu:
+    if sensor.type in WHOLE:
         node.report_unread(report)
     return sensor
 

@@ -1,11 +1,11 @@
 """Writes <sensor>."""
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import CameraOptics, ImuNoise, Noise, RangeScan, Sensor
+from trundle.model import CameraOptics, GpsNoise, ImuNoise, Noise, RangeScan, Sensor
 
 from .tag import Tag
 
-_ALWAYS_WHOLE = frozenset({"contact", "force_torque"})
+_ALWAYS_WHOLE = frozenset({"force_torque"})
 """Sensors with hardly a setting of their own."""
 
 
@@ -23,6 +23,12 @@ def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
         _add_scan(tag, sensor.scan)
     elif sensor.imu is not None:
         _add_imu(tag, sensor.imu)
+    elif sensor.gps is not None:
+        _add_gps(tag, sensor.gps)
+    elif sensor.touching is not None:
+        contact = tag.add("contact")
+        for name in sensor.touching:
+            contact.add("collision", name)
     elif sensor.type not in _ALWAYS_WHOLE:
         report.warn(sensor.at, f"sensor {sensor.name!r}: the settings of a {sensor.type} sensor are not written yet")
     tag.children += [plugin.node.xml() for plugin in sensor.plugins]
@@ -62,6 +68,13 @@ def _add_imu(sensor: Tag, imu: ImuNoise) -> None:
             quantity = tag.add(name)
             for axis, noise in zip("xyz", noises, strict=True):
                 _add_noise(quantity.add(axis), noise)
+
+
+def _add_gps(sensor: Tag, gps: GpsNoise) -> None:
+    position = sensor.add("gps").add("position_sensing")
+    for name, noise in (("horizontal", gps.horizontal), ("vertical", gps.vertical)):
+        if noise != Noise():
+            _add_noise(position.add(name), noise)
 
 
 def _add_noise(home: Tag, noise: Noise) -> None:

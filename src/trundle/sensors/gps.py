@@ -1,0 +1,112 @@
+"""Receivers of satellite navigation."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from trundle.model import GpsNoise, Link, Model, Noise, Sensor, SphericalCoordinates
+from trundle.simulation import Snapshot
+from trundle.spatial import Vector3
+
+from .mounted import MountedSensor
+from .noise import NoiseSource
+
+FASTEST_HZ = 10.0
+"""Of a receiver whose update_rate is 0."""
+_AXIS = 6378137.0
+"""[m] WGS84's equatorial radius."""
+_FLATTENING = 1 / 298.257223563
+_E2 = _FLATTENING * (2 - _FLATTENING)
+"""Eccentricity, squared."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GpsReading:
+    """A fix on WGS84."""
+
+    time_ns: int
+    latitude_deg: float
+    longitude_deg: float
+    altitude: float
+    """Above the ellipsoid [m]."""
+
+
+class GpsSensor(MountedSensor[GpsReading]):
+    """Knows where its point of the link is on Earth, by the world's spherical coordinates."""
+
+    def __init__(
+        self,
+        model: Model,
+        link: Link,
+        sensor: Sensor,
+        *,
+        link_index: int,
+        origin: SphericalCoordinates,
+        random: np.random.Generator,
+    ) -> None:
+        """Mount a receiver; see `MountedSensor`.
+
+        Args:
+            model: whose it is.
+            link: that carries it.
+            sensor: with its noise.
+            link_index: of the link in `Snapshot.poses`.
+            origin: where the world's origin is.
+            random: for its noise.
+        """
+        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
+        noise = sensor.gps or GpsNoise()
+        self.variances = (_variance(noise.horizontal), _variance(noise.vertical))
+        """Horizontal and vertical [m²]."""
+        self._origin = origin
+        self._noise = [NoiseSource(each, random) for each in (noise.horizontal, noise.horizontal, noise.vertical)]
+
+    def take(self, snapshot: Snapshot) -> GpsReading:
+        """A fix at this instant."""
+        place = self.world_from_link(snapshot).point(self.sensor.link_from_sensor.position)
+        x, y, z = (
+            float(source.disturb(np.array([value]))[0]) for value, source in zip(place, self._noise, strict=True)
+        )
+        latitude, longitude, altitude = geodetic(self._origin, (x, y, z))
+        return GpsReading(time_ns=snapshot.time_ns, latitude_deg=latitude, longitude_deg=longitude, altitude=altitude)
+
+
+def geodetic(origin: SphericalCoordinates, place: Vector3) -> Vector3:
+    """Latitude [deg], longitude [deg] and height above WGS84's ellipsoid [m] of a place in the world [m].
+
+    The world's tangent plane at its origin is turned by the heading, put into Earth's own axes and read back by
+    Bowring's formula, which is exact to a micrometre this near to the ground.
+    """
+    heading = math.radians(origin.heading_deg)
+    x, y, up = place
+    east = x * math.cos(heading) - y * math.sin(heading)
+    north = x * math.sin(heading) + y * math.cos(heading)
+    latitude, longitude = math.radians(origin.latitude_deg), math.radians(origin.longitude_deg)
+    sin_lat, cos_lat, sin_lon, cos_lon = (
+        math.sin(latitude),
+        math.cos(latitude),
+        math.sin(longitude),
+        math.cos(longitude),
+    )
+    normal = _AXIS / math.sqrt(1 - _E2 * sin_lat**2)
+    radial = (normal + origin.elevation) * cos_lat + up * cos_lat - north * sin_lat
+    ex = radial * cos_lon - east * sin_lon
+    ey = radial * sin_lon + east * cos_lon
+    ez = (normal * (1 - _E2) + origin.elevation) * sin_lat + north * cos_lat + up * sin_lat
+    return _of_earth(ex, ey, ez)
+
+
+def _of_earth(x: float, y: float, z: float) -> Vector3:
+    polar = _AXIS * (1 - _FLATTENING)
+    distance = math.hypot(x, y)
+    theta = math.atan2(z * _AXIS, distance * polar)
+    second = _E2 / (1 - _E2)
+    latitude = math.atan2(z + second * polar * math.sin(theta) ** 3, distance - _E2 * _AXIS * math.cos(theta) ** 3)
+    normal = _AXIS / math.sqrt(1 - _E2 * math.sin(latitude) ** 2)
+    height = distance * math.cos(latitude) + (z + _E2 * normal * math.sin(latitude)) * math.sin(latitude) - normal
+    return math.degrees(latitude), math.degrees(math.atan2(y, x)), height
+
+
+def _variance(noise: Noise) -> float:
+    return noise.stddev**2
