@@ -277,6 +277,29 @@ def test_a_soft_stop_gives_by_its_stiffness(load: Load) -> None:
     assert j.position == pytest.approx(0.2 + 3.0 / 60.0, rel=5e-3)
 
 
+def test_a_joint_says_what_it_carries(load: Load) -> None:
+    sim = load(
+        link("a", pose="0 0 1 0 0 0", mass=2.0),
+        link("b", pose="0.5 0 1 0 0 0", com="0.3 0 0", mass=3.0),
+        joint("wall", "fixed", "world", "a", pose="-0.2 0 0 0 0 0"),
+        joint("arm", "fixed", "a", "b"),
+    )
+    sim.run(0.1)
+    assert sim["m"].joint("arm").reaction.force == pytest.approx((0.0, 0.0, 3.0 * G), abs=1e-6)
+    assert sim["m"].joint("arm").reaction.torque == pytest.approx((0.0, -0.3 * 3.0 * G, 0.0), abs=1e-6)
+    wall = sim["m"].joint("wall").reaction
+    assert wall.force == pytest.approx((0.0, 0.0, 5.0 * G), abs=1e-6)
+    assert wall.torque == pytest.approx((0.0, -(0.2 * 2.0 + 1.0 * 3.0) * G, 0.0), abs=1e-6)
+
+
+def test_a_joint_that_is_turned_round_carries_the_same(load: Load) -> None:
+    ways = (joint("j", "revolute", "world", "a", axis("0 1 0")), joint("j", "revolute", "a", "world", axis("0 1 0")))
+    for way, sign in zip(ways, (1.0, -1.0), strict=True):
+        sim = load(link("a", com="0 0 -1", mass=2.0), way)
+        sim.run(0.1)
+        assert sim["m"].joint("j").reaction.force == pytest.approx((0.0, 0.0, sign * 2.0 * G), abs=1e-6)
+
+
 def test_a_child_may_come_before_its_parent(load: Load) -> None:
     sim = load(
         link("tip", pose="2 0 0 0 0 0"),

@@ -211,9 +211,16 @@ class Engine:
         """What touches what; MuJoCo keeps no contacts of what sleeps, so these are found anew beside it."""
         if not self.asleep:
             return contacts_of(self.compiled, self._model, self._data)
+        return self._looker.contacts(self._state())
+
+    def reactions(self) -> NDArray[np.float64]:
+        """(links, 6) force [N] and torque [N·m] on each link by what it hangs from; see `Looker.reactions`."""
+        return self._looker.reactions(self._state())
+
+    def _state(self) -> NDArray[np.float64]:
         state = np.empty_like(self._good)
         mujoco.mj_getState(self._model, self._data, state, STATE)
-        return self._looker.contacts(state)
+        return state
 
     # -- keeping
 

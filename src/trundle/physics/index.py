@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.model import JointAxis, World
+from trundle.spatial import ZERO, Vector3
 
 from .joints import Axis
 from .surfaces import Touch
-from .tree import Tree
+from .tree import Hold, Tree
 
 _Indices = NDArray[np.intp]
 GeomPair: TypeAlias = tuple[int, int]
@@ -33,6 +34,10 @@ class CompiledWorld:
     link_bodies: _Indices
     joint_axes: tuple[range, ...]
     """Each joint's freedoms, as indices into the arrays below; a ball joint has three."""
+    joint_hangs: tuple[tuple[int, Vector3, float], ...]
+    """Of each joint: the link that hangs from it, or −1; its anchor in that link's frame [m]; −1 where the link is the
+    joint's parent.
+    """
     first_axes: _Indices
     """Of each joint; −1 where it has none."""
     axis_qpos: _Indices
@@ -96,6 +101,7 @@ def index_world(
         joint_names=tuple(hold.name for hold in tree.joints),
         link_bodies=np.array([model.body(name).id for name in tree.places], dtype=np.intp),
         joint_axes=tuple(spans),
+        joint_hangs=tuple(_hang(hold, tree) for hold in tree.joints),
         first_axes=np.array([span.start if span else -1 for span in spans], dtype=np.intp),
         axis_qpos=np.array(qpos, dtype=np.intp),
         axis_dof=np.array(dof, dtype=np.intp),
@@ -108,6 +114,15 @@ def index_world(
         touches=dict(_touch(model, names, touch) for names, touch in touches.items()),
         geom_collisions=tuple(collisions.get(model.geom(i).name, "") for i in range(model.ngeom)),
     )
+
+
+def _hang(hold: Hold, tree: Tree) -> tuple[int, Vector3, float]:
+    for below, sign in ((hold.below, 1.0), (hold.above, -1.0)):
+        held = tree.held.get(below)
+        if held is not None and held.name == hold.name:
+            anchor = tree.places[below].at_zero.inverse().point(hold.world_from_joint.position)
+            return list(tree.places).index(below), anchor, sign
+    return -1, ZERO, 1.0
 
 
 def _limits(axis: JointAxis | None) -> list[float]:

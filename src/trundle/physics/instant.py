@@ -42,15 +42,34 @@ class Looker:
     def contacts(self, state: _Array) -> list[Contact]:
         """The contacts of a state, as mjSTATE_INTEGRATION has it."""
         with self._lock:
-            model, data, reader = self._second
-            motors = self._compiled.model
-            model.actuator_gainprm[:] = motors.actuator_gainprm
-            model.actuator_biasprm[:] = motors.actuator_biasprm
-            model.actuator_forcerange[:] = motors.actuator_forcerange
-            mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
-            mujoco.mj_forward(model, data)
-            reader.changed()
+            model, data = self._solve(state)
             return contacts_of(self._compiled, model, data)
+
+    def reactions(self, state: _Array) -> _Array:
+        """(links, 6) force [N] and torque [N·m] on each link by what it hangs from, at its frame's origin, world axes.
+
+        Args:
+            state: as mjSTATE_INTEGRATION has it.
+        """
+        with self._lock:
+            model, data = self._solve(state)
+            mujoco.mj_rnePostConstraint(model, data)
+            bodies = self._compiled.link_bodies
+            torques, forces = data.cfrc_int[bodies, :3], data.cfrc_int[bodies, 3:]
+            # MuJoCo takes it at the centre of mass of the whole tree.
+            arms = data.subtree_com[model.body_rootid[bodies]] - data.xpos[bodies]
+            return np.concatenate([forces, torques + np.cross(arms, forces)], axis=1)
+
+    def _solve(self, state: _Array) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        model, data, reader = self._second
+        motors = self._compiled.model
+        model.actuator_gainprm[:] = motors.actuator_gainprm
+        model.actuator_biasprm[:] = motors.actuator_biasprm
+        model.actuator_forcerange[:] = motors.actuator_forcerange
+        mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
+        mujoco.mj_forward(model, data)
+        reader.changed()
+        return model, data
 
 
 class Instant:

@@ -21,8 +21,9 @@ SMALLEST = 1e-3
 
 def is_wheel(hold: Hold, place: Place, collision: Collision) -> bool:
     """Whether a cylinder turns about its own axis."""
-    geometry, axis = collision.geometry, hold.joint.axis
-    if hold.joint.type is not JointType.REVOLUTE or axis is None:
+    geometry, joint = collision.geometry, hold.joint
+    axis = {JointType.REVOLUTE: joint.axis, JointType.REVOLUTE2: joint.axis2}.get(joint.type)
+    if axis is None:
         return False
     if not isinstance(geometry, Cylinder) or geometry.radius < SMALLEST:
         return False

@@ -172,6 +172,15 @@ class JointHandle:
         """What drives each axis [N·m or N]."""
         return self._of_axes(self._simulation.engine.reader.axis_efforts())
 
+    @property
+    def reaction(self) -> Wrench:
+        """What the parent does to the child through this joint, at the joint, world axes: motors, limits and weight.
+
+        Raises:
+            UsageError: the joint closes a loop of links.
+        """
+        return self._simulation.joint_reaction(self.index)
+
     def set_effort(self, effort: float, *, axis: int = 0) -> None:
         """Drive with this effort [N·m or N] until told otherwise, within the effort and speed limits."""
         self._simulation.engine.motors.set_effort(self._axis(axis), effort)

@@ -151,6 +151,19 @@ class Simulation:
         """What touched what in the last step."""
         return self.engine.contacts()
 
+    def joint_reaction(self, joint: int) -> Wrench:
+        """See `JointHandle.reaction`; by the joint's index."""
+        engine = self.engine
+        link, anchor, sign = engine.compiled.joint_hangs[joint]
+        if link < 0:
+            name = engine.compiled.joint_names[joint]
+            raise UsageError(f"joint {name!r} closes a loop of links, or holds none; its reaction is not known")
+        _, _, _, qw, qx, qy, qz = engine.reader.link_poses()[link].tolist()
+        x, y, z = Pose(quaternion=(qw, qx, qy, qz)).direction(anchor)
+        fx, fy, fz, tx, ty, tz = engine.reactions()[link].tolist()
+        moved = (tx - (y * fz - z * fy), ty - (z * fx - x * fz), tz - (x * fy - y * fx))
+        return Wrench((sign * fx, sign * fy, sign * fz), (sign * moved[0], sign * moved[1], sign * moved[2]))
+
     def save(self) -> SavedSimulation:
         """Keep the state, to go back to it exactly."""
         return SavedSimulation(self.steps, self.engine.save(), dict(self._wrench_ends))
