@@ -1,8 +1,12 @@
 """Actions: where frames are, and servos along a trajectory."""
 
+import math
 from typing import Any
 
 import pytest
+
+from trundle.nodes.arbotix.gripper import read_gripper
+from trundle.nodes.settings import SettingError, Settings
 
 SUCCEEDED, ABORTED, PREEMPTED = 3, 4, 2
 ARBOTIX: dict[str, Any] = {
@@ -105,3 +109,41 @@ def test_the_buffer_server_looks_frames_up(stage) -> None:
     stage.until(lambda: len(results) == 2)
     assert (results[1].status.status, results[1].result.error.error) == (ABORTED, 1)
     assert "moon" in results[1].result.error.error_string
+
+
+@pytest.mark.parametrize(
+    ("settings", "opening_m", "commands"),
+    [
+        ({"model": "parallel", "scale": 2.0, "center": 0.5, "joint": "g"}, 0.1, {"g": 0.7}),
+        ({"model": "singlesided", "pad_width": 0.0, "finger_length": 0.05}, 0.05, {"gripper_joint": math.pi / 6}),
+        ({"model": "singlesided", "invert": True, "center": 0.1, "max_opening": 0.01}, 9.0, {"gripper_joint": 0.1}),
+        (
+            {"model": "dualservo", "pad_width": 0.0, "finger_length": 0.05},
+            0.05,
+            {"l_gripper_joint": math.pi / 6, "r_gripper_joint": -math.pi / 6},
+        ),
+    ],
+)
+def test_an_opening_becomes_servo_angles(
+    settings: dict[str, Any], opening_m: float, commands: dict[str, float]
+) -> None:
+    """A finger of length l opens 2·l·sin(angle) beyond its pads."""
+    assert read_gripper(Settings(settings, "/g")).commands(opening_m) == pytest.approx(commands)
+
+
+def test_openings_and_models_that_cannot_be_are_refused() -> None:
+    with pytest.raises(ValueError, match="exceeds the opening limits"):
+        read_gripper(Settings({"model": "dualservo"}, "/g")).commands(0.5)
+    with pytest.raises(ValueError, match="cannot open"):
+        read_gripper(Settings({"model": "dualservo", "finger_length": 0.001}, "/g")).commands(0.05)
+    with pytest.raises(SettingError, match="no gripper model 'tentacle'"):
+        read_gripper(Settings({"model": "tentacle"}, "/g"))
+
+
+def test_a_gripper_opens_as_its_servo_does(stage) -> None:
+    stage.start("arbotix_python/arbotix_driver", name="arbotix", **{**ARBOTIX, "joints": {"gripper_joint": {"id": 1}}})
+    stage.start("arbotix_controllers/gripper_controller", name="grip", model="singlesided")
+    _, results = ask(stage, "/grip/gripper_action", "control_msgs/GripperCommand", {"command": {"position": 0.03}})
+    stage.until(lambda: results)
+
+    assert (results[0].status.status, results[0].result.reached_goal) == (SUCCEEDED, True)

@@ -1,6 +1,8 @@
 """Which stock executables have a stand-in; a stand-in is imported only when a launch asks for it."""
 
 STAND_INS: dict[tuple[str, str], str] = {
+    ("arbotix_controllers", "gripper_controller"): "trundle.nodes.arbotix:GripperController",
+    ("arbotix_controllers", "gripper_controller.py"): "trundle.nodes.arbotix:GripperController",
     ("arbotix_python", "arbotix_driver"): "trundle.nodes.arbotix:ArbotixDriver",
     ("arbotix_python", "arbotix_driver.py"): "trundle.nodes.arbotix:ArbotixDriver",
     ("arbotix_python", "arbotix_gui"): "trundle.nodes.windows:RqtWindow",

@@ -1,5 +1,6 @@
-"""arbotix_python's driver in its simulated mode."""
+"""arbotix_python in its simulated mode, and the gripper of arbotix_controllers."""
 
 from .driver import ArbotixDriver
+from .gripper import GripperController
 
-__all__ = ["ArbotixDriver"]
+__all__ = ["ArbotixDriver", "GripperController"]
