@@ -44,7 +44,7 @@ wheel: $(READY)  ## a wheel in dist/
 
 # Debian's own ROS 1 and browser: what the fullest tests drive. They live in /usr, not in .venv.
 DEBIAN := chromium python3-rospy python3-rostopic python3-rosnode python3-rosparam python3-rosservice \
-          python3-rosmsg python3-rosgraph python3-rosmaster python3-std-msgs python3-geometry-msgs python3-nav-msgs \
+          python3-rosmsg python3-rosbag python3-rosgraph python3-rosmaster python3-std-msgs python3-geometry-msgs python3-nav-msgs \
           python3-sensor-msgs python3-tf2-msgs python3-diagnostic-msgs python3-std-srvs rviz xvfb
 
 system:  ## what the fullest tests use, from Debian's packages

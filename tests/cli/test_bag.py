@@ -93,6 +93,20 @@ def test_a_recording_that_is_ended_can_be_read(graph: Any, tmp_path: Path, name:
     assert _counts(path) == {"/a": 200}
 
 
+def test_a_recording_in_a_shells_background_hears_sigint(graph: Any, tmp_path: Path) -> None:
+    """Scripts write `rosbag record … & kill -INT $!`; a shell starts its background jobs with SIGINT ignored."""
+    publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
+    path = tmp_path / "x.bag"
+    record = f"{sys.executable} -m trundle bag record -q -O {path} /a"
+    with _started("/bin/sh", "-c", f"{record} & echo $!; wait $!; echo $?") as shell:
+        assert shell.stdout is not None
+        process = int(shell.stdout.readline())
+        graph.until(lambda: publisher.has_subscribers)
+        os.kill(process, signal.SIGINT)
+        assert shell.stdout.read() == "130\n"
+    assert path.exists()
+
+
 def test_a_bag_is_played_at_its_pace_with_its_clock(graph: Any, bag: Path) -> None:
     got: list[tuple[str, Any]] = []
     clock: list[int] = []

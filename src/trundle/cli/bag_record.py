@@ -19,7 +19,7 @@ def main(args: argparse.Namespace) -> int:
     """Record until a limit is reached, Ctrl-C or SIGTERM; the bag is closed and readable after each of them."""
     words = parse_arguments(args.topics)
     options = _options(args, words.rest)
-    with _terminated_as_interrupted(), running_node("record", words) as (loop, node):
+    with running_node("record", words) as (loop, node):
         loop.run(follow_time(node), None)
         recorder = Recorder(node, options, say=(lambda _: None) if args.quiet else _say)
         recorder.start()
@@ -68,16 +68,6 @@ def _options(args: argparse.Namespace, topics: tuple[str, ...]) -> RecordOptions
 def _say(text: str) -> None:
     """As roscpp's console does."""
     print(f"[ INFO] [{time.time():.9f}]: {text}", flush=True)
-
-
-@contextmanager
-def _terminated_as_interrupted() -> Generator[None]:
-    """Let SIGTERM end the recording as Ctrl-C does."""
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
 
 
 @contextmanager

@@ -3,7 +3,9 @@
 import argparse
 import functools
 import os
+import signal
 import sys
+import threading
 from argparse import Namespace
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
@@ -71,7 +73,22 @@ def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[
 
     words = words or Arguments()
     MasterProxy(caller_id=f"/{base}").call("getPid")
-    with GraphLoop() as loop:
+    with _interrupted_by_signals(), GraphLoop() as loop:
         name = words.name or anonymous_name(base)
         node = Node(name, loop=loop, master_uri=master_uri_from_env(), remappings=words.remappings, rosout=False)
         yield loop, node
+
+
+@contextmanager
+def _interrupted_by_signals() -> Generator[None]:
+    """Have SIGTERM and SIGINT end a node as Ctrl-C does; a shell's background jobs ignore the latter otherwise."""
+    if threading.current_thread() is not threading.main_thread():  # signals are the main thread's affair
+        yield
+        return
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    before = {number: signal.signal(number, signal.default_int_handler) for number in numbers}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

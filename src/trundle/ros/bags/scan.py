@@ -1,6 +1,7 @@
 """The records of a .bag file as they lie, index or not: http://wiki.ros.org/Bags/Format/2.0."""
 
 import bz2
+import os
 import struct
 from collections.abc import Iterator
 from pathlib import Path
@@ -26,7 +27,8 @@ def scan_bag(path: Path) -> Iterator[BagMessage]:
         BagError: this is no bag.
     """
     connections: dict[int, BagConnection] = {}
-    with path.open("rb") as file:
+    with path.open("rb") as opened:
+        file = _File(opened, path.stat().st_size)
         if file.read(len(_MAGIC)) != _MAGIC:
             raise BagError(f"{path} is no ROS 1 bag of format 2.0")
         try:
@@ -41,10 +43,14 @@ def scan_bag(path: Path) -> Iterator[BagMessage]:
 
 
 def _chunk(
-    fields: dict[str, bytes], file: BinaryIO, size: int, connections: dict[int, BagConnection]
+    fields: dict[str, bytes], file: "_File", size: int, connections: dict[int, BagConnection]
 ) -> Iterator[BagMessage]:
     data = file.read(size)
-    inner = _Bytes(_decompressed(fields.get("compression", b"none").decode("ascii", "replace"), data))
+    try:
+        (most,) = _LENGTH.unpack(fields["size"])
+    except (KeyError, struct.error):
+        raise _CutOffError from None
+    inner = _Bytes(_decompressed(fields.get("compression", b"none").decode("ascii", "replace"), data, most))
     while head := _head(inner):
         yield from _record(head[0], _exactly(inner, head[1]), connections)
     if len(data) != size:
@@ -71,15 +77,29 @@ def chunk_at(file: BinaryIO, position: int) -> Chunk:
     Raises:
         BagError: there is no chunk.
     """
-    file.seek(position)
     try:
-        head = _head(file)
+        end = file.seek(0, os.SEEK_END)
+        head = _head(_File(file, end - file.seek(position)))
         if head is None:
             raise _CutOffError
         (size,) = _LENGTH.unpack(head[0]["size"])
     except (_CutOffError, KeyError, struct.error):
         raise BagError(f"no chunk at byte {position}; trundle bag reindex saves what is whole") from None
     return Chunk(compression=head[0]["compression"].decode("ascii", "replace"), size=size, compressed=head[1])
+
+
+class _File:
+    """A file of which no more is asked for than there is, whatever a length in it promises."""
+
+    def __init__(self, file: BinaryIO, size: int) -> None:
+        self._file = file
+        self._left = size
+
+    def read(self, size: int) -> bytes:
+        """As a file does."""
+        piece = self._file.read(min(size, self._left))
+        self._left -= len(piece)
+        return piece
 
 
 class _Bytes:
@@ -96,7 +116,7 @@ class _Bytes:
         return piece
 
 
-def _head(file: "BinaryIO | _Bytes") -> tuple[dict[str, bytes], int] | None:
+def _head(file: "_File | _Bytes") -> tuple[dict[str, bytes], int] | None:
     """Read a record's header and the size of its data; None at the end of the file."""
     start = file.read(4)
     if not start:
@@ -107,7 +127,7 @@ def _head(file: "BinaryIO | _Bytes") -> tuple[dict[str, bytes], int] | None:
     return fields, _LENGTH.unpack(_exactly(file, 4))[0]
 
 
-def _exactly(file: "BinaryIO | _Bytes", size: int) -> bytes:
+def _exactly(file: "_File | _Bytes", size: int) -> bytes:
     data = file.read(size)
     if len(data) != size:
         raise _CutOffError
@@ -146,15 +166,15 @@ def _connection(topic: bytes, fields: dict[str, bytes]) -> BagConnection:
     )
 
 
-def _decompressed(compression: str, data: bytes) -> bytes:
-    """Decompress a chunk, as far as it goes."""
+def _decompressed(compression: str, data: bytes, most: int) -> bytes:
+    """Decompress a chunk, as far as it goes and to no more than it says."""
     if compression == "none":
         return data
     try:
         if compression == "bz2":
-            return bz2.BZ2Decompressor().decompress(data)
+            return bz2.BZ2Decompressor().decompress(data, most)
         if compression == "lz4":
-            return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data))
+            return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data, most))
     except (OSError, RuntimeError):
         pass
     raise _CutOffError
