@@ -179,3 +179,16 @@ def test_a_stock_node_runs_here(graph: Any) -> None:
         finally:
             process.kill()
     graph.until(lambda: "/mount" not in graph.trundle("node", "list")[1])
+
+
+@pytest.mark.parametrize(
+    "command", ["topic list", "node list", "service list", "param list", "graph", "topic type /rosout"]
+)
+def test_light_commands_load_nothing_heavy(graph: Any, command: str) -> None:
+    """They answer as fast as the interpreter starts: no asyncio, no numpy."""
+    code = (
+        f"import sys; from trundle.cli import main; assert main({command.split()!r}) == 0;"
+        "print([name for name in ('asyncio', 'numpy', 'rosbags', 'yaml', 'lxml') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"

@@ -1,29 +1,10 @@
 """List, describe and call services, as rosservice does."""
 
 import argparse
-import asyncio
-import sys
-import time
-from collections.abc import Iterable
-from typing import Any
 
-from trundle.diagnostics import UsageError
-from trundle.ros import (
-    GraphLoop,
-    MasterError,
-    MasterProxy,
-    MessageError,
-    MessagePrinter,
-    Messages,
-    Node,
-    RosError,
-    ServiceError,
-    follow_time,
-    probe_service,
-)
+from trundle.ros import MasterError, MasterProxy, RosError, ServiceError
 
-from .running import global_name, master, original_errors, running_node
-from .yaml_input import piped_documents, yaml_value
+from .running import global_name, master, original_errors
 
 EXAMPLES = """
   trundle service list
@@ -32,7 +13,6 @@ EXAMPLES = """
   trundle service call /gazebo/get_model_state '{model_name: rp2w}'
 """
 _SCRIPT = "rosservice"
-_POLL_S = 0.1
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -80,12 +60,14 @@ def _list(args: argparse.Namespace) -> int:
 
 
 def _info(args: argparse.Namespace) -> int:
+    from .service_call import argument_names
+
     proxy, name = master(_SCRIPT), global_name(args.service, _SCRIPT)
     print(f"Node: {_provider(proxy, name)}")
     print(f"URI: {_address(proxy, name)}")
     kind = _type_of(proxy, name)
     print(f"Type: {kind}")
-    print(f"Args: {_arguments(Messages(), kind)}")
+    print(f"Args: {argument_names(kind)}")
     return 0
 
 
@@ -105,7 +87,9 @@ def _node(args: argparse.Namespace) -> int:
 
 
 def _args(args: argparse.Namespace) -> int:
-    print(_arguments(Messages(), _type_of(master(_SCRIPT), global_name(args.service, _SCRIPT))))
+    from .service_call import argument_names
+
+    print(argument_names(_type_of(master(_SCRIPT), global_name(args.service, _SCRIPT))))
     return 0
 
 
@@ -120,42 +104,6 @@ def _find(args: argparse.Namespace) -> int:
             continue
     print("\n".join(found))
     return 0
-
-
-def _call(args: argparse.Namespace) -> int:
-    name = global_name(args.service, _SCRIPT)
-    values = [yaml_value(text or "''") for text in args.values]
-    proxy = master(_SCRIPT)
-    while args.wait and not any(name == service for service, _ in _services(proxy)):
-        time.sleep(_POLL_S)
-    kind = _type_of(proxy, name)
-    with running_node("rosservice") as (loop, node):
-        requests: Iterable[Any] = [values]
-        if not values and loop.messages.fields(loop.messages.service(kind).request):
-            if sys.stdin.isatty():
-                raise UsageError(f"Please specify service arguments: {_arguments(loop.messages, kind)}")
-            requests = (each if isinstance(each, list) else [each] for each in piped_documents())
-        loop.run(follow_time(node))
-        for request in requests:
-            _call_once(loop, node, name, kind, request, verbose=args.verbose)
-    return 0
-
-
-def _call_once(loop: GraphLoop, node: Node, name: str, kind: str, values: list[Any], *, verbose: bool) -> None:
-    types = loop.messages.service(kind)
-    printer = MessagePrinter(messages=loop.messages)
-    try:
-        request = node.new(types.request, values[0] if len(values) == 1 and isinstance(values[0], dict) else values)
-    except MessageError as error:
-        given = "\n".join(f" * {value} (type {type(value).__name__})" for value in values)
-        raise MessageError(
-            f"Incompatible arguments to call service:\n{error}\nProvided arguments are:\n{given}\n\n"
-            f"Service arguments are: [{_arguments(loop.messages, kind)}]"
-        ) from None
-    response = loop.run(node.call_service(name, kind, request, timeout_s=None), None)
-    if verbose:
-        print(f"{printer.text(request, types.request)}\n---")
-    print(printer.text(response, types.response), flush=True)
 
 
 def _services(proxy: MasterProxy) -> list[tuple[str, list[str]]]:
@@ -177,25 +125,12 @@ def _address(proxy: MasterProxy, name: str) -> str:
 
 
 def _type_of(proxy: MasterProxy, name: str) -> str:
-    """Ask a provider for the type of its service; the master does not know it."""
-    try:
-        uri = str(proxy.call("lookupService", name))
-    except MasterError:
-        raise ServiceError(f"Service [{name}] is not available.") from None
-    kind = asyncio.run(probe_service(uri, name, f"/{_SCRIPT}")).get("type")
-    if not kind:
-        raise ServiceError(f"Unable to determine type of service [{name}].")
-    return kind.removesuffix("Request")  # as some roscpp versions say
+    from .service_call import service_type
+
+    return service_type(proxy, name)
 
 
-def _arguments(messages: Messages, kind: str) -> str:
-    """Name a request's fields, those inside others with dots."""
-    return " ".join(_leaves(messages, messages.service(kind).request, ""))
+def _call(args: argparse.Namespace) -> int:
+    from .service_call import main
 
-
-def _leaves(messages: Messages, type_name: str, prefix: str) -> Iterable[str]:
-    for field, text in messages.fields(type_name).items():
-        if "/" in text and "[" not in text:
-            yield from _leaves(messages, text, f"{prefix}{field}.")
-        else:
-            yield f"{prefix}{field}"
+    return main(args)
