@@ -7,16 +7,14 @@
 A handle belongs to the thread that owns the simulation.
 """
 
-import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
-
 from trundle.diagnostics import UsageError
-from trundle.model import Joint, Link, Model, World
+from trundle.model import Link, Model, World
 from trundle.spatial import Pose, Twist, Vector3, Wrench, cross
+
+from .joint_handle import JointHandle
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -100,128 +98,6 @@ class LinkHandle:
             turning = cross(arm, wrench.force)
             wrench = wrench + Wrench(torque=turning)
         self._simulation.add_wrench(self.index, wrench)
-
-
-class JointHandle:
-    """One joint; its freedoms are its axes, counted from 0 as the file has them. A ball joint's three are a rotation
-    vector, which can be read, and an effort.
-    """
-
-    def __init__(self, simulation: "Simulation", joint: Joint, index: int) -> None:
-        self._simulation = simulation
-        self.joint = joint
-        self._index: int | None = index
-
-    @property
-    def index(self) -> int:
-        """Into `Snapshot.joint_positions`; it changes as models before this one go.
-
-        Raises:
-            UsageError: the model was deleted.
-        """
-        if self._index is None:
-            raise UsageError(f"joint {self.name!r} is gone: its model was deleted")
-        return self._index
-
-    def move_to(self, index: int | None) -> None:
-        """Be at another index, or nowhere any more; for the simulation alone."""
-        self._index = index
-
-    @property
-    def name(self) -> str:
-        """As in the file."""
-        return self.joint.name
-
-    @property
-    def axes(self) -> range:
-        """Its freedoms, as indices into the engine's; none where its limits leave none."""
-        return self._simulation.engine.compiled.joint_axes[self.index]
-
-    @property
-    def position(self) -> float:
-        """[rad or m] of the first axis; 0 without freedom."""
-        return next(iter(self.positions), 0.0)
-
-    @property
-    def velocity(self) -> float:
-        """[rad/s or m/s] of the first axis"""
-        return next(iter(self.velocities), 0.0)
-
-    @property
-    def effort(self) -> float:
-        """What drives the first axis [N·m or N]."""
-        return next(iter(self.efforts), 0.0)
-
-    @property
-    def is_driven(self) -> bool:
-        """Whether it has an axis, and so can be driven or put somewhere."""
-        return bool(self.axes) and self._simulation.engine.compiled.axis_actuator[self.axes[0]] >= 0
-
-    @property
-    def positions(self) -> tuple[float, ...]:
-        """[rad or m] of each axis."""
-        return self._of_axes(self._simulation.engine.reader.axis_positions())
-
-    @property
-    def velocities(self) -> tuple[float, ...]:
-        """[rad/s or m/s] of each axis."""
-        return self._of_axes(self._simulation.engine.reader.axis_velocities())
-
-    @property
-    def efforts(self) -> tuple[float, ...]:
-        """What drives each axis [N·m or N]."""
-        return self._of_axes(self._simulation.engine.reader.axis_efforts())
-
-    @property
-    def reaction(self) -> Wrench:
-        """What the parent does to the child through this joint, at the joint, world axes: motors, limits and weight.
-
-        Raises:
-            UsageError: the joint closes a loop of links.
-        """
-        return self._simulation.joint_reaction(self.index)
-
-    def set_effort(self, effort: float, *, axis: int = 0) -> None:
-        """Drive with this effort [N·m or N] until told otherwise, within the effort and speed limits."""
-        self._simulation.engine.motors.set_effort(self._axis(axis), effort)
-
-    def set_velocity(self, velocity: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
-        """Keep this speed [rad/s or m/s] with at most so much effort, as Gazebo's SetVelocity with fmax."""
-        self._simulation.engine.motors.set_velocity(self._driven(axis), velocity, max_effort)
-
-    def hold(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
-        """Go to a position [rad or m] and stay, with at most so much effort; limits are respected."""
-        driven = self._driven(axis)
-        self._simulation.engine.motors.hold(driven, self._within_limits(position, driven), max_effort)
-
-    def set_position(self, position: float, *, axis: int = 0) -> None:
-        """Put the joint there at once [rad or m], at rest."""
-        self._simulation.engine.set_axis_position(self._driven(axis), position)
-
-    def start(self, velocity: float, *, axis: int = 0) -> None:
-        """Give it this speed at once [rad/s or m/s]; nothing keeps it."""
-        self._simulation.engine.set_axis_velocity(self._axis(axis), velocity)
-
-    def _of_axes(self, values: NDArray[np.float64]) -> tuple[float, ...]:
-        axes = self.axes
-        return tuple(values[axes.start : axes.stop].tolist())
-
-    def _axis(self, axis: int) -> int:
-        axes = self.axes
-        if not 0 <= axis < len(axes):
-            has = f"it has {len(axes)}" if axes else "it cannot move"
-            raise UsageError(f"joint {self.name!r} has no axis {axis}: {has}")
-        return axes[axis]
-
-    def _driven(self, axis: int) -> int:
-        index = self._axis(axis)
-        if self._simulation.engine.compiled.axis_actuator[index] < 0:
-            raise UsageError(f"joint {self.name!r} cannot be driven so: a ball has no axis; give it an effort")
-        return index
-
-    def _within_limits(self, position: float, axis: int) -> float:
-        low, high = self._simulation.engine.compiled.axis_range[axis].tolist()
-        return min(max(position, low), high)
 
 
 _Named = TypeVar("_Named", LinkHandle, JointHandle)

@@ -14,8 +14,9 @@ from trundle.model import Model, World
 from trundle.physics import Contact, Engine, EngineState, compile_world
 from trundle.spatial import Pose, Wrench
 
-from .handles import JointHandle, ModelHandle, handles_of
+from .handles import ModelHandle, handles_of
 from .hooks import AfterStep, BeforeStep, ScheduledHook
+from .joint_handle import JointHandle
 from .snapshot import Snapshot
 
 NS = 1_000_000_000
