@@ -10,12 +10,13 @@ from pathlib import Path
 from threading import Event
 from typing import Literal, TypeAlias
 
+from trundle.description import write_sdf, written_uri
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
 from trundle.physics import RayRenderer
 from trundle.render import scene_of
 from trundle.sensors import mount_cameras, mount_sensors
-from trundle.simulation import Simulation, SimulationUnstableError
+from trundle.simulation import Simulation, SimulationUnstableError, StateRecorder
 
 from .exposure import warn_of_exposure
 from .outcome import Outcome
@@ -25,7 +26,7 @@ from .plugins import load_plugins
 from .ros_side import RosSide
 from .showing import Showing
 from .signals import stop_flag
-from .stage import set_stage
+from .stage import Stage, set_stage
 
 OnInstability: TypeAlias = Literal["pause", "reset", "exit"]
 _MOST_RESETS = 10
@@ -49,6 +50,8 @@ class RunOptions:
     ros: bool = True
     sensors: bool = True
     strict: bool = False
+    record: Path | None = None
+    """Where to write a state log."""
     on_instability: OnInstability | None = None
     """What to do when the physics blows up; None: pause where there is a page to look at it, exit where there is none.
     """
@@ -84,6 +87,9 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         if options.ros:
             ros = open_things.enter_context(RosSide.open(simulation, stage, cameras, sensors, env, host=options.host))
             show.line(ros.story)
+        if options.record is not None:
+            recorder = _record(options.record, simulation, stage, report)
+            open_things.callback(recorder.close)
         load_plugins(simulation, None if ros is None else ros.make_node, env, say=show.line)
         show.findings()
         page = None
@@ -101,6 +107,15 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             report=report,
             interrupted=stop.is_set(),
         )
+
+
+def _record(path: Path, simulation: Simulation, stage: Stage, report: Diagnostics) -> StateRecorder:
+    compiled = simulation.engine.compiled
+    sdf = write_sdf(stage.written, is_world=True, uri_of=written_uri, report=report)
+    recorder = StateRecorder(path, links=compiled.link_names, joints=compiled.joint_names, sdf=sdf)
+    recorder.after_step(simulation.snapshot())
+    simulation.add_hook(recorder, period_ns=recorder.period_ns)
+    return recorder
 
 
 def _drive(

@@ -20,6 +20,7 @@ COMMANDS: dict[str, str] = {
     "run": "simulate a robot or a world",
     "launch": "start a ROS 1 launch file",
     "test": "run the tests of launch files, as rostest does",
+    "play": "show a recorded run in the browser",
     "view": "show a running ROS graph in the browser, as rviz does",
     "check": "list what is wrong or not supported in a file",
     "convert": "write what was understood of a file as SDF, URDF or MJCF",

@@ -3,6 +3,7 @@
 import argparse
 import json
 import sys
+from pathlib import Path
 
 from .main import add_allow_outside, quiet_imports
 
@@ -35,6 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         choices=("pause", "reset", "exit"),
         help="when the physics blows up (pause where there is a page, exit where there is none)",
     )
+    parser.add_argument("--record", type=Path, metavar="FILE", help="write where everything is, for `trundle play`")
     parser.add_argument("--json", action="store_true", help="print the final state as one JSON object")
     add_allow_outside(parser)
 
@@ -55,6 +57,7 @@ def main(args: argparse.Namespace) -> int:
         ros=not args.no_ros,
         sensors=not args.no_sensors,
         strict=args.strict,
+        record=args.record,
         on_instability=args.on_instability,
     )
     outcome = run(args.file, options)

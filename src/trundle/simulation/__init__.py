@@ -6,6 +6,7 @@ from .handles import JointHandle, LinkHandle, ModelHandle
 from .hooks import AfterStep, BeforeStep
 from .simulation import SavedSimulation, Simulation
 from .snapshot import Snapshot
+from .state_log import StateLog, StateRecorder, read_state_log
 
 __all__ = [
     "AfterStep",
@@ -17,4 +18,7 @@ __all__ = [
     "Simulation",
     "SimulationUnstableError",
     "Snapshot",
+    "StateLog",
+    "StateRecorder",
+    "read_state_log",
 ]

@@ -1,0 +1,37 @@
+"""Show a recorded run in the browser."""
+
+import argparse
+from pathlib import Path
+
+from .main import add_allow_outside, quiet_imports
+
+EXAMPLES = """
+  trundle run world.sdf --record run.log              record where everything is, 50 times a second
+  trundle play run.log                                show it, again and again
+  trundle play run.log --speed 0.2                    slowly
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("file", metavar="FILE", type=Path, help="what `trundle run --record` wrote")
+    parser.add_argument("--speed", type=_positive, default=1.0, metavar="X", help="times real time (1)")
+    parser.add_argument("--pause", action="store_true", help="start paused")
+    parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
+    parser.add_argument("--host", default="127.0.0.1", help="address that the page binds (127.0.0.1)")
+    add_allow_outside(parser)
+
+
+def main(args: argparse.Namespace) -> int:
+    """Play until Ctrl-C."""
+    with quiet_imports():
+        from trundle.bringup.play import PlayOptions, play
+
+    return play(args.file, PlayOptions(host=args.host, port=args.port, speed=args.speed, paused=args.pause))
+
+
+def _positive(text: str) -> float:
+    value = float(text)
+    if not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not a positive number")
+    return value

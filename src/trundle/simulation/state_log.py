@@ -1,0 +1,107 @@
+"""State logs: where everything was, over time, in a file that can be cut anywhere and still be read.
+
+The file is one line of JSON (the names, the world as SDF), then rows of little-endian float64, all of one length: the
+time [s], x y z qw qx qy qz of every link in the world, the position of every joint's first axis. From Python:
+
+    log = read_state_log("run.log")
+    log.poses[-1, log.links.index("rp2w::chassis")]
+
+or, without Trundle, `numpy.fromfile` after the first line.
+"""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.diagnostics import DescriptionError, Source
+
+from .snapshot import Snapshot
+
+FORMAT = "trundle state log 1"
+_ROW = np.dtype("<f8")
+_LONGEST_HEADER = 256 * 1024 * 1024
+_Array = NDArray[np.float64]
+
+
+class StateRecorder:
+    """A hook that writes a row when it is due."""
+
+    period_ns = 20_000_000
+
+    def __init__(self, path: Path, *, links: tuple[str, ...], joints: tuple[str, ...], sdf: str) -> None:
+        """Begin a file; one that is there is written anew.
+
+        Args:
+            path: of the file.
+            links: `model::link`, in the order of `Snapshot.poses`.
+            joints: `model::joint`, in the order of `Snapshot.joint_positions`.
+            sdf: the world, for whoever plays the log.
+
+        Raises:
+            OSError: it cannot be written.
+        """
+        self._file: IO[bytes] = path.open("wb")
+        header = {"format": FORMAT, "links": links, "joints": joints, "sdf": sdf}
+        self._file.write(json.dumps(header).encode() + b"\n")
+        self._file.flush()
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Write where everything is."""
+        time = np.array([snapshot.time_ns / 1e9])
+        row = np.concatenate([time, snapshot.poses.reshape(-1), snapshot.joint_positions])
+        self._file.write(row.astype(_ROW).tobytes())
+        self._file.flush()
+
+    def close(self) -> None:
+        """End the file."""
+        self._file.close()
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class StateLog:
+    """A recording."""
+
+    links: tuple[str, ...]
+    joints: tuple[str, ...]
+    sdf: str
+    times: _Array
+    """(rows,) [s]"""
+    poses: _Array
+    """(rows, links, 7) x y z [m], qw qx qy qz, in the world."""
+    positions: _Array
+    """(rows, joints) [rad or m]"""
+
+
+def read_state_log(path: Path) -> StateLog:
+    """Read a recording; a last row that was cut short is left out.
+
+    Raises:
+        DescriptionError: it is none.
+        OSError: it cannot be read.
+    """
+    with path.open("rb") as file:
+        line = file.readline(_LONGEST_HEADER)
+        start = file.tell()
+    try:
+        header = json.loads(line)
+        links, joints, sdf = tuple(map(str, header["links"])), tuple(map(str, header["joints"])), str(header["sdf"])
+        known = header["format"] == FORMAT
+    except (ValueError, TypeError, KeyError, RecursionError):
+        known, links, joints, sdf = False, (), (), ""
+    if not known:
+        raise DescriptionError(Source(str(path), 1), f"no state log: it does not begin with {FORMAT!r}")
+    width = 1 + 7 * len(links) + len(joints)
+    count = (path.stat().st_size - start) // (width * _ROW.itemsize)
+    rows = np.fromfile(path, dtype=_ROW, offset=start, count=count * width).reshape(count, width).astype(np.float64)
+    return StateLog(
+        links=links,
+        joints=joints,
+        sdf=sdf,
+        times=rows[:, 0],
+        poses=rows[:, 1 : 1 + 7 * len(links)].reshape(count, len(links), 7),
+        positions=rows[:, 1 + 7 * len(links) :],
+    )

@@ -1,0 +1,63 @@
+"""Recordings that can be cut anywhere and still be read."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import trundle
+from trundle.diagnostics import DescriptionError
+from trundle.simulation import Simulation, StateRecorder, read_state_log
+
+MODEL = """<sdf version="1.6"><model name="m"><link name="a"/><link name="b"><pose>0 0 1 0 0 0</pose></link>
+<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 1 0</xyz></axis></joint></model></sdf>"""
+
+
+def recorded(folder: Path) -> tuple[Path, Simulation]:
+    (folder / "m.sdf").write_text(MODEL)
+    sim = trundle.load(str(folder / "m.sdf"))
+    compiled = sim.engine.compiled
+    path = folder / "run.log"
+    recorder = StateRecorder(path, links=compiled.link_names, joints=compiled.joint_names, sdf="<sdf/>")
+    sim.add_hook(recorder, period_ns=recorder.period_ns)
+    sim["m"].joint("j").set_effort(0.3)
+    sim.run(0.5)
+    recorder.close()
+    return path, sim
+
+
+def test_a_log_holds_every_pose_at_its_time(tmp_path: Path) -> None:
+    path, sim = recorded(tmp_path)
+
+    log = read_state_log(path)
+
+    assert log.times == pytest.approx(np.arange(1, 26) * 0.02)
+    assert log.links[:2] == ("m::a", "m::b")
+    assert log.poses[-1] == pytest.approx(sim.snapshot().poses, abs=0)
+    assert log.positions[-1, log.joints.index("m::j")] == sim["m"].joint("j").position != 0.0
+
+
+def test_a_log_that_was_cut_short_is_read_up_to_there(tmp_path: Path) -> None:
+    path, _ = recorded(tmp_path)
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-13])
+
+    assert len(read_state_log(path).times) == 24
+
+
+def test_two_runs_write_the_same_bytes(tmp_path: Path) -> None:
+    (tmp_path / "one").mkdir()
+    (tmp_path / "two").mkdir()
+
+    assert recorded(tmp_path / "one")[0].read_bytes() == recorded(tmp_path / "two")[0].read_bytes()
+
+
+@given(content=st.binary(max_size=200) | st.text(max_size=100).map(lambda t: b'{"format": ' + t.encode() + b"}\n"))
+def test_anything_else_is_no_log(tmp_path_factory: pytest.TempPathFactory, content: bytes) -> None:
+    path = tmp_path_factory.mktemp("log") / "x"
+    path.write_bytes(content)
+
+    with pytest.raises(DescriptionError, match="no state log"):
+        read_state_log(path)
