@@ -122,8 +122,8 @@ def test_diff_drive_turns_against_ross_sense_as_in_gazebo(tmp_path: Path) -> Non
 
 def test_skid_steer_drives_all_four_wheels(tmp_path: Path) -> None:
     base = f'<link name="base"><pose>0 0 0.1 0 0 0</pose>{BODY.format(5)}</link>'
-    four = (("left_front", 0.2, 0.2), ("left_rear", -0.2, 0.2), ("right_front", 0.2, -0.2), ("right_rear", -0.2, -0.2))
-    plugin = '<plugin name="p" filename="libSkidSteerDrivePlugin.so"/>'
+    four = (("left_front", 0.2, 0.2), ("left_rear", -0.2, 0.2), ("fr", 0.2, -0.2), ("right_rear", -0.2, -0.2))
+    plugin = '<plugin name="p" filename="libSkidSteerDrivePlugin.so"><right_front>fr</right_front></plugin>'
     sim = load(tmp_path, base + wheels(four) + plugin, ground=True)
 
     command(sim, 0.3, 0.0)

@@ -14,16 +14,18 @@ from .velocity_command import VelocityCommand
 class SkidSteerDrive(Plugin):
     """`/<model>/vel_cmd` in; wheel speeds out.
 
-    The joints are called right_front, right_rear, left_front and left_rear. As in Gazebo, the right wheels turn with
-    v/r + ω·separation/r and the left ones with v/r − ω·separation/r, twice what a slip-free turn needs. <max_force>
-    [N·m] (5) is all it reads.
+    <right_front>, <right_rear>, <left_front> and <left_rear> name the joints, which else are called so. As in Gazebo,
+    the right wheels turn with v/r + ω·separation/r and the left ones with v/r − ω·separation/r, twice what a slip-free
+    turn needs. <max_force> [N·m] is 5 where it is not given.
     """
 
     def __init__(self, model: ModelHandle, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
         self._torque = tag.node.number("max_force", default=5.0, report=sim.report)
+        self._right, self._left = (
+            [model.joint(tag.node.string(name, default=name)) for name in (f"{side}_front", f"{side}_rear")]
+            for side in ("right", "left")
+        )
         tag.node.report_unread(sim.report)
-        self._right = [model.joint("right_front"), model.joint("right_rear")]
-        self._left = [model.joint("left_front"), model.joint("left_rear")]
         right, left = (model_from_joint(model.model, wheels[0].joint).position for wheels in (self._right, self._left))
         self._separation = sum((a - b) ** 2 for a, b in zip(right, left, strict=True)) ** 0.5
         self._radius = max(bounding_box(model.link(self._right[0].joint.child).link)) / 2 or 1.0
