@@ -278,3 +278,32 @@ def test_a_plugin_that_raises_pauses_the_world_and_is_named(gazebo: Gazebo, tmp_
         assert time.monotonic() < end
         time.sleep(0.01)
     assert gazebo.call("get_physics_properties", "gazebo_msgs/GetPhysicsProperties").pause is True
+
+
+def test_a_server_that_was_killed_can_be_started_again(gazebo: Gazebo, capsys) -> None:
+    """As respawn_gazebo does: a new world, and nothing left of the old one."""
+    gazebo.spawn(_BALL, "old")
+    gazebo.loop.run(gazebo.server.shutdown())
+    missing = Node("/gazebo", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
+    end = time.monotonic() + 30.0
+    while gazebo.world.is_open:
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    assert gazebo.loop.run(GazeboServer(missing, ["/no/such.world"], gazebo.host).run(), timeout_s=30.0) == 1
+    gazebo.loop.run(missing.shutdown())
+
+    again = Node("/gazebo", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
+    gazebo.loop.spawn(GazeboServer(again, ["-u"], gazebo.host).run())
+    gazebo.loop.run(gazebo.client.wait_for_service("/gazebo/unpause_physics", 30.0), timeout_s=40.0)
+    gazebo.loop.run(again.ready())
+    models = gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties").model_names
+    assert list(models) == ["ground_plane"]
+
+
+def test_a_second_server_is_refused_and_leaves_the_first_alone(gazebo: Gazebo, capsys) -> None:
+    second = Node("/second", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
+
+    assert gazebo.loop.run(GazeboServer(second, [], gazebo.host).run(), timeout_s=30.0) == 1
+    assert "a simulation runs already" in capsys.readouterr().err
+    gazebo.loop.run(second.shutdown())
+    assert gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties").success

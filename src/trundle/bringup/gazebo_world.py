@@ -27,6 +27,7 @@ from .page import Page
 from .plugins import load_plugins
 
 _IDLE_S = 0.01
+_LOOK_S = 0.5
 _END_S = 2.0
 _CALL_S = 30.0
 
@@ -104,7 +105,11 @@ class GazeboWorld:
 
         self.post(build)
         self._thread.start()
-        await built
+        try:
+            await built
+        except BaseException:
+            await asyncio.to_thread(self.close)
+            raise
 
     def post(self, call: Callable[[], None]) -> None:
         """Have a function called between two strides."""
@@ -112,19 +117,32 @@ class GazeboWorld:
 
     async def show(self, node: Node) -> int:
         """Open the page, once there is something to show, and keep it until cancelled."""
-        window = self._window
-        if window is not None:
-            while self._simulation is None:
-                await asyncio.sleep(0.1)
-            self.post(lambda: self._open_page(window, node))
-        await node.closed.wait()
+        while not node.closed.is_set():
+            window = self._window
+            if window is not None and self._simulation is not None and self._page is None:
+                self.post(lambda window=window: self._open_page(window, node))
+            await asyncio.sleep(_LOOK_S)
         return 0
 
     def close(self) -> None:
-        """End the thread and everything on it."""
+        """End the thread and everything on it; afterwards a world may be opened again."""
+        thread, self._thread = self._thread, None
+        if thread is None:
+            return
         self._ending.set()
-        if self._thread is not None:
-            self._thread.join(_END_S)
+        thread.join(_END_S)
+        self._commands.clear()
+        for nodes in self._nodes.values():
+            for node in nodes:
+                self._graph.loop.spawn(node.shutdown())
+        self._nodes.clear()
+        self._simulation = None
+        self._ending.clear()
+
+    @property
+    def is_open(self) -> bool:
+        """Whether there is a world."""
+        return self._thread is not None
 
     # -- on its thread
 
@@ -191,6 +209,7 @@ class GazeboWorld:
         finally:
             if self._page is not None:
                 self._page.close()
+                self._page = None
 
     def _go_on(self, simulation: Simulation) -> None:
         if self._paused:
@@ -262,10 +281,13 @@ class GazeboWorld:
         return node
 
     def _open_page(self, window: tuple[str, int | None], node: Node) -> None:
+        if self._page is not None:
+            return
         host, port = window
         try:
             self._page = Page.open(self.simulation, self._cameras, None, host=host, port=port)
         except TrundleError as error:
             node.log_error(str(error))
+            self._window = None
         else:
             self._say(f"see the simulation at {self._page.url}")

@@ -42,7 +42,10 @@ class Display(Protocol):
 
 
 class Simulator(Protocol):
-    """The one simulation of a launch, on a thread of its own; all but `open`, `post` and `show` is called there."""
+    """The one simulation of a launch, on a thread of its own.
+
+    All but `open`, `close`, `post` and `show` is called on that thread.
+    """
 
     @property
     def simulation(self) -> "Simulation":
@@ -60,6 +63,10 @@ class Simulator(Protocol):
         Raises:
             TrundleError: no such world, one that cannot be read, or there is one already.
         """
+        ...
+
+    def close(self) -> None:
+        """End the simulation; waits for its thread, so that it is not called there, nor on the graph's loop."""
         ...
 
     def post(self, call: Callable[[], None]) -> None:

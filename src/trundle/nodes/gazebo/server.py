@@ -52,6 +52,14 @@ class GazeboServer:
         except TrundleError as error:
             node.log_fatal(str(error))
             return 1
+        try:
+            await self._serve(simulator)
+        finally:
+            await asyncio.to_thread(simulator.close)
+        return 0
+
+    async def _serve(self, simulator: Simulator) -> None:
+        node = self._node
         node.deliver = simulator.post
         topics = StateTopics(node, simulator)
         self._advertise(simulator)
@@ -60,7 +68,6 @@ class GazeboServer:
             if topics.wanted():
                 simulator.post(topics.publish)
             await asyncio.sleep(topics.period_s)
-        return 0
 
     def _advertise(self, simulator: Simulator) -> None:
         for advertise in (
