@@ -174,6 +174,29 @@ def test_a_bumper_carries_the_weight_of_what_rests_on_its_collisions(tmp_path: P
     assert all(touch.normal == pytest.approx((0, 0, 1), abs=1e-9) for touch in touches)
 
 
+@pytest.mark.parametrize(
+    ("settings", "force", "torque"),
+    [
+        ("", (0, 0, -19.6), (0, 9.8, 0)),
+        ("<measure_direction>parent_to_child</measure_direction>", (0, 0, 19.6), (0, -9.8, 0)),
+        ("<frame>sensor</frame>", (0, 19.6, 0), (0, 0, 9.8)),  # its y points down, its z along the hinge
+        ("<frame>parent</frame>", (0, 0, -19.6), (0, 9.8, 0)),
+    ],
+)
+def test_a_joint_tells_what_hangs_from_it(tmp_path: Path, settings: str, force, torque) -> None:
+    """2 kg half a metre out on a rigid arm: the child pulls its parent down and forward over its edge."""
+    body = BODY.replace("<mass>1</mass>", "<mass>2</mass><pose>0.5 0 0 0 0 0</pose>")
+    pose = f"<pose>0 0 0 {-math.pi / 2} 0 0</pose>"
+    sensor = f'<sensor name="f" type="force_torque">{pose}<force_torque>{settings}</force_torque></sensor>'
+    joint = f'<joint name="j" type="revolute"><parent>world</parent><child>a</child>{sensor}'
+    joint += "<axis><xyz>0 1 0</xyz><limit><lower>-0.001</lower><upper>0.001</upper></limit></axis></joint>"
+
+    wrench = read(load(tmp_path, f'<link name="a">{body}</link>{joint}'), 1.0)[-1].wrench
+
+    assert wrench.force == pytest.approx(force, abs=0.1)
+    assert wrench.torque == pytest.approx(torque, abs=0.1)
+
+
 def test_a_sensor_that_nobody_wants_measures_nothing(tmp_path: Path) -> None:
     sim = load(tmp_path, ray("<samples>1</samples>") + imu().replace('"a"', '"b"'), others=WALL)
     sensors = mount_sensors(sim)

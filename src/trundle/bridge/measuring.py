@@ -1,4 +1,5 @@
-"""Readings on ROS topics of their own: `<model>/<link>/<sensor>/imu`, `…/scan` or `…/points`, `…/fix`, `…/contacts`."""
+"""Readings on ROS topics of their own: `<model>/<link>/<sensor>/imu`, `…/scan` or `…/points`, `…/fix`,
+`…/contacts`, `<model>/<joint>/<sensor>/wrench`."""
 
 from collections.abc import Iterable
 
@@ -10,6 +11,8 @@ from trundle.ros import Node, StaticTransformBroadcaster, Transform
 from trundle.sensors import (
     ContactReading,
     ContactSensor,
+    ForceTorqueReading,
+    ForceTorqueSensor,
     GpsReading,
     GpsSensor,
     ImuReading,
@@ -39,6 +42,8 @@ def sensor_topics(
                 ScanTopic(node, still, sensor, world)
             case GpsSensor():
                 FixTopic(node, still, sensor, world)
+            case ForceTorqueSensor():
+                WrenchTopic(node, still, sensor, world)
             case ContactSensor():
                 ContactsTopic(node, sensor)
 
@@ -50,13 +55,14 @@ def _place(sensor: MeasuringSensor, still: StaticTransformBroadcaster, world: Wo
     carrier = link_frame_name(sensor.model, sensor.link.name, plain=plain)
     if frame == carrier:
         frame = f"{frame}_sensor"
-    pose = sensor.sensor.link_from_sensor
+    on_joint = isinstance(sensor, ForceTorqueSensor)
+    pose = sensor.link_from_sensor if on_joint else sensor.sensor.link_from_sensor
     still.send(Transform(parent=carrier, child=frame, translation=pose.position, rotation=pose.quaternion))
     return frame, _base(sensor)
 
 
 def _base(sensor: MeasuringSensor) -> str:
-    return f"/{ros_name(sensor.model.name)}/{ros_name(sensor.link.name)}/{ros_name(sensor.name)}"
+    return f"/{ros_name(sensor.model.name)}/{ros_name(sensor.place)}/{ros_name(sensor.name)}"
 
 
 class ImuTopic:
@@ -154,6 +160,26 @@ class FixTopic:
                 "position_covariance_type": 2,
             }
         )
+
+
+class WrenchTopic:
+    """geometry_msgs/WrenchStamped on `<model>/<joint>/<sensor>/wrench`, in the frame that the sensor names."""
+
+    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: ForceTorqueSensor, world: World) -> None:
+        """Advertise, and place the sensor's frame."""
+        own, base = _place(sensor, still, world)
+        plain = has_plain_frames(world)
+        parent = sensor.joint.parent
+        self._frame = {
+            "child": link_frame_name(sensor.model, sensor.link.name, plain=plain),
+            "parent": WORLD_FRAME if parent == "world" else link_frame_name(sensor.model, parent, plain=plain),
+        }.get(sensor.settings.frame, own)
+        self._topic = node.advertise(f"{base}/wrench", "geometry_msgs/WrenchStamped", queue_size=10)
+        sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
+
+    def _publish(self, reading: ForceTorqueReading) -> None:
+        header = {"stamp": reading.time_ns, "frame_id": self._frame}
+        self._topic.publish({"header": header, "wrench": _wrench(reading.wrench)})
 
 
 class ContactsTopic:

@@ -24,7 +24,7 @@ from .link import Collision, Link, Visual
 from .material import GREY, Material, Rgba
 from .model import Frame, Model
 from .plugin import PluginTag
-from .sensor import CameraOptics, GpsNoise, ImuNoise, Noise, RangeScan, ScanAxis, Sensor
+from .sensor import CameraOptics, ForceTorque, GpsNoise, ImuNoise, Noise, RangeScan, ScanAxis, Sensor
 from .surface import Surface
 from .world import World
 
@@ -41,6 +41,7 @@ __all__ = [
     "Ellipsoid",
     "Empty",
     "Fog",
+    "ForceTorque",
     "Frame",
     "Geometry",
     "GpsNoise",

@@ -74,6 +74,16 @@ class GpsNoise:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ForceTorque:
+    """How what a joint carries is told."""
+
+    frame: str = "child"
+    """Whose axes: child, parent or sensor."""
+    parent_to_child: bool = False
+    """What the parent does to the child; else what the child does to the parent."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Sensor:
     """A sensor mounted on a link."""
 
@@ -95,6 +105,8 @@ class Sensor:
     """Set for imus."""
     gps: GpsNoise | None = None
     """Set for gps and navsat sensors."""
+    force_torque: ForceTorque | None = None
+    """Set for force_torque sensors, which sit on joints."""
     touching: tuple[str, ...] | None = None
     """Set for contact sensors: the collisions of the link that feel; none named stands for all."""
     plugins: tuple[PluginTag, ...] = ()

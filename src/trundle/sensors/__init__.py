@@ -2,6 +2,7 @@
 
 from .camera import CameraReading, CameraSensor
 from .contact import ContactReading, ContactSensor
+from .force_torque import ForceTorqueReading, ForceTorqueSensor
 from .gps import GpsReading, GpsSensor
 from .imu import ImuReading, ImuSensor
 from .mount import SIMULATED, mount_cameras
@@ -14,6 +15,8 @@ __all__ = [
     "CameraSensor",
     "ContactReading",
     "ContactSensor",
+    "ForceTorqueReading",
+    "ForceTorqueSensor",
     "GpsReading",
     "GpsSensor",
     "ImuReading",

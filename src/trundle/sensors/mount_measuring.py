@@ -9,11 +9,12 @@ from trundle.model import Link, Model, Sensor
 from trundle.simulation import Simulation
 
 from .contact import ContactSensor
+from .force_torque import ForceTorqueSensor
 from .gps import GpsSensor
 from .imu import ImuSensor
 from .range import RangeSensor
 
-MeasuringSensor: TypeAlias = ContactSensor | GpsSensor | ImuSensor | RangeSensor
+MeasuringSensor: TypeAlias = ContactSensor | ForceTorqueSensor | GpsSensor | ImuSensor | RangeSensor
 
 
 def mount_sensors(simulation: Simulation) -> list[MeasuringSensor]:
@@ -29,6 +30,32 @@ def mount_sensors(simulation: Simulation) -> list[MeasuringSensor]:
                     random = np.random.default_rng([simulation.seed, number])
                     mounted.append(make(simulation, model, link, sensor, index, random))
             index += 1
+        mounted += _on_joints(simulation, model, first=index - len(model.links))
+    return mounted
+
+
+def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[MeasuringSensor]:
+    """The force-torque sensors of a model's joints; `first` is its first link's index."""
+    indices = {link.name: first + i for i, link in enumerate(model.links)}
+    mounted: list[MeasuringSensor] = []
+    for joint in model.joints:
+        for sensor in joint.sensors:
+            if sensor.force_torque is None or joint.child not in indices:
+                what = f"sensor {sensor.name!r}: {sensor.type} sensors on joints are not simulated yet"
+                simulation.report.warn(sensor.at, what)
+                continue
+            handle = simulation[model.name].joint(joint.name)
+            mounted.append(
+                ForceTorqueSensor(
+                    model,
+                    model.link(joint.child),
+                    sensor,
+                    joint=joint,
+                    link_index=indices[joint.child],
+                    parent_index=indices.get(joint.parent),
+                    reaction=lambda handle=handle: handle.reaction,
+                )
+            )
     return mounted
 
 
@@ -82,5 +109,5 @@ _MAKERS: dict[str, _Maker] = {
     "navsat": _gps,
     "contact": _contact,
 }
-MEASURING = frozenset(_MAKERS)
+MEASURING = frozenset(_MAKERS) | {"force_torque"}
 """SDF's types of them."""

@@ -37,6 +37,8 @@ class MountedSensor(Generic[Reading]):
         self.link = link
         self.sensor = sensor
         self.link_index = link_index
+        self.place = link.name
+        """What its topics are called after: its link, or the joint it sits on."""
         rate = sensor.update_rate_hz or fastest_hz
         self.period_ns = 0 if rate is None else round(NS / rate)
         self._listeners: list[_Listener[Reading]] = []

@@ -1,6 +1,6 @@
 """Reads what ray sensors, lidars and imus measure, and with how much noise."""
 
-from trundle.model import GpsNoise, ImuNoise, Noise, RangeScan, ScanAxis
+from trundle.model import ForceTorque, GpsNoise, ImuNoise, Noise, RangeScan, ScanAxis
 from trundle.xmlnode import XmlNode
 
 from .context import Context
@@ -100,6 +100,24 @@ def read_touching(sensor: XmlNode, context: Context) -> tuple[str, ...]:
     node.find("topic")
     node.report_unread(context.report)
     return tuple(name for name in names if name not in ("", "__default__"))
+
+
+def read_force_torque(sensor: XmlNode, context: Context) -> ForceTorque:
+    """Read <force_torque>; before SDF 1.5 forces were told in the parent's axes."""
+    node = sensor.find("force_torque") or sensor.find("forcetorque")
+    before = "parent" if context.version < (1, 5) else "child"
+    if node is None:
+        return ForceTorque(frame=before)
+    frame = node.string("frame") or before
+    if frame not in ("child", "parent", "sensor"):
+        context.report.warn(node.at, f"no frame {frame!r} for forces: child, parent or sensor; child is used")
+        frame = "child"
+    direction = node.string("measure_direction") or "child_to_parent"
+    for tag in ("force", "torque"):
+        if node.find(tag) is not None:
+            context.report.info(node.at, f"noise of <{tag}> is not simulated; readings are exact")
+    node.report_unread(context.report)
+    return ForceTorque(frame=frame, parent_to_child=direction == "parent_to_child")
 
 
 def _axes(imu: XmlNode, tag: str, old: XmlNode | None, context: Context) -> tuple[Noise, Noise, Noise]:

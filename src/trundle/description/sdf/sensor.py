@@ -6,9 +6,9 @@ from trundle.xmlnode import XmlNode
 
 from .context import Context, read_pose
 from .frames import FrameGraph
-from .measuring import RANGING, read_gps, read_imu, read_scan, read_touching
+from .measuring import RANGING, read_force_torque, read_gps, read_imu, read_scan, read_touching
 
-WHOLE = RANGING | {"camera", "imu", "gps", "navsat", "contact"}
+WHOLE = RANGING | {"camera", "imu", "gps", "navsat", "contact", "force_torque"}
 """Types whose every setting is read."""
 
 
@@ -30,6 +30,7 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
         scan=read_scan(node, context) if type_ in RANGING else None,
         imu=read_imu(node, context) if type_ == "imu" else None,
         gps=read_gps(node, context) if type_ in ("gps", "navsat") else None,
+        force_torque=read_force_torque(node, context) if type_ == "force_torque" else None,
         touching=read_touching(node, context) if type_ == "contact" else None,
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
     )

@@ -5,9 +5,6 @@ from trundle.model import CameraOptics, GpsNoise, ImuNoise, Noise, RangeScan, Se
 
 from .tag import Tag
 
-_ALWAYS_WHOLE = frozenset({"force_torque"})
-"""Sensors with hardly a setting of their own."""
-
 
 def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
     """Append <sensor>; settings that the model does not hold are named."""
@@ -29,7 +26,12 @@ def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
         contact = tag.add("contact")
         for name in sensor.touching:
             contact.add("collision", name)
-    elif sensor.type not in _ALWAYS_WHOLE:
+    elif sensor.force_torque is not None:
+        measured = tag.add("force_torque")
+        measured.add("frame", sensor.force_torque.frame)
+        direction = "parent_to_child" if sensor.force_torque.parent_to_child else "child_to_parent"
+        measured.add("measure_direction", direction)
+    else:
         report.warn(sensor.at, f"sensor {sensor.name!r}: the settings of a {sensor.type} sensor are not written yet")
     tag.children += [plugin.node.xml() for plugin in sensor.plugins]
 

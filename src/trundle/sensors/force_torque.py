@@ -1,0 +1,77 @@
+"""Force-torque sensors: what a joint carries."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from trundle.model import ForceTorque, Joint, Link, Model, Sensor
+from trundle.simulation import Snapshot
+from trundle.spatial import Pose, Vector3, Wrench
+
+from .mounted import MountedSensor
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ForceTorqueReading:
+    """What went through the joint, at the joint."""
+
+    time_ns: int
+    wrench: Wrench
+    """In the axes that the sensor names."""
+
+
+class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
+    """Tells what parent and child of a joint do to one another."""
+
+    def __init__(
+        self,
+        model: Model,
+        link: Link,
+        sensor: Sensor,
+        *,
+        joint: Joint,
+        link_index: int,
+        parent_index: int | None,
+        reaction: Callable[[], Wrench],
+    ) -> None:
+        """Mount it; see `MountedSensor`.
+
+        Args:
+            model: whose it is.
+            link: the joint's child.
+            sensor: with its force_torque.
+            joint: that it sits on.
+            link_index: of the child in `Snapshot.poses`.
+            parent_index: of the parent likewise; None: the world.
+            reaction: what the parent does to the child, at the joint, world axes.
+        """
+        super().__init__(model, link, sensor, link_index=link_index)
+        self.settings = sensor.force_torque or ForceTorque()
+        self.joint = joint
+        self.place = joint.name
+        self.link_from_sensor = joint.child_from_joint @ sensor.link_from_sensor
+        self._parent_index = parent_index
+        self._reaction = reaction
+
+    def take(self, snapshot: Snapshot) -> ForceTorqueReading:
+        """What goes through the joint now."""
+        on_child = self._reaction()
+        sign = 1.0 if self.settings.parent_to_child else -1.0
+        axes = Pose(quaternion=self._world_from_axes(snapshot).quaternion).inverse()
+
+        def told(vector: Vector3) -> Vector3:
+            x, y, z = axes.direction(vector)
+            return (sign * x, sign * y, sign * z)
+
+        return ForceTorqueReading(time_ns=snapshot.time_ns, wrench=Wrench(told(on_child.force), told(on_child.torque)))
+
+    def _world_from_axes(self, snapshot: Snapshot) -> Pose:
+        match self.settings.frame:
+            case "parent":
+                if self._parent_index is None:
+                    return Pose()
+                x, y, z, qw, qx, qy, qz = snapshot.poses[self._parent_index].tolist()
+                return Pose((x, y, z), (qw, qx, qy, qz))
+            case "sensor":
+                return self.world_from_link(snapshot) @ self.link_from_sensor
+            case _:
+                return self.world_from_link(snapshot)
