@@ -170,7 +170,9 @@ class _ClosingLoop(asyncio.SelectorEventLoop):
     async def leave_nothing_open(self) -> None:
         """Close servers, end tasks, drop connections; in this order, so that nothing new comes in between."""
         if self._opening:
-            await asyncio.wait(self._opening, timeout=_OPENING_S)
+            opened, _ = await asyncio.wait(self._opening, timeout=_OPENING_S)
+            for task in opened:  # their own callbacks may come only after this
+                self._opened(task)
         for server in self._servers:
             server.close()
         # A connection that was accepted just now becomes a transport in a pass of its own; cancelled before, its
