@@ -18,22 +18,23 @@ ALLOW_OUTSIDE = "TRUNDLE_ALLOW_OUTSIDE"
 class Packages:
     """Everything a description may refer to, as one environment has it."""
 
-    def __init__(self, environment: Mapping[str, str], *, start: Path) -> None:
+    def __init__(self, environment: Mapping[str, str], *, start: Path, known: "Packages | None" = None) -> None:
         """Look with these variables, around a file or folder.
 
         Args:
             environment: ROS_PACKAGE_PATH, GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and HOME are read.
             start: whose package and workspace are searched too.
+            known: others whose walks through folders need not be made again.
         """
         start = start.absolute()
         self._environment = environment
-        self._ros = RosPackages(environment, start)
+        self._ros = RosPackages(environment, start, None if known is None else known._ros)
         self._gazebo = GazeboPaths(environment, start, self._ros)
         self._own = own_package(start) or (start if start.is_dir() else start.parent)
 
     def around(self, file: Path) -> "Packages":
         """The same, searched around another file."""
-        return Packages(self._environment, start=file)
+        return Packages(self._environment, start=file, known=self)
 
     def find_package(self, name: str) -> Path | None:
         """The folder of a ROS package, or None."""

@@ -5,6 +5,7 @@ import re
 from collections import deque
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import TypeAlias
 
 from trundle.diagnostics import DescriptionError
 from trundle.xmlnode import read_xml
@@ -22,17 +23,28 @@ SHIPPED = Path(__file__).parent / "ros"
 """Packages of our own: for the few stock ones that launch files only take a file from."""
 
 
+_Folder: TypeAlias = tuple[Path, str | None]
+"""A folder that may be meant by its own name, and the name that its manifest gives it, if it has one."""
+
+
 class RosPackages:
     """An index of the packages below some folders, made when first asked."""
 
-    def __init__(self, environment: Mapping[str, str], start: Path) -> None:
-        """Look along ROS_PACKAGE_PATH, in the workspace around `start`, then beside the package `start` is in."""
+    def __init__(self, environment: Mapping[str, str], start: Path, known: "RosPackages | None" = None) -> None:
+        """Look along ROS_PACKAGE_PATH, in the workspace around `start`, then beside the package `start` is in.
+
+        Args:
+            environment: says where packages are.
+            start: a file or folder.
+            known: an index whose walks through folders need not be made again.
+        """
         entries = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
         start = start.resolve()
         self.roots = [*(Path(entry).expanduser().absolute() for entry in entries if entry), *workspaces(start)]
         """Folders that are there to hold packages."""
         own = own_package(start)
         self._guessed = [] if own is None or own.parent in self.roots else [own, own.parent]
+        self._walks: dict[tuple[Path, int | None], list[_Folder]] = {} if known is None else known._walks
         self._by_name: dict[str, Path] | None = None
         self._folders: dict[str, Path] = {}
 
@@ -57,12 +69,20 @@ class RosPackages:
 
     def _crawl(self, root: Path, *, most: int | None = None) -> None:
         assert self._by_name is not None
-        for folder, names in _walk(root, most):
-            is_package = not names.isdisjoint(MANIFESTS)
-            if is_package:
-                self._by_name.setdefault(_package_name(folder), folder)
-            if is_package or not names.isdisjoint(PARTS):
-                self._folders.setdefault(folder.name, folder)
+        if (root, most) not in self._walks:
+            self._walks[root, most] = list(_packages_below(root, most))
+        for folder, name in self._walks[root, most]:
+            if name is not None:
+                self._by_name.setdefault(name, folder)
+            self._folders.setdefault(folder.name, folder)
+
+
+def _packages_below(root: Path, most: int | None) -> Iterator["_Folder"]:
+    for folder, names in _walk(root, most):
+        if not names.isdisjoint(MANIFESTS):
+            yield folder, _package_name(folder)
+        elif not names.isdisjoint(PARTS):
+            yield folder, None
 
 
 def _walk(root: Path, most: int | None) -> Iterator[tuple[Path, set[str]]]:

@@ -12,17 +12,19 @@ from ..sdf.model import WrittenJoint
 from ..sdf.sensor import read_plugin, read_sensor
 from ..sdf.surface import read_surface
 
-_TUNING = (
-    "stopCfm",
-    "stopErp",
-    "stopKp",
-    "stopKd",
-    "fudgeFactor",
-    "implicitSpringDamper",
-    "cfmDamping",
-    "provideFeedback",
-    "maxContacts",
-    "canonicalBody",
+_TUNING = frozenset(
+    {
+        "stopCfm",
+        "stopErp",
+        "stopKp",
+        "stopKd",
+        "fudgeFactor",
+        "implicitSpringDamper",
+        "cfmDamping",
+        "provideFeedback",
+        "maxContacts",
+        "canonicalBody",
+    }
 )
 _TRUE = frozenset({"true", "yes", "1"})
 
@@ -32,9 +34,13 @@ class GazeboTags:
 
     def __init__(self, root: XmlNode, context: Context) -> None:
         self._context = context
-        self._blocks: dict[str, list[XmlNode]] = {}
+        self._nodes: dict[tuple[str, str], list[XmlNode]] = {}
+        """By what they refer to and their tag."""
+        self._read: set[tuple[str, str]] = set()
         for block in root.all("gazebo"):
-            self._blocks.setdefault(block.attribute("reference") or "", []).append(block)
+            reference = block.attribute("reference") or ""
+            for node in block.children:
+                self._nodes.setdefault((reference, node.tag), []).append(node)
 
     def flag(self, reference: str, *tags: str) -> bool | None:
         """A yes or no by any of its names; None where no block says."""
@@ -113,24 +119,25 @@ class GazeboTags:
             joint.add_to(graph)
         return tuple(joint.read(graph, self._context) for joint in sound)
 
-    def name_tuning(self, reference: str) -> None:
+    def name_tuning(self) -> None:
         """Say of what tunes Gazebo's engines that it is read and not used."""
-        for tag in _TUNING:
-            for node in self._all(reference, tag):
-                self._context.report.info(node.at, f"<{tag}> tunes Gazebo's engines; it is ignored")
+        for reference, tag in self._nodes:
+            if tag in _TUNING:
+                for node in self._all(reference, tag):
+                    self._context.report.info(node.at, f"<{tag}> tunes Gazebo's engines; it is ignored")
 
     def report_unread(self) -> None:
         """Name what nobody asked for."""
-        for reference, blocks in self._blocks.items():
-            for block in blocks:
-                for node in block.unread():
-                    whom = f"{reference!r}" if reference else "the robot"
-                    self._context.report.warn(
-                        node.at, f"<{node.tag}> for {whom} in <gazebo> is not supported; it is ignored"
-                    )
+        for (reference, tag), nodes in self._nodes.items():
+            if (reference, tag) in self._read:
+                continue
+            whom = f"{reference!r}" if reference else "the robot"
+            for node in nodes:
+                self._context.report.warn(node.at, f"<{tag}> for {whom} in <gazebo> is not supported; it is ignored")
 
     def _all(self, reference: str, tag: str) -> list[XmlNode]:
-        return [node for block in self._blocks.get(reference, []) for node in block.all(tag)]
+        self._read.add((reference, tag))
+        return self._nodes.get((reference, tag), [])
 
     def _last(self, reference: str, tag: str) -> XmlNode | None:
         found = self._all(reference, tag)

@@ -108,8 +108,7 @@ class _Lowering:
             for part, pose in self.lumps[link.name].parts[1:]:
                 graph.add(part, RawPose(pose, link.name), self.links[part].at, attached_to=link.name)
         joints = (*joints, *self.tags.joints(graph))
-        for reference in ("", *(link.name for link in self.robot.links), *(joint.name for joint in self.robot.joints)):
-            self.tags.name_tuning(reference)
+        self.tags.name_tuning()
         plugins = self.tags.plugins("")
         static = self.tags.flag("", "static") or False
         self.tags.report_unread()
