@@ -10,13 +10,12 @@ from typing import Self
 
 from trundle.diagnostics import Diagnostics
 from trundle.launch import LaunchNode, LaunchParam, LaunchPlan
-from trundle.nodes import Host
+from trundle.nodes import Host, Simulator
 from trundle.packages import Packages
 from trundle.ros import Clock, Node, follow_time
 from trundle.viewer import GraphPage
 
 from . import launch_print
-from .gazebo_world import GazeboWorld
 from .graph import Graph
 from .launch_logs import log_folder
 from .launch_nodes import NodeStarter
@@ -83,26 +82,32 @@ class LaunchSession:
             page = GraphPage(packages=read.packages, report=read.report, host=options.host, port=options.view_port)
             self._open_things.callback(page.close)
         logs = log_folder(read.env, str(graph.loop.run(launcher.get_param("/run_id", ""))))
-        gazebo = GazeboWorld(
-            graph=graph,
-            start=read.start,
-            env=read.env,
-            report=read.report,
-            folder=logs / "spawned",
-            say=show.line,
-            window=None if options.headless else (options.host, options.view_port),
-        )
-        self._open_things.callback(gazebo.close)
         self.starter = NodeStarter(
             graph=graph,
             packages=read.packages,
             env=read.env,
             report=read.report,
-            host=Host(display=page, simulator=gazebo),
+            host=Host(display=page, simulator=self._simulator(logs) if _simulates(read.plan) else None),
             log_folder=logs,
             output=options.output,
             all_required=options.all_required,
         )
+
+    def _simulator(self, logs: Path) -> Simulator:
+        from .gazebo_world import GazeboWorld  # a launch without Gazebo does not wait for the physics
+
+        options, read = self._options, self._read
+        gazebo = GazeboWorld(
+            graph=self.graph,
+            start=read.start,
+            env=read.env,
+            report=read.report,
+            folder=logs / "spawned",
+            say=read.show.line,
+            window=None if options.headless else (options.host, options.view_port),
+        )
+        self._open_things.callback(gazebo.close)
+        return gazebo
 
     def start(self, nodes: Sequence[LaunchNode]) -> RunningNodes:
         """Start nodes, and say what runs."""
@@ -152,3 +157,7 @@ class SilentClock:
         elif time.monotonic() > self._due:
             self._say("/use_sim_time is true, but nothing has published a time on /clock yet (a simulation, a bag?)")
             self._say = None
+
+
+def _simulates(plan: LaunchPlan) -> bool:
+    return any(node.package == "gazebo_ros" for node in plan.nodes)

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from xml.sax.saxutils import escape, quoteattr
+from html import escape
 
 from trundle.spatial import Pose
 
@@ -54,9 +54,9 @@ class Tag:
         if self._is_blank():
             return []
         pad = "  " * indent
-        attributes = "".join(f" {key}={quoteattr(text)}" for key, text in self.attributes.items())
+        attributes = "".join(f' {key}="{_quoted(text)}"' for key, text in self.attributes.items())
         if not self.children:
-            end = f">{escape(self.text)}</{self.name}>" if self.text else "/>"
+            end = f">{escape(self.text, quote=False)}</{self.name}>" if self.text else "/>"
             return [f"{pad}<{self.name}{attributes}{end}"]
         inner: list[str] = []
         for child in self.children:
@@ -89,3 +89,8 @@ def spelled(value: Value) -> str:
 def _number(value: float) -> str:
     whole = math.isfinite(value) and float(value).is_integer() and abs(value) < 1e15
     return str(int(value)) if whole else repr(value)
+
+
+def _quoted(text: str) -> str:
+    """An attribute's text; white space but blanks would be read back as blanks."""
+    return escape(text).replace("\n", "&#10;").replace("\r", "&#13;").replace("\t", "&#9;")
