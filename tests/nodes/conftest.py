@@ -93,6 +93,10 @@ class Stage:
         """Whether the client hears a publisher of a topic."""
         return any(link[4] == topic and link[2] == "i" for link in self.client.connections())
 
+    def linked(self, topic: str) -> bool:
+        """Whether a stand-in's words on a topic reach somebody."""
+        return any(link[4] == topic and link[2] == "o" for _, node in self._running for link in node.connections())
+
 
 @pytest.fixture(scope="session")
 def messages() -> Messages:

@@ -143,6 +143,7 @@ def test_openings_and_models_that_cannot_be_are_refused() -> None:
 def test_a_gripper_opens_as_its_servo_does(stage) -> None:
     stage.start("arbotix_python/arbotix_driver", name="arbotix", **{**ARBOTIX, "joints": {"gripper_joint": {"id": 1}}})
     stage.start("arbotix_controllers/gripper_controller", name="grip", model="singlesided")
+    stage.until(lambda: stage.linked("/gripper_joint/command") and stage.linked("/joint_states"))
     _, results = ask(stage, "/grip/gripper_action", "control_msgs/GripperCommand", {"command": {"position": 0.03}})
     stage.until(lambda: results)
 
