@@ -83,6 +83,17 @@ def rotate(q: Quaternion, v: Vector3) -> Vector3:
     )
 
 
+def upright(normal: Vector3) -> Quaternion:
+    """The shortest rotation that takes +z to a unit vector."""
+    x, y, z = normal
+    if z < -1 + 1e-12:
+        return (0.0, 1.0, 0.0, 0.0)
+    if z > 1 - 1e-12:
+        return IDENTITY_QUATERNION
+    w = math.sqrt((1 + z) / 2)
+    return (w, -y / (2 * w), x / (2 * w), 0.0)
+
+
 @dataclass(frozen=True, slots=True)
 class Pose:
     """A rigid transform `a_from_b`: where frame b's origin and axes are, seen from frame a."""

@@ -25,7 +25,7 @@ from trundle.model import (
     Sphere,
     Surface,
 )
-from trundle.spatial import IDENTITY_QUATERNION, Pose, Quaternion, Vector3
+from trundle.spatial import Pose, Vector3, upright
 
 from .pieces import convex_pieces
 from .polygons import triangles_of
@@ -199,14 +199,3 @@ def _mended(collision: Collision, report: Diagnostics) -> Geometry:
             return Ellipsoid(thick(radii, "x y z"))
         case other:
             return other
-
-
-def upright(normal: Vector3) -> Quaternion:
-    """The shortest rotation that takes +z to a unit vector."""
-    x, y, z = normal
-    if z < -1 + 1e-12:
-        return (0.0, 1.0, 0.0, 0.0)
-    if z > 1 - 1e-12:
-        return IDENTITY_QUATERNION
-    w = math.sqrt((1 + z) / 2)
-    return (w, -y / (2 * w), x / (2 * w), 0.0)

@@ -34,6 +34,8 @@ class Picture:
     """(height, width, 3)"""
     depth: NDArray[np.float32] | None = None
     """(height, width) distance along the view axis [m]; infinite where nothing is."""
+    segmentation: NDArray[np.int32] | None = None
+    """(height, width) index of the shape in the scene; -1 where nothing is."""
 
 
 class Renderer(Protocol):

@@ -1,0 +1,83 @@
+#include "place.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trundle {
+
+std::optional<Frame> Frame::of(const double* pose) {
+  double square = 0.0;
+  for (int i = 0; i < 7; ++i)
+    if (!std::isfinite(pose[i])) return std::nullopt;
+  for (int i = 3; i < 7; ++i) square += pose[i] * pose[i];
+  if (!(square > 0.0) || !std::isfinite(square)) return std::nullopt;
+  const double length = std::sqrt(square);
+  const double w = pose[3] / length, x = pose[4] / length, y = pose[5] / length, z = pose[6] / length;
+  return Frame{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),  //
+                2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),  //
+                2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)},
+               {pose[0], pose[1], pose[2]}};
+}
+
+Vec3 Frame::turn(const Vec3& v) const {
+  const auto& r = rotation;
+  return {r[0] * v[0] + r[1] * v[1] + r[2] * v[2], r[3] * v[0] + r[4] * v[1] + r[5] * v[2],
+          r[6] * v[0] + r[7] * v[1] + r[8] * v[2]};
+}
+
+Vec3 Frame::turn_back(const Vec3& v) const {
+  const auto& r = rotation;
+  return {r[0] * v[0] + r[3] * v[1] + r[6] * v[2], r[1] * v[0] + r[4] * v[1] + r[7] * v[2],
+          r[2] * v[0] + r[5] * v[1] + r[8] * v[2]};
+}
+
+Vec3 Frame::move(const Vec3& p) const {
+  const Vec3 turned = turn(p);
+  return {turned[0] + position[0], turned[1] + position[1], turned[2] + position[2]};
+}
+
+Vec3 Frame::move_back(const Vec3& p) const {
+  return turn_back({p[0] - position[0], p[1] - position[1], p[2] - position[2]});
+}
+
+Frame operator*(const Frame& world_from_a, const Frame& a_from_b) {
+  Frame product;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 column = world_from_a.turn(a_from_b.axis(i));
+    for (int row = 0; row < 3; ++row) product.rotation[3 * row + i] = column[row];
+  }
+  product.position = world_from_a.move(a_from_b.position);
+  return product;
+}
+
+Rectangle covered(const View& view, const Frame& camera_from_box, const Vec3& low, const Vec3& high) {
+  std::array<Vec3, 8> corners;
+  for (int i = 0; i < 8; ++i)
+    corners[i] = camera_from_box.move(
+        {i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]});
+  double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
+  const auto take = [&](double x, double y, double z) {
+    const double u = view.centre_u - view.focal * y / x, v = view.centre_v - view.focal * z / x;
+    left = std::min(left, u), right = std::max(right, u), top = std::min(top, v), bottom = std::max(bottom, v);
+  };
+  const double near_ = view.near_ * (1.0 - 1e-6);  // what is at it exactly is seen
+  for (int i = 0; i < 8; ++i) {
+    const Vec3& a = corners[i];
+    if (a[0] >= near_) take(a[0], a[1], a[2]);
+    for (const int bit : {1, 2, 4}) {
+      const Vec3& b = corners[i ^ bit];
+      if (!(a[0] >= near_) || b[0] >= near_) continue;
+      const double share = (near_ - a[0]) / (b[0] - a[0]);
+      take(near_, a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2]));
+    }
+  }
+  // A pixel more on each side, for what single precision makes of the same numbers. NaN falls to the whole picture.
+  const auto pixel = [](double at, int32_t last, int32_t otherwise) {
+    return std::isnan(at) ? otherwise : (int32_t)std::clamp(std::floor(at), 0.0, (double)last);
+  };
+  if (left > right) return {0, 0, 0, 0};
+  return {pixel(left - 1.0, view.width, 0), pixel(top - 1.0, view.height, 0),
+          pixel(right + 2.0, view.width, view.width), pixel(bottom + 2.0, view.height, view.height)};
+}
+
+}  // namespace trundle

@@ -1,0 +1,38 @@
+// Frames, and where in a picture a shape may be. In double precision: worlds are large, what a camera sees is not.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "kernel.h"
+
+namespace trundle {
+
+using Vec3 = std::array<double, 3>;
+
+// Axes in the columns of `rotation`, row by row.
+struct Frame {
+  std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  Vec3 position{};
+
+  // From x y z qw qx qy qz; the quaternion need not be of unit length. Nothing where a number is not finite.
+  static std::optional<Frame> of(const double* pose);
+  Vec3 axis(int i) const { return {rotation[i], rotation[3 + i], rotation[6 + i]}; }
+  Vec3 turn(const Vec3& v) const;  // out of this frame
+  Vec3 turn_back(const Vec3& v) const;
+  Vec3 move(const Vec3& p) const;
+  Vec3 move_back(const Vec3& p) const;
+};
+
+// world_from_a @ a_from_b
+Frame operator*(const Frame& world_from_a, const Frame& a_from_b);
+
+struct Rectangle {
+  int32_t left, top, right, bottom;  // the last ones excluded
+  bool empty() const { return left >= right || top >= bottom; }
+};
+
+// The pixels that a box, given in the camera's frame, may cover.
+Rectangle covered(const View& view, const Frame& camera_from_box, const Vec3& low, const Vec3& high);
+
+}  // namespace trundle

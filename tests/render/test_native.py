@@ -1,0 +1,267 @@
+"""What a camera sees."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from trundle.meshes import Mesh
+from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Rgba, Sphere
+from trundle.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
+from trundle.spatial import Pose
+
+RED: Rgba = (1.0, 0.0, 0.0, 1.0)
+GREEN: Rgba = (0.0, 1.0, 0.0, 1.0)
+WIDE = Intrinsics(width_px=320, height_px=240, horizontal_fov_rad=1.047)
+HEADLIGHT = (SceneLight(direction=(1.0, 0.0, 0.0), diffuse=(0.6, 0.6, 0.6, 1.0)),)
+
+
+def shape(geometry: ShapeGeometry, pose: Pose | None = None, rgba: Rgba = RED, body: int = 0) -> Shape:
+    return Shape(name="s", body=body, geometry=geometry, body_from_shape=pose or Pose(), rgba=rgba)
+
+
+def scene(*shapes: Shape, bodies: int = 1) -> Scene:
+    names = tuple(f"b{i}" for i in range(bodies))
+    return Scene(bodies=names, shapes=shapes, lights=HEADLIGHT, background=(0.2, 0.4, 0.6, 1.0))
+
+
+def renderer(*shapes: Shape) -> NativeRenderer:
+    """Of shapes on one body at the origin."""
+    made = NativeRenderer(scene(*shapes))
+    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    return made
+
+
+def is_red(rgb: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    return (rgb[..., 0] > 50) & (rgb[..., 1] == 0) & (rgb[..., 2] == 0)
+
+
+def centroid(mask: NDArray[np.bool_]) -> tuple[float, float]:
+    """Column, row."""
+    rows, columns = np.nonzero(mask)
+    return float(columns.mean()), float(rows.mean())
+
+
+def test_a_sphere_ahead_is_a_disc_in_the_middle_of_the_right_size() -> None:
+    picture = renderer(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0)))).render(Pose(), WIDE)
+    mask = is_red(picture.rgb)
+    assert centroid(mask) == pytest.approx((159.5, 119.5), abs=0.01)
+    # Its rim is seen where the line of sight touches it: tan = r / sqrt(d² - r²). Pixels cut the area to 1 %.
+    radius = WIDE.focal_px * 0.5 / math.sqrt(16.0 - 0.25)
+    assert mask.sum() == pytest.approx(math.pi * radius**2, rel=0.01)
+
+
+def test_depth_is_along_the_view_axis_and_infinite_where_nothing_is() -> None:
+    picture = renderer(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0)))).render(Pose(), WIDE, depth=True)
+    assert picture.depth is not None
+    assert picture.depth.shape == (240, 320)
+    assert picture.depth[119:121, 159:161] == pytest.approx(3.5, abs=1e-3)
+    assert np.isinf(picture.depth[0, 0])
+    assert (np.isfinite(picture.depth) == is_red(picture.rgb)).all()
+    # A wall is equally deep everywhere, though its corners are farther away.
+    wall = renderer(shape(Box((0.2, 20.0, 20.0)), Pose((3.0, 0.0, 0.0)))).render(Pose(), WIDE, depth=True)
+    assert wall.depth is not None
+    assert wall.depth == pytest.approx(2.9, abs=1e-5)
+
+
+def test_no_depth_is_made_unless_asked_for() -> None:
+    assert renderer(shape(Sphere(0.5))).render(Pose(), WIDE).depth is None
+
+
+@pytest.mark.parametrize(
+    ("place", "column_sign", "row_sign"),
+    [((4.0, 1.0, 0.0), -1, 0), ((4.0, -1.0, 0.0), 1, 0), ((4.0, 0.0, 1.0), 0, -1), ((4.0, 0.0, -1.0), 0, 1)],
+)
+def test_y_is_left_of_the_image_and_z_is_up(place: tuple[float, float, float], column_sign: int, row_sign: int) -> None:
+    column, row = centroid(is_red(renderer(shape(Sphere(0.2), Pose(place))).render(Pose(), WIDE).rgb))
+    # A sphere off the axis is seen a little farther out than its centre: 1 px.
+    shift = WIDE.focal_px * 1.0 / 4.0
+    assert (column - 159.5, row - 119.5) == pytest.approx((column_sign * shift, row_sign * shift), abs=1.0)
+
+
+def test_the_camera_looks_along_its_own_x() -> None:
+    made = renderer(shape(Sphere(0.5), Pose((1.0, 6.0, 2.0))))
+    picture = made.render(Pose.from_rpy(1.0, 2.0, 2.0, 0.0, 0.0, math.pi / 2), WIDE)
+    assert centroid(is_red(picture.rgb)) == pytest.approx((159.5, 119.5), abs=0.1)
+
+
+def test_the_background_is_the_scenes() -> None:
+    picture = renderer(shape(Sphere(0.5), Pose((-4.0, 0.0, 0.0)))).render(Pose(), WIDE)
+    assert picture.rgb.dtype == np.uint8
+    assert picture.rgb.shape == (240, 320, 3)
+    assert (picture.rgb == (51, 102, 153)).all()
+
+
+def test_a_scene_of_nothing_is_background() -> None:
+    made = NativeRenderer(scene(bodies=0))
+    made.update(np.empty((0, 7)))
+    assert (made.render(Pose(), WIDE).rgb == (51, 102, 153)).all()
+
+
+def test_what_is_nearer_than_near_or_farther_than_far_is_not_seen() -> None:
+    made = renderer(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0))))
+    for near, far in ((3.9, 100.0), (0.1, 3.4)):
+        clipped = Intrinsics(width_px=64, height_px=48, horizontal_fov_rad=0.2, near_m=near, far_m=far)
+        centre = made.render(Pose(), clipped).rgb[20:28, 28:36]
+        assert (centre == (51, 102, 153)).all()
+    clear = Intrinsics(width_px=64, height_px=48, horizontal_fov_rad=0.2, near_m=3.4, far_m=3.6)
+    assert is_red(made.render(Pose(), clear).rgb[20:28, 28:36]).all()
+
+
+def test_what_is_in_front_hides_what_is_behind() -> None:
+    front = shape(Sphere(0.3), Pose((3.0, 0.0, 0.0)))
+    behind = shape(Sphere(0.9), Pose((6.0, 0.0, 0.0)), GREEN)
+    for order in ((front, behind), (behind, front)):
+        rgb = renderer(*order).render(Pose(), WIDE).rgb
+        assert is_red(rgb)[120, 160]
+        assert rgb[120, 160 + 38, 1] > 50
+
+
+def test_a_shape_stands_on_the_ground_before_it() -> None:
+    ground = shape(Plane((0.0, 0.0, 1.0), (100.0, 100.0)), rgba=GREEN)
+    post = shape(Box((0.2, 0.2, 1.0)), Pose((5.0, 0.0, 0.5)))
+    picture = renderer(ground, post).render(Pose((0.0, 0.0, 1.0)), WIDE, depth=True)
+    rgb = picture.rgb
+    assert picture.depth is not None
+    assert is_red(rgb)[120 + 20, 160]
+    assert rgb[-1, 0, 1] > 50
+    assert (rgb[10, 160] == (51, 102, 153)).all()
+    # The bottom row looks 119.5 px down: the ground is f / 119.5 ahead for each metre of height.
+    assert picture.depth[-1, 0] == pytest.approx(WIDE.focal_px / 119.5, rel=1e-4)
+
+
+def test_a_ground_seen_edge_on_or_from_below_hides_no_sky() -> None:
+    ground = shape(Plane((0.0, 0.0, 1.0), (100.0, 100.0)), rgba=GREEN)
+    level = renderer(ground).render(Pose((0.0, 0.0, 1.0)), WIDE)
+    assert (level.rgb[:110] == (51, 102, 153)).all()
+    assert (level.rgb[130:, :, 1] > 50).all()
+
+
+def tetrahedron() -> Mesh:
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=np.float32) - 0.25
+    return Mesh(vertices, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], dtype=np.int32))
+
+
+def cube(size: float) -> Mesh:
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float32) * np.float32(
+        size / 2
+    )
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    faces = [triangle for a, b, c, d in quads for triangle in ((a, b, c), (a, c, d))]
+    return Mesh(corners, np.array(faces, dtype=np.int32))
+
+
+def test_a_single_triangle_is_drawn_and_one_without_area_is_not() -> None:
+    corners = np.array([[4, -1, -1], [4, 1, -1], [4, 0, 1]], dtype=np.float32)
+    face = np.array([[0, 2, 1]], dtype=np.int32)
+    seen = is_red(renderer(shape(Mesh(corners, face))).render(Pose(), WIDE).rgb)
+    # 2 m² at 4 m.
+    assert seen.sum() == pytest.approx(2.0 * (WIDE.focal_px / 4.0) ** 2, rel=0.02)
+    nothing = Mesh(np.zeros((3, 3), dtype=np.float32), face)
+    assert (renderer(shape(nothing)).render(Pose(), WIDE).rgb == (51, 102, 153)).all()
+
+
+def test_a_mesh_is_drawn_where_its_triangles_are() -> None:
+    # Off centre and turned.
+    offset = Mesh(cube(0.5).vertices + np.array([0.0, 0.7, 0.3], dtype=np.float32), cube(0.5).faces)
+    pose = Pose.from_rpy(4.0, -0.2, 0.1, 0.3, 0.0, 0.0)
+    as_mesh = renderer(shape(offset, pose)).render(Pose(), WIDE, depth=True)
+    as_box = renderer(shape(Box((0.5, 0.5, 0.5)), pose @ Pose((0.0, 0.7, 0.3)))).render(Pose(), WIDE, depth=True)
+    assert as_mesh.depth is not None
+    assert as_box.depth is not None
+    differ = is_red(as_mesh.rgb) ^ is_red(as_box.rgb)
+    assert is_red(as_box.rgb).sum() > 500
+    assert differ.sum() <= 8
+    both = np.isfinite(as_mesh.depth) & np.isfinite(as_box.depth)
+    assert as_mesh.depth[both] == pytest.approx(as_box.depth[both], abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    "geometry",
+    [
+        Box((1.0, 1.0, 1.0)),
+        Capsule(0.3, 0.6),
+        Cylinder(0.4, 1.0),
+        Ellipsoid((0.3, 0.4, 0.5)),
+        Sphere(0.5),
+        tetrahedron(),
+    ],
+    ids=lambda geometry: type(geometry).__name__,
+)
+def test_every_shape_is_seen_from_every_side_and_only_where_it_is(geometry: ShapeGeometry) -> None:
+    made = renderer(shape(geometry))
+    for yaw in np.arange(0.0, 2 * math.pi, math.pi / 3):
+        away = Pose.from_rpy(-3.0 * math.cos(yaw), -3.0 * math.sin(yaw), 0.0, 0.0, 0.0, float(yaw))
+        picture = made.render(away, WIDE, depth=True)
+        assert picture.depth is not None
+        seen = np.isfinite(picture.depth)
+        assert seen[120, 160]
+        # All fit in a ball of 0.87 m.
+        assert not seen[:, :60].any()
+        assert picture.depth[seen].min() > 3.0 - 0.87
+        assert picture.depth[seen].max() < 3.0 + 0.87
+
+
+def test_a_shape_around_the_camera_is_drawn_all_over() -> None:
+    room = renderer(shape(cube(4.0)))
+    picture = room.render(Pose(), WIDE, depth=True)
+    assert picture.depth is not None
+    assert (np.isinf(picture.depth) | (picture.depth <= 2.0 + 1e-5)).all()
+    inside_box = renderer(shape(Box((0.2, 9.0, 9.0)), Pose((0.5, 0.0, 0.0)))).render(Pose(), WIDE, depth=True)
+    assert inside_box.depth is not None
+    assert inside_box.depth == pytest.approx(0.4, abs=1e-5)
+
+
+def test_shapes_ride_on_their_bodies() -> None:
+    made = NativeRenderer(scene(shape(Sphere(0.3)), shape(Sphere(0.3), rgba=GREEN, body=1), bodies=2))
+    poses = np.array([[4.0, 1.0, 0.0, 1, 0, 0, 0], [4.0, -1.0, 0.0, 1, 0, 0, 0]])
+    made.update(poses)
+    before = made.render(Pose(), WIDE).rgb
+    made.update(poses[::-1])
+    after = made.render(Pose(), WIDE).rgb
+    assert centroid(is_red(before))[0] < 159
+    assert centroid(is_red(after))[0] > 160
+
+
+@pytest.mark.parametrize("geometry", [Sphere(0.5), cube(1.0), Plane((0.0, 0.0, 1.0), (0.0, 0.0))])
+def test_a_body_that_is_nowhere_is_not_seen(geometry: ShapeGeometry) -> None:
+    """A body without a pose has NaN for one."""
+    made = NativeRenderer(scene(shape(geometry)))
+    made.update(np.full((1, 7), np.nan))
+    picture = made.render(Pose((0.0, 0.0, 1.0)), WIDE, depth=True)
+    assert picture.depth is not None
+    assert np.isinf(picture.depth).all()
+
+
+def test_light_comes_from_where_it_comes_from() -> None:
+    lit_from_left = Scene(
+        bodies=("b",),
+        shapes=(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0))),),
+        lights=(SceneLight(direction=(0.0, -1.0, 0.0)),),
+    )
+    made = NativeRenderer(lit_from_left)
+    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    red = made.render(Pose(), WIDE).rgb[120, :, 0].astype(int)
+    assert red[160 - 25] > red[160 + 25] + 50
+
+
+def test_glass_is_looked_through() -> None:
+    pane = shape(Box((0.1, 9.0, 9.0)), Pose((2.0, 0.0, 0.0)), (0.0, 0.0, 1.0, 0.3))
+    rgb = renderer(pane, shape(Sphere(0.5), Pose((4.0, 0.0, 0.0)))).render(Pose(), WIDE).rgb
+    assert is_red(rgb)[120, 160]
+
+
+def test_the_same_world_is_the_same_picture_to_the_last_byte() -> None:
+    parts = (
+        shape(Sphere(0.5), Pose((4.0, 0.3, 0.1))),
+        shape(cube(0.6), Pose.from_rpy(3.0, -0.5, 0.0, 0.1, 0.2, 0.3), GREEN),
+    )
+    first = renderer(*parts).render(Pose(), WIDE, depth=True)
+    made = renderer(*parts)
+    made.render(Pose((0.0, 1.0, 0.0)), WIDE)
+    second = made.render(Pose(), WIDE, depth=True)
+    assert first.rgb.tobytes() == second.rgb.tobytes()
+    assert first.depth is not None
+    assert second.depth is not None
+    assert first.depth.tobytes() == second.depth.tobytes()
