@@ -13,8 +13,7 @@ from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import World
 from trundle.packages import Packages
-from trundle.physics import RayRenderer
-from trundle.render import scene_of
+from trundle.render import NativeRenderer, scene_of
 from trundle.ros import Node, SimClock, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, MeasuringSensor, mount_cameras, mount_sensors
 from trundle.simulation import ModelHandle, Simulation, SimulationUnstableError
@@ -247,7 +246,9 @@ class GazeboWorld:
         assert self._node is not None
         assert self._still is not None
         world = simulation.world
-        cameras = self._cameras = mount_cameras(world, lambda: RayRenderer(scene_of(world, self._report)), self._report)
+        cameras = self._cameras = mount_cameras(
+            world, lambda: NativeRenderer(scene_of(world, self._report)), self._report
+        )
         sensors = mount_sensors(simulation)
         for sensor in (*cameras, *sensors):
 

@@ -13,8 +13,7 @@ from trundle.diagnostics import Diagnostics, UsageError
 from trundle.meshes import Mesh
 from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
 from trundle.packages import Packages
-from trundle.physics import RayRenderer
-from trundle.render import Intrinsics, Scene, ShapeGeometry, scene_of
+from trundle.render import Intrinsics, NativeRenderer, Scene, ShapeGeometry, scene_of
 from trundle.sensors import CameraSensor, mount_cameras
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
@@ -63,7 +62,7 @@ def picture_of(
     simulation = Simulation(stage.world, report)
     poses = simulation.snapshot().poses
     scene = scene_of(stage.world, report)
-    renderer = RayRenderer(scene)
+    renderer = NativeRenderer(scene)
     if camera is not None:
         sensor = _camera(camera, mount_cameras(stage.world, lambda: renderer, report))
         view = pose_of(poses[sensor.link_index]) @ sensor.link_from_camera

@@ -5,7 +5,6 @@ from .engine import Engine, EngineState, SimulationUnstableError
 from .index import CompiledWorld
 from .instant import Instant
 from .postmortem import Runaway
-from .raycaster import RayRenderer
 from .touching import Contact
 
 __all__ = [
@@ -14,7 +13,6 @@ __all__ = [
     "Engine",
     "EngineState",
     "Instant",
-    "RayRenderer",
     "Runaway",
     "SimulationUnstableError",
     "compile_mjcf",

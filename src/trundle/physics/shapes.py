@@ -1,6 +1,5 @@
 """Collisions as MuJoCo geoms."""
 
-import math
 from dataclasses import dataclass
 
 import mujoco
