@@ -63,6 +63,7 @@ def test_colours_come_from_the_first_pass() -> None:
     assert surface.specular == (0.8, 0.9, 1.0, 1.0)
     assert surface.emissive == (0.0, 0.0, 0.0, 1.0)
     assert surface.texture == "wood.png"
+    assert surface.texture_scale == (5.0, 5.0)
 
 
 def test_a_child_keeps_what_it_does_not_say_again() -> None:
@@ -116,6 +117,7 @@ def test_a_visual_takes_colours_and_texture_from_the_script_it_names(tmp_path: P
 
     assert material.diffuse == (0.4, 0.5, 0.6, 0.7)
     assert material.texture == tmp_path / "materials/textures/wood.png"
+    assert material.texture_scale == (5.0, 5.0)
     assert report.findings == []
 
 
@@ -136,6 +138,22 @@ def test_a_script_that_cannot_be_read_is_named_and_the_rest_goes_on(tmp_path: Pa
     assert "materials/lost: no such file" in first
     assert "more.material:1: warning: '{' without a word before it" in second
     assert second.endswith("this material script is left out")
+
+
+def test_the_image_of_pbr_colours_the_visual_and_the_rest_of_it_is_named(tmp_path: Path) -> None:
+    metal = "<metal><albedo_map>materials/textures/wood.png</albedo_map><roughness>1</roughness></metal>"
+    material, report = sdf(tmp_path, "<uri>materials/scripts</uri><name>Box/Plain</name>", extra=f"<pbr>{metal}</pbr>")
+    assert material.texture == tmp_path / "materials/textures/wood.png"
+    assert (material.diffuse, material.texture_scale) == ((1.0, 1.0, 1.0, 1.0), (1.0, 1.0))
+    assert [finding.what for finding in report.findings] == [
+        "<pbr>: <roughness> is for other renderers; it is not drawn"
+    ]
+
+    lost = metal.replace("wood", "lost")
+    material, report = sdf(tmp_path, "<name>Gazebo/Red</name>", extra=f"<pbr>{lost}</pbr><diffuse>0 1 0</diffuse>")
+    assert (material.texture, material.diffuse) == (None, (0.0, 1.0, 0.0, 1.0))
+    assert "lost.png: no such file" in report.warnings[0]
+    assert report.warnings[0].endswith("the texture is left out")
 
 
 def test_a_name_that_no_script_has_is_grey(tmp_path: Path) -> None:

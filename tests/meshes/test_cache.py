@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from PIL import Image
 
 from trundle.meshes import Mesh, cache, load, load_mesh
 
@@ -20,6 +21,18 @@ def large(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.fixture
+def painted(tmp_path: Path) -> Path:
+    """A ball in one file with its image."""
+    ball = trimesh.creation.icosphere(subdivisions=5)
+    image = Image.effect_noise((32, 32), 64)
+    material = trimesh.visual.material.PBRMaterial(baseColorTexture=image, baseColorFactor=(0.2, 0.4, 0.6, 1.0))
+    ball.visual = trimesh.visual.TextureVisuals(uv=np.asarray(ball.vertices)[:, :2], material=material)
+    path = tmp_path / "ball.glb"
+    path.write_bytes(trimesh.Scene(ball).export(file_type="glb"))
+    return path
+
+
 def read_again(path: Path) -> Mesh:
     """Load without what this process remembers."""
     load._load.cache_clear()
@@ -27,7 +40,8 @@ def read_again(path: Path) -> Mesh:
 
 
 def same(a: Mesh, b: Mesh) -> bool:
-    return bool(np.array_equal(a.vertices, b.vertices) and np.array_equal(a.faces, b.faces) and a.parts == b.parts)
+    arrays = ((a.vertices, b.vertices), (a.faces, b.faces), (a.uv, b.uv))
+    return all(np.array_equal(x, y) if x is not None else y is None for x, y in arrays) and a.parts == b.parts
 
 
 def test_what_is_kept_is_what_was_read(large: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -39,6 +53,18 @@ def test_what_is_kept_is_what_was_read(large: Path, cache_folder: Path, monkeypa
     assert same(read_again(large), first)
     large.rename(large.with_name("other.obj"))
     assert same(read_again(large.with_name("other.obj")), first)
+
+
+def test_an_image_inside_is_kept_with_its_uv(
+    painted: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = read_again(painted)
+    assert isinstance(first.parts[0].texture, bytes)
+    assert first.uv is not None
+    assert len(list(cache_folder.iterdir())) == 1
+
+    monkeypatch.setattr(load, "_read", lambda *_: pytest.fail("read again"))
+    assert same(read_again(painted), first)
 
 
 def test_another_content_is_another_entry(large: Path, cache_folder: Path) -> None:

@@ -1,5 +1,6 @@
 """Parts, colours and textures of mesh files, as Gazebo would draw them."""
 
+import io
 from pathlib import Path
 
 import numpy as np
@@ -108,9 +109,12 @@ def test_a_textured_part_has_its_image_its_mean_colour_and_where_it_goes(tmp_pat
     assert body.texture == folder / "paint.png"
     assert body.rgba == pytest.approx((1.0, 0.2, 0.0, 1.0))
     assert window.texture is None
+    assert body.tint == (1.0, 1.0, 1.0, 1.0)
     assert mesh.uv is not None
-    corner = np.flatnonzero(np.isclose(mesh.vertices, [3.0, 1.0, 0.0]).all(axis=1))[0]
-    assert mesh.uv[corner] == pytest.approx([1.0, 1.0])
+    assert mesh.uv.shape == (4, 3, 2)
+    assert mesh.uv.dtype == np.float32
+    corners = mesh.vertices[mesh.faces]
+    assert mesh.uv[:2] == pytest.approx(corners[:2, :, :2] - (2.0, 0.0))  # the image lies on the quad as it is
 
 
 def test_a_texture_is_looked_for_in_the_models_own_folders_and_nowhere_else(tmp_path: Path) -> None:
@@ -176,9 +180,34 @@ def test_obj_textures_follow_the_corners(tmp_path: Path) -> None:
 
     mesh = load_mesh(tmp_path / "car.obj")
 
-    assert mesh.parts[0].rgba == (0.0, 1.0, 0.0, 1.0)
+    body, window = mesh.parts
+    assert (body.texture, body.rgba, body.tint) == (tmp_path / "paint.png", (0.0, 1.0, 0.0, 1.0), (1.0, 1.0, 1.0, 1.0))
+    assert window.texture is None
     assert mesh.uv is not None
-    assert mesh.uv[:3] == pytest.approx(mesh.vertices[:3, :2])
+    assert mesh.uv[0] == pytest.approx(mesh.vertices[mesh.faces[0], :2])
+    assert not mesh.uv[1:].any()
+    mirrored = mesh.scaled((-1.0, 1.0, 1.0))
+    assert mirrored.uv is not None
+    assert mirrored.uv[0] == pytest.approx(mirrored.vertices[mirrored.faces[0], :2] * (-1.0, 1.0))
+
+
+def test_a_texture_of_a_library_is_tinted_by_its_diffuse_colour(tmp_path: Path) -> None:
+    (tmp_path / "car.obj").write_text(OBJ.replace("3/3 4", "3/3"))
+    (tmp_path / "car.mtl").write_text("newmtl red\nmap_Kd paint.png\nKd 1 0.5 0\nd 0.5\n")
+    Image.new("RGB", (1, 1), (255, 255, 255)).save(tmp_path / "paint.png")
+
+    body = load_mesh(tmp_path / "car.obj").parts[0]
+
+    assert body.rgba == body.tint == (1.0, 0.5, 0.0, 0.5)
+
+
+def test_uv_are_kept_without_a_texture_as_the_description_may_bring_one(tmp_path: Path) -> None:
+    mesh = load_mesh(collada(tmp_path / "car.dae"))
+
+    assert mesh.uv is not None
+    red, _ = mesh.by_look()
+    assert red.uv is not None
+    assert red.uv == pytest.approx(red.vertices[red.faces][..., :2] - (2.0, 0.0))
 
 
 def test_a_material_library_elsewhere_is_not_read(tmp_path: Path) -> None:
@@ -202,11 +231,38 @@ def test_a_mesh_is_cut_into_one_mesh_per_look(tmp_path: Path) -> None:
     assert same.by_look() == (same,)
 
 
-def test_a_texture_inside_a_glb_gives_its_mean_colour(tmp_path: Path) -> None:
-    box = trimesh.creation.box()
+def test_a_texture_inside_a_glb_comes_with_the_mesh(tmp_path: Path) -> None:
     image = Image.new("RGB", (2, 2), (0, 102, 255))
-    material = trimesh.visual.material.PBRMaterial(baseColorTexture=image)
-    box.visual = trimesh.visual.TextureVisuals(uv=np.zeros((8, 2)), material=material)
+    image.putpixel((0, 1), (255, 0, 0))  # lower left
+    material = trimesh.visual.material.PBRMaterial(baseColorTexture=image, baseColorFactor=(1.0, 1.0, 0.5, 1.0))
+    box = trimesh.creation.box()
+    uv = np.random.default_rng(1).random((8, 2))
+    box.visual = trimesh.visual.TextureVisuals(uv=uv, material=material)
     (tmp_path / "box.glb").write_bytes(trimesh.Scene(box).export(file_type="glb"))
 
-    assert load_mesh(tmp_path / "box.glb").rgba == pytest.approx((0.0, 0.4, 1.0, 1.0))
+    mesh = load_mesh(tmp_path / "box.glb")
+
+    (part,) = mesh.parts
+    assert isinstance(part.texture, bytes)
+    with Image.open(io.BytesIO(part.texture)) as read:
+        assert read.convert("RGB").getpixel((0, 1)) == (255, 0, 0)
+        assert read.convert("RGB").getpixel((1, 1)) == (0, 102, 255)
+    assert part.tint == pytest.approx((1.0, 1.0, 0.5, 1.0), abs=0.01)
+    assert part.rgba == pytest.approx((0.25, 0.3, 0.375, 1.0), abs=0.01)
+    assert mesh.uv is not None
+    assert mesh.uv == pytest.approx(uv[box.faces], abs=1e-6)
+
+
+def test_a_glb_whose_image_cannot_be_decoded_names_it_and_keeps_its_shape(tmp_path: Path) -> None:
+    box = trimesh.creation.box()
+    material = trimesh.visual.material.PBRMaterial(baseColorTexture=Image.new("RGB", (64, 64)), name="paint")
+    box.visual = trimesh.visual.TextureVisuals(uv=np.zeros((8, 2)), material=material)
+    data = trimesh.Scene(box).export(file_type="glb")
+    start = data.index(b"IDAT") + 6
+    (tmp_path / "box.glb").write_bytes(data[:start] + b"\xff" * 8 + data[start + 8 :])
+
+    mesh = load_mesh(tmp_path / "box.glb")
+
+    assert len(mesh.faces) == 12
+    assert mesh.parts[0].texture is None
+    assert mesh.parts[0].lost_texture == "image inside, of material 'paint'"

@@ -67,7 +67,7 @@ def _companions(path: Path) -> list[Path]:
         libraries = _LIBRARY.findall(path.read_text(encoding="utf-8", errors="replace"))
         found += [file for name in libraries if (file := (path.parent / name).resolve()).is_file()]
     try:
-        found += [part.texture.resolve() for part in load_mesh(path).parts if part.texture is not None]
+        found += [part.texture.resolve() for part in load_mesh(path).parts if isinstance(part.texture, Path)]
     except MeshError:
         return found  # a part of it may be named that can be read
     return [file for file in dict.fromkeys(found) if file.is_relative_to(path.parent.parent)]

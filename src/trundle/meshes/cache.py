@@ -18,7 +18,7 @@ import numpy as np
 
 from .raw import RawPart
 
-VERSION = 2
+VERSION = 3
 """Part of every key; raised where a reader gives something else for the same bytes."""
 _MOST_BYTES = 512 * 1024 * 1024
 
@@ -69,6 +69,9 @@ def _packed(parts: Sequence[RawPart]) -> bytes:
             array = head.pop(name)
             if array is not None:
                 arrays[f"{name}{i}"] = array
+        if isinstance(part.texture, bytes):
+            head["texture"] = None
+            arrays[f"texture{i}"] = np.frombuffer(part.texture, dtype=np.uint8)
         heads.append(head)
     arrays["heads"] = np.frombuffer(json.dumps(heads).encode(), dtype=np.uint8)
     buffer = io.BytesIO()
@@ -87,7 +90,8 @@ def _unpacked(data: bytes) -> list[RawPart]:
                 vertices=arrays[f"vertices{i}"],
                 faces=arrays[f"faces{i}"],
                 rgba=None if head["rgba"] is None else tuple(head["rgba"]),
-                texture=head["texture"],
+                texture=arrays[f"texture{i}"].tobytes() if f"texture{i}" in arrays else head["texture"],
+                tint=tuple(head["tint"]),
                 uv=arrays.get(f"uv{i}"),
             )
             for i, head in enumerate(heads)

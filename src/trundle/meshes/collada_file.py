@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .mesh import Rgba
-from .raw import MOST_TRIANGLES, MeshError, RawPart, fans, unrolled
+from .raw import MOST_TRIANGLES, MeshError, RawPart, corner_uv, fans, used_vertices
 
 _DEEPEST = 64
 _MOST_NODES = 100_000
 """Nodes may be named again and again by others: a small file can ask for any number."""
 _Look = tuple[Rgba | None, str | None]
-_Triangles = list[tuple[str, NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None]]
-"""Of each material: its symbol, vertices (N, 3), faces (M, 3) and uv (N, 2)."""
+_Triangles = list[tuple[str, NDArray[np.float64], NDArray[np.int64], NDArray[np.float32] | None]]
+"""Of each material: its symbol, vertices (N, 3), faces (M, 3) and the uv of their corners (M, 3, 2)."""
 
 
 def read_collada(data: bytes) -> list[RawPart]:
@@ -79,14 +79,15 @@ class _Walk:
             if self.triangles > MOST_TRIANGLES:
                 raise MeshError(f"more than {MOST_TRIANGLES} triangles")
             rgba, texture = _look(targets.get(symbol))
-            mirrored = np.linalg.det(world_from_node[:3, :3]) < 0
+            outwards = -1 if np.linalg.det(world_from_node[:3, :3]) < 0 else 1
             yield RawPart(
                 names=tuple(str(each) for each in (name, geometry.name, geometry.id) if each),
                 vertices=(vertices @ world_from_node[:3, :3].T + world_from_node[:3, 3]) * self.metres,
-                faces=faces[:, ::-1] if mirrored else faces,
+                faces=faces[:, ::outwards],
                 rgba=rgba,
                 texture=texture if uv is not None else None,
-                uv=uv if texture is not None else None,
+                tint=(1.0, 1.0, 1.0, 1.0 if rgba is None else rgba[3]),
+                uv=None if uv is None else uv[:, ::outwards],
             )
 
 
@@ -106,8 +107,10 @@ def _triangles(geometry: Any) -> _Triangles:
         if corners.ndim != 2 or corners.shape[1] != 3:
             continue  # lines
         points = np.asarray(primitive.vertex, dtype=np.float64)
-        uv = None if uv_set is None else np.asarray(uv_set, dtype=np.float64)
-        found.append((str(primitive.material), *unrolled(points, corners, uv, uv_corners)))
+        uv = None
+        if uv_set is not None and uv_corners is not None and uv_corners.shape == corners.shape:
+            uv = corner_uv(np.asarray(uv_set, dtype=np.float64), uv_corners)
+        found.append((str(primitive.material), *used_vertices(points, corners), uv))
     return found
 
 

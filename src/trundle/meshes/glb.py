@@ -3,13 +3,13 @@
 import io
 import json
 import logging
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from .mesh import Rgba
-from .raw import MOST_TRIANGLES, MeshError, RawPart
-from .texture import mean_of
+from .raw import MOST_TRIANGLES, MeshError, RawPart, corner_uv
+from .texture import as_png
 
 _JSON = b"JSON"
 
@@ -17,7 +17,7 @@ logging.getLogger("trimesh").addHandler(logging.NullHandler())  # else it prints
 
 
 def read_glb(data: bytes) -> list[RawPart]:
-    """Read a GLB without following any reference out of it; of a texture inside, only the mean colour is kept.
+    """Read a GLB without following any reference out of it.
 
     Raises:
         Exception: trimesh's own, in its own words.
@@ -27,6 +27,7 @@ def read_glb(data: bytes) -> list[RawPart]:
     _check_counts(data)
     scene: Any = trimesh.load_scene(io.BytesIO(data), file_type="glb", process=False, skip_materials=False)
     parts: list[RawPart] = []
+    pictures: dict[int, bytes | None] = {}
     triangles = 0
     for node in scene.graph.nodes_geometry:
         transform, name = scene.graph[node]
@@ -38,14 +39,9 @@ def read_glb(data: bytes) -> list[RawPart]:
         triangles += len(faces)
         if triangles > MOST_TRIANGLES:
             raise MeshError(f"more than {MOST_TRIANGLES} triangles")
-        parts.append(
-            RawPart(
-                names=(str(name), str(node)),
-                vertices=vertices[:, [0, 2, 1]] * (1.0, -1.0, 1.0),
-                faces=faces[:, ::-1] if np.linalg.det(transform[:3, :3]) < 0 else faces,
-                rgba=_colour(geometry),
-            )
-        )
+        faces = faces[:, ::-1] if np.linalg.det(transform[:3, :3]) < 0 else faces
+        part = RawPart(names=(str(name), str(node)), vertices=vertices[:, [0, 2, 1]] * (1.0, -1.0, 1.0), faces=faces)
+        parts.append(_painted(part, geometry.visual, pictures))
     return parts
 
 
@@ -62,15 +58,21 @@ def _check_counts(data: bytes) -> None:
         raise MeshError("its vertices are in another file, which is not read")
 
 
-def _colour(geometry: Any) -> Rgba | None:
-    material = getattr(geometry.visual, "material", None)
+def _painted(part: RawPart, visual: Any, pictures: dict[int, bytes | None]) -> RawPart:
+    """A part with its material; trimesh turns glTF's v, which points down, up."""
+    uv = getattr(visual, "uv", None)
+    if uv is not None:
+        part = replace(part, uv=corner_uv(np.asarray(uv, dtype=np.float64), part.faces))
+    material = getattr(visual, "material", None)
     if material is None:
-        return None
+        return part
     r, g, b, a = (float(value) / 255.0 for value in material.main_color)
     image = getattr(material, "baseColorTexture", None)
-    if image is None:
-        return (r, g, b, a)
-    if material.baseColorFactor is None:
-        r = g = b = a = 1.0
-    mean = mean_of(image)
-    return (r * mean[0], g * mean[1], b * mean[2], a)
+    if image is None or part.uv is None:
+        return replace(part, rgba=(r, g, b, a))
+    if id(image) not in pictures:
+        pictures[id(image)] = as_png(image)
+    if pictures[id(image)] is None:
+        return replace(part, rgba=(r, g, b, a), texture=f"image inside, of material {material.name!r}")
+    tint = (1.0, 1.0, 1.0, 1.0) if material.baseColorFactor is None else (r, g, b, a)
+    return replace(part, texture=pictures[id(image)], tint=tint)

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from . import cache
-from .mesh import Mesh, MeshPart
+from .mesh import Mesh, MeshPart, Rgba
 from .raw import MOST_TRIANGLES, MeshError, RawPart
 from .texture import find_texture, mean_colour
 
@@ -128,7 +128,7 @@ def _joined(parts: Sequence[RawPart], path: Path, center: bool) -> Mesh:
         vertices=np.ascontiguousarray(vertices, dtype=np.float32),
         faces=np.ascontiguousarray(faces, dtype=np.int32),
         rgba=max(described, key=lambda part: part.face_count).rgba,
-        uv=_uv(parts) if any(part.texture for part in described) else None,
+        uv=_uv(parts) if any(part.uv is not None for part in parts) else None,
         parts=described,
     )
 
@@ -137,8 +137,9 @@ def _described(parts: Sequence[RawPart], path: Path) -> tuple[MeshPart, ...]:
     described: list[MeshPart] = []
     first_face = 0
     for part in parts:
-        texture = find_texture(part.texture, path) if part.texture else None
-        rgba = (mean_colour(texture) if texture else None) or part.rgba
+        texture = find_texture(part.texture, path) if isinstance(part.texture, str) else part.texture
+        mean = mean_colour(texture) if texture else None
+        rgba = part.rgba if mean is None else _tinted(mean, part.tint)
         name = part.names[0] if part.names else ""
         described.append(
             MeshPart(
@@ -147,13 +148,19 @@ def _described(parts: Sequence[RawPart], path: Path) -> tuple[MeshPart, ...]:
                 face_count=len(part.faces),
                 rgba=rgba,
                 texture=texture,
-                lost_texture=part.texture if texture is None else None,
+                tint=part.tint,
+                lost_texture=part.texture if texture is None and isinstance(part.texture, str) else None,
             )
         )
         first_face += len(part.faces)
     return tuple(described)
 
 
+def _tinted(rgba: Rgba, tint: Rgba) -> Rgba:
+    r, g, b, a = (value * by for value, by in zip(rgba, tint, strict=True))
+    return (r, g, b, a)
+
+
 def _uv(parts: Sequence[RawPart]) -> np.ndarray:
-    rows = [part.uv if part.uv is not None else np.zeros((len(part.vertices), 2)) for part in parts]
-    return np.nan_to_num(np.concatenate(rows)).astype(np.float32)
+    rows = [part.uv if part.uv is not None else np.zeros((len(part.faces), 3, 2), np.float32) for part in parts]
+    return np.nan_to_num(np.concatenate(rows))

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Rgba: TypeAlias = tuple[float, float, float, float]
+Texture: TypeAlias = Path | bytes
+"""An image: its file, or what a file of it would hold where it is inside the mesh's own."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -21,8 +23,10 @@ class MeshPart:
     face_count: int
     rgba: Rgba | None = None
     """The file's own colour; where there is a texture, its mean. None: the file has none."""
-    texture: Path | None = None
+    texture: Texture | None = None
     """An image, laid out by the mesh's `uv`."""
+    tint: Rgba = (1.0, 1.0, 1.0, 1.0)
+    """What the image's colours are multiplied by."""
     lost_texture: str | None = None
     """What the file names and is not there."""
 
@@ -38,7 +42,9 @@ class Mesh:
     rgba: Rgba | None = None
     """The colour of its largest part; None where that has none."""
     uv: NDArray[np.float32] | None = None
-    """(N, 2) places in the textures, (0, 0) at the lower left; None: no part has one."""
+    """(M, 3, 2) where each corner of each face is in an image: u to the right, v up, (0, 0) at the lower left of the
+    image, beyond 0…1 it repeats. Zeros in parts whose file has none; None: no part has any. Where only the description
+    paints a mesh, its texture is laid out by this too."""
     parts: tuple[MeshPart, ...] = ()
     """In the order of the faces; none: all of one colour."""
 
@@ -48,28 +54,30 @@ class Mesh:
             return self
         mirrored = scale[0] * scale[1] * scale[2] < 0
         faces = self.faces[:, ::-1].copy() if mirrored else self.faces
-        return Mesh(self.vertices * np.asarray(scale, dtype=np.float32), faces, self.rgba, self.uv, self.parts)
+        uv = self.uv[:, ::-1].copy() if mirrored and self.uv is not None else self.uv
+        return Mesh(self.vertices * np.asarray(scale, dtype=np.float32), faces, self.rgba, uv, self.parts)
 
     def by_look(self) -> tuple["Mesh", ...]:
-        """The mesh cut into meshes of one colour and one texture each."""
+        """The mesh cut into meshes of one colour and one texture each, which its first part has."""
         return _by_look(self)
 
 
 @lru_cache(maxsize=256)  # a robot's four wheels are to stay instances of one mesh
 def _by_look(mesh: Mesh) -> tuple[Mesh, ...]:
-    looks: dict[tuple[Rgba | None, Path | None], list[MeshPart]] = {}
+    looks: dict[tuple[Rgba | None, Texture | None, Rgba], list[MeshPart]] = {}
     for part in mesh.parts:
-        looks.setdefault((part.rgba, part.texture), []).append(part)
+        looks.setdefault((part.rgba, part.texture, part.tint), []).append(part)
     return tuple(_cut_out(mesh, parts) for parts in looks.values()) if len(looks) > 1 else (mesh,)
 
 
 def _cut_out(mesh: Mesh, parts: list[MeshPart]) -> Mesh:
-    faces = np.concatenate([mesh.faces[part.first_face : part.first_face + part.face_count] for part in parts])
+    rows = np.concatenate([np.arange(part.first_face, part.first_face + part.face_count) for part in parts])
+    faces = mesh.faces[rows]
     used, renumbered = np.unique(faces, return_inverse=True)
     return Mesh(
         vertices=mesh.vertices[used],
         faces=renumbered.reshape(faces.shape).astype(np.int32),
         rgba=parts[0].rgba,
-        uv=None if mesh.uv is None else mesh.uv[used],
+        uv=None if mesh.uv is None else mesh.uv[rows],
         parts=(replace(parts[0], first_face=0, face_count=len(faces)),),
     )

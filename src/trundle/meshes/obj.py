@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .mesh import Rgba
-from .raw import RawPart, fans, unrolled
+from .raw import RawPart, corner_uv, fans, used_vertices
 
 ReadBeside = Callable[[str], bytes | None]
 """A file beside the mesh, by its relative path; None where there is none."""
@@ -21,10 +21,17 @@ class _Group:
     counts: list[int] = field(default_factory=list[int])
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Look:
-    rgba: Rgba
+    """A material of a library."""
+
+    diffuse: tuple[float, float, float] | None = None
+    opacity: float = 1.0
     texture: str | None = None
+
+    def over(self, r: float, g: float, b: float) -> Rgba:
+        """Its colour, or that one where it states none."""
+        return (*(self.diffuse or (r, g, b)), self.opacity)
 
 
 def read_obj(data: bytes, beside: ReadBeside) -> list[RawPart]:
@@ -82,16 +89,15 @@ def _part(group: _Group, points: np.ndarray, uv: np.ndarray, name: str, look: _L
     corners = np.array(group.corners, dtype=np.int64)
     uv_corners = np.array(group.uv_corners, dtype=np.int64)
     triangles = fans(corners, np.array(group.counts, dtype=np.int64))
-    textured = look is not None and look.texture is not None and len(uv_corners) and uv_corners.min() >= 0
-    vertices, faces, own_uv = unrolled(
-        points, corners[triangles], uv if textured else None, uv_corners[triangles] if textured else None
-    )
+    vertices, faces = used_vertices(points, corners[triangles])
+    own_uv = corner_uv(uv, uv_corners[triangles])
     return RawPart(
         names=(name,),
         vertices=vertices,
         faces=faces,
-        rgba=look.rgba if look else None,
-        texture=look.texture if look and textured else None,
+        rgba=None if look is None else look.over(0.8, 0.8, 0.8),
+        texture=None if look is None or own_uv is None else look.texture,
+        tint=(1.0, 1.0, 1.0, 1.0) if look is None else look.over(1.0, 1.0, 1.0),
         uv=own_uv,
     )
 
@@ -99,27 +105,23 @@ def _part(group: _Group, points: np.ndarray, uv: np.ndarray, name: str, look: _L
 def read_mtl(data: bytes) -> dict[str, _Look]:
     """The materials of a library: diffuse colour, opacity and diffuse map."""
     looks: dict[str, _Look] = {}
-    name = ""
+    look = _Look()
     for line in data.decode("utf-8", "replace").splitlines():
         words = line.split()
         if len(words) < 2:
             continue
         keyword = words[0].lower()
         if keyword == "newmtl":
-            name = " ".join(words[1:])
-            looks[name] = _Look((0.8, 0.8, 0.8, 1.0))
-        look = looks.get(name)
-        if look is None:
-            continue
-        r, g, b, a = look.rgba
-        if keyword == "kd" and len(words) >= 4:
+            look = looks.setdefault(" ".join(words[1:]), _Look())
+        elif keyword == "kd" and len(words) >= 4:
             r, g, b = (_fraction(word) for word in words[1:4])
+            look.diffuse = (r, g, b)
         elif keyword == "d":
-            a = _fraction(words[-1])
+            look.opacity = _fraction(words[-1])
         elif keyword == "tr":
-            a = 1.0 - _fraction(words[-1])
-        texture = words[-1] if keyword == "map_kd" else look.texture  # options such as -s 1 1 1 come before the name
-        looks[name] = _Look((r, g, b, a), texture)
+            look.opacity = 1.0 - _fraction(words[-1])
+        elif keyword == "map_kd":
+            look.texture = words[-1]  # options such as -s 1 1 1 come before the name
     return looks
 
 

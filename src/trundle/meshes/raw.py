@@ -28,30 +28,33 @@ class RawPart:
     faces: NDArray[np.int64]
     """(M, 3)"""
     rgba: Rgba | None = None
-    texture: str | None = None
-    """A path relative to the mesh file, as written."""
-    uv: NDArray[np.float64] | None = None
-    """(N, 2)"""
+    texture: str | bytes | None = None
+    """A path relative to the mesh file, as written, or the image itself."""
+    tint: Rgba = (1.0, 1.0, 1.0, 1.0)
+    """What the texture's colours are multiplied by."""
+    uv: NDArray[np.float32] | None = None
+    """(M, 3, 2) of each corner of each face; v is up."""
 
 
-def unrolled(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int64],
-    uv: NDArray[np.float64] | None,
-    uv_faces: NDArray[np.int64] | None,
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None]:
-    """Vertices, faces and uv with one numbering, where a file numbers corners and their uv apart.
+def used_vertices(
+    vertices: NDArray[np.float64], faces: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """The vertices that faces name, and the faces numbered anew.
 
     Raises:
         IndexError: a face names a vertex that is not there.
     """
     if len(faces) and (faces.max() >= len(vertices) or faces.min() < 0):
         raise IndexError(f"a face names vertex {faces.max()} of {len(vertices)}")
-    if uv is None or uv_faces is None or uv_faces.shape != faces.shape:
-        used, renumbered = np.unique(faces, return_inverse=True)
-        return vertices[used], renumbered.reshape(faces.shape), None
-    pairs, renumbered = np.unique(np.stack([faces.ravel(), uv_faces.ravel()], axis=1), axis=0, return_inverse=True)
-    return vertices[pairs[:, 0]], renumbered.reshape(faces.shape), uv[pairs[:, 1]][:, :2]
+    used, renumbered = np.unique(faces, return_inverse=True)
+    return vertices[used], renumbered.reshape(faces.shape)
+
+
+def corner_uv(places: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float32] | None:
+    """Where each corner is in an image, by faces that number places; None where they name one that is not there."""
+    if not len(faces) or faces.min() < 0 or faces.max() >= len(places) or places.shape[1] < 2:
+        return None
+    return places[faces][..., :2].astype(np.float32)
 
 
 def fans(indices: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:

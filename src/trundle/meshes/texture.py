@@ -1,10 +1,11 @@
 """Images that meshes are painted with: where they are, and what colour they have on the whole."""
 
+import io
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .mesh import Rgba
+from .mesh import Rgba, Texture
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -28,32 +29,38 @@ def find_texture(name: str, mesh: Path) -> Path | None:
     return next((path for path in candidates if path.is_file() and path.resolve().is_relative_to(inside)), None)
 
 
-def mean_colour(texture: Path) -> Rgba | None:
-    """The colour of an image seen from afar; None where it cannot be read."""
+def mean_colour(texture: Texture) -> Rgba | None:
+    """The colour of an image seen from afar, opaque; None where it cannot be read."""
     try:
-        return _mean(texture, texture.stat().st_mtime_ns)
+        return _mean(texture, 0 if isinstance(texture, bytes) else texture.stat().st_mtime_ns)
     except Exception:  # every decoder behind Pillow fails in its own way
         return None
 
 
 @lru_cache(maxsize=256)
-def _mean(texture: Path, _changed_ns: int) -> Rgba:
+def _mean(texture: Texture, _changed_ns: int) -> Rgba:
     from PIL import Image
 
-    with Image.open(texture) as image:
+    with Image.open(io.BytesIO(texture) if isinstance(texture, bytes) else texture) as image:
+        _check_size(image)
         image.draft("RGB", (64, 64))
-        return mean_of(image)
-
-
-def mean_of(image: "Image") -> Rgba:
-    """The mean colour of an image.
-
-    Raises:
-        ValueError: it is larger than any texture.
-    """
-    if image.width * image.height > _MOST_PIXELS:
-        raise ValueError("too large")
-    pixel = image.convert("RGB").resize((1, 1), resample=_BOX).getpixel((0, 0))
+        pixel = image.convert("RGB").resize((1, 1), resample=_BOX).getpixel((0, 0))
     assert isinstance(pixel, tuple)
     r, g, b = (value / 255.0 for value in pixel[:3])
     return (r, g, b, 1.0)
+
+
+def as_png(image: "Image") -> bytes | None:
+    """An image as the bytes of a file; None where it cannot be decoded."""
+    buffer = io.BytesIO()
+    try:
+        _check_size(image)
+        image.convert("RGBA").save(buffer, "PNG", compress_level=1)
+    except Exception:  # every decoder behind Pillow fails in its own way
+        return None
+    return buffer.getvalue()
+
+
+def _check_size(image: "Image") -> None:
+    if image.width * image.height > _MOST_PIXELS:
+        raise ValueError("too large")

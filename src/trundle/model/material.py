@@ -17,7 +17,11 @@ class Material:
     specular: Rgba = (0.01, 0.01, 0.01, 1.0)
     emissive: Rgba = (0.0, 0.0, 0.0, 1.0)
     texture: Path | None = None
-    """An image that colours the surface; `diffuse` tints it."""
+    """An image that colours the surface; `diffuse` tints it. A mesh's own `uv` says where it goes, v up from the lower
+    edge of the image; other shapes are wrapped by the renderer."""
+    texture_scale: tuple[float, float] = (1.0, 1.0)
+    """How much larger than the whole image, across and up, about the image's middle: 0.5 repeats it twice. As Ogre's
+    `scale`: uv → (uv − ½) / scale + ½."""
 
 
 GREY = Material()

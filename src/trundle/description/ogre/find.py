@@ -49,6 +49,7 @@ def find_material(name: str, script: XmlNode, *, packages: Packages, report: Dia
         specular=surface.specular,
         emissive=surface.emissive,
         texture=texture,
+        texture_scale=surface.texture_scale,
     )
 
 

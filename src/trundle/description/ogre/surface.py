@@ -22,6 +22,7 @@ class OgreSurface:
     emissive: Rgba = (0.0, 0.0, 0.0, 1.0)
     texture: str | None = None
     """The file's name, without its folder."""
+    texture_scale: tuple[float, float] = (1.0, 1.0)
 
 
 def read_surface(name: str, materials: Mapping[str, Block]) -> OgreSurface:
@@ -33,6 +34,7 @@ def read_surface(name: str, materials: Mapping[str, Block]) -> OgreSurface:
     """
     colours: dict[str, Rgba] = {}
     texture: str | None = None
+    scale = (1.0, 1.0)
     aliases: dict[str, str] = {}
     slot = ""
     for block in _ancestry(name, materials):
@@ -50,7 +52,8 @@ def read_surface(name: str, materials: Mapping[str, Block]) -> OgreSurface:
             slot = alias[0] if alias else (unit.header[1] if len(unit.header) > 1 else slot)
             file = unit.value("texture")
             texture = file[0] if file else texture
-    return OgreSurface(**colours, texture=aliases.get(slot, texture))
+            scale = _scale(unit.value("scale")) or scale
+    return OgreSurface(**colours, texture=aliases.get(slot, texture), texture_scale=scale)
 
 
 def _ancestry(name: str, materials: Mapping[str, Block]) -> Iterator[Block]:
@@ -91,3 +94,11 @@ def _colour(words: tuple[str, ...] | None, *, with_shininess: bool) -> Rgba | No
         return None
     r, g, b, a = (min(max(value, 0.0), 1.0) for value in (*values, 1.0)[:4])
     return (r, g, b, a)
+
+
+def _scale(words: tuple[str, ...] | None) -> tuple[float, float] | None:
+    try:
+        across, up = map(float, words or ())
+    except ValueError:
+        return None
+    return (across, up) if math.isfinite(across) and math.isfinite(up) and across * up != 0.0 else None

@@ -1,11 +1,18 @@
-"""Reads <material>: colours given outright, or a Gazebo material by name."""
+"""Reads <material>: colours given outright, a Gazebo material by name, or the image of <pbr>."""
 
+from dataclasses import replace
+from pathlib import Path
+
+from trundle.diagnostics import DescriptionError
 from trundle.model import GREY, Material, Rgba
 from trundle.xmlnode import XmlNode
 
 from ..ogre import find_material
 from .context import Context
 from .gazebo_materials import GAZEBO_MATERIALS, TEXTURED
+
+_WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
+"""What an image is tinted with where nothing else is said."""
 
 
 def read_material(visual: XmlNode, context: Context) -> Material:
@@ -19,22 +26,45 @@ def read_material(visual: XmlNode, context: Context) -> Material:
         name = script.string("name") or script.text  # SDF 1.0 has the name as the text
         base = named_material(name, script, context)
         script.report_unread(context.report)
+    image = _albedo(node, context)
+    if image is not None:
+        base = replace(base, ambient=_WHITE, diffuse=_WHITE, texture=image, texture_scale=(1.0, 1.0))
     material = Material(
         ambient=read_colour(node, "ambient", base.ambient, context),
         diffuse=read_colour(node, "diffuse", base.diffuse, context),
         specular=read_colour(node, "specular", base.specular, context),
         emissive=read_colour(node, "emissive", base.emissive, context),
         texture=base.texture,
+        texture_scale=base.texture_scale,
     )
     for tag in ("lighting", "shader", "render_order", "double_sided"):
         node.find(tag)
     shininess = node.find("shininess")
     if shininess is not None:
         context.report.info(shininess.at, "<shininess> is not drawn; highlights are as Gazebo's materials have them")
-    if node.find("pbr") is not None:
-        context.report.info(node.at, "<pbr> is for other renderers; its plain colours are drawn")
     node.report_unread(context.report)
     return material
+
+
+def _albedo(material: XmlNode, context: Context) -> Path | None:
+    """The image of <pbr> that gives the colours; what else it says is for renderers of another kind."""
+    pbr = material.find("pbr")
+    if pbr is None:
+        return None
+    report = context.report
+    flow = pbr.find("metal") or pbr.find("specular")
+    pbr.report_unread(report)
+    image = None if flow is None else flow.find("albedo_map")
+    others = [] if flow is None else [f"<{child.tag}>" for child in flow.unread()]
+    if others:
+        report.info(pbr.at, f"<pbr>: {', '.join(sorted(set(others)))} is for other renderers; it is not drawn")
+    if image is None or not image.text:
+        return None
+    try:
+        return context.packages.resolve(image.text, beside=context.folder, at=image.at)
+    except DescriptionError as error:
+        report.warn(error.at, f"{error.what}; the texture is left out")
+        return None
 
 
 def named_material(name: str, node: XmlNode, context: Context) -> Material:
