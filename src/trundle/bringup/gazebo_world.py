@@ -23,7 +23,7 @@ from .gazebo_models import read_spawned
 from .graph import Graph
 from .pace import Pacer
 from .page import Page
-from .plugins import load_plugins
+from .plugins import load_plugins, load_world_plugins
 
 _IDLE_S = 0.01
 _LOOK_S = 0.5
@@ -71,7 +71,7 @@ class GazeboWorld:
         self._plugin_nodes: list[Node] = []
         """Of the models whose plugins are being loaded."""
         self._nodes: dict[str, list[Node]] = {}
-        """Model → nodes of its plugins."""
+        """Model → nodes of its plugins; the world's have no name."""
         self._clock = SimClock(graph.loop)
         self._pacer = Pacer(1.0)
         self._page: Page | None = None
@@ -268,10 +268,10 @@ class GazeboWorld:
             self._plugin_nodes = []
             load_plugins(simulation, self._make_node, self._env, say=self._say, models=[handle])
             self._nodes[handle.name] = self._plugin_nodes
-        for tag in simulation.world.plugins if models is None else ():
-            self._report.warn(
-                tag.at, f"world plugin {tag.name!r} ({tag.filename}) is not supported; the world is without"
-            )
+        if models is None:
+            self._plugin_nodes = []
+            load_world_plugins(simulation, self._make_node, self._env, say=self._say)
+            self._nodes[""] = self._plugin_nodes
 
     def _make_node(self, name: str) -> Node:
         graph = self._graph

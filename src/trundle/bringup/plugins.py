@@ -1,12 +1,16 @@
-"""Loads the plugins that the models of a world ask for."""
+"""Loads the plugins that a world and its models ask for."""
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import TypeVar
 
-from trundle.diagnostics import DescriptionError
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.model import PluginTag
 from trundle.names import ros_name
-from trundle.plugins import Plugin, find_plugin
+from trundle.plugins import Hooks, Plugin, find_plugin, find_world_plugin
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
+
+_Kind = TypeVar("_Kind", bound=Hooks)
 
 
 def load_plugins(
@@ -17,44 +21,72 @@ def load_plugins(
     say: Callable[[str], None],
     models: Sequence[ModelHandle] | None = None,
 ) -> list[Plugin]:
-    """Load each plugin and hook it in; one that cannot be had is named, and the run goes on as in Gazebo.
+    """Load each model's plugins and hook them in; one that cannot be had is named, and the run goes on as in Gazebo.
 
     Args:
         simulation: what they act on.
         make_node: makes a node for each; None: without ROS.
         environment: says where plugins are.
         say: is told what is loaded.
-        models: whose plugins; None: those of every model, and what the world itself asks for is named.
+        models: whose plugins; None: those of every model.
     """
-    report = simulation.report
     loaded: list[Plugin] = []
-    for handle in simulation.models if models is None else models:
-        model = handle.model
-        for tag in model.plugins:
-            try:
+    for model in simulation.models if models is None else models:
+        for tag in model.model.plugins:
+
+            def load(tag: PluginTag = tag, model: ModelHandle = model) -> Plugin:
                 plugin_class, origin = find_plugin(tag, environment)
-            except DescriptionError as error:
-                report.warn(error.at, f"{error.what}; the run goes on without it")
-                continue
-            say(f"plugin {tag.name!r} of {model.name}: {origin}")
-            node = None if make_node is None else make_node(f"/{ros_name(model.name)}/{ros_name(tag.name)}")
-            try:
-                plugin = plugin_class.load(simulation, handle, node, tag)
-            except Exception as error:
-                report.warn(tag.at, f"plugin {tag.name!r}: {type(error).__name__}: {error}; the run goes on without it")
-                continue
-            _hook_in(simulation, handle, plugin)
-            loaded.append(plugin)
-    for tag in simulation.world.plugins if models is None else ():
-        report.warn(tag.at, f"world plugin {tag.name!r} ({tag.filename}) is not supported; the run goes on without it")
+                say(f"plugin {tag.name!r} of {model.name}: {origin}")
+                node = None if make_node is None else make_node(f"/{ros_name(model.name)}/{ros_name(tag.name)}")
+                return plugin_class.load(simulation, model, node, tag)
+
+            plugin = _loaded(tag, load, simulation.report)
+            if plugin is not None:
+                _hook_in(simulation, plugin, model)
+                loaded.append(plugin)
     return loaded
 
 
-def _hook_in(simulation: Simulation, model: ModelHandle, plugin: Plugin) -> None:
-    """Have the plugin called as long as its model is there."""
+def load_world_plugins(
+    simulation: Simulation,
+    make_node: Callable[[str], Node] | None,
+    environment: Mapping[str, str],
+    *,
+    say: Callable[[str], None],
+) -> None:
+    """Load the plugins that the world itself asks for; see `load_plugins`."""
+    world = simulation.world
+    for tag in world.plugins:
+
+        def load(tag: PluginTag = tag) -> Hooks:
+            plugin_class, origin = find_world_plugin(tag, environment)
+            say(f"plugin {tag.name!r} of the world: {origin}")
+            node = None if make_node is None else make_node(f"/{ros_name(world.name)}/{ros_name(tag.name)}")
+            return plugin_class.load(simulation, node, tag)
+
+        plugin = _loaded(tag, load, simulation.report)
+        if plugin is not None:
+            _hook_in(simulation, plugin, None)
+    if any(world.wind) and not any(tag.filename.endswith("libWindPlugin.so") for tag in world.plugins):
+        report = simulation.report
+        report.info(world.at, "the wind pushes nothing: as in Gazebo, that takes libWindPlugin.so in the world")
+
+
+def _loaded(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _Kind | None:
+    try:
+        return load()
+    except DescriptionError as error:
+        report.warn(error.at, f"{error.what}; the run goes on without it")
+    except Exception as error:  # a user's code may raise anything
+        report.warn(tag.at, f"plugin {tag.name!r}: {type(error).__name__}: {error}; the run goes on without it")
+    return None
+
+
+def _hook_in(simulation: Simulation, plugin: Hooks, model: ModelHandle | None) -> None:
+    """Have the plugin called, as long as its model is there."""
 
     def is_there() -> bool:
-        return any(handle is model for handle in simulation.models)
+        return model is None or any(handle is model for handle in simulation.models)
 
     def reset() -> None:
         if is_there():

@@ -21,7 +21,7 @@ from .exposure import warn_of_exposure
 from .outcome import Outcome
 from .pace import NS, Pacer
 from .page import Page
-from .plugins import load_plugins
+from .plugins import load_plugins, load_world_plugins
 from .ros_side import RosSide
 from .showing import Showing
 from .signals import stop_flag
@@ -89,7 +89,9 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         if options.record is not None:
             recorder = _record(options.record, simulation, stage, report)
             open_things.callback(recorder.close)
-        load_plugins(simulation, None if ros is None else ros.make_node, env, say=show.line)
+        make_node = None if ros is None else ros.make_node
+        load_plugins(simulation, make_node, env, say=show.line)
+        load_world_plugins(simulation, make_node, env, say=show.line)
         show.findings()
         page = None
         if not options.headless:

@@ -12,11 +12,12 @@ import sys
 from collections.abc import Mapping
 from importlib.metadata import entry_points
 from pathlib import Path, PurePosixPath
+from typing import TypeVar
 
 from trundle.diagnostics import DescriptionError, Source
 from trundle.model import PluginTag
 
-from .plugin import Plugin
+from .plugin import Hooks, Plugin, WorldPlugin
 
 BUILTIN: dict[str, str] = {
     "libBuoyancyPlugin.so": "trundle.plugins.buoyancy:Buoyancy",
@@ -24,31 +25,51 @@ BUILTIN: dict[str, str] = {
     "libInitialVelocityPlugin.so": "trundle.plugins.initial_velocity:InitialVelocity",
     "libLiftDragPlugin.so": "trundle.plugins.lift_drag:LiftDrag",
     "libSkidSteerDrivePlugin.so": "trundle.plugins.skid_steer_drive:SkidSteerDrive",
+    "libWindPlugin.so": "trundle.plugins.wind:Wind",
 }
 """File name → "module:Class", imported only when a model asks."""
 
 GROUP = "trundle.plugins"
 
 
+_Kind = TypeVar("_Kind", bound=Hooks)
+
+
 def find_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[Plugin], str]:
-    """Return the plugin's class and where it came from.
+    """Return the class of a model's plugin and where it came from.
 
     Raises:
         DescriptionError: there is none, with where was looked; or the user's file does not load, with its line.
     """
+    return _find(tag, environment, Plugin)
+
+
+def find_world_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[WorldPlugin], str]:
+    """Return the class of a world's plugin and where it came from; see `find_plugin`."""
+    return _find(tag, environment, WorldPlugin)
+
+
+def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> tuple[type[_Kind], str]:
     filename = PurePosixPath(tag.filename.replace("\\", "/")).name
     if filename in BUILTIN:
-        return _imported(BUILTIN[filename]), f"Trundle's own {filename}"
+        return _of_kind(_imported(BUILTIN[filename]), kind, tag), f"Trundle's own {filename}"
     for guest in entry_points(group=GROUP, name=filename):
-        return guest.load(), f"{guest.value} ({guest.dist.name if guest.dist else 'installed'})"
+        return _of_kind(guest.load(), kind, tag), f"{guest.value} ({guest.dist.name if guest.dist else 'installed'})"
     folders = _folders(tag, environment)
     for folder in folders:
         path = folder / python_name(filename)
         if path.is_file():
-            return _load_file(path), str(path)
+            return _load_file(path, kind), str(path)
     what = f"plugin {tag.name!r}: no {filename}; Trundle runs Python plugins"
     looked = ", ".join(map(str, folders))
     raise DescriptionError(tag.at, f"{what}: looked for {python_name(filename)} in {looked}")
+
+
+def _of_kind(found: type[Hooks], kind: type[_Kind], tag: PluginTag) -> type[_Kind]:
+    if not issubclass(found, kind):
+        whose, place = ("a world's", "<world>") if issubclass(found, WorldPlugin) else ("a model's", "<model>")
+        raise DescriptionError(tag.at, f"plugin {tag.name!r} ({tag.filename}) is {whose}; it belongs into a {place}")
+    return found
 
 
 def python_name(filename: str) -> str:
@@ -66,12 +87,12 @@ def _folders(tag: PluginTag, environment: Mapping[str, str]) -> list[Path]:
     return folders
 
 
-def _imported(path: str) -> type[Plugin]:
+def _imported(path: str) -> type[Hooks]:
     module, _, name = path.partition(":")
     return getattr(importlib.import_module(module), name)
 
 
-def _load_file(path: Path) -> type[Plugin]:
+def _load_file(path: Path, kind: type[_Kind]) -> type[_Kind]:
     name = f"trundle_plugin_{path.stem}_{abs(hash(path))}"
     spec = importlib.util.spec_from_file_location(name, path)
     assert spec is not None, path
@@ -86,11 +107,13 @@ def _load_file(path: Path) -> type[Plugin]:
     found = [
         value
         for value in vars(module).values()
-        if isinstance(value, type) and issubclass(value, Plugin) and value.__module__ == name
+        if isinstance(value, type) and issubclass(value, kind) and value.__module__ == name
     ]
     if len(found) != 1:
         names = ", ".join(repr(c.__name__) for c in found) or "none"
-        raise DescriptionError(Source(str(path)), f"a plugin file defines one subclass of Plugin; here: {names}")
+        raise DescriptionError(
+            Source(str(path)), f"a plugin file defines one subclass of {kind.__name__}; here: {names}"
+        )
     return found[0]
 
 

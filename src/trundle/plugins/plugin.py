@@ -1,4 +1,4 @@
-"""What a model plugin is: the Python counterpart of a Gazebo ModelPlugin.
+"""What a plugin is: the Python counterpart of a Gazebo ModelPlugin or WorldPlugin.
 
 Write a class like this in `rp2w.py` beside `model.sdf`, name `librp2w.so` (or `rp2w.py`) in the model's
 <plugin filename="…">, and `trundle run` loads it:
@@ -25,11 +25,24 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
 
-class Plugin:
-    """Drives a model and speaks for it on the ROS graph; all of it runs on the simulation's thread."""
+class Hooks:
+    """What plugins have in common; all of it runs on the simulation's thread."""
 
     period_ns: int = 0
     """How often the two hooks run, in simulation time [ns]; 0: at every physics step, as in Gazebo."""
+
+    def before_step(self, sim: Simulation) -> None:
+        """Write efforts, speeds and wrenches; called when due, before the physics moves."""
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Read what came of it and publish; called when due, after the physics moved."""
+
+    def reset(self) -> None:
+        """Forget what was commanded and integrated; called when the simulation is reset."""
+
+
+class Plugin(Hooks):
+    """Drives a model and speaks for it on the ROS graph."""
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
@@ -43,11 +56,11 @@ class Plugin:
         """
         raise NotImplementedError(f"{cls.__name__} needs a load(cls, sim, model, node, tag)")
 
-    def before_step(self, sim: Simulation) -> None:
-        """Write efforts, speeds and wrenches; called when due, before the physics moves."""
 
-    def after_step(self, snapshot: Snapshot) -> None:
-        """Read what came of it and publish; called when due, after the physics moved."""
+class WorldPlugin(Hooks):
+    """Acts on a whole world: the Python counterpart of a Gazebo WorldPlugin."""
 
-    def reset(self) -> None:
-        """Forget what was commanded and integrated; called when the simulation is reset."""
+    @classmethod
+    def load(cls, sim: Simulation, node: Node | None, tag: PluginTag) -> Self:
+        """Make the plugin for the world; see `Plugin.load`."""
+        raise NotImplementedError(f"{cls.__name__} needs a load(cls, sim, node, tag)")

@@ -7,6 +7,7 @@ from .gps import GpsReading, GpsSensor
 from .imu import ImuReading, ImuSensor
 from .mount import SIMULATED, mount_cameras
 from .mount_measuring import MeasuringSensor, mount_sensors
+from .noise import NoiseSource
 from .range import RangeReading, RangeSensor, angles_of, directions_of
 
 __all__ = [
@@ -22,6 +23,7 @@ __all__ = [
     "ImuReading",
     "ImuSensor",
     "MeasuringSensor",
+    "NoiseSource",
     "RangeReading",
     "RangeSensor",
     "angles_of",

@@ -1,0 +1,124 @@
+"""libWindPlugin.so: wind that rises, gusts, turns and pushes."""
+
+import math
+from typing import Self
+
+import numpy as np
+
+from trundle.diagnostics import Diagnostics
+from trundle.model import Noise, PluginTag
+from trundle.ros import Node
+from trundle.sensors import NoiseSource
+from trundle.simulation import LinkHandle, Simulation
+from trundle.spatial import Vector3, Wrench
+from trundle.xmlnode import XmlNode
+
+from .plugin import WorldPlugin
+
+
+class Wind(WorldPlugin):
+    """Pushes every link that lets wind in by mass · factor · (wind − its velocity), at its centre of mass.
+
+    Parameters, as in Gazebo 11: <force_approximation_scaling_factor> [1/s] (required); of <horizontal><magnitude>,
+    <horizontal><direction> and <vertical> the <time_for_rise> [s] (1) with which the world's wind comes up, of the
+    first two a <sin> with <amplitude_percent> (a share, not a percentage) or <amplitude> [°] and <period> [s] (1), of
+    all a <noise>. Gazebo lets the wind rise once for each link that feels it; here it rises once.
+    """
+
+    def __init__(self, sim: Simulation, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        horizontal = parameters.find("horizontal")
+        self._speed = _Part(horizontal and horizontal.find("magnitude"), "amplitude_percent", sim)
+        self._heading = _Part(horizontal and horizontal.find("direction"), "amplitude", sim)
+        self._rise = _Part(parameters.find("vertical"), "", sim)
+        self._factor = parameters.number("force_approximation_scaling_factor", default=0.0, report=report)
+        parameters.report_unread(report)
+        if abs(self._factor) < 1e-6:
+            needs = "needs a <force_approximation_scaling_factor> above 0"
+            report.warn(tag.at, f"plugin {tag.name!r} {needs}; the wind pushes nothing")
+        self._links: list[LinkHandle] = []
+        self._gather(sim)
+        sim.on_change(lambda: self._gather(sim))
+
+    @classmethod
+    def load(cls, sim: Simulation, node: Node | None, tag: PluginTag) -> Self:
+        """See `WorldPlugin.load`."""
+        del node
+        return cls(sim, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Blow."""
+        if not self._links:
+            return
+        wx, wy, wz = self._blow(sim.world.wind, sim.time_ns / 1e9)
+        twists = sim.engine.reader.link_twists()
+        for link in self._links:
+            vx, vy, vz = twists[link.index, :3].tolist()
+            push = self._factor * link.link.inertial.mass
+            link.add_wrench(Wrench(force=(push * (wx - vx), push * (wy - vy), push * (wz - vz))))
+
+    def reset(self) -> None:
+        """Be still, and rise again."""
+        for part in (self._speed, self._heading, self._rise):
+            part.mean = 0.0
+
+    def _gather(self, sim: Simulation) -> None:
+        """Find the links that the wind reaches."""
+        self._links = [
+            link
+            for model in sim.models
+            for link in model.links
+            if (model.model.enable_wind if link.link.enable_wind is None else link.link.enable_wind)
+            and abs(self._factor) >= 1e-6
+        ]
+
+    def _blow(self, wind: Vector3, time_s: float) -> Vector3:
+        """The wind of now [m/s], which follows the world's."""
+        x, y, z = wind
+        speed = self._speed.follow(math.hypot(x, y))
+        speed = self._speed.disturb(speed * (1.0 + self._speed.swing(time_s)))
+        heading = self._heading.follow(math.degrees(math.atan2(y, x)))
+        heading = math.radians(self._heading.disturb(heading + self._heading.swing(time_s)))
+        return (speed * math.cos(heading), speed * math.sin(heading), self._rise.disturb(self._rise.follow(z)))
+
+
+class _Part:
+    """Speed, heading or rise: a mean that follows with a lag, a swing and noise."""
+
+    def __init__(self, node: XmlNode | None, amplitude: str, sim: Simulation) -> None:
+        report = sim.report
+        rise = 1.0 if node is None else node.number("time_for_rise", default=1.0, report=report)
+        step = sim.world.physics.max_step_size_s
+        self._share = min(step / rise, 1.0) if rise > 0.0 else 1.0
+        self.mean = 0.0
+        self._amplitude, self._period = 0.0, 1.0
+        swing = None if node is None or not amplitude else node.find("sin")
+        if swing is not None:
+            self._amplitude = swing.number(amplitude, default=0.0, report=report)
+            self._period = swing.number("period", default=1.0, report=report) or 1.0
+        noise = Noise() if node is None else _read_noise(node.find("noise"), report)
+        self._noise = NoiseSource(noise, np.random.default_rng([sim.seed, *amplitude.encode()]))
+
+    def follow(self, value: float) -> float:
+        """Come a step closer to a value."""
+        self.mean += self._share * (value - self.mean)
+        return self.mean
+
+    def swing(self, time_s: float) -> float:
+        """How far the sine is out."""
+        return self._amplitude * math.sin(math.tau * time_s / self._period)
+
+    def disturb(self, value: float) -> float:
+        """The value with noise."""
+        return float(self._noise.disturb(np.array([value]))[0])
+
+
+def _read_noise(node: XmlNode | None, report: Diagnostics) -> Noise:
+    if node is None or node.attribute("type") == "none":
+        return Noise()
+    return Noise(
+        mean=node.number("mean", default=0.0, report=report),
+        stddev=abs(node.number("stddev", default=0.0, report=report)),
+        bias_mean=node.number("bias_mean", default=0.0, report=report),
+        bias_stddev=abs(node.number("bias_stddev", default=0.0, report=report)),
+    )
