@@ -20,7 +20,7 @@ from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
 AT = Source("robot.sdf", 1)
-PATIENCE_S = 20.0
+PATIENCE_S = 60.0
 
 
 class Ramp:

@@ -12,7 +12,7 @@ import pytest
 from trundle.cli import main
 from trundle.ros import Core, GraphLoop, Node
 
-PATIENCE_S = 20.0
+PATIENCE_S = 60.0
 
 
 @dataclass

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.cli.conftest import PATIENCE_S
 
 from trundle.cli.graph_picture import Drawing, Item, as_svg
 from trundle.ros import WallClock
@@ -175,7 +176,7 @@ def test_a_stock_node_runs_here(graph: Any) -> None:
             graph.until(lambda: got)
             assert "/mount\n" in graph.trundle("node", "list")[1]
             process.send_signal(signal.SIGINT)
-            assert process.wait(20) == 130
+            assert process.wait(PATIENCE_S) == 130
         finally:
             process.kill()
     graph.until(lambda: "/mount" not in graph.trundle("node", "list")[1])

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.cli.conftest import PATIENCE_S
 
 from trundle.ros import StaticTransformBroadcaster, Transform, TransformBroadcaster, WallClock
 from trundle.xmlnode import parse_xml
@@ -57,7 +58,7 @@ def test_a_transform_is_printed_as_by_tf_echo(graph: Any, robot: Any) -> None:
 
 
 def test_the_frames_are_drawn_as_a_tree(graph: Any, robot: Any, tmp_path: Path) -> None:
-    code, out, _ = graph.trundle("tf", "tree", "-t", "1.5")
+    code, out, _ = graph.trundle("tf", "tree", "-t", "0.5")
     assert code == 0
     first, second, third = out.splitlines()
     assert first == "odom"
@@ -65,10 +66,10 @@ def test_the_frames_are_drawn_as_a_tree(graph: Any, robot: Any, tmp_path: Path) 
     assert second.endswith(" s old, by /robot)")
     assert third == "   └─ laser  (static, by /robot)"
     target = tmp_path / "frames.svg"
-    assert graph.trundle("tf", "tree", "-t", "1", "-o", str(target))[1].endswith(f"{target} generated\n")
+    assert graph.trundle("tf", "tree", "-t", "0.5", "-o", str(target))[1].endswith(f"{target} generated\n")
     assert {"odom", "base", "laser"} <= {text.text for text in parse_xml(target.read_text(), name="x").all("text")}
     target = tmp_path / "frames.gv"
-    assert graph.trundle("tf", "tree", "-t", "1", "-o", str(target))[0] == 0
+    assert graph.trundle("tf", "tree", "-t", "0.5", "-o", str(target))[0] == 0
     assert '"odom" -> "base"[label="Broadcaster: /robot\\nAverage rate: ' in target.read_text()
     assert graph.trundle("tf", "tree", "-o", "frames.pdf")[0] == 1
 
@@ -92,7 +93,7 @@ def test_a_static_transform_is_published(graph: Any) -> None:
         try:
             graph.until(lambda: got)
             process.send_signal(signal.SIGINT)
-            assert process.wait(20) == 130
+            assert process.wait(PATIENCE_S) == 130
         finally:
             process.kill()
     transform = got[0].transforms[0]

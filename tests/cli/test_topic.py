@@ -1,13 +1,16 @@
 """`trundle topic`, with rostopic's output."""
 
+import io
 import signal
 import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from tests.cli.conftest import PATIENCE_S
 
 import trundle.cli.topic_pub as topic_pub
 from trundle.cli.topic_rate import Delay
@@ -153,13 +156,13 @@ def test_a_filter_lets_through_what_it_says(graph: Any) -> None:
 def test_one_message_is_published(
     graph: Any, monkeypatch: pytest.MonkeyPatch, arguments: list[str], linear: float, angular: float
 ) -> None:
-    monkeypatch.setattr(topic_pub, "_ONCE_S", 0.5)
     got: list[Any] = []
+    monkeypatch.setattr(topic_pub, "time", SimpleNamespace(sleep=lambda _: graph.until(lambda: got)))
     node = graph.node("n")
     node.subscribe("/cmd", "geometry_msgs/Twist", got.append)
     graph.ready(node)
     code, out, _ = graph.trundle("topic", "pub", *arguments)
-    assert (code, out) == (0, "publishing and latching message for 0.5 seconds\n")
+    assert (code, out) == (0, "publishing and latching message for 3.0 seconds\n")
     assert [(m.linear.x, m.angular.z) for m in got] == [(linear, angular)]
 
 
@@ -171,7 +174,7 @@ def test_messages_are_published_again_and_again_until_ctrl_c(graph: Any) -> None
     with _started("pub", "-r", "50", "-s", "/stamped", "std_msgs/Header", "{stamp: now, frame_id: x}") as process:
         graph.until(lambda: len(got) > 3)
         process.send_signal(signal.SIGINT)
-        assert process.wait(20) == 130
+        assert process.wait(PATIENCE_S) == 130
         assert process.stderr is not None
         assert process.stderr.read() == ""
     assert got[1].stamp != got[2].stamp
@@ -184,16 +187,17 @@ def test_a_message_is_latched_until_ctrl_c(graph: Any) -> None:
         assert process.stdout.readline() == "publishing and latching message. Press ctrl-C to terminate\n"
         assert _echo(graph, "/greeting") == 'data: "hello"\n---\n'
         process.send_signal(signal.SIGINT)
-        assert process.wait(20) == 130
+        assert process.wait(PATIENCE_S) == 130
 
 
-def test_piped_documents_are_published(graph: Any) -> None:
+def test_piped_documents_are_published(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     got: list[str] = []
     node = graph.node("n")
     node.subscribe("/lines", STRING, lambda m: got.append(m.data))
     graph.ready(node)
-    command = [sys.executable, "-m", "trundle", "topic", "pub", "/lines", STRING]
-    subprocess.run(command, input="data: one\n---\ndata: two\n---\n", text=True, check=True, timeout=60)
+    monkeypatch.setattr(topic_pub, "_SUBSCRIBER_S", PATIENCE_S)
+    monkeypatch.setattr(sys, "stdin", io.StringIO("data: one\n---\ndata: two\n---\n"))
+    assert graph.trundle("topic", "pub", "/lines", STRING)[0] == 0
     graph.until(lambda: got == ["one", "two"])
 
 
@@ -233,7 +237,7 @@ def test_messages_are_measured_until_ctrl_c(graph: Any, command: str, first: str
         assert process.stdout.readline() == "subscribed to [/tick]\n"
         assert any(line.startswith(first) for line in iter(process.stdout.readline, ""))
         process.send_signal(signal.SIGINT)
-        assert process.wait(20) == 130
+        assert process.wait(PATIENCE_S) == 130
     ticking.cancel()
 
 

@@ -15,7 +15,7 @@ from trundle.ros import Core, GraphLoop, Message, Messages, Node, Publisher
 
 _FAREWELL_S = 0.1
 """What processes that ended sent last is taken in before the loop ends: a connection half accepted would leak."""
-PATIENCE_S = 30.0
+PATIENCE_S = 60.0
 """How long anything may take on a busy machine before a test gives up."""
 
 

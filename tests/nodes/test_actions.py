@@ -99,7 +99,7 @@ def test_the_buffer_server_looks_frames_up(stage) -> None:
     stage.start("tf2_ros/static_transform_publisher", "1 2 3 0 0 0 base camera", name="still")
     stage.start("tf2_ros/buffer_server")
     kind = "tf2_msgs/LookupTransform"
-    goal = {"target_frame": "base", "source_frame": "camera", "timeout": {"sec": 20}}
+    goal = {"target_frame": "base", "source_frame": "camera", "timeout": {"sec": 60}}
     goals, results = ask(stage, "/buffer_server", kind, goal)
     stage.until(lambda: results)
     assert results[0].status.status == SUCCEEDED

@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+from tests.nodes.conftest import PATIENCE_S
 
 from trundle.nodes.settings import SettingError
 from trundle.nodes.twist_mux import Source, allowed, read_sources
@@ -61,7 +62,7 @@ def test_twist_mux_passes_on_what_may_drive(stage) -> None:
 
 
 def test_twist_mux_says_what_is_wrong_with_its_topics(stage, capsys) -> None:
-    assert stage.start("twist_mux/twist_mux", topics={"a": 1}).result(30.0) == 1
+    assert stage.start("twist_mux/twist_mux", topics={"a": 1}).result(PATIENCE_S) == 1
     assert "is not a list of topics" in capsys.readouterr().err
 
 

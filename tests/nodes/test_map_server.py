@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from tests.nodes.conftest import PATIENCE_S
 
 from trundle.diagnostics import UsageError
 from trundle.nodes.map_server.occupancy import read_map
@@ -62,7 +63,7 @@ def test_a_served_map_is_what_was_saved_of_it(stage, picture: Path) -> None:
     picture.write_text(f"image: map.pgm\n{_KEYS}")
     stage.start("map_server/map_server", str(picture))
     saved = picture.with_name("saved")
-    assert stage.start("map_server/map_saver", f"-f {saved}").result(30.0) == 0
+    assert stage.start("map_server/map_saver", f"-f {saved}").result(PATIENCE_S) == 0
 
     assert read_map(saved.with_name("saved.yaml")).cells.tolist() == [[0, 0, 0], [100, -1, 0]]
     served = stage.call("/static_map", "nav_msgs/GetMap").map
@@ -72,5 +73,5 @@ def test_a_served_map_is_what_was_saved_of_it(stage, picture: Path) -> None:
 
 
 def test_a_map_that_is_not_there_ends_the_server(stage, capsys) -> None:
-    assert stage.start("map_server/map_server", "/no/map.yaml").result(30.0) == 255
+    assert stage.start("map_server/map_server", "/no/map.yaml").result(PATIENCE_S) == 255
     assert "/no/map.yaml" in capsys.readouterr().err

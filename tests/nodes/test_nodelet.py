@@ -1,5 +1,7 @@
 """Nodelets: those we have run, the others are named."""
 
+from tests.nodes.conftest import PATIENCE_S
+
 from trundle.nodes import Replacement
 from trundle.nodes.nodelet import NODELETS
 
@@ -29,5 +31,5 @@ def test_another_is_named_and_idles(stage, capsys) -> None:
 
 
 def test_a_wrong_command_line_is_said(stage, capsys) -> None:
-    assert stage.start("nodelet/nodelet", "load", name="wrong").result(30.0) == 1
+    assert stage.start("nodelet/nodelet", "load", name="wrong").result(PATIENCE_S) == 1
     assert "usage: nodelet" in capsys.readouterr().err

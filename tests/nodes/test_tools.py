@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from tests.nodes.conftest import PATIENCE_S
+
 
 def test_rostopic_publishes(stage) -> None:
     heard = stage.listen("/said", "std_msgs/String")
@@ -11,9 +13,9 @@ def test_rostopic_publishes(stage) -> None:
 
 
 def test_rosparam_ends_with_its_exit_code(stage) -> None:
-    assert stage.start("rosparam/rosparam", "set /a 5", name="set").result(30.0) == 0
+    assert stage.start("rosparam/rosparam", "set /a 5", name="set").result(PATIENCE_S) == 0
     assert stage.loop.run(stage.client.get_param("/a")) == 5
-    assert stage.start("rosparam/rosparam", "get /none", name="get").result(30.0) == 1
+    assert stage.start("rosparam/rosparam", "get /none", name="get").result(PATIENCE_S) == 1
 
 
 def test_what_was_recorded_is_played(stage, tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from itertools import pairwise
 
 import pytest
+from tests.nodes.conftest import PATIENCE_S
 
 from trundle.nodes.topic_tools.throttle import ByteGate, MessageGate
 
@@ -91,7 +92,7 @@ def test_transform_computes_fields_of_fields(stage) -> None:
 )
 def test_a_wrong_command_line_is_said_and_ends_the_node(stage, capsys, command: str) -> None:
     name, _, arguments = command.partition(" ")
-    assert stage.start(f"topic_tools/{name}", arguments).result(30.0) == 1
+    assert stage.start(f"topic_tools/{name}", arguments).result(PATIENCE_S) == 1
     assert "[ERROR]" in capsys.readouterr().err
 
 

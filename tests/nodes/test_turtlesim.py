@@ -73,9 +73,12 @@ def test_a_turtle_follows_commands_and_another_mimics_it(stage) -> None:
     poses = stage.listen("/ape/pose", "turtlesim/Pose")
     stage.until(lambda: poses)
     commands = stage.speak("/turtle1/cmd_vel", "geometry_msgs/Twist")
-    commands.publish({"linear": {"x": 1.0}})
 
-    stage.until(lambda: poses[-1].x > 2.2)
+    def moved() -> bool:
+        commands.publish({"linear": {"x": 1.0}})  # a turtle obeys a command for a second
+        return poses[-1].x > 2.2
+
+    stage.until(moved)
     assert poses[-1].y == pytest.approx(2.0)
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.ros.conftest import PATIENCE_S
 
 from trundle.ros import (
     BagConnection,
@@ -133,10 +134,11 @@ def test_what_is_no_bag_is_said(tmp_path: Path) -> None:
 def test_a_graph_is_recorded_and_played(graph: Any, tmp_path: Path, name: str) -> None:
     talker, node, listener = graph.node("talker"), graph.node("record"), graph.node("listener")
     publisher = talker.advertise("/a", STRING, queue_size=None)
-    talker.advertise("/fixed", "geometry_msgs/Point", latch=True).publish({"x": 1.5})
+    fixed = talker.advertise("/fixed", "geometry_msgs/Point", latch=True)
+    fixed.publish({"x": 1.5})
     recorder = Recorder(node, RecordOptions(all_topics=True, path=tmp_path / name), say=lambda _: None)
     recorder.start()
-    graph.until(lambda: publisher.has_subscribers)
+    graph.until(lambda: publisher.has_subscribers and fixed.has_subscribers)
     for i in range(100):
         publisher.publish({"data": str(i)})
     graph.until(lambda: recorder.recorded >= 101)
@@ -202,7 +204,7 @@ def test_a_limit_ends_a_recording(graph: Any, tmp_path: Path) -> None:
     graph.until(lambda: publisher.has_subscribers)
     for i in range(10):
         publisher.publish({"data": str(i)})
-    assert recorder.done.wait(20)
+    assert recorder.done.wait(PATIENCE_S)
     recorder.stop()
     with open_bag(tmp_path / "x.bag") as bag:
         assert bag.counts == [3]

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from tests.ros.conftest import PATIENCE_S
+
 from trundle.ros import SimClock, WallClock
 
 
@@ -36,7 +38,7 @@ def test_a_sleep_before_the_first_tick_starts_there(graph: Any) -> None:
     graph.loop.settle()
     assert not done.done()
     clock.set(1_000_000_050)
-    done.result(20)
+    done.result(PATIENCE_S)
 
 
 def test_time_going_back_wakes_everyone_and_is_told(graph: Any) -> None:
@@ -47,7 +49,7 @@ def test_time_going_back_wakes_everyone_and_is_told(graph: Any) -> None:
     done = graph.loop.spawn(clock.sleep_until(10**12))
     graph.loop.settle()
     clock.set(3)
-    done.result(20)
+    done.result(PATIENCE_S)
     assert (told, clock.jumps) == ([3], 1)
 
 

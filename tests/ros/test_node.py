@@ -6,6 +6,7 @@ import threading
 from typing import Any
 
 import pytest
+from tests.ros.conftest import PATIENCE_S
 
 from trundle.ros import (
     MasterProxy,
@@ -187,8 +188,8 @@ def test_a_request_can_be_handled_in_another_thread(graph: Any) -> None:
     provider.advertise_service("/where", "std_srvs/Trigger", lambda _: {"message": threading.current_thread().name})
     graph.ready(provider)
     answer = graph.loop.spawn(client.call_service("/where", "std_srvs/Trigger"))
-    inbox.get(timeout=20)()
-    assert answer.result(20).message == "MainThread"
+    inbox.get(timeout=PATIENCE_S)()
+    assert answer.result(PATIENCE_S).message == "MainThread"
 
 
 def test_parameters_are_read_and_written(graph: Any) -> None:

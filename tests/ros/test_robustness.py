@@ -13,6 +13,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from typing import Any
 
 import pytest
+from tests.ros.conftest import PATIENCE_S
 
 from trundle.ros import Core, GraphLoop, MasterProxy, Node, ServiceError, blocking_call
 from trundle.ros.rpc_server import RpcServer
@@ -24,12 +25,12 @@ MD5 = "992ce8a1687cec8c8bd883ec73ca41d1"
 
 def _tcpros_port(graph: Any, node: Any, topic: str = "/a") -> int:
     graph.ready(node)
-    return blocking_call(node.uri, "requestTopic", "/me", topic, [["TCPROS"]], timeout_s=20.0)[2][2]
+    return blocking_call(node.uri, "requestTopic", "/me", topic, [["TCPROS"]], timeout_s=PATIENCE_S)[2][2]
 
 
 @contextmanager
 def _connected(port: int) -> Iterator[socket.socket]:
-    with socket.create_connection(("127.0.0.1", port), timeout=20) as connection:
+    with socket.create_connection(("127.0.0.1", port), timeout=PATIENCE_S) as connection:
         yield connection
 
 
@@ -105,7 +106,7 @@ def test_five_hundred_connections_come_and_go(graph: Any) -> None:
     node.advertise("/a", STRING)
     for port in (graph.core.port, _tcpros_port(graph, node)):
         for _ in range(5):
-            several = [socket.create_connection(("127.0.0.1", port), timeout=20) for _ in range(50)]
+            several = [socket.create_connection(("127.0.0.1", port), timeout=PATIENCE_S) for _ in range(50)]
             for connection in several:
                 connection.close()
     assert MasterProxy(graph.core.uri).call("getPid") == os.getpid()
@@ -184,13 +185,13 @@ def test_a_publisher_that_promises_four_gigabytes_is_dropped(graph: Any, capfd: 
     node = graph.node("n")
     subscription = node.subscribe("/a", STRING, print)
     with socket.create_server(("127.0.0.1", 0)) as server:
-        server.settimeout(20)
+        server.settimeout(PATIENCE_S)
         liar = _LyingNode(graph, server.getsockname()[1])
         proxy = MasterProxy(graph.core.uri, "/liar")
         proxy.call("registerPublisher", "/a", STRING, liar.uri)
         peer, _ = server.accept()
         with peer:
-            peer.settimeout(20)
+            peer.settimeout(PATIENCE_S)
             assert _read_header(peer)["callerid"] == "/n"
             peer.sendall(encode_header({"callerid": "/liar", "md5sum": MD5, "type": STRING}) + b"\xff\xff\xff\xff1234")
             assert _ends(peer)
@@ -243,13 +244,13 @@ def test_a_service_that_breaks_off_is_an_error_in_time(graph: Any) -> None:
         MasterProxy(graph.core.uri, "/broken").call("registerService", "/s", uri, "http://127.0.0.1:9/")
         answer = graph.loop.spawn(node.call_service("/s", "std_srvs/Empty", timeout_s=0.5))
         with pytest.raises(ServiceError, match="did not answer within"):
-            answer.result(20)
-        server.settimeout(20)
+            answer.result(PATIENCE_S)
+        server.settimeout(PATIENCE_S)
         server.accept()[0].close()
         answer = graph.loop.spawn(node.call_service("/s", "std_srvs/Empty"))
         server.accept()[0].close()
         with pytest.raises(ServiceError, match="cannot be called"):
-            answer.result(20)
+            answer.result(PATIENCE_S)
 
 
 def test_stopping_a_busy_graph_leaves_nothing_behind(graph: Any, far: Any) -> None:
@@ -322,9 +323,9 @@ def test_udpros_is_refused_politely(graph: Any) -> None:
     node.advertise("/a", STRING)
     graph.ready(node)
     udp = ["UDPROS", b"", "127.0.0.1", 5, 1500]
-    answer = blocking_call(node.uri, "requestTopic", "/me", "/a", [udp], timeout_s=20.0)
+    answer = blocking_call(node.uri, "requestTopic", "/me", "/a", [udp], timeout_s=PATIENCE_S)
     assert answer == [0, "no supported protocol implementations", []]
-    answer = blocking_call(node.uri, "requestTopic", "/me", "/a", [udp, ["TCPROS"]], timeout_s=20.0)
+    answer = blocking_call(node.uri, "requestTopic", "/me", "/a", [udp, ["TCPROS"]], timeout_s=PATIENCE_S)
     assert (answer[0], answer[2][0]) == (1, "TCPROS")
 
 

@@ -17,6 +17,8 @@ def main(args: argparse.Namespace) -> int:
     with running_node("tf_monitor") as (loop, node):
         traffic = TransformTraffic(node, loop.run(follow_time(node)))
 
+        loop.run(node.linked(), timeout_s=None)
+
         async def table() -> str:
             return _table(traffic)
 

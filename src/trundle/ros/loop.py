@@ -71,7 +71,7 @@ class GraphLoop:
         """Whether the caller runs on the loop."""
         return threading.current_thread() is self._thread
 
-    def run(self, coroutine: Coroutine[Any, Any, _T], timeout_s: float | None = 10.0) -> _T:
+    def run(self, coroutine: Coroutine[Any, Any, _T], timeout_s: float | None = 30.0) -> _T:
         """Run a coroutine on the loop and wait for its answer, from another thread.
 
         Raises:

@@ -28,6 +28,7 @@ from .subscription import Callback, Subscription
 _FAREWELL_S = 1.0
 """How long unregistering may take: a whole program must end within two seconds of Ctrl-C."""
 _RETRY_S = 0.5
+_LINK_S = 0.01
 _Action = Callable[[], Awaitable[None]]
 
 
@@ -259,6 +260,12 @@ class Node(NodeCalls, NodeLog):
         await asyncio.sleep(0)  # what other threads asked for before is in the queue now
         self._actions.put_nowait(done)
         await future
+
+    async def linked(self) -> None:
+        """Wait until every subscription hears the publishers there are, or knows that they do not answer."""
+        await self.ready()
+        while not all(s.is_settled for subscriptions in self._subscriptions.values() for s in subscriptions):
+            await asyncio.sleep(_LINK_S)
 
     def on_shutdown(self, callback: Callable[[str], None]) -> None:
         """Have a function called, on the loop and with the reason, when this node is told to shut down."""

@@ -65,6 +65,11 @@ class Subscription:
         """How many publishers are connected."""
         return len(self._links)
 
+    @property
+    def is_settled(self) -> bool:
+        """Whether each publisher that the master named is connected, or known not to answer."""
+        return all(uri in self._links or uri in self._complained for uri in list(self._tasks))
+
     def unregister(self) -> None:
         """Stop listening; any thread."""
         self._node.unregister_subscription(self)
