@@ -1,5 +1,6 @@
 """Drive laws and what controllers share."""
 
 from .drive import DifferentialDrive, WheelOdometry, approach
+from .pid import Pid
 
-__all__ = ["DifferentialDrive", "WheelOdometry", "approach"]
+__all__ = ["DifferentialDrive", "Pid", "WheelOdometry", "approach"]

@@ -23,7 +23,12 @@ BUILTIN: dict[str, str] = {
     "libBuoyancyPlugin.so": "trundle.plugins.buoyancy:Buoyancy",
     "libDiffDrivePlugin.so": "trundle.plugins.diff_drive:DiffDrive",
     "libInitialVelocityPlugin.so": "trundle.plugins.initial_velocity:InitialVelocity",
+    "libJointControlPlugin.so": "trundle.plugins.joint_control:JointControl",
+    "libJointTrajectoryPlugin.so": "trundle.plugins.joint_trajectory:JointTrajectory",
+    "libKeysToCmdVelPlugin.so": "trundle.plugins.keys_to_cmd_vel:KeysToCmdVel",
+    "libKeysToJointsPlugin.so": "trundle.plugins.keys_to_joints:KeysToJoints",
     "libLiftDragPlugin.so": "trundle.plugins.lift_drag:LiftDrag",
+    "libRandomVelocityPlugin.so": "trundle.plugins.random_velocity:RandomVelocity",
     "libSkidSteerDrivePlugin.so": "trundle.plugins.skid_steer_drive:SkidSteerDrive",
     "libWindPlugin.so": "trundle.plugins.wind:Wind",
 }

@@ -1,0 +1,93 @@
+"""libKeysToCmdVelPlugin.so: a robot driven from the keyboard."""
+
+import math
+from typing import Self
+
+from trundle.model import PluginTag
+from trundle.names import ros_name
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation
+
+from .keys import listen_to_keys
+from .plugin import Plugin
+
+_KEYS = {
+    "stop": (13, 32),
+    "accelerate": (38, 16777235),
+    "decelerate": (40, 16777237),
+    "left": (37, 16777234),
+    "right": (39, 16777236),
+}
+"""Return and space, and the arrows as browsers and as Qt number them."""
+
+
+class KeysToCmdVel(Plugin):
+    """Turns keys into speeds on <cmd_vel_topic> (~/cmd_vel, of which ~ is / here), as geometry_msgs/Pose.
+
+    Further parameters: <max_linear_vel> 1, <min_linear_vel> −max [m/s], <linear_increment> 0.5 [m/s] a press,
+    <max_angular_vel> 1, <angular_increment> 0.5 [rad/s], <key_controls> with any number of <stop>, <accelerate>,
+    <decelerate>, <left> and <right>: the keys' numbers. As in Gazebo left is the negative yaw.
+    """
+
+    def __init__(self, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
+        parameters, report = tag.node, sim.report
+
+        def number(name: str, default: float) -> float:
+            return parameters.number(name, default=default, report=report)
+
+        topic = parameters.string("cmd_vel_topic", default="~/cmd_vel")
+        self._fastest = number("max_linear_vel", 1.0)
+        self._slowest = number("min_linear_vel", -self._fastest)
+        self._linear_step = number("linear_increment", 0.5)
+        self._fastest_turn = number("max_angular_vel", 1.0)
+        self._angular_step = number("angular_increment", 0.5)
+        self._keys = {key: what for what, keys in _KEYS.items() for key in keys}
+        controls = parameters.find("key_controls")
+        if controls is not None and controls.children:
+            self._keys = {}
+            for what in _KEYS:
+                keys = [int(child.as_number(default=0.0, report=report)) for child in controls.all(what)]
+                self._keys.update(dict.fromkeys(keys, what))
+                if not keys:
+                    report.warn(controls.at, f"<key_controls> has no <{what}>; no key does that")
+        parameters.report_unread(report)
+        self.speed = self.turning = 0.0
+        self._topic = None
+        if node is not None:
+            name = ros_name(topic.removeprefix("~").strip("/"))
+            self._topic = node.advertise(f"/{name}", "geometry_msgs/Pose", queue_size=10)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        del model
+        plugin = cls(node, tag, sim)
+        listen_to_keys(node, tag, plugin.press, sim.report)
+        return plugin
+
+    def press(self, key: int) -> None:
+        """Obey a key."""
+        match self._keys.get(key):
+            case "stop":
+                self.speed = self.turning = 0.0
+            case "accelerate":
+                self.speed = self._clamped(self.speed + self._linear_step)
+            case "decelerate":
+                self.speed = self._clamped(self.speed - self._linear_step)
+            case "left":
+                self.turning = max(self.turning - self._angular_step, -self._fastest_turn)
+            case "right":
+                self.turning = min(self.turning + self._angular_step, self._fastest_turn)
+            case _:
+                return
+        if self._topic is not None:
+            half = self.turning / 2
+            turn = {"x": 0.0, "y": 0.0, "z": math.sin(half), "w": math.cos(half)}
+            self._topic.publish({"position": {"x": self.speed}, "orientation": turn})
+
+    def reset(self) -> None:
+        """Begin from standing."""
+        self.speed = self.turning = 0.0
+
+    def _clamped(self, speed: float) -> float:
+        return min(max(speed, self._slowest), self._fastest)

@@ -1,0 +1,91 @@
+"""libKeysToJointsPlugin.so: a key for each thing a joint may do."""
+
+from dataclasses import dataclass
+from typing import Self
+
+from trundle.control import Pid
+from trundle.diagnostics import UsageError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation
+from trundle.xmlnode import XmlNode
+
+from .joint_controller import ControlledJoint
+from .keys import listen_to_keys
+from .plugin import Plugin
+
+_NEEDED = ("key", "scale", "type")
+
+
+@dataclass(frozen=True, slots=True)
+class _Key:
+    joint: ControlledJoint
+    kind: str
+    scale: float
+
+
+class KeysToJoints(Plugin):
+    """Moves joints by keys; see `trundle.plugins.keys` for where they come from.
+
+    Parameters, of any number of <map key="…" scale="…" type="…" kp="0" ki="0" kd="0">: <joint>. Type position: each
+    press moves the target by scale [rad or m] from where the joint is; velocity: scale is the target [rad/s or m/s];
+    force: one step of effort [N·m or N]. The integral gives nothing, as in Gazebo, which leaves its limits at zero.
+    """
+
+    def __init__(self, model: ModelHandle, tag: PluginTag, sim: Simulation) -> None:
+        self._joints: dict[str, ControlledJoint] = {}
+        self._keys: dict[int, list[_Key]] = {}
+        for node in tag.node.all("map"):
+            self._read(node, model, sim)
+        tag.node.report_unread(sim.report)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        plugin = cls(model, tag, sim)
+        listen_to_keys(node, tag, plugin.press, sim.report)
+        return plugin
+
+    def press(self, key: int) -> None:
+        """Obey a key."""
+        for each in self._keys.get(key, ()):
+            match each.kind:
+                case "position":
+                    each.joint.set_position(each.joint.joint.position + each.scale)
+                case "velocity":
+                    each.joint.set_velocity(each.scale)
+                case _:
+                    each.joint.push(each.scale)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Push."""
+        for joint in self._joints.values():
+            joint.update(sim)
+
+    def reset(self) -> None:
+        """Forget what was pressed."""
+        for joint in self._joints.values():
+            joint.release()
+
+    def _read(self, node: XmlNode, model: ModelHandle, sim: Simulation) -> None:
+        report = sim.report
+        values = {name: node.attribute(name) for name in (*_NEEDED, "kp", "ki", "kd")}
+        missing = [name for name in _NEEDED if not values[name]]
+        kind = values["type"]
+        try:
+            numbers = {name: float(values[name] or 0.0) for name in values if name != "type"}
+            joint = model.joint(node.string("joint"))
+        except (ValueError, UsageError) as error:
+            report.warn(node.at, f"<map>: {error}; it is left out")
+            return
+        if missing or kind not in ("position", "velocity", "force") or not joint.axes:
+            what = f"needs {', '.join(missing)}" if missing else f"type {kind!r} of a joint with {len(joint.axes)} axes"
+            report.warn(node.at, f"<map>: {what}; it is left out")
+            return
+        controlled = self._joints.setdefault(joint.name, ControlledJoint(joint))
+        pid = Pid(p=numbers["kp"], i=numbers["ki"], d=numbers["kd"])
+        if kind == "position":
+            controlled.set_position(None, pid)
+        elif kind == "velocity":
+            controlled.set_velocity(None, pid)
+        self._keys.setdefault(int(numbers["key"]), []).append(_Key(controlled, kind, numbers["scale"]))

@@ -1,0 +1,72 @@
+"""libRandomVelocityPlugin.so: a link that changes its mind."""
+
+import math
+from typing import Self
+
+import numpy as np
+
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import LinkHandle, ModelHandle, Simulation
+from trundle.spatial import ZERO, Twist, Vector3
+
+from .plugin import Plugin
+
+NS = 1_000_000_000
+
+
+class RandomVelocity(Plugin):
+    """Keeps a velocity on <link> and draws another, in any direction, every <update_period> [s] (10).
+
+    Further parameters: <initial_velocity> [m/s] (0 0 0), <velocity_factor> [m/s] (1), the speed of what is drawn, and
+    <min_x> … <max_z> [m/s], which cut it. The link turns and collides as before.
+    """
+
+    def __init__(self, link: LinkHandle, tag: PluginTag, sim: Simulation) -> None:
+        self._link = link
+        parameters, report = tag.node, sim.report
+        self._start = parameters.vector("initial_velocity", default=ZERO, report=report)
+        self._speed = parameters.number("velocity_factor", default=1.0, report=report)
+        self._every_ns = round(parameters.number("update_period", default=10.0, report=report) * NS)
+        bounds = [
+            sorted(
+                parameters.number(f"{end}_{axis}", default=default, report=report)
+                for end, default in (("min", -math.inf), ("max", math.inf))
+            )
+            for axis in "xyz"
+        ]
+        self._low, self._high = np.array(bounds).T
+        parameters.find("link")
+        parameters.report_unread(report)
+        self._seed = sim.seed
+        self.reset()
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        del node
+        link = model.link(tag.node.string("link"))
+        if not sim.engine.is_free(link.index):
+            sim.report.warn(tag.at, f"link {link.name!r} hangs from something; the plugin moves free links alone")
+        return cls(link, tag, sim)
+
+    def reset(self) -> None:
+        """Begin with the first velocity again, and draw the same ones."""
+        self._random = np.random.default_rng([self._seed, *self._link.name.encode()])
+        self._velocity: Vector3 = self._start
+        self._drawn_ns = 0
+
+    def before_step(self, sim: Simulation) -> None:
+        """Keep the velocity."""
+        if not sim.engine.is_free(self._link.index):
+            return
+        if sim.time_ns - self._drawn_ns > self._every_ns:
+            self._drawn_ns = sim.time_ns
+            self._velocity = self._draw()
+        self._link.set_twist(Twist(self._velocity, self._link.twist.angular))
+
+    def _draw(self) -> Vector3:
+        drawn = self._random.uniform(-1.0, 1.0, 3)
+        drawn *= self._speed / (float(np.linalg.norm(drawn)) or 1.0)
+        x, y, z = np.clip(drawn, self._low, self._high).tolist()
+        return (x, y, z)

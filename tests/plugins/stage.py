@@ -1,0 +1,68 @@
+"""A model with its plugins, and a node of no graph that a test speaks through."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import trundle
+from trundle.bringup.plugins import load_plugins, load_world_plugins
+from trundle.ros import Messages
+from trundle.simulation import Simulation
+
+BODY = "<inertial><mass>{}</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
+ARM = (
+    f'<link name="base">{BODY.format(1)}</link><joint name="weld" type="fixed"><parent>world</parent>'
+    f'<child>base</child></joint><link name="arm">{BODY.format(1)}</link><joint name="hinge" type="revolute">'
+    "<parent>base</parent><child>arm</child><axis><xyz>0 0 1</xyz></axis></joint>"
+)
+"""An arm of 0.1 kg·m² on a hinge that points upwards."""
+
+
+class Wires:
+    """Stands for a node: keeps who listens, and what was said."""
+
+    def __init__(self) -> None:
+        self._types = Messages()
+        self._heard_by: dict[str, tuple[str, Callable[[Any], None]]] = {}
+        self.said: dict[str, list[Any]] = {}
+        self.latched: set[str] = set()
+
+    def subscribe(self, topic: str, kind: str, call: Callable[[Any], None], **_: Any) -> None:
+        self._heard_by[topic] = (kind, call)
+
+    def advertise(self, topic: str, kind: str, *, latch: bool = False, **_: Any) -> "_Topic":
+        if latch:
+            self.latched.add(topic)
+        return _Topic(self._types, kind, self.said.setdefault(topic, []))
+
+    def tell(self, topic: str, **fields: Any) -> None:
+        """Have the listener on a topic hear a message."""
+        kind, call = self._heard_by[topic]
+        call(self._types.new(kind, fields))
+
+
+class _Topic:
+    has_subscribers = True
+
+    def __init__(self, types: Messages, kind: str, said: list[Any]) -> None:
+        self._types, self._kind, self._said = types, kind, said
+
+    def publish(self, message: Any) -> None:
+        self._said.append(self._types.new(self._kind, message))
+
+
+def load(
+    folder: Path, body: str, *, gravity: str = "0 0 0", ground: bool = False, wires: Wires | None = None
+) -> Simulation:
+    """A world with the model `m`, whose plugins run."""
+    plane = "<include><uri>model://ground_plane</uri></include>" if ground else ""
+    file = folder / "w.sdf"
+    file.write_text(
+        f'<sdf version="1.6"><world name="w"><gravity>{gravity}</gravity>{plane}'
+        f'<model name="m">{body}</model></world></sdf>'
+    )
+    sim = trundle.load(str(file))
+    make: Any = None if wires is None else lambda _: wires
+    load_plugins(sim, make, {}, say=lambda _: None)
+    load_world_plugins(sim, make, {}, say=lambda _: None)
+    return sim
