@@ -210,6 +210,95 @@ def test_a_limit_ends_a_recording(graph: Any, tmp_path: Path) -> None:
         assert bag.counts == [3]
 
 
+def test_a_limit_counts_latched_messages_and_takes_no_more_than_it_says(graph: Any, tmp_path: Path) -> None:
+    """Several publishers each hand over their latched message as soon as they are connected."""
+    for number in range(5):
+        graph.node(f"n{number}").advertise("/a", STRING, latch=True).publish({"data": str(number)})
+    recorder = Recorder(
+        graph.node("record"), RecordOptions(topics=("/a",), path=tmp_path / "x.bag", limit=2), say=lambda _: None
+    )
+    recorder.start()
+    assert recorder.done.wait(PATIENCE_S)
+    graph.loop.settle()
+    recorder.stop()
+    with open_bag(tmp_path / "x.bag") as bag:
+        assert sum(bag.counts) == 2
+
+
+def test_latched_messages_are_repeated_in_each_new_file(graph: Any, tmp_path: Path) -> None:
+    fixed = graph.node("mapper").advertise("/map", STRING, latch=True)
+    fixed.publish({"data": "the map"})
+    publisher = graph.node("talker").advertise("/a", "std_msgs/UInt8MultiArray", queue_size=None)
+    options = RecordOptions(
+        topics=("/a", "/map"),
+        path=tmp_path / "x.bag",
+        splits=True,
+        max_bytes=50_000,
+        repeats_latched=True,
+        announces=True,
+    )
+    files: list[str] = []
+    node = graph.node("record")
+    graph.node("listener").subscribe("/begin_write", STRING, lambda m: files.append(m.data))
+    recorder = Recorder(node, options, say=lambda _: None)
+    recorder.start()
+    graph.until(lambda: publisher.has_subscribers and fixed.has_subscribers and files)
+    for i in range(20):
+        publisher.publish({"data": bytes(10_000)})
+        graph.until(lambda i=i: recorder.recorded == i + 2)
+    graph.until(lambda: len(files) > 2)
+    recorder.stop()
+    assert [str(path) for path in recorder.files] == files
+    for path in recorder.files:
+        with open_bag(path) as bag:
+            assert [m.data[4:] for m in bag.messages(lambda c: c.topic == "/map")] == [b"the map"]
+
+
+def test_messages_published_too_fast_for_their_queue_are_counted(graph: Any, far: Any) -> None:
+    publisher = graph.node("talker").advertise("/a", STRING, queue_size=3)
+    got: list[str] = []
+    far.node("listener").subscribe("/a", STRING, lambda m: got.append(m.data), queue_size=None)
+    graph.until(lambda: publisher.has_subscribers)
+
+    async def burst() -> None:
+        for i in range(10):
+            publisher.publish({"data": str(i)})
+
+    graph.loop.run(burst())
+    graph.until(lambda: got == ["7", "8", "9"])
+    assert publisher.dropped == 7
+
+
+def test_playing_waits_for_whoever_controls_the_rate(graph: Any, tmp_path: Path) -> None:
+    """The follower says by its stamps how far it has come; the player is at most 10 s ahead."""
+    kind = "geometry_msgs/PointStamped"
+    messages = Messages()
+    made = BagConnection(topic="/a", type=kind, md5sum=messages.md5(kind), definition=messages.definition(kind))
+    with create_bag(tmp_path / "x.bag") as out:
+        for second in range(1, 41):
+            message = messages.new(kind, {"header": {"stamp": second * 10**9}})
+            out.write(BagMessage(made, second * 10**9, bytes(messages.serialize(message))))
+    got: list[int] = []
+    follower = graph.node("follower")
+    done = follower.advertise("/done", kind, latch=True)
+    follower.subscribe("/a", kind, lambda m: got.append(m.header.stamp.sec), queue_size=None)
+    ahead: list[int] = []
+    with open_bag(tmp_path / "x.bag") as bag:
+        options = PlayOptions(immediate=True, rate_control_topic="/done", rate_control_s=10.0)
+        player = Player(graph.node("play"), [bag], options)
+        (publisher,) = player.advertise()
+        graph.until(lambda: publisher.has_subscribers and done.has_subscribers)
+
+        def attend() -> None:
+            ahead.append(player.played)
+            if player.played == 11 and len(got) == 11:
+                done.publish({"header": {"stamp": 40 * 10**9}})
+
+        player.play(attend)
+    graph.until(lambda: got == list(range(1, 41)))
+    assert ahead.count(11) > 1
+
+
 def test_an_older_type_is_played_as_it_was_recorded(graph: Any, tmp_path: Path) -> None:
     """A bag is played by the definition in it, whatever is known here by that name."""
     old = BagConnection(topic="/a", type=STRING, md5sum="0123", definition="uint8 number\n")

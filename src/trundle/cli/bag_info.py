@@ -44,7 +44,7 @@ def check(args: argparse.Namespace) -> int:
     print("The following migrations need to occur:")
     for kind, md5sum in changed:
         print(f" * From: {kind} [{md5sum}]\n   To:   {kind} [{messages.md5(kind)}]")
-    print("\nMigration rules (.bmr) and rosbag fix are not supported; play publishes the recorded types as they are.")
+    print("\ntrundle bag fix brings them up to date; play publishes the recorded types as they are.")
     return 1
 
 

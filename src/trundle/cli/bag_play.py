@@ -66,6 +66,8 @@ def _options(args: argparse.Namespace) -> PlayOptions:
         immediate=args.immediate,
         queue_size=args.queue,
         skip_empty_s=args.skip_empty,
+        rate_control_topic=args.rate_control_topic,
+        rate_control_s=args.rate_control_max_delay,
     )
 
 

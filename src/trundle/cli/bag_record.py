@@ -37,6 +37,8 @@ def main(args: argparse.Namespace) -> int:
 def _options(args: argparse.Namespace, topics: tuple[str, ...]) -> RecordOptions:
     if not topics and not args.all and not args.node:
         raise UsageError("You must specify a topic name or else use the '-a' option.")
+    if args.udp:
+        raise UsageError("there is no UDPROS here, nor in rospy; without --udp the same messages come over TCP")
     if args.split and not (args.size or args.duration):
         raise UsageError("Split specified without giving a maximum duration or size")
     for pattern in (*(topics if args.regex else ()), args.exclude):
@@ -62,6 +64,8 @@ def _options(args: argparse.Namespace, topics: tuple[str, ...]) -> RecordOptions
         max_ns=round(args.duration * 1e9),
         max_splits=args.max_splits,
         tcp_nodelay=args.tcpnodelay,
+        repeats_latched=args.repeat_latched,
+        announces=args.publish,
     )
 
 

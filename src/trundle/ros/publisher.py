@@ -61,6 +61,8 @@ class Publisher:
         self._wanted = 0
         """Number of links; read by any thread."""
         self._outbox: deque[Any] = deque(maxlen=queue_size)
+        self._lost = 0
+        """Messages that were replaced before the loop came round to them."""
         self._flushes = False
         self._latched: Any = None
         self._sequence = 0
@@ -100,6 +102,7 @@ class Publisher:
             if header is not None and hasattr(header, "seq"):
                 self._sequence += 1
                 header.seq = self._sequence
+        self._lost += len(self._outbox) == self._queue_size
         self._outbox.append(message)
         self._flush_soon()
 
@@ -198,8 +201,8 @@ class Publisher:
 
     @property
     def dropped(self) -> int:
-        """Messages that slow subscribers, connected now, did not get."""
-        return sum(link.dropped for link in self._links)
+        """Messages that left the queue unsent: published too fast, or slow subscribers, connected now, lost them."""
+        return self._lost + sum(link.dropped for link in self._links)
 
     def _count(self) -> None:
         before, self._wanted = self._wanted, len(self._links) + len(self._local)

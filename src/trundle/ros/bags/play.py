@@ -1,6 +1,8 @@
 """Publishes what bags hold, at the pace it was recorded."""
 
 import heapq
+import re
+import struct
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
@@ -8,10 +10,12 @@ from dataclasses import dataclass
 
 from trundle.names import join_names
 
+from ..messages import RawMessage
 from ..node import Node
 from ..publisher import Publisher
 from .bag import BagConnection, BagMessage, BagReader
 
+_HEADER_FIRST = re.compile(r"(\s|#.*\n)*(std_msgs/)?Header\s")
 _NAP_S = 0.05
 """How long pausing or a key press may go unnoticed."""
 
@@ -35,6 +39,10 @@ class PlayOptions:
     queue_size: int = 100
     skip_empty_s: float | None = None
     """Longer silences are skipped [s]."""
+    rate_control_topic: str | None = None
+    """Wait for whoever publishes this: the stamps in its headers say how far they have come."""
+    rate_control_s: float = 1.0
+    """How far behind they may be [s]."""
 
 
 class Player:
@@ -55,12 +63,16 @@ class Player:
         first = min((bag.start_ns for bag in bags if any(bag.counts)), default=0)
         last = max((bag.end_ns for bag in bags), default=0)
         self.start_ns = first + round(options.start_s * 1e9)
+        self._follower_ns = self.start_ns
+        """How far whoever is waited for has come."""
         self.end_ns = last if options.duration_s is None else self.start_ns + round(options.duration_s * 1e9)
 
     def advertise(self) -> list[Publisher]:
         """Publish every topic wanted; latched ones latched."""
         if self._options.clock_hz is not None:
             self._clock = self._node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=1)
+        if self._options.rate_control_topic is not None:
+            self._node.subscribe(self._options.rate_control_topic, "*", self._hear_follower, on_loop=True)
         latched = {c.topic for bag in self._bags for c in bag.connections if c.latching}
         for connection in (c for bag in self._bags for c in bag.connections):
             if self._wants(connection):
@@ -95,7 +107,7 @@ class Player:
             previous_ns = message.stamp_ns
             while True:
                 attend()
-                if self.is_paused and self.steps == 0:
+                if (self.is_paused and self.steps == 0) or self._is_ahead(message.stamp_ns):
                     time.sleep(_NAP_S)
                     pace.hold()
                     continue
@@ -116,6 +128,19 @@ class Player:
                 clock_due_s = self._tick(message.stamp_ns)
             self._publishers[message.connection].publish(message.data)
             self.played += 1
+
+    def _is_ahead(self, stamp_ns: int) -> bool:
+        if self._options.rate_control_topic is None:
+            return False
+        return stamp_ns - self._follower_ns > self._options.rate_control_s * 1e9
+
+    def _hear_follower(self, message: RawMessage) -> None:
+        """Take the stamp from the header that the message starts with, whatever its type."""
+        if not _HEADER_FIRST.match(message.definition) or len(message.data) < 12:
+            self._node.log_warn(f"{message.type} does not start with a header; it cannot control the rate")
+            return
+        sec, nanosec = struct.unpack_from("<II", message.data, 4)
+        self._follower_ns = sec * 10**9 + nanosec
 
     def _tick(self, ns: int) -> float:
         """Publish the time; returns when to do it again."""

@@ -57,6 +57,10 @@ class RecordOptions:
     max_splits: int = 0
     """Files to keep; 0: all."""
     tcp_nodelay: bool = False
+    repeats_latched: bool = False
+    """Write the last message of each latched topic again at the start of each new file."""
+    announces: bool = False
+    """Publish the name of each file on `begin_write`."""
 
 
 class Recorder:
@@ -72,6 +76,7 @@ class Recorder:
         self._subscriptions: dict[str, Subscription] = {}
         self._left: dict[str, int] = {}
         self._connections: dict[tuple[str, str, str, bool], BagConnection] = {}
+        self._latched: dict[BagConnection, BagMessage] = {}
         self._queue: deque[BagMessage] = deque()
         self._queued_bytes = 0
         self._wake = threading.Condition()
@@ -79,6 +84,7 @@ class Recorder:
         self._is_ending = False
         self._files: list[Path] = []
         self._names = 0
+        self._begins = node.advertise("begin_write", "std_msgs/String", latch=True) if options.announces else None
         self._thread = threading.Thread(target=self._write_all, name="trundle-record", daemon=True)
         self.error: str | None = None
         """Why recording broke off, if it did."""
@@ -103,20 +109,27 @@ class Recorder:
         self._thread.start()
         options = self._options
         if not (options.is_regex or options.all_topics or options.of_node):
+            # On the loop: a latched message must not come before its subscription is known.
             for topic in options.topics:
-                self._subscribe(self._node.resolve(topic))
+                name = self._node.resolve(topic)
+                self._node.loop.call_soon(lambda name=name: self._subscribe(name))
         else:
             self._node.loop.spawn(self._follow())
 
     def stop(self) -> None:
         """Write what is queued and close the file; the result can be read."""
-        for subscription in self._subscriptions.values():
+        for subscription in list(self._subscriptions.values()):
             subscription.unregister()
         with self._wake:
             self._is_ending = True
             self._wake.notify()
         if self._thread.is_alive():
             self._thread.join()
+        if self.dropped:
+            self._node.log_warn(
+                f"{self.dropped} messages came faster than they could be written and were dropped; a larger buffer "
+                "(-b) or fewer topics may help"
+            )
 
     # on the loop
 
@@ -160,6 +173,8 @@ class Recorder:
     def _take(self, topic: str, message: RawMessage) -> None:
         stamp_ns = self.clock.now_ns()
         if stamp_ns == 0 or self.done.is_set():  # simulated time has not begun; or a limit is reached
+            return
+        if self._options.limit and self._left[topic] == 0:  # it was under way when the limit was reached
             return
         if "/" not in message.type or not message.md5sum:  # a publisher that does not say what it publishes
             self.dropped += 1
@@ -224,13 +239,18 @@ class Recorder:
                     return
                 if self._first_ns is None:
                     self._first_ns = message.stamp_ns
-                self._writer.write(message)
-                self.recorded += 1
+                self._write(message)
             if time.monotonic() - flushed >= _FLUSH_S:
                 self._writer.flush()
                 flushed = time.monotonic()
             if is_last:
                 return
+
+    def _write(self, message: BagMessage) -> None:
+        self._writer.write(message)
+        self.recorded += 1
+        if self._options.repeats_latched and message.connection.latching:
+            self._latched[message.connection] = message
 
     def _next_file_if_due(self, stamp_ns: int) -> None:
         options = self._options
@@ -245,6 +265,8 @@ class Recorder:
         while options.max_splits and len(self._files) >= options.max_splits:
             self._files.pop(0).unlink(missing_ok=True)
         self._writer = self._open()
+        for message in self._latched.values():
+            self._writer.write(BagMessage(message.connection, stamp_ns, message.data))
 
     def _open(self) -> BagWriter:
         self._first_ns: int | None = None
@@ -253,6 +275,8 @@ class Recorder:
         self._active.unlink(missing_ok=True)
         writer = create_bag(self._active, compression=self._options.compression, chunk_bytes=self._options.chunk_bytes)
         self._say(f"Recording to '{self._path}'.")
+        if self._begins is not None:
+            self._begins.publish({"data": str(self._path)})
         return writer
 
     def _close(self) -> None:
