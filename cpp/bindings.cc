@@ -15,6 +15,8 @@ namespace {
 template <typename Number, typename... Shape>
 using Array = nb::ndarray<Number, nb::numpy, nb::c_contig, nb::device::cpu, Shape...>;
 
+using Colour = std::array<float, 3>;
+
 Frame frame_of(const std::array<double, 7>& pose, const char* whose) {
   const auto frame = Frame::of(pose.data());
   if (!frame) throw std::invalid_argument(std::string("the pose of ") + whose + " is not of finite numbers");
@@ -33,37 +35,93 @@ NB_MODULE(_native, module) {
       .value("ELLIPSOID", Kind::kEllipsoid)
       .value("MESH", Kind::kMesh);
 
+  nb::enum_<LightKind>(module, "LightKind")
+      .value("DIRECTIONAL", LightKind::kDirectional)
+      .value("POINT", LightKind::kPoint)
+      .value("SPOT", LightKind::kSpot);
+
+  nb::enum_<FogKind>(module, "FogKind")
+      .value("NONE", FogKind::kNone)
+      .value("LINEAR", FogKind::kLinear)
+      .value("EXPONENTIAL", FogKind::kExponential)
+      .value("SQUARED", FogKind::kSquared);
+
   nb::class_<Mesh>(module, "Mesh").def(
       "__init__",
-      [](Mesh* self, Array<const float, nb::shape<-1, 3>> vertices, Array<const int32_t, nb::shape<-1, 3>> faces) {
+      [](Mesh* self, Array<const float, nb::shape<-1, 3>> vertices, Array<const int32_t, nb::shape<-1, 3>> faces,
+         std::optional<Array<const float, nb::shape<-1, 3, 2>>> uv) {
+        std::vector<float> places;
+        if (uv) places.assign(uv->data(), uv->data() + uv->size());
         new (self) Mesh(make_mesh({vertices.data(), vertices.data() + vertices.size()},
-                                  {faces.data(), faces.data() + faces.size()}));
+                                  {faces.data(), faces.data() + faces.size()}, places));
       },
-      nb::arg("vertices"), nb::arg("faces"));
+      nb::arg("vertices"), nb::arg("faces"), nb::arg("uv") = nb::none());
+
+  nb::class_<Image>(module, "Texture")
+      .def(
+          "__init__",
+          [](Image* self, Array<const uint8_t, nb::shape<-1, -1, 3>> rgb) {
+            if (rgb.shape(0) > 16384 || rgb.shape(1) > 16384)
+              throw std::invalid_argument("a texture is 1 to 16384 pixels wide and high");
+            new (self) Image(make_image(rgb.data(), (int32_t)rgb.shape(1), (int32_t)rgb.shape(0)));
+          },
+          nb::arg("rgb"));
+
+  nb::class_<LookSpec>(module, "Look")
+      .def(
+          "__init__",
+          [](LookSpec* self, Colour ambient, Colour diffuse, Colour specular, Colour emissive, float shininess,
+             float opacity, int32_t texture,
+             std::array<float, 2> repeat) {
+            new (self) LookSpec{ambient, diffuse, specular, emissive, shininess, opacity, texture, repeat};
+          },
+          nb::kw_only(), nb::arg("ambient"), nb::arg("diffuse"), nb::arg("specular"), nb::arg("emissive"),
+          nb::arg("shininess"), nb::arg("opacity"), nb::arg("texture") = -1,
+          nb::arg("repeat") = std::array<float, 2>{1, 1});
 
   nb::class_<ShapeSpec>(module, "Shape")
       .def(
           "__init__",
           [](ShapeSpec* self, Kind kind, int32_t body, int32_t mesh, std::array<float, 3> size,
-             std::array<double, 7> body_from_shape, std::array<float, 3> colour) {
-            new (self) ShapeSpec{kind, body, mesh, size, frame_of(body_from_shape, "a shape"), colour};
+             std::array<double, 7> body_from_shape, LookSpec look, bool casts_shadow) {
+            new (self) ShapeSpec{kind, body, mesh, size, frame_of(body_from_shape, "a shape"), look, casts_shadow};
           },
           nb::arg("kind"), nb::kw_only(), nb::arg("body"), nb::arg("mesh") = -1, nb::arg("size"),
-          nb::arg("body_from_shape"), nb::arg("colour"));
+          nb::arg("body_from_shape"), nb::arg("look"), nb::arg("casts_shadow") = true);
 
   nb::class_<LightSpec>(module, "Light")
       .def(
           "__init__",
-          [](LightSpec* self, std::array<double, 3> direction, std::array<float, 3> diffuse) {
-            new (self) LightSpec{direction, diffuse};
+          [](LightSpec* self, LightKind kind, int32_t body, Vec3 position, Vec3 direction, Colour diffuse,
+             Colour specular, std::array<float, 3> attenuation, float range, float inner_angle, float outer_angle,
+             float falloff, bool casts_shadows) {
+            new (self) LightSpec{kind, body, position, direction, diffuse, specular, attenuation[0], attenuation[1],
+                                 attenuation[2], range, inner_angle, outer_angle, falloff, casts_shadows};
           },
-          nb::kw_only(), nb::arg("direction"), nb::arg("diffuse"));
+          nb::arg("kind"), nb::kw_only(), nb::arg("body") = -1, nb::arg("position"), nb::arg("direction"),
+          nb::arg("diffuse"), nb::arg("specular"), nb::arg("attenuation"), nb::arg("range"), nb::arg("inner_angle"),
+          nb::arg("outer_angle"), nb::arg("falloff"), nb::arg("casts_shadows"));
+
+  nb::class_<Fog>(module, "Fog")
+      .def(
+          "__init__",
+          [](Fog* self, FogKind kind, Colour colour, float start, float end, float density) {
+            new (self) Fog{kind, {colour[0], colour[1], colour[2]}, start, end, density};
+          },
+          nb::arg("kind"), nb::kw_only(), nb::arg("colour"), nb::arg("start"), nb::arg("end"), nb::arg("density"));
 
   nb::class_<Renderer>(module, "Renderer")
-      .def(nb::init<int32_t, std::vector<Mesh>, std::vector<ShapeSpec>, std::vector<LightSpec>, std::array<float, 3>,
-                    std::array<float, 3>>(),
-           nb::kw_only(), nb::arg("bodies"), nb::arg("meshes"), nb::arg("shapes"), nb::arg("lights"),
-           nb::arg("ambient"), nb::arg("background"))
+      .def(
+          "__init__",
+          [](Renderer* self, int32_t bodies, std::vector<Mesh> meshes, std::vector<Image> textures,
+             std::vector<ShapeSpec> shapes, std::vector<LightSpec> lights, Colour ambient, Colour horizon,
+             Colour zenith, std::optional<Fog> fog) {
+            if (bodies < 0) throw std::invalid_argument("there cannot be fewer than no bodies");
+            new (self) Renderer(SceneSpec{bodies, std::move(meshes), std::move(textures), std::move(shapes),
+                                          std::move(lights), ambient, Sky{horizon, zenith}, fog.value_or(Fog{})});
+          },
+          nb::kw_only(), nb::arg("bodies"), nb::arg("meshes"), nb::arg("textures"), nb::arg("shapes"),
+          nb::arg("lights"), nb::arg("ambient"), nb::arg("horizon"), nb::arg("zenith"), nb::arg("fog") = nb::none())
       .def(
           "update",
           [](Renderer& self, Array<const double, nb::shape<-1, 7>> poses) {

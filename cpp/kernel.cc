@@ -10,43 +10,53 @@
 namespace trundle::TRUNDLE_ISA {
 namespace {
 
-template <Kind kind>
-void see_solid(const View& view, const Solid& solid, const Buffers& buffers) {
-  const float* axes = solid.axes;
-  const float step = 1.0f / view.focal, nearest = 1.0f / view.near_;
-  const F3 eye = {splat(solid.eye[0]), splat(solid.eye[1]), splat(solid.eye[2])};
+// Where rays start and how they run, in the shape's frame, a row at a time.
+template <bool parallel>
+struct Rays {
+  const View& view;
+  const Solid& solid;
+  float step, z;
+
+  Rays(const View& view, const Solid& solid) : view(view), solid(solid), step(1.0f / view.focal), z(0.0f) {}
+  void begin_row(int row) { z = (view.centre_v - ((float)row + 0.5f)) * step; }
+  template <Kind kind>
+  Meeting meet_at(F u) const {
+    const float* axes = solid.axes;
+    const F y = (view.centre_u - u) * step;
+    const F3 across = {axes[2] * z + axes[1] * y, axes[5] * z + axes[4] * y, axes[8] * z + axes[7] * y};
+    const F3 ahead = {splat(axes[0]), splat(axes[3]), splat(axes[6])};
+    if constexpr (parallel) return meet<kind>(solid, splat(solid.eye) + across, ahead);
+    return meet<kind>(solid, splat(solid.eye), ahead + across);
+  }
+};
+
+template <Kind kind, bool parallel>
+void see_along(const View& view, const Solid& solid, const Buffers& buffers) {
+  Rays<parallel> rays(view, solid);
+  const float nearest = parallel ? -view.near_ : 1.0f / view.near_;
   const int first = solid.left / kLanes * kLanes;
   for (int row = solid.top; row < solid.bottom; ++row) {
-    const float z = (view.centre_v - ((float)row + 0.5f)) * step;
-    const float rx = axes[0] + axes[2] * z, ry = axes[3] + axes[5] * z, rz = axes[6] + axes[8] * z;
+    rays.begin_row(row);
     for (int column = first; column < solid.right; column += kLanes) {
       const F u = counting() + ((float)column + 0.5f);
-      const F y = (view.centre_u - u) * step;
-      const Meeting met = meet<kind>(solid, eye, {rx + axes[1] * y, ry + axes[4] * y, rz + axes[7] * y});
-      const F nearness = 1.0f / met.depth;
+      const Meeting met = rays.template meet_at<kind>(u);
+      const F nearness = parallel ? -met.depth : 1.0f / met.depth;
       const int at = row * view.stride + column;
       const F before = load(buffers.nearness + at);
       const I seen = met.hit & (nearness > before) & (nearness <= nearest) & (u > (float)solid.left) &
                      (u < (float)solid.right);
       if (!any(seen)) continue;
       store(buffers.nearness + at, select(seen, nearness, before));
-      store(buffers.id + at, select(seen, splat(solid.first_id), load(buffers.id + at)));
+      if (buffers.id) store(buffers.id + at, select(seen, splat(solid.first_id), load(buffers.id + at)));
     }
   }
 }
 
 template <Kind kind>
-struct NormalOf {
-  F3 operator()(const View&, const Solid& solid, const F3& point, I, I) const {
-    const float* axes = solid.axes;
-    const F3 local = {
-        solid.eye[0] + axes[0] * point.x + axes[1] * point.y + axes[2] * point.z,
-        solid.eye[1] + axes[3] * point.x + axes[4] * point.y + axes[5] * point.z,
-        solid.eye[2] + axes[6] * point.x + axes[7] * point.y + axes[8] * point.z,
-    };
-    return normal_at<kind>(solid, local);
-  }
-};
+void see_solid(const View& view, const Solid& solid, const Buffers& buffers) {
+  if (view.parallel) return see_along<kind, true>(view, solid, buffers);
+  see_along<kind, false>(view, solid, buffers);
+}
 
 void see(const View& view, const Solid& solid, const Buffers& buffers) {
   switch (solid.kind) {
@@ -62,13 +72,13 @@ void see(const View& view, const Solid& solid, const Buffers& buffers) {
 
 void shade(const View& view, const Solid& solid, const Lighting& lighting, const Buffers& buffers) {
   switch (solid.kind) {
-    case Kind::kPlane: return shade_solid(view, solid, lighting, buffers, NormalOf<Kind::kPlane>());
-    case Kind::kBox: return shade_solid(view, solid, lighting, buffers, NormalOf<Kind::kBox>());
-    case Kind::kSphere: return shade_solid(view, solid, lighting, buffers, NormalOf<Kind::kSphere>());
-    case Kind::kCylinder: return shade_solid(view, solid, lighting, buffers, NormalOf<Kind::kCylinder>());
-    case Kind::kCapsule: return shade_solid(view, solid, lighting, buffers, NormalOf<Kind::kCapsule>());
-    case Kind::kEllipsoid: return shade_solid(view, solid, lighting, buffers, NormalOf<Kind::kEllipsoid>());
-    case Kind::kMesh: return shade_solid(view, solid, lighting, buffers, NormalOfFace());
+    case Kind::kPlane: return shade_solid<Kind::kPlane>(view, solid, lighting, buffers);
+    case Kind::kBox: return shade_solid<Kind::kBox>(view, solid, lighting, buffers);
+    case Kind::kSphere: return shade_solid<Kind::kSphere>(view, solid, lighting, buffers);
+    case Kind::kCylinder: return shade_solid<Kind::kCylinder>(view, solid, lighting, buffers);
+    case Kind::kCapsule: return shade_solid<Kind::kCapsule>(view, solid, lighting, buffers);
+    case Kind::kEllipsoid: return shade_solid<Kind::kEllipsoid>(view, solid, lighting, buffers);
+    case Kind::kMesh: return shade_solid<Kind::kMesh>(view, solid, lighting, buffers);
   }
 }
 

@@ -6,22 +6,44 @@
 namespace trundle {
 
 constexpr int kWidest = 16;  // lanes; rows of buffers are padded to it
+constexpr int kMostLevels = 15;
 
 enum class Kind : int32_t { kPlane, kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kMesh };
+enum class LightKind : int32_t { kDirectional, kPoint, kSpot };
+enum class FogKind : int32_t { kNone, kLinear, kExponential, kSquared };
 
-// Pixels and the rays through them. The camera looks along its +x, with y to the left and z up.
+// Pixels and the rays through them. The camera looks along its +x, with y to the left and z up. Rays of a parallel view
+// do not spread: it is what a light sees from far away, its focal length is in px/m, and it has no near plane.
 struct View {
   int32_t width, height, stride;
   float centre_u, centre_v;  // the pixel coordinates of the view axis
   float focal;               // [px]
   float near_, far_;         // [m]
+  bool parallel;
 };
 
 struct Triangles {
   const float* vertices;  // (vertex_count, 3) [m]
   const int32_t* faces;   // (face_count, 3)
   const float* normals;   // (face_count, 3), unit, outwards
+  const float* layout;    // (face_count, 8): u and v, each as gradient [1/m] and value at the origin; may be null
   int32_t vertex_count, face_count;
+};
+
+// An image and its halves, down to one pixel; it repeats.
+struct Texture {
+  const int32_t* texels;  // red | green << 8 | blue << 16, the lowest row first
+  int32_t level_count;
+  int32_t width[kMostLevels], height[kMostLevels], start[kMostLevels];
+};
+
+// How a surface answers light: Blinn and Phong's model.
+struct Look {
+  float ambient[3], diffuse[3], specular[3], emissive[3];
+  float shininess;
+  float opacity;
+  const Texture* texture;  // multiplies ambient and diffuse; may be null
+  float repeat[2];         // how often it is there where it would be once, about its middle
 };
 
 // A shape as one view sees it.
@@ -36,24 +58,44 @@ struct Solid {
   int32_t id_count;
   int32_t index;        // in the scene
   const Triangles* mesh;
-  float colour[3];
+  const Look* look;
+};
+
+// What a light sees. Where something is nearer to it than a point, the point is in the shade.
+struct ShadowMap {
+  const float* nearness;  // (height, stride), as a view's
+  View view;
+  float turn[9], shift[3];  // from the camera's frame to the view's
+  float texel;              // [m] of a parallel view; of another one [m] at 1 m
 };
 
 struct Light {
-  float towards[3];  // unit, in the camera frame: where the light comes from
-  float diffuse[3];
+  LightKind kind;
+  float towards[3];  // unit, in the camera frame: against the direction in which the light goes
+  float place[3];    // in the camera frame; not of directional lights
+  float diffuse[3], specular[3];
+  float constant, linear, quadratic, range;  // of what does not come from afar
+  float cos_inner, cos_outer, falloff;       // of spots; angles from the axis
+  const ShadowMap* shadow;                   // may be null
+};
+
+struct Fog {
+  FogKind kind;
+  float colour[3];
+  float start, end, density;
 };
 
 struct Lighting {
   float ambient[3];
   const Light* lights;
   int32_t light_count;
+  Fog fog;
 };
 
 // Rows of `stride` numbers each.
 struct Buffers {
-  float* nearness;    // 1 / depth [1/m]
-  int32_t* id;        // what is seen; -1: nothing
+  float* nearness;    // 1 / depth [1/m]; of a parallel view -depth [m]
+  int32_t* id;        // what is seen; -1: nothing; null: of no interest
   int32_t* colour;    // red | green << 8 | blue << 16
   int32_t* segment;   // index of the shape, or -1; may be null
   float* projected;   // room for 6 numbers for each vertex of the largest mesh

@@ -26,6 +26,7 @@ inline F splat(float value) { return F{} + value; }
 inline I splat(int32_t value) { return I{} + value; }
 inline F select(I mask, F yes, F no) { return (F)((mask & (I)yes) | (~mask & (I)no)); }
 inline I select(I mask, I yes, I no) { return (mask & yes) | (~mask & no); }
+inline I min_of(I a, int32_t b) { return select(a < b, a, splat(b)); }
 inline F max(F a, F b) { return select(a > b, a, b); }
 inline F min(F a, F b) { return select(a < b, a, b); }
 inline F abs(F a) { return (F)((I)a & 0x7fffffff); }
@@ -50,6 +51,31 @@ inline F counting() {
 }
 
 inline I to_int(F a) { return __builtin_convertvector(a, I); }
+inline F to_float(I a) { return __builtin_convertvector(a, F); }
+
+inline F floor(F a) {
+  const F near_zero = to_float(to_int(a));
+  return near_zero - select(near_zero > a, splat(1.0f), F{});
+}
+
+// 2^a to 2e-7 of its value; a from -126 to 126.
+inline F exp2(F a) {
+  a = max(min(a, splat(126.0f)), splat(-126.0f));
+  const F whole = floor(a), f = a - whole;
+  const F power = 1.0f + f * (0.693147182f + f * (0.240226462f + f * (0.0555032939f + f * (0.00961834215f +
+                         f * (0.00133987482f + f * 0.000154353f)))));
+  return power * (F)((to_int(whole) + 127) << 23);
+}
+
+// The binary logarithm of a positive normal number, to 1e-6: 2 artanh((m - 1) / (m + 1)) / ln 2 of its mantissa m.
+inline F log2(F a) {
+  const I bits = (I)a;
+  const F exponent = to_float((bits >> 23) - 127), mantissa = (F)((bits & 0x007fffff) | 0x3f800000);
+  const F s = (mantissa - 1.0f) / (mantissa + 1.0f), q = s * s;
+  return exponent + s * (2.88539008f + q * (0.961796694f + q * (0.577078016f + q * (0.412198583f + q * 0.320598898f))));
+}
+
+inline F pow(F a, float exponent) { return select(a > 1e-30f, exp2(log2(max(a, splat(1e-30f))) * exponent), F{}); }
 inline F load(const float* at) {
   F value;
   __builtin_memcpy(&value, at, sizeof value);
@@ -60,11 +86,32 @@ inline I load(const int32_t* at) {
   __builtin_memcpy(&value, at, sizeof value);
   return value;
 }
+inline F gather(const float* from, I at) {
+  F value;
+  for (int i = 0; i < kLanes; ++i) value[i] = from[at[i]];
+  return value;
+}
+inline I gather(const int32_t* from, I at) {
+  I value;
+  for (int i = 0; i < kLanes; ++i) value[i] = from[at[i]];
+  return value;
+}
 inline void store(float* at, F value) { __builtin_memcpy(at, &value, sizeof value); }
 inline void store(int32_t* at, I value) { __builtin_memcpy(at, &value, sizeof value); }
 
 inline F dot(const F3& a, const F3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline F3 operator+(const F3& a, const F3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline F3 operator*(const F3& a, F s) { return {a.x * s, a.y * s, a.z * s}; }
+inline F3 splat(const float* v) { return {splat(v[0]), splat(v[1]), splat(v[2])}; }
+
+// A row-by-row matrix times a vector, and its transpose times it.
+inline F3 turn(const float* m, const F3& v) {
+  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
+          m[6] * v.x + m[7] * v.y + m[8] * v.z};
+}
+inline F3 turn_back(const float* m, const F3& v) {
+  return {m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z,
+          m[2] * v.x + m[5] * v.y + m[8] * v.z};
+}
 
 }  // namespace trundle::TRUNDLE_ISA

@@ -40,6 +40,22 @@ Vec3 Frame::move_back(const Vec3& p) const {
   return turn_back({p[0] - position[0], p[1] - position[1], p[2] - position[2]});
 }
 
+Frame Frame::looking(const Vec3& along, const Vec3& from) {
+  const double length = std::sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
+  const Vec3 x = {along[0] / length, along[1] / length, along[2] / length};
+  const double across = std::hypot(x[0], x[1]);
+  const Vec3 y = across > 1e-6 ? Vec3{-x[1] / across, x[0] / across, 0.0} : Vec3{0.0, 1.0, 0.0};
+  const Vec3 z = {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+  return {{x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]}, from};
+}
+
+Frame Frame::inverse() const {
+  const auto& r = rotation;
+  const Frame turned{{r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]}, {}};
+  const Vec3 moved = turned.turn(position);
+  return {turned.rotation, {-moved[0], -moved[1], -moved[2]}};
+}
+
 Frame operator*(const Frame& world_from_a, const Frame& a_from_b) {
   Frame product;
   for (int i = 0; i < 3; ++i) {
@@ -57,13 +73,15 @@ Rectangle covered(const View& view, const Frame& camera_from_box, const Vec3& lo
         {i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]});
   double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
   const auto take = [&](double x, double y, double z) {
-    const double u = view.centre_u - view.focal * y / x, v = view.centre_v - view.focal * z / x;
+    const double scale = view.parallel ? view.focal : view.focal / x;
+    const double u = view.centre_u - scale * y, v = view.centre_v - scale * z;
     left = std::min(left, u), right = std::max(right, u), top = std::min(top, v), bottom = std::max(bottom, v);
   };
   const double near_ = view.near_ * (1.0 - 1e-6);  // what is at it exactly is seen
   for (int i = 0; i < 8; ++i) {
     const Vec3& a = corners[i];
-    if (a[0] >= near_) take(a[0], a[1], a[2]);
+    if (a[0] >= near_ || view.parallel) take(a[0], a[1], a[2]);
+    if (view.parallel) continue;
     for (const int bit : {1, 2, 4}) {
       const Vec3& b = corners[i ^ bit];
       if (!(a[0] >= near_) || b[0] >= near_) continue;

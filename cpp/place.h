@@ -17,6 +17,9 @@ struct Frame {
 
   // From x y z qw qx qy qz; the quaternion need not be of unit length. Nothing where a number is not finite.
   static std::optional<Frame> of(const double* pose);
+  // With its x along a direction.
+  static Frame looking(const Vec3& along, const Vec3& from);
+  Frame inverse() const;
   Vec3 axis(int i) const { return {rotation[i], rotation[3 + i], rotation[6 + i]}; }
   Vec3 turn(const Vec3& v) const;  // out of this frame
   Vec3 turn_back(const Vec3& v) const;

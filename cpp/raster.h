@@ -9,7 +9,7 @@ namespace trundle::TRUNDLE_ISA {
 
 struct Corner {
   float x, y, z;         // in the camera frame [m]
-  float u, v, nearness;  // in the picture [px, px, 1/m]
+  float u, v, nearness;  // in the picture [px, px], and as in the buffer
 };
 
 // Which side of an edge a pixel's centre is on.
@@ -32,6 +32,12 @@ struct Edge {
 };
 
 inline void project(const View& view, Corner& corner) {
+  if (view.parallel) {
+    corner.nearness = -corner.x;
+    corner.u = view.centre_u - view.focal * corner.y;
+    corner.v = view.centre_v - view.focal * corner.z;
+    return;
+  }
   corner.nearness = 1.0f / corner.x;
   corner.u = view.centre_u - view.focal * corner.y * corner.nearness;
   corner.v = view.centre_v - view.focal * corner.z * corner.nearness;
@@ -61,7 +67,7 @@ inline void draw_triangle(const View& view, const Buffers& buffers, const Corner
   const double bn = (double)b.nearness - a.nearness, cn = (double)c.nearness - a.nearness;
   const float along_u = (float)((bn * cv - cn * bv) / area), along_v = (float)((cn * bu - bn * cu) / area);
   const Edge ab(a, b), bc(b, c), ca(c, a);
-  const float nearest = 1.0f / view.near_;
+  const float nearest = view.parallel ? -view.near_ : 1.0f / view.near_;
   for (int row = row0; row < row1; ++row) {
     const float v = (float)row + 0.5f;
     const float row_nearness = a.nearness + along_v * (v - a.v);
@@ -74,7 +80,7 @@ inline void draw_triangle(const View& view, const Buffers& buffers, const Corner
       const F before = load(buffers.nearness + at);
       const I seen = inside & (nearness > before);
       store(buffers.nearness + at, select(seen, nearness, before));
-      store(buffers.id + at, select(seen, splat(id), load(buffers.id + at)));
+      if (buffers.id) store(buffers.id + at, select(seen, splat(id), load(buffers.id + at)));
     }
   }
 }

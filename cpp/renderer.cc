@@ -25,84 +25,91 @@ const Kernel& best_kernel() {
   return chosen;
 }
 
-Triangles Mesh::triangles() const {
-  return {vertices.data(), faces.data(), normals.data(), (int32_t)(vertices.size() / 3), (int32_t)(faces.size() / 3)};
-}
-
-Mesh make_mesh(std::vector<float> vertices, std::vector<int32_t> faces) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  Mesh mesh{std::move(vertices), {}, {}, {inf, inf, inf}, {-inf, -inf, -inf}};
-  const auto count = (int32_t)(mesh.vertices.size() / 3);
-  for (size_t i = 0; i + 2 < faces.size(); i += 3) {
-    double p[3][3];
-    for (int corner = 0; corner < 3; ++corner) {
-      const int32_t vertex = faces[i + corner];
-      if (vertex < 0 || vertex >= count) throw std::invalid_argument("a face names a vertex that does not exist");
-      for (int axis = 0; axis < 3; ++axis) p[corner][axis] = mesh.vertices[3 * (size_t)vertex + axis];
-    }
-    Vec3 a, b;
-    for (int axis = 0; axis < 3; ++axis) a[axis] = p[1][axis] - p[0][axis], b[axis] = p[2][axis] - p[0][axis];
-    const Vec3 n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    if (!(length > 0.0) || !std::isfinite(length)) continue;
-    for (int axis = 0; axis < 3; ++axis) {
-      mesh.faces.push_back(faces[i + axis]);
-      mesh.normals.push_back((float)(n[axis] / length));
-      for (const auto& corner : p) {
-        mesh.low[axis] = std::min(mesh.low[axis], corner[axis]);
-        mesh.high[axis] = std::max(mesh.high[axis], corner[axis]);
-      }
-    }
-  }
-  return mesh;
-}
-
 namespace {
 
-int32_t packed(const std::array<float, 3>& colour) {
-  int32_t word = 0;
-  for (int i = 0; i < 3; ++i)
-    word |= (int32_t)(std::clamp(std::isfinite(colour[i]) ? colour[i] : 0.0f, 0.0f, 1.0f) * 255.0f + 0.5f) << (8 * i);
-  return word;
-}
+constexpr double kEndless = 1e6;  // [m]
+
+int32_t byte_of(double share) { return (int32_t)(std::isfinite(share) ? std::clamp(share, 0.0, 1.0) * 255.0 + 0.5 : 0); }
 
 bool is_finite(const std::array<float, 3>& numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](float number) { return std::isfinite(number); });
 }
 
+void copy(const std::array<float, 3>& from, float* to) { std::copy(from.begin(), from.end(), to); }
+
+Look look_of(const LookSpec& spec, const std::vector<Image>& textures) {
+  Look look{};
+  copy(spec.ambient, look.ambient), copy(spec.diffuse, look.diffuse);
+  copy(spec.specular, look.specular), copy(spec.emissive, look.emissive);
+  look.shininess = std::isfinite(spec.shininess) ? std::clamp(spec.shininess, 0.0f, 1000.0f) : 0.0f;
+  look.opacity = std::isfinite(spec.opacity) ? std::clamp(spec.opacity, 0.0f, 1.0f) : 1.0f;
+  look.repeat[0] = spec.repeat[0], look.repeat[1] = spec.repeat[1];
+  look.texture = spec.texture < 0 ? nullptr : &textures[spec.texture].texture;
+  return look;
+}
+
 }  // namespace
 
-Renderer::Renderer(int32_t bodies, std::vector<Mesh> meshes, std::vector<ShapeSpec> shapes,
-                   std::vector<LightSpec> lights, std::array<float, 3> ambient, std::array<float, 3> background)
-    : meshes_(std::move(meshes)),
-      shapes_(std::move(shapes)),
-      lights_(std::move(lights)),
-      ambient_(ambient),
-      background_(packed(background)),
-      body_poses_((size_t)bodies, Frame()) {
+Renderer::Renderer(SceneSpec scene)
+    : scene_(std::move(scene)), body_poses_((size_t)scene_.bodies, Frame()), maps_(scene_.lights.size()) {
   size_t most = 0;
-  for (const Mesh& mesh : meshes_) {
+  for (const Mesh& mesh : scene_.meshes) {
     triangles_.push_back(mesh.triangles());
     most = std::max(most, mesh.vertices.size() / 3);
   }
   projected_.resize(6 * most);
+  for (Image& image : scene_.textures) image.texture.texels = image.texels.data();
+  const auto is_index = [](int32_t index, size_t count) { return index >= 0 && (size_t)index < count; };
   int64_t id = 0;
-  for (const ShapeSpec& shape : shapes_) {
-    if (shape.body < 0 || shape.body >= bodies) throw std::invalid_argument("a shape rides on a body that does not exist");
-    if (shape.kind == Kind::kMesh && (shape.mesh < 0 || (size_t)shape.mesh >= meshes_.size()))
+  for (const ShapeSpec& shape : scene_.shapes) {
+    if (!is_index(shape.body, (size_t)scene_.bodies))
+      throw std::invalid_argument("a shape rides on a body that does not exist");
+    if (shape.kind == Kind::kMesh && !is_index(shape.mesh, scene_.meshes.size()))
       throw std::invalid_argument("a shape names a mesh that does not exist");
+    if (shape.look.texture != -1 && !is_index(shape.look.texture, scene_.textures.size()))
+      throw std::invalid_argument("a shape names a texture that does not exist");
     first_ids_.push_back((int32_t)id);
     id += shape.kind == Kind::kMesh ? triangles_[shape.mesh].face_count : 1;
     if (id > std::numeric_limits<int32_t>::max()) throw std::invalid_argument("more than two billion triangles");
+    looks_.push_back(look_of(shape.look, scene_.textures));
+    if (shape.kind == Kind::kMesh && !triangles_[shape.mesh].layout) looks_.back().texture = nullptr;
   }
+  for (const LightSpec& light : scene_.lights)
+    if (light.body != -1 && !is_index(light.body, (size_t)scene_.bodies))
+      throw std::invalid_argument("a light rides on a body that does not exist");
 }
 
 void Renderer::update(const double* poses) {
-  for (size_t i = 0; i < body_poses_.size(); ++i) body_poses_[i] = Frame::of(poses + 7 * i);
+  for (size_t i = 0; i < body_poses_.size(); ++i) {
+    const auto pose = Frame::of(poses + 7 * i);
+    const auto& before = body_poses_[i];
+    maps_are_old_ |= pose.has_value() != before.has_value() ||
+                     (pose && (pose->position != before->position || pose->rotation != before->rotation));
+    body_poses_[i] = pose;
+  }
+}
+
+Renderer::Bounds Renderer::bounds_of(const ShapeSpec& shape) const {
+  const double x = shape.size[0], y = shape.size[1], z = shape.size[2];
+  Vec3 high;
+  switch (shape.kind) {
+    case Kind::kMesh: return {scene_.meshes[shape.mesh].low, scene_.meshes[shape.mesh].high};
+    case Kind::kPlane: high = {x > 0 ? x : kEndless, y > 0 ? y : kEndless, 0.0}; break;
+    case Kind::kSphere: high = {x, x, x}; break;
+    case Kind::kCylinder: high = {x, x, y}; break;
+    case Kind::kCapsule: high = {x, x, x + y}; break;
+    case Kind::kBox:
+    case Kind::kEllipsoid: high = {x, y, z}; break;
+  }
+  return {{-high[0], -high[1], -high[2]}, high};
+}
+
+bool Renderer::is_endless(const ShapeSpec& shape) const {
+  return shape.kind == Kind::kPlane && !(shape.size[0] > 0 && shape.size[1] > 0);
 }
 
 bool Renderer::place(const View& view, const Frame& world_from_camera, size_t index, Solid& solid) const {
-  const ShapeSpec& shape = shapes_[index];
+  const ShapeSpec& shape = scene_.shapes[index];
   const auto& body = body_poses_[shape.body];
   if (!body || !is_finite(shape.size)) return false;
   const Frame world_from_shape = *body * shape.body_from_shape;
@@ -120,70 +127,131 @@ bool Renderer::place(const View& view, const Frame& world_from_camera, size_t in
     solid.eye[i] = (float)eye[i];
     solid.centre[i] = (float)camera_from_shape.position[i];
     solid.size[i] = shape.size[i];
-    solid.colour[i] = shape.colour[i];
     if (!std::isfinite(solid.eye[i]) || !std::isfinite(solid.centre[i])) return false;
   }
   solid.kind = shape.kind;
+  solid.look = &looks_[index];
   solid.first_id = first_ids_[index];
   solid.index = (int32_t)index;
-  solid.id_count = 1;
-  solid.mesh = nullptr;
-  const double x = shape.size[0], y = shape.size[1], z = shape.size[2];
-  Vec3 low, high;
-  switch (shape.kind) {
-    case Kind::kPlane: {
-      const double endless = 1e6;
-      high = {x > 0 ? x : endless, y > 0 ? y : endless, 0.0};
-      if (!(x > 0 && y > 0)) {
-        solid.left = solid.top = 0, solid.right = view.width, solid.bottom = view.height;
-        return eye[2] > 0.0;
-      }
-      break;
-    }
-    case Kind::kSphere: high = {x, x, x}; break;
-    case Kind::kCylinder: high = {x, x, y}; break;
-    case Kind::kCapsule: high = {x, x, x + y}; break;
-    case Kind::kBox:
-    case Kind::kEllipsoid: high = {x, y, z}; break;
-    case Kind::kMesh:
-      solid.mesh = &triangles_[shape.mesh];
-      solid.id_count = solid.mesh->face_count;
-      if (solid.id_count == 0) return false;
-      high = meshes_[shape.mesh].high;
-      break;
+  solid.mesh = shape.kind == Kind::kMesh ? &triangles_[shape.mesh] : nullptr;
+  solid.id_count = solid.mesh ? solid.mesh->face_count : 1;
+  if (solid.id_count == 0) return false;
+  if (is_endless(shape)) {
+    solid.left = solid.top = 0, solid.right = view.width, solid.bottom = view.height;
+    return eye[2] > 0.0;
   }
-  low = shape.kind == Kind::kMesh ? meshes_[shape.mesh].low : Vec3{-high[0], -high[1], -high[2]};
+  const auto [low, high] = bounds_of(shape);
   const Rectangle pixels = covered(view, camera_from_shape, low, high);
   solid.left = pixels.left, solid.top = pixels.top, solid.right = pixels.right, solid.bottom = pixels.bottom;
   return !pixels.empty();
 }
 
+// Flat things lie on the ground: what a plane would shade is below it.
+void Renderer::draw_maps() {
+  std::vector<size_t> casters;
+  std::vector<Corners> corners;
+  for (size_t i = 0; i < scene_.shapes.size(); ++i) {
+    const ShapeSpec& shape = scene_.shapes[i];
+    const auto& body = body_poses_[shape.body];
+    if (!shape.casts_shadow || shape.kind == Kind::kPlane || looks_[i].opacity < 1.0f || !body) continue;
+    const auto [low, high] = bounds_of(shape);
+    if (!(low[0] <= high[0])) continue;
+    const Frame world_from_shape = *body * shape.body_from_shape;
+    Corners box;
+    for (int corner = 0; corner < 8; ++corner)
+      box[corner] = world_from_shape.move({corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
+                                           corner & 4 ? high[2] : low[2]});
+    if (!std::all_of(box.begin(), box.end(), [](const Vec3& p) { return std::isfinite(p[0] + p[1] + p[2]); })) continue;
+    casters.push_back(i);
+    corners.push_back(box);
+  }
+  const Kernel& kernel = best_kernel();
+  for (size_t i = 0; i < maps_.size(); ++i) {
+    const LightSpec& light = scene_.lights[i];
+    const auto body = light.body < 0 ? Frame() : body_poses_[light.body];
+    maps_[i] = light.casts_shadows && body ? look_from(light, *body, corners) : std::nullopt;
+    if (!maps_[i]) continue;
+    const Buffers buffers{maps_[i]->nearness.data(), nullptr, nullptr, nullptr, projected_.data()};
+    for (const size_t caster : casters) {
+      Solid solid;
+      if (place(maps_[i]->view, maps_[i]->world_from_view, caster, solid)) kernel.see(maps_[i]->view, solid, buffers);
+    }
+  }
+  maps_are_old_ = false;
+}
+
+void Renderer::clear(const View& view, const Frame& world_from_camera, bool segment) {
+  const size_t count = (size_t)view.stride * (size_t)view.height;
+  nearness_.assign(count, 1.0f / view.far_);
+  id_.assign(count, -1);
+  if (segment) segment_.assign(count, -1);
+  const auto [horizon, zenith] = scene_.sky;
+  const auto word = [&](double up) {
+    int32_t colour = 0;
+    for (int i = 0; i < 3; ++i) colour |= byte_of(horizon[i] + up * ((double)zenith[i] - horizon[i])) << (8 * i);
+    return colour;
+  };
+  colour_.assign(count, word(0.0));
+  if (horizon == zenith) return;
+  const auto& r = world_from_camera.rotation;
+  for (int32_t row = 0; row < view.height; ++row)
+    for (int32_t column = 0; column < view.width; ++column) {
+      const double y = (view.centre_u - (column + 0.5)) / view.focal, z = (view.centre_v - (row + 0.5)) / view.focal;
+      const double up = (r[6] + r[7] * y + r[8] * z) / std::sqrt(1.0 + y * y + z * z);
+      if (up > 0.0) colour_[(size_t)row * view.stride + column] = word(std::sqrt(up));
+    }
+}
+
+// Over what is there already, seen through a buffer of its own.
+void Renderer::draw_see_through(const View& view, const Solid& solid, const Lighting& lighting, Buffers buffers) {
+  for (int32_t row = solid.top; row < solid.bottom; ++row) {
+    const auto from = nearness_.begin() + (ptrdiff_t)row * view.stride;
+    std::copy(from, from + view.stride, nearness_through_.begin() + (ptrdiff_t)row * view.stride);
+    std::fill_n(id_through_.begin() + (ptrdiff_t)row * view.stride, view.stride, -1);
+  }
+  buffers.nearness = nearness_through_.data(), buffers.id = id_through_.data();
+  best_kernel().see(view, solid, buffers);
+  best_kernel().shade(view, solid, lighting, buffers);
+}
+
 void Renderer::render(const Camera& camera, uint8_t* rgb, float* depth, int32_t* segment) {
   const int32_t stride = (camera.width + kWidest - 1) / kWidest * kWidest;
   const View view{camera.width, camera.height, stride, camera.width * 0.5f, camera.height * 0.5f,
-                  (float)camera.focal, (float)camera.near_, (float)camera.far_};
-  const size_t count = (size_t)stride * (size_t)camera.height;
-  nearness_.assign(count, 1.0f / view.far_);
-  id_.assign(count, -1);
-  colour_.assign(count, background_);
-  if (segment) segment_.assign(count, -1);
+                  (float)camera.focal, (float)camera.near_, (float)camera.far_, false};
+  if (maps_are_old_) draw_maps();
+  clear(view, camera.world_from_camera, segment != nullptr);
   const Buffers buffers{nearness_.data(), id_.data(), colour_.data(), segment ? segment_.data() : nullptr,
                         projected_.data()};
-  std::vector<Light> lamps;
-  for (const LightSpec& light : lights_) {
-    const Vec3 direction = camera.world_from_camera.turn_back(light.direction);
-    lamps.push_back({{(float)-direction[0], (float)-direction[1], (float)-direction[2]},
-                     {light.diffuse[0], light.diffuse[1], light.diffuse[2]}});
+  std::vector<Light> lights;
+  std::vector<ShadowMap> maps(maps_.size());
+  for (size_t i = 0; i < maps_.size(); ++i) {
+    const LightSpec& light = scene_.lights[i];
+    const auto body = light.body < 0 ? Frame() : body_poses_[light.body];
+    if (!body) continue;
+    if (maps_[i]) maps[i] = map_for(*maps_[i], camera.world_from_camera);
+    lights.push_back(light_for(light, *body, camera.world_from_camera, maps_[i] ? &maps[i] : nullptr));
   }
-  const Lighting lighting{{ambient_[0], ambient_[1], ambient_[2]}, lamps.data(), (int32_t)lamps.size()};
-  std::vector<Solid> solids;
-  for (size_t i = 0; i < shapes_.size(); ++i) {
+  Lighting lighting{{}, lights.data(), (int32_t)lights.size(), scene_.fog};
+  copy(scene_.ambient, lighting.ambient);
+  std::vector<Solid> solids, see_through;
+  for (size_t i = 0; i < scene_.shapes.size(); ++i) {
     Solid solid;
-    if (place(view, camera.world_from_camera, i, solid)) solids.push_back(solid);
+    if (looks_[i].opacity > 0.0f && place(view, camera.world_from_camera, i, solid))
+      (looks_[i].opacity < 1.0f ? see_through : solids).push_back(solid);
   }
   const Kernel& kernel = best_kernel();
   for (const Solid& solid : solids) kernel.see(view, solid, buffers);
   for (const Solid& solid : solids) kernel.shade(view, solid, lighting, buffers);
+  if (!see_through.empty()) {
+    const auto away = [](const Solid& solid) {
+      return solid.centre[0] * solid.centre[0] + solid.centre[1] * solid.centre[1] + solid.centre[2] * solid.centre[2];
+    };
+    std::stable_sort(see_through.begin(), see_through.end(),
+                     [&](const Solid& a, const Solid& b) { return away(a) > away(b); });
+    nearness_through_.resize(nearness_.size());
+    id_through_.resize(id_.size());
+    for (const Solid& solid : see_through) draw_see_through(view, solid, lighting, buffers);
+  }
   for (int32_t row = 0; row < camera.height; ++row) {
     const size_t from = (size_t)row * stride, to = (size_t)row * camera.width;
     for (int32_t column = 0; column < camera.width; ++column) {

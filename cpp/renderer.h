@@ -4,21 +4,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry.h"
 #include "kernel.h"
+#include "light.h"
 #include "place.h"
 
 namespace trundle {
 
-struct Mesh {
-  std::vector<float> vertices, normals;
-  std::vector<int32_t> faces;
-  Vec3 low{}, high{};
-  Triangles triangles() const;
+struct LookSpec {
+  std::array<float, 3> ambient{}, diffuse{}, specular{}, emissive{};
+  float shininess = 0, opacity = 1;
+  int32_t texture = -1;  // index, or -1
+  std::array<float, 2> repeat{1, 1};
 };
-
-// Faces whose corners do not exist throw std::invalid_argument; those without area or with a corner that is no number
-// are left out of sight.
-Mesh make_mesh(std::vector<float> vertices, std::vector<int32_t> faces);
 
 struct ShapeSpec {
   Kind kind;
@@ -26,12 +24,24 @@ struct ShapeSpec {
   int32_t mesh;  // index, for Kind::kMesh
   std::array<float, 3> size;
   Frame body_from_shape;
-  std::array<float, 3> colour;
+  LookSpec look;
+  bool casts_shadow = true;
 };
 
-struct LightSpec {
-  Vec3 direction;  // in the world: where the light travels to
-  std::array<float, 3> diffuse;
+// What is seen where nothing is: one colour, or two that run into each other from the horizon up.
+struct Sky {
+  std::array<float, 3> horizon, zenith;
+};
+
+struct SceneSpec {
+  int32_t bodies = 0;
+  std::vector<Mesh> meshes;
+  std::vector<Image> textures;
+  std::vector<ShapeSpec> shapes;
+  std::vector<LightSpec> lights;
+  std::array<float, 3> ambient{};
+  Sky sky{};
+  Fog fog{};
 };
 
 struct Camera {
@@ -42,27 +52,33 @@ struct Camera {
 
 class Renderer {
  public:
-  Renderer(int32_t bodies, std::vector<Mesh> meshes, std::vector<ShapeSpec> shapes, std::vector<LightSpec> lights,
-           std::array<float, 3> ambient, std::array<float, 3> background);
+  explicit Renderer(SceneSpec scene);  // throws std::invalid_argument where an index leads nowhere
 
   void update(const double* poses);  // (bodies, 7)
   // Into (height, width, 3), (height, width), (height, width); depth and segment may be null.
   void render(const Camera& camera, uint8_t* rgb, float* depth, int32_t* segment);
-  int32_t bodies() const { return (int32_t)body_poses_.size(); }
+  int32_t bodies() const { return scene_.bodies; }
 
  private:
+  struct Bounds {
+    Vec3 low, high;
+  };
+  Bounds bounds_of(const ShapeSpec& shape) const;
+  bool is_endless(const ShapeSpec& shape) const;
   bool place(const View& view, const Frame& world_from_camera, size_t index, Solid& solid) const;
+  void draw_maps();
+  void clear(const View& view, const Frame& world_from_camera, bool segment);
+  void draw_see_through(const View& view, const Solid& solid, const Lighting& lighting, Buffers buffers);
 
-  std::vector<Mesh> meshes_;
+  SceneSpec scene_;
   std::vector<Triangles> triangles_;
-  std::vector<ShapeSpec> shapes_;
+  std::vector<Look> looks_;
   std::vector<int32_t> first_ids_;
-  std::vector<LightSpec> lights_;
-  std::array<float, 3> ambient_;
-  int32_t background_;
   std::vector<std::optional<Frame>> body_poses_;  // nothing: nowhere, and not drawn
-  std::vector<float> nearness_, projected_;
-  std::vector<int32_t> id_, colour_, segment_;
+  std::vector<std::optional<LightMap>> maps_;     // of each light
+  bool maps_are_old_ = true;
+  std::vector<float> nearness_, nearness_through_, projected_;
+  std::vector<int32_t> id_, id_through_, colour_, segment_;
 };
 
 const Kernel& best_kernel();

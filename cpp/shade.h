@@ -1,36 +1,101 @@
-// Light on what is seen: Lambert's law for each light, over the ambient light.
+// Light on what is seen, by Blinn and Phong's model: ambient, diffuse and specular light of each lamp, less its shadows,
+// over what the surface gives off itself; then fog.
 #pragma once
 
+#include "intersect.h"
 #include "kernel.h"
 #include "lanes.h"
+#include "paint.h"
 
 namespace trundle::TRUNDLE_ISA {
-
-struct NormalOfFace {
-  // Flat: a face has one normal.
-  F3 operator()(const View&, const Solid& solid, const F3&, I ids, I mask) const {
-    F3 normal = {F{}, F{}, F{}};
-    const I faces = ids - solid.first_id;
-    for (int i = 0; i < kLanes; ++i) {
-      if (!mask[i]) continue;
-      const float* from = solid.mesh->normals + 3 * (int64_t)faces[i];
-      normal.x[i] = from[0];
-      normal.y[i] = from[1];
-      normal.z[i] = from[2];
-    }
-    return normal;
-  }
-};
 
 inline I to_byte(F share) {
   return to_int(max(min(share * 255.0f + 0.5f, splat(255.0f)), F{}));  // in this order, NaN is 255
 }
 
-template <typename Normal>
-void shade_solid(const View& view, const Solid& solid, const Lighting& lighting, const Buffers& buffers,
-                 Normal normal_of) {
-  const float* axes = solid.axes;
+inline F between(F value) { return max(min(value, splat(1.0f)), F{}); }
+
+// What share of the four texels around a point lies open to the light, weighed by how near they are.
+inline F lit_share(const ShadowMap& map, const F3& point, const F3& normal, F slope) {
+  const View& view = map.view;
+  F3 p = turn(map.turn, point);
+  p = {p.x + map.shift[0], p.y + map.shift[1], p.z + map.shift[2]};
+  const F texel = view.parallel ? splat(map.texel) : abs(p.x) * map.texel;
+  // A surface does not shade itself: a look from a little above it, the more the flatter the light falls.
+  const F above = texel * 1.5f;
+  const F3 n = turn(map.turn, normal);
+  p = p + n * above;
+  const I ahead = p.x > view.near_;
+  const F depth = select(ahead, p.x, splat(1.0f)), scale = view.parallel ? splat(view.focal) : view.focal / depth;
+  const F bias = texel * (1.0f + min(slope, splat(8.0f))) * 0.5f;
+  const F nearness = view.parallel ? bias - depth : 1.0f / max(depth - bias, splat(1e-6f));
+  const F u = view.centre_u - p.y * scale - 0.5f, v = view.centre_v - p.z * scale - 0.5f;
+  const I inside = ahead & (u >= 0.0f) & (v >= 0.0f) & (u < (float)(view.width - 1)) & (v < (float)(view.height - 1));
+  if (!any(inside)) return splat(1.0f);
+  const F left = floor(select(inside, u, F{})), top = floor(select(inside, v, F{}));
+  const F x = select(inside, u, F{}) - left, y = select(inside, v, F{}) - top;
+  const I at = to_int(top) * view.stride + to_int(left);
+  const F one = splat(1.0f);
+  const F a = select(gather(map.nearness, at) > nearness, F{}, one);
+  const F b = select(gather(map.nearness, at + 1) > nearness, F{}, one);
+  const F c = select(gather(map.nearness, at + view.stride) > nearness, F{}, one);
+  const F d = select(gather(map.nearness, at + view.stride + 1) > nearness, F{}, one);
+  const F upper = a + x * (b - a), lower = c + x * (d - c);
+  return select(inside, upper + y * (lower - upper), one);
+}
+
+struct Lit {
+  F3 diffuse, specular;
+};
+
+inline void add_light(const Light& lamp, const Look& look, const F3& point, const F3& n, const F3& back, Lit& lit) {
+  F3 towards = splat(lamp.towards);
+  F strength = splat(1.0f);
+  if (lamp.kind != LightKind::kDirectional) {
+    const F3 way = {lamp.place[0] - point.x, lamp.place[1] - point.y, lamp.place[2] - point.z};
+    const F distance = sqrt(dot(way, way));
+    towards = way * (1.0f / max(distance, splat(1e-6f)));
+    strength = 1.0f / max(lamp.constant + distance * (lamp.linear + distance * lamp.quadratic), splat(1e-3f));
+    strength = select(distance <= lamp.range, strength, F{});
+    if (lamp.kind == LightKind::kSpot) {
+      const F off_axis = dot(towards, splat(lamp.towards));
+      const F share = between((off_axis - lamp.cos_outer) * (1.0f / (lamp.cos_inner - lamp.cos_outer)));
+      strength *= pow(share, lamp.falloff);
+    }
+  }
+  const F facing = max(dot(n, towards), F{});
+  const I lit_side = (facing > 0.0f) & (strength > 0.0f);
+  if (!any(lit_side)) return;
+  if (lamp.shadow) {
+    const F slope = sqrt(max(1.0f - facing * facing, F{})) / max(facing, splat(1e-3f));
+    strength *= lit_share(*lamp.shadow, point, n, slope);
+  }
+  strength = select(lit_side, strength, F{});
+  lit.diffuse = lit.diffuse + splat(lamp.diffuse) * (facing * strength);
+  if (look.specular[0] + look.specular[1] + look.specular[2] <= 0.0f) return;
+  const F3 half = towards + back;
+  const F gloss = pow(max(dot(n, half), F{}) / sqrt(max(dot(half, half), splat(1e-12f))), look.shininess) * strength;
+  lit.specular = lit.specular + splat(lamp.specular) * gloss;
+}
+
+inline F clear_share(const Fog& fog, F depth) {
+  if (fog.kind == FogKind::kLinear) return between((fog.end - depth) * (1.0f / (fog.end - fog.start)));
+  const F thick = depth * (fog.density * 1.44269504f);
+  return exp2(fog.kind == FogKind::kExponential ? -thick : -thick * (depth * fog.density));
+}
+
+inline F3 normal_of_face(const Triangles& mesh, I faces, I mask) {
+  const I at = (faces & mask) * 3;
+  return {gather(mesh.normals, at), gather(mesh.normals + 1, at), gather(mesh.normals + 2, at)};
+}
+
+inline F3 operator*(const F3& a, const F3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+template <Kind kind>
+void shade_solid(const View& view, const Solid& solid, const Lighting& lighting, const Buffers& buffers) {
+  const Look& look = *solid.look;
   const float step = 1.0f / view.focal;
+  const bool see_through = look.opacity < 1.0f;
   const int first = solid.left / kLanes * kLanes;
   for (int row = solid.top; row < solid.bottom; ++row) {
     const float z = (view.centre_v - ((float)row + 0.5f)) * step;
@@ -42,23 +107,51 @@ void shade_solid(const View& view, const Solid& solid, const Lighting& lighting,
       const F depth = 1.0f / load(buffers.nearness + at);
       const F y = (view.centre_u - (counting() + ((float)column + 0.5f))) * step;
       const F3 point = {depth, depth * y, depth * z};
-      F3 n = normal_of(view, solid, point, ids, mask);
-      n = {axes[0] * n.x + axes[3] * n.y + axes[6] * n.z, axes[1] * n.x + axes[4] * n.y + axes[7] * n.z,
-           axes[2] * n.x + axes[5] * n.y + axes[8] * n.z};
-      n = n * (1.0f / sqrt(dot(n, n)));
-      F3 light = {splat(lighting.ambient[0]), splat(lighting.ambient[1]), splat(lighting.ambient[2])};
-      for (int i = 0; i < lighting.light_count; ++i) {
-        const Light& lamp = lighting.lights[i];
-        const F facing =
-            max(n.x * lamp.towards[0] + n.y * lamp.towards[1] + n.z * lamp.towards[2], F{});
-        light.x += facing * lamp.diffuse[0];
-        light.y += facing * lamp.diffuse[1];
-        light.z += facing * lamp.diffuse[2];
+      const F3 local = splat(solid.eye) + turn(solid.axes, point);
+      F3 outward;
+      if constexpr (kind == Kind::kMesh) {
+        outward = normal_of_face(*solid.mesh, ids - solid.first_id, mask);
+      } else {
+        outward = normal_at<kind>(solid, local);
       }
-      const I colour = to_byte(light.x * solid.colour[0]) | to_byte(light.y * solid.colour[1]) << 8 |
-                       to_byte(light.z * solid.colour[2]) << 16;
-      store(buffers.colour + at, select(mask, colour, load(buffers.colour + at)));
-      if (buffers.segment)
+      F3 n = turn_back(solid.axes, outward);
+      n = n * (1.0f / sqrt(dot(n, n)));
+      const F3 back = point * (-1.0f / sqrt(dot(point, point)));
+      Lit lit = {splat(lighting.ambient) * splat(look.ambient), {F{}, F{}, F{}}};
+      {
+        Lit lamps = {{F{}, F{}, F{}}, {F{}, F{}, F{}}};
+        for (int i = 0; i < lighting.light_count; ++i) add_light(lighting.lights[i], look, point, n, back, lamps);
+        lit.diffuse = lit.diffuse + lamps.diffuse * splat(look.diffuse);
+        lit.specular = lamps.specular * splat(look.specular);
+      }
+      if (look.texture) {
+        Layout layout;
+        if constexpr (kind == Kind::kMesh) {
+          layout = layout_of_face(*solid.mesh, local, ids - solid.first_id, mask);
+        } else {
+          layout = layout_at<kind>(solid, local, outward);
+        }
+        const float *repeat = look.repeat;
+        layout = {(layout.u - 0.5f) * repeat[0] + 0.5f, (layout.v - 0.5f) * repeat[1] + 0.5f,
+                  layout.per_metre * (repeat[0] > repeat[1] ? repeat[0] : repeat[1])};
+        const F facing = max(dot(n, back), splat(0.05f));
+        lit.diffuse = lit.diffuse * texel_at(*look.texture, layout, depth * step / sqrt(facing));
+      }
+      F3 colour = lit.diffuse + lit.specular + splat(look.emissive);
+      if (lighting.fog.kind != FogKind::kNone) {
+        const F clear = clear_share(lighting.fog, depth);
+        colour = colour * clear + splat(lighting.fog.colour) * (1.0f - clear);
+      }
+      const I before = load(buffers.colour + at);
+      if (see_through) {
+        const float behind = (1.0f - look.opacity) / 255.0f;
+        const F a = splat(look.opacity);
+        colour = F3{between(colour.x), between(colour.y), between(colour.z)} * a;
+        colour = colour + F3{channel(before, 0), channel(before, 8), channel(before, 16)} * splat(behind);
+      }
+      const I word = to_byte(colour.x) | to_byte(colour.y) << 8 | to_byte(colour.z) << 16;
+      store(buffers.colour + at, select(mask, word, before));
+      if (buffers.segment && !see_through)
         store(buffers.segment + at, select(mask, splat(solid.index), load(buffers.segment + at)));
     }
   }

@@ -87,18 +87,35 @@ def test_a_directional_light_shines_along_its_own_direction_turned_by_its_pose()
     assert scene.lights[0].direction == pytest.approx((0.0, 0.0, 1.0))
 
 
-def test_a_light_that_is_not_drawn_is_named() -> None:
-    report = Diagnostics()
-    lamp = Light(name="lamp", type="spot", at=AT)
-    assert scene_of(world(lights=(lamp,)), report).lights == ()
-    assert report.warnings == [
-        "w.sdf:3: warning: light 'lamp': spot lights are not drawn yet; only directional ones are"
-    ]
+def test_lights_shine_in_the_world_and_on_links() -> None:
+    lamp = Light(
+        name="lamp",
+        type="spot",
+        at=AT,
+        world_from_light=Pose((1.0, 2.0, 3.0)),
+        diffuse=(1.0, 0.5, 0.0, 1.0),
+        intensity=0.5,
+        linear=0.25,
+        range_m=7.0,
+        outer_angle_rad=0.6,
+        cast_shadows=True,
+    )
+    carrier = Link(name="l", at=AT, visuals=(visual(),), lights=(replace(lamp, type="point"),))
+    made = World(name="w", at=AT, models=(Model(name="m", at=AT, links=(carrier,)),), lights=(lamp,))
+    first, second = scene_of(made, Diagnostics(strict=True)).lights
+    assert (first.kind, first.body, first.position, first.diffuse) == ("spot", None, (1, 2, 3), (0.5, 0.25, 0.0, 1.0))
+    assert (first.attenuation, first.range_m, first.outer_angle_rad) == ((1.0, 0.25, 0.0), 7.0, 0.6)
+    assert first.casts_shadows
+    assert (second.kind, second.body) == ("point", 0)
+    dark = replace(made, scene=SceneSettings(shadows=False))
+    assert not scene_of(dark, Diagnostics()).lights[0].casts_shadows
 
 
 def test_the_sky_is_the_worlds() -> None:
     sky = replace(world(), scene=SceneSettings(background=(0.1, 0.2, 0.3, 1.0)))
     assert scene_of(sky, Diagnostics()).background == (0.1, 0.2, 0.3, 1.0)
+    assert scene_of(sky, Diagnostics()).sky is None
+    assert scene_of(replace(world(), scene=SceneSettings(sky=True)), Diagnostics()).sky is not None
 
 
 def mesh_file(folder: Path) -> MeshFile:

@@ -246,10 +246,26 @@ def test_light_comes_from_where_it_comes_from() -> None:
     assert red[160 - 25] > red[160 + 25] + 50
 
 
-def test_glass_is_looked_through() -> None:
-    pane = shape(Box((0.1, 9.0, 9.0)), Pose((2.0, 0.0, 0.0)), (0.0, 0.0, 1.0, 0.3))
-    rgb = renderer(pane, shape(Sphere(0.5), Pose((4.0, 0.0, 0.0)))).render(Pose(), WIDE).rgb
-    assert is_red(rgb)[120, 160]
+def test_glass_is_looked_through_in_its_colour() -> None:
+    pane = shape(Box((0.1, 9.0, 9.0)), Pose((2.0, 0.0, 0.0)), (0.0, 0.0, 1.0, 0.25))
+    red = shape(Sphere(0.5), Pose((4.0, 0.0, 0.0)))
+    without = renderer(red).render(Pose(), WIDE).rgb.astype(float)
+    for order in ((pane, red), (red, pane)):
+        picture = renderer(*order).render(Pose(), WIDE, depth=True, segmentation=True)
+        glass = np.array([0.0, 0.0, 255.0])  # ambient and headlight together
+        assert picture.rgb[120, 160] == pytest.approx(0.75 * without[120, 160] + 0.25 * glass, abs=1.0)
+        assert picture.depth is not None
+        assert picture.segmentation is not None
+        assert picture.depth[120, 160] == pytest.approx(3.5, abs=1e-3)
+        assert picture.segmentation[120, 160] == order.index(red)
+
+
+def test_panes_lie_over_each_other_from_the_far_one_to_the_near_one() -> None:
+    near = shape(Box((0.1, 9.0, 9.0)), Pose((2.0, 0.0, 0.0)), (1.0, 0.0, 0.0, 0.5))
+    far = shape(Box((0.1, 9.0, 9.0)), Pose((3.0, 0.0, 0.0)), (0.0, 1.0, 0.0, 0.5))
+    for order in ((near, far), (far, near)):
+        rgb = renderer(*order).render(Pose(), WIDE).rgb[120, 160]
+        assert rgb == pytest.approx([0.5 * 255 + 0.25 * 51, 0.25 * 255 + 0.25 * 102, 0.25 * 153], abs=1.5)
 
 
 def test_the_same_world_is_the_same_picture_to_the_last_byte() -> None:

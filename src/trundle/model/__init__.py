@@ -1,6 +1,6 @@
 """World, Model, Link, Joint, …: frozen dataclasses with SDF's meaning, the narrow waist of Trundle."""
 
-from .environment import Atmosphere, Fog, Light, PhysicsSettings, SceneSettings, SphericalCoordinates
+from .environment import Atmosphere, Fog, Light, LightType, PhysicsSettings, SceneSettings, SphericalCoordinates
 from .flatten import flattened
 from .geometry import (
     Box,
@@ -52,6 +52,7 @@ __all__ = [
     "JointAxis",
     "JointType",
     "Light",
+    "LightType",
     "Link",
     "Material",
     "MeshFile",

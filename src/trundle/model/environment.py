@@ -1,11 +1,14 @@
 """What is around the models: light, time and pull, air and earth."""
 
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 from trundle.diagnostics import Source
 from trundle.spatial import Pose, Vector3
 
 from .material import Rgba
+
+LightType: TypeAlias = Literal["directional", "point", "spot"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -13,8 +16,7 @@ class Light:
     """A source of light."""
 
     name: str
-    type: str
-    """directional, point or spot."""
+    type: LightType
     at: Source
     world_from_light: Pose = Pose()
     """Of a light on a link: in the link's frame."""

@@ -13,8 +13,38 @@ class Kind:
     ELLIPSOID: ClassVar[Kind]
     MESH: ClassVar[Kind]
 
+class LightKind:
+    DIRECTIONAL: ClassVar[LightKind]
+    POINT: ClassVar[LightKind]
+    SPOT: ClassVar[LightKind]
+
+class FogKind:
+    NONE: ClassVar[FogKind]
+    LINEAR: ClassVar[FogKind]
+    EXPONENTIAL: ClassVar[FogKind]
+    SQUARED: ClassVar[FogKind]
+
 class Mesh:
-    def __init__(self, vertices: NDArray[np.float32], faces: NDArray[np.int32]) -> None: ...
+    def __init__(
+        self, vertices: NDArray[np.float32], faces: NDArray[np.int32], uv: NDArray[np.float32] | None = None
+    ) -> None: ...
+
+class Texture:
+    def __init__(self, rgb: NDArray[np.uint8]) -> None: ...
+
+class Look:
+    def __init__(
+        self,
+        *,
+        ambient: Sequence[float],
+        diffuse: Sequence[float],
+        specular: Sequence[float],
+        emissive: Sequence[float],
+        shininess: float,
+        opacity: float,
+        texture: int = -1,
+        repeat: Sequence[float] = (1.0, 1.0),
+    ) -> None: ...
 
 class Shape:
     def __init__(
@@ -25,11 +55,30 @@ class Shape:
         mesh: int = -1,
         size: Sequence[float],
         body_from_shape: Sequence[float],
-        colour: Sequence[float],
+        look: Look,
+        casts_shadow: bool = True,
     ) -> None: ...
 
 class Light:
-    def __init__(self, *, direction: Sequence[float], diffuse: Sequence[float]) -> None: ...
+    def __init__(
+        self,
+        kind: LightKind,
+        *,
+        body: int = -1,
+        position: Sequence[float],
+        direction: Sequence[float],
+        diffuse: Sequence[float],
+        specular: Sequence[float],
+        attenuation: Sequence[float],
+        range: float,
+        inner_angle: float,
+        outer_angle: float,
+        falloff: float,
+        casts_shadows: bool,
+    ) -> None: ...
+
+class Fog:
+    def __init__(self, kind: FogKind, *, colour: Sequence[float], start: float, end: float, density: float) -> None: ...
 
 class Renderer:
     def __init__(
@@ -37,10 +86,13 @@ class Renderer:
         *,
         bodies: int,
         meshes: Sequence[Mesh],
+        textures: Sequence[Texture],
         shapes: Sequence[Shape],
         lights: Sequence[Light],
         ambient: Sequence[float],
-        background: Sequence[float],
+        horizon: Sequence[float],
+        zenith: Sequence[float],
+        fog: Fog | None = None,
     ) -> None: ...
     def update(self, poses: NDArray[np.float64]) -> None: ...
     def render(

@@ -1,6 +1,7 @@
 """A world's visuals, or its collision shapes, as a scene."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from trundle.diagnostics import Diagnostics, Source
 from trundle.meshes import Mesh, MeshError, load_mesh
@@ -11,6 +12,7 @@ from trundle.model import (
     Empty,
     Geometry,
     Heightmap,
+    Light,
     MeshFile,
     Polyline,
     Rgba,
@@ -21,6 +23,7 @@ from trundle.model import (
 from .scene import Scene, SceneLight, Shape, ShapeGeometry
 
 _COLLISION: Rgba = (1.0, 0.55, 0.1, 0.45)
+_SKY: tuple[Rgba, Rgba] = ((0.86, 0.91, 0.96, 1.0), (0.30, 0.52, 0.82, 1.0))
 _BARELY_THERE = 0.02
 """Opacity below which a visual is not drawn at all."""
 
@@ -29,22 +32,42 @@ def scene_of(world: World, report: Diagnostics, *, collisions: bool = False) -> 
     """Make a scene whose bodies are the links of all models, in file order: that of `Snapshot.poses`."""
     shapes: list[Shape] = []
     bodies: list[str] = []
+    lights = [_light(light, None, world) for light in world.lights]
     for model in world.models:
         for link in model.links:
             items = link.collisions if collisions else link.visuals
             shapes += _shapes(items, len(bodies), report)
+            lights += [_light(light, len(bodies), world) for light in link.lights]
             bodies.append(f"{model.name}::{link.name}")
-    lights = tuple(
-        SceneLight(direction=light.world_from_light.direction(light.direction), diffuse=light.diffuse)
-        for light in world.lights
-        if light.type == "directional"
+    return Scene(
+        bodies=tuple(bodies),
+        shapes=tuple(shapes),
+        lights=tuple(lights),
+        ambient=world.scene.ambient,
+        background=world.scene.background,
+        sky=_SKY if world.scene.sky else None,
+        fog=world.scene.fog,
     )
-    for light in world.lights:
-        if light.type != "directional" and not collisions:
-            report.warn(
-                light.at, f"light {light.name!r}: {light.type} lights are not drawn yet; only directional ones are"
-            )
-    return Scene(bodies=tuple(bodies), shapes=tuple(shapes), lights=lights, background=world.scene.background)
+
+
+def _light(light: Light, body: int | None, world: World) -> SceneLight:
+    def dimmed(colour: Rgba) -> Rgba:
+        return (colour[0] * light.intensity, colour[1] * light.intensity, colour[2] * light.intensity, colour[3])
+
+    return SceneLight(
+        kind=light.type,
+        body=body,
+        position=light.world_from_light.position,
+        direction=light.world_from_light.direction(light.direction),
+        diffuse=dimmed(light.diffuse),
+        specular=dimmed(light.specular),
+        attenuation=(1.0, 0.0, 0.0) if light.type == "directional" else (light.constant, light.linear, light.quadratic),
+        range_m=light.range_m,
+        inner_angle_rad=light.inner_angle_rad,
+        outer_angle_rad=light.outer_angle_rad,
+        falloff=light.falloff,
+        casts_shadows=light.cast_shadows and world.scene.shadows,
+    )
 
 
 def _shapes(items: tuple[Visual, ...] | tuple[Collision, ...], body: int, report: Diagnostics) -> Iterator[Shape]:
@@ -57,19 +80,37 @@ def _shapes(items: tuple[Visual, ...] | tuple[Collision, ...], body: int, report
                 name=item.name, body=body, geometry=geometry, body_from_shape=item.link_from_collision, rgba=_COLLISION
             )
             continue
-        for piece, (r, g, b, a) in _painted(geometry, item):
-            rgba = (r, g, b, a * (1.0 - item.transparency))
-            if rgba[3] > _BARELY_THERE:
-                yield Shape(name=item.name, body=body, geometry=piece, body_from_shape=item.link_from_visual, rgba=rgba)
+        for shape in _painted(geometry, item, body):
+            r, g, b, a = shape.rgba
+            if (opacity := a * (1.0 - item.transparency)) > _BARELY_THERE:
+                yield replace(shape, rgba=(r, g, b, opacity))
 
 
-def _painted(geometry: ShapeGeometry, visual: Visual) -> Iterator[tuple[ShapeGeometry, Rgba]]:
-    """A shape with its colour; a mesh that the description does not paint comes in the colours of its file."""
-    if isinstance(geometry, Mesh) and visual.material is GREY:
-        for piece in geometry.by_look():
-            yield piece, piece.rgba or visual.material.diffuse
-    else:
-        yield geometry, visual.material.diffuse
+def _painted(geometry: ShapeGeometry, visual: Visual, body: int) -> Iterator[Shape]:
+    """A shape as its material says; a mesh that the description does not paint comes in the colours of its file."""
+    material = visual.material
+    shape = Shape(
+        name=visual.name,
+        body=body,
+        geometry=geometry,
+        body_from_shape=visual.link_from_visual,
+        rgba=material.diffuse,
+        ambient=material.ambient,
+        specular=material.specular,
+        emissive=material.emissive,
+        texture=material.texture,
+        texture_scale=material.texture_scale,
+        casts_shadow=visual.cast_shadows,
+    )
+    if not (isinstance(geometry, Mesh) and material is GREY):
+        yield shape
+        return
+    for piece in geometry.by_look():
+        texture = piece.parts[0].texture if piece.parts and piece.uv is not None else None
+        rgba = piece.parts[0].tint if texture is not None else piece.rgba
+        yield replace(
+            shape, geometry=piece, rgba=rgba or material.diffuse, ambient=rgba or material.ambient, texture=texture
+        )
 
 
 def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeometry | None:

@@ -1,21 +1,51 @@
 """Trundle's own renderer: pictures made on the CPU, in C++; no GPU, no display."""
 
+from collections.abc import Callable
+from typing import Generic, TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.meshes import Mesh
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
+from trundle.meshes import Mesh, Texture
+from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, Plane, Sphere
 from trundle.spatial import Pose, upright
 
 from . import _native
 from .renderer import Intrinsics, Picture
 from .scene import Scene, SceneLight, Shape
+from .textures import load_texture
 
 _THINNEST = 1e-4
 """[m] What a thickness of zero becomes: 0.1 mm."""
-_OPAQUE_FROM = 0.5
-"""Opacity below which a shape is not drawn: half-seen shapes are not drawn yet."""
+_LIGHTS = {
+    "directional": _native.LightKind.DIRECTIONAL,
+    "point": _native.LightKind.POINT,
+    "spot": _native.LightKind.SPOT,
+}
+_FOGS = {
+    "linear": _native.FogKind.LINEAR,
+    "exponential": _native.FogKind.EXPONENTIAL,
+    "quadratic": _native.FogKind.SQUARED,
+}
 _DEFAULT_LIGHTS = (SceneLight(direction=(-0.3, 0.5, -0.8)),)
+
+
+Key = TypeVar("Key")
+Item = TypeVar("Item")
+
+
+class _Numbered(Generic[Key, Item]):
+    """Things that several shapes share, each made once."""
+
+    def __init__(self) -> None:
+        self._numbers: dict[Key, int] = {}
+        self.items: list[Item] = []
+
+    def number(self, key: Key, make: Callable[[], Item]) -> int:
+        if key not in self._numbers:
+            self._numbers[key] = len(self.items)
+            self.items.append(make())
+        return self._numbers[key]
 
 
 class NativeRenderer:
@@ -23,31 +53,43 @@ class NativeRenderer:
 
     def __init__(self, scene: Scene) -> None:
         """Hand a scene to C++."""
-        meshes: dict[int, int] = {}
-        native_meshes: list[_native.Mesh] = []
-        shapes: list[_native.Shape] = []
-        drawn: list[int] = []
-        for number, shape in enumerate(scene.shapes):
-            if shape.rgba[3] < _OPAQUE_FROM:
-                continue
-            mesh = -1
-            if isinstance(shape.geometry, Mesh):
-                mesh = meshes.setdefault(id(shape.geometry), len(meshes))
-                if mesh == len(native_meshes):
-                    native_meshes.append(_native_mesh(shape.geometry))
-            shapes.append(_native_shape(shape, mesh))
-            drawn.append(number)
-        self._numbers = np.array([*drawn, -1], dtype=np.int32)  # the last one for what no shape covers, -1
+        meshes = _Numbered[int, _native.Mesh]()
+        textures = _Numbered[Texture, _native.Texture]()
+
+        def look(shape: Shape) -> _native.Look:
+            image = None if shape.texture is None else load_texture(shape.texture)
+            texture = -1
+            if image is not None and shape.texture is not None:
+                texture = textures.number(shape.texture, lambda: _native.Texture(image))
+            return _native.Look(
+                ambient=(shape.ambient or shape.rgba)[:3],
+                diffuse=shape.rgba[:3],
+                specular=shape.specular[:3],
+                emissive=shape.emissive[:3],
+                shininess=shape.shininess,
+                opacity=shape.rgba[3],
+                texture=texture,
+                repeat=tuple(1.0 / scale if scale else 1.0 for scale in shape.texture_scale),
+            )
+
+        def native(shape: Shape) -> _native.Shape:
+            geometry, mesh = shape.geometry, -1
+            if isinstance(geometry, Mesh):
+                mesh = meshes.number(id(geometry), lambda: _native_mesh(geometry))
+            return _native_shape(shape, mesh, look(shape))
+
+        shapes = [native(shape) for shape in scene.shapes]
+        horizon, zenith = scene.sky or (scene.background, scene.background)
         self._renderer = _native.Renderer(
             bodies=len(scene.bodies),
-            meshes=native_meshes,
+            meshes=meshes.items,
+            textures=textures.items,
             shapes=shapes,
-            lights=[
-                _native.Light(direction=light.direction, diffuse=light.diffuse[:3])
-                for light in scene.lights or _DEFAULT_LIGHTS
-            ],
+            lights=[_native_light(light) for light in scene.lights or _DEFAULT_LIGHTS],
             ambient=scene.ambient[:3],
-            background=scene.background[:3],
+            horizon=horizon[:3],
+            zenith=zenith[:3],
+            fog=_native_fog(scene.fog),
         )
 
     def update(self, poses: NDArray[np.float64]) -> None:
@@ -71,16 +113,41 @@ class NativeRenderer:
             depth=depths,
             segmentation=segments,
         )
-        return Picture(rgb, depths, None if segments is None else self._numbers[segments])
+        return Picture(rgb, depths, segments)
 
 
 def _native_mesh(mesh: Mesh) -> _native.Mesh:
+    uv = None if mesh.uv is None else np.ascontiguousarray(mesh.uv, dtype=np.float32)
     return _native.Mesh(
-        np.ascontiguousarray(mesh.vertices, dtype=np.float32), np.ascontiguousarray(mesh.faces, dtype=np.int32)
+        np.ascontiguousarray(mesh.vertices, dtype=np.float32), np.ascontiguousarray(mesh.faces, dtype=np.int32), uv
     )
 
 
-def _native_shape(shape: Shape, mesh: int) -> _native.Shape:
+def _native_light(light: SceneLight) -> _native.Light:
+    return _native.Light(
+        _LIGHTS[light.kind],
+        body=-1 if light.body is None else light.body,
+        position=light.position,
+        direction=light.direction,
+        diffuse=light.diffuse[:3],
+        specular=light.specular[:3],
+        attenuation=light.attenuation,
+        range=light.range_m,
+        inner_angle=light.inner_angle_rad,
+        outer_angle=light.outer_angle_rad,
+        falloff=light.falloff,
+        casts_shadows=light.casts_shadows,
+    )
+
+
+def _native_fog(fog: Fog) -> _native.Fog | None:
+    kind = _FOGS.get(fog.type)
+    if kind is None:
+        return None
+    return _native.Fog(kind, colour=fog.colour[:3], start=fog.start_m, end=fog.end_m, density=fog.density)
+
+
+def _native_shape(shape: Shape, mesh: int, look: _native.Look) -> _native.Shape:
     pose = shape.body_from_shape
     size = (0.0, 0.0, 0.0)
     match shape.geometry:
@@ -105,7 +172,8 @@ def _native_shape(shape: Shape, mesh: int) -> _native.Shape:
         mesh=mesh,
         size=size,
         body_from_shape=(*pose.position, *pose.quaternion),
-        colour=shape.rgba[:3],
+        look=look,
+        casts_shadow=shape.casts_shadow,
     )
 
 

@@ -5,8 +5,8 @@ A scene is plain data. Renderers and the viewer both draw it; neither knows wher
 
 from dataclasses import dataclass
 
-from trundle.meshes import Mesh
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Rgba, Sphere
+from trundle.meshes import Mesh, Texture
+from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, LightType, Plane, Rgba, Sphere
 from trundle.spatial import Pose, Vector3
 
 ShapeGeometry = Box | Capsule | Cylinder | Ellipsoid | Mesh | Plane | Sphere
@@ -22,15 +22,40 @@ class Shape:
     geometry: ShapeGeometry
     body_from_shape: Pose = Pose()
     rgba: Rgba = (0.7, 0.7, 0.7, 1.0)
+    """In diffuse light; its opacity is the shape's."""
+    ambient: Rgba | None = None
+    """In ambient light; None: as `rgba`."""
+    specular: Rgba = (0.0, 0.0, 0.0, 1.0)
+    shininess: float = 16.0
+    """The exponent of highlights."""
+    emissive: Rgba = (0.0, 0.0, 0.0, 1.0)
+    texture: Texture | None = None
+    """An image over the shape, tinted by `rgba` and `ambient`; on a mesh by its `uv`."""
+    texture_scale: tuple[float, float] = (1.0, 1.0)
+    """As `Material.texture_scale`."""
+    casts_shadow: bool = True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SceneLight:
-    """A directional light."""
+    """A source of light, fixed to a body or to the world."""
 
-    direction: Vector3
-    """Unit, in the world: where the light travels to."""
+    kind: LightType = "directional"
+    body: int | None = None
+    """Index into the poses; None: the world."""
+    position: Vector3 = (0.0, 0.0, 0.0)
+    direction: Vector3 = (0.0, 0.0, -1.0)
+    """Unit, in the body's frame: where the light travels to."""
     diffuse: Rgba = (0.8, 0.8, 0.8, 1.0)
+    specular: Rgba = (0.1, 0.1, 0.1, 1.0)
+    attenuation: Vector3 = (1.0, 0.0, 0.0)
+    """Constant, linear, quadratic: brightness at distance d [m] is 1 / (constant + linear d + quadratic d²)."""
+    range_m: float = 1e9
+    inner_angle_rad: float = 0.0
+    outer_angle_rad: float = 1.0
+    """Of a spot's full brightness and of its whole cone, from rim to rim."""
+    falloff: float = 1.0
+    casts_shadows: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,3 +68,6 @@ class Scene:
     lights: tuple[SceneLight, ...] = ()
     ambient: Rgba = (0.4, 0.4, 0.4, 1.0)
     background: Rgba = (0.7, 0.7, 0.7, 1.0)
+    sky: tuple[Rgba, Rgba] | None = None
+    """Colours at the horizon and overhead, instead of the background."""
+    fog: Fog = Fog()

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from trundle.model import Light
+from trundle.model import Light, LightType
 from trundle.spatial import normalized
 from trundle.xmlnode import XmlNode
 
@@ -10,17 +10,16 @@ from .context import Context, read_pose
 from .frames import FrameGraph
 from .material import read_colour
 
-_TYPES = ("directional", "point", "spot")
+_TYPES: dict[str, LightType] = {"directional": "directional", "point": "point", "spot": "spot"}
 
 
 def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -> Light:
     """Read one light, placed in its owner's frame: a link's, or the world's."""
     report = context.report
-    default = Light(name="", type="", at=node.at)
-    type_ = node.attribute("type") or "point"
-    if type_ not in _TYPES:
-        report.warn(node.at, f"no light type {type_!r}; types: {', '.join(_TYPES)}; it is taken for a point light")
-        type_ = "point"
+    default = Light(name="", type="point", at=node.at)
+    written = node.attribute("type") or "point"
+    if written not in _TYPES:
+        report.warn(node.at, f"no light type {written!r}; types: {', '.join(_TYPES)}; it is taken for a point light")
     direction = normalized(node.vector("direction", default=default.direction, report=report))
     attenuation, spot = node.find("attenuation"), node.find("spot")
 
@@ -29,7 +28,7 @@ def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -
 
     light = Light(
         name=node.attribute("name") or "light",
-        type=type_,
+        type=_TYPES.get(written, "point"),
         at=node.at,
         world_from_light=graph.within(owner, read_pose(node, context), node.at),
         direction=direction or default.direction,

@@ -1,0 +1,108 @@
+#include "geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace trundle {
+
+namespace {
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// How a number given at the corners of a triangle runs over its plane: gradient, and value at the origin.
+void add_slope(std::vector<float>& layout, const Vec3& origin, const Vec3& a, const Vec3& b, double at_origin,
+               double at_a, double at_b) {
+  const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), area = aa * bb - ab * ab;
+  const double da = at_a - at_origin, db = at_b - at_origin;
+  const double along_a = (da * bb - db * ab) / area, along_b = (db * aa - da * ab) / area;
+  Vec3 gradient;
+  for (int axis = 0; axis < 3; ++axis) gradient[axis] = along_a * a[axis] + along_b * b[axis];
+  for (const double slope : gradient) layout.push_back((float)slope);
+  layout.push_back((float)(at_origin - std::floor(at_origin) - dot(gradient, origin)));
+}
+
+}  // namespace
+
+Triangles Mesh::triangles() const {
+  return {vertices.data(),
+          faces.data(),
+          normals.data(),
+          layout.empty() ? nullptr : layout.data(),
+          (int32_t)(vertices.size() / 3),
+          (int32_t)(faces.size() / 3)};
+}
+
+Mesh make_mesh(std::vector<float> vertices, const std::vector<int32_t>& faces, const std::vector<float>& uv) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Mesh mesh;
+  mesh.vertices = std::move(vertices);
+  mesh.low = {inf, inf, inf}, mesh.high = {-inf, -inf, -inf};
+  const auto count = (int32_t)(mesh.vertices.size() / 3);
+  if (!uv.empty() && uv.size() != 2 * faces.size())
+    throw std::invalid_argument("there must be one place in the texture for each corner of each face");
+  for (size_t i = 0; i + 2 < faces.size(); i += 3) {
+    double p[3][3];
+    for (int corner = 0; corner < 3; ++corner) {
+      const int32_t vertex = faces[i + corner];
+      if (vertex < 0 || vertex >= count) throw std::invalid_argument("a face names a vertex that does not exist");
+      for (int axis = 0; axis < 3; ++axis) p[corner][axis] = mesh.vertices[3 * (size_t)vertex + axis];
+    }
+    Vec3 a, b;
+    for (int axis = 0; axis < 3; ++axis) a[axis] = p[1][axis] - p[0][axis], b[axis] = p[2][axis] - p[0][axis];
+    const Vec3 n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double length = std::sqrt(dot(n, n));
+    if (!(length > 0.0) || !std::isfinite(length)) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      mesh.faces.push_back(faces[i + axis]);
+      mesh.normals.push_back((float)(n[axis] / length));
+      for (const auto& corner : p) {
+        mesh.low[axis] = std::min(mesh.low[axis], corner[axis]);
+        mesh.high[axis] = std::max(mesh.high[axis], corner[axis]);
+      }
+    }
+    if (uv.empty()) continue;
+    for (int axis = 0; axis < 2; ++axis)
+      add_slope(mesh.layout, {p[0][0], p[0][1], p[0][2]}, a, b, uv[2 * i + axis], uv[2 * i + 2 + axis],
+                uv[2 * i + 4 + axis]);
+  }
+  return mesh;
+}
+
+Image make_image(const uint8_t* rgb, int32_t width, int32_t height) {
+  if (width < 1 || height < 1 || width > 16384 || height > 16384)
+    throw std::invalid_argument("a texture is 1 to 16384 pixels wide and high");
+  Image image;
+  Texture& texture = image.texture;
+  for (int32_t row = height - 1; row >= 0; --row)
+    for (int32_t column = 0; column < width; ++column) {
+      const uint8_t* pixel = rgb + 3 * ((size_t)row * width + column);
+      image.texels.push_back(pixel[0] | pixel[1] << 8 | pixel[2] << 16);
+    }
+  texture.width[0] = width, texture.height[0] = height, texture.start[0] = 0, texture.level_count = 1;
+  while ((width > 1 || height > 1) && texture.level_count < kMostLevels) {
+    const int32_t from = texture.start[texture.level_count - 1];
+    const int32_t half_width = std::max(width / 2, 1), half_height = std::max(height / 2, 1);
+    const int32_t level = texture.level_count++;
+    texture.start[level] = (int32_t)image.texels.size();
+    texture.width[level] = half_width, texture.height[level] = half_height;
+    for (int32_t row = 0; row < half_height; ++row)
+      for (int32_t column = 0; column < half_width; ++column) {
+        const int32_t x0 = std::min(2 * column, width - 1), x1 = std::min(2 * column + 1, width - 1);
+        const int32_t y0 = std::min(2 * row, height - 1), y1 = std::min(2 * row + 1, height - 1);
+        int32_t word = 0;
+        for (const int shift : {0, 8, 16}) {
+          int32_t sum = 2;
+          for (const int32_t y : {y0, y1})
+            for (const int32_t x : {x0, x1}) sum += image.texels[from + y * width + x] >> shift & 255;
+          word |= sum / 4 << shift;
+        }
+        image.texels.push_back(word);
+      }
+    width = half_width, height = half_height;
+  }
+  return image;
+}
+
+}  // namespace trundle

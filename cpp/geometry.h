@@ -1,0 +1,31 @@
+// Meshes and images as they are kept for drawing.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernel.h"
+#include "place.h"
+
+namespace trundle {
+
+struct Mesh {
+  std::vector<float> vertices, normals, layout;
+  std::vector<int32_t> faces;
+  Vec3 low{}, high{};
+  Triangles triangles() const;
+};
+
+// `uv`, two numbers for each corner of each face, may be empty. Faces whose corners do not exist throw std::invalid_argument; those
+// without area or with a corner that is no number are left out of sight.
+Mesh make_mesh(std::vector<float> vertices, const std::vector<int32_t>& faces, const std::vector<float>& uv);
+
+struct Image {
+  std::vector<int32_t> texels;
+  Texture texture{};  // its texels are set where the image has come to rest
+};
+
+// From rows of red, green, blue, the highest row first.
+Image make_image(const uint8_t* rgb, int32_t width, int32_t height);
+
+}  // namespace trundle

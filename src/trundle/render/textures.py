@@ -1,0 +1,28 @@
+"""Images that shapes are painted with."""
+
+from functools import lru_cache
+from io import BytesIO
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from trundle.meshes import Texture
+
+_MOST_PIXELS = 64 * 1024 * 1024
+_LARGEST = 4096
+"""Of each side; a larger image is reduced."""
+
+
+@lru_cache(maxsize=64)
+def load_texture(texture: Texture) -> NDArray[np.uint8] | None:
+    """Read an image as (height, width, 3), the highest row first; None where it cannot be read."""
+    try:
+        with Image.open(BytesIO(texture) if isinstance(texture, bytes) else texture) as image:
+            if image.width * image.height > _MOST_PIXELS:
+                return None
+            if max(image.size) > _LARGEST:
+                image.thumbnail((_LARGEST, _LARGEST))
+            return np.ascontiguousarray(np.asarray(image.convert("RGB")))
+    except Exception:  # every decoder behind Pillow fails in its own way
+        return None

@@ -1,0 +1,87 @@
+"""Scenes whose pictures are kept; run as a program, their hashes are printed."""
+
+import hashlib
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.meshes import Mesh
+from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, Plane, Rgba, Sphere
+from trundle.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
+from trundle.spatial import Pose
+
+LENS = Intrinsics(width_px=200, height_px=150, horizontal_fov_rad=1.0)
+EYE = Pose.from_rpy(-4.0, -0.5, 2.0, 0.0, 0.35, 0.1)
+SUN = SceneLight(direction=(0.53, -0.27, -0.8), specular=(0.6, 0.6, 0.6, 1.0), casts_shadows=True)
+LAMP = SceneLight(kind="point", position=(0.0, 1.5, 1.5), diffuse=(1.0, 0.7, 0.3, 1.0), attenuation=(0.2, 0.1, 0.1))
+SPOT = SceneLight(
+    kind="spot", position=(-1.0, -2.0, 3.0), direction=(0.27, 0.53, -0.8), outer_angle_rad=0.7, casts_shadows=True
+)
+
+
+def torus(rings: int = 24, sides: int = 12) -> Mesh:
+    """Of 0.4 m and 0.15 m, painted all over."""
+    around, along = np.meshgrid(np.arange(rings), np.arange(sides), indexing="ij")
+    # Powers of one rotation: the sines of different C libraries differ in their last bits.
+    a = np.round(np.exp(2j * math.pi * around / rings), 6)
+    b = np.round(np.exp(2j * math.pi * along / sides), 6)
+    radius = 0.4 + 0.15 * b.real
+    vertices = np.stack([radius * a.real, radius * a.imag, 0.15 * b.imag], axis=-1).reshape(-1, 3)
+    corner = lambda i, j: (i % rings) * sides + j % sides  # noqa: E731
+    faces = [
+        triangle
+        for i in range(rings)
+        for j in range(sides)
+        for triangle in (
+            (corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)),
+            (corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)),
+        )
+    ]
+    return Mesh(vertices.astype(np.float32), np.array(faces, dtype=np.int32))
+
+
+def shape(geometry: ShapeGeometry, x: float, y: float, z: float, rgba: Rgba, turn: float = 0.0) -> Shape:
+    """One thing."""
+    return Shape(
+        name="s",
+        body=0,
+        geometry=geometry,
+        body_from_shape=Pose.from_rpy(x, y, z, turn, turn / 2, 0.0),
+        rgba=rgba,
+        specular=(0.5, 0.5, 0.5, 1.0),
+    )
+
+
+THINGS = (
+    Shape(name="ground", body=0, geometry=Plane((0.0, 0.0, 1.0), (0.0, 0.0)), rgba=(0.7, 0.7, 0.6, 1.0)),
+    shape(Box((0.5, 0.6, 0.7)), 0.0, 1.2, 0.35, (0.9, 0.2, 0.2, 1.0)),
+    shape(Sphere(0.4), 0.8, 0.4, 0.4, (0.2, 0.8, 0.3, 1.0)),
+    shape(Cylinder(0.25, 0.9), 0.2, -0.4, 0.45, (0.2, 0.3, 0.9, 1.0)),
+    shape(Capsule(0.15, 0.5), -0.9, 0.4, 0.3, (0.9, 0.8, 0.2, 1.0), 1.0),
+    shape(Ellipsoid((0.5, 0.2, 0.3)), -0.8, -0.8, 0.3, (0.7, 0.2, 0.8, 1.0), 0.4),
+    shape(torus(), 0.6, -1.4, 0.5, (0.3, 0.7, 0.8, 1.0), 0.8),
+    shape(Box((0.05, 1.0, 0.6)), -1.4, 0.2, 0.3, (0.4, 0.9, 0.9, 0.4)),
+)
+SCENES = {
+    "sun": Scene(bodies=("b",), shapes=THINGS, lights=(SUN,), ambient=(0.3, 0.3, 0.35, 1.0)),
+    "lamps": Scene(
+        bodies=("b",),
+        shapes=THINGS,
+        lights=(LAMP, SPOT),
+        sky=((0.9, 0.9, 0.9, 1.0), (0.2, 0.4, 0.8, 1.0)),
+        fog=Fog(type="exponential", density=0.05, colour=(0.9, 0.9, 0.9, 1.0)),
+    ),
+}
+
+
+def draw(name: str) -> NDArray[np.uint8]:
+    """One of the scenes."""
+    made = NativeRenderer(SCENES[name])
+    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    return made.render(EYE, LENS).rgb
+
+
+if __name__ == "__main__":
+    for name in SCENES:
+        print(name, hashlib.sha256(draw(name).tobytes()).hexdigest())

@@ -1,0 +1,170 @@
+"""How light falls: shadows, lamps, highlights, haze."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from trundle.model import Box, Fog, Plane, Sphere
+from trundle.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape
+from trundle.spatial import Pose
+
+BLACK = (0.0, 0.0, 0.0, 1.0)
+WHITE = (1.0, 1.0, 1.0, 1.0)
+DOWN = Pose.from_rpy(0.0, 0.0, 10.0, 0.0, math.pi / 2, 0.0)
+"""From 10 m above, the world's +x up in the picture, its +y left."""
+LENS = Intrinsics(width_px=200, height_px=200, horizontal_fov_rad=2.0 * math.atan(0.5))
+"""20 px a metre at 10 m."""
+GROUND = Shape(name="ground", body=0, geometry=Plane((0.0, 0.0, 1.0), (0.0, 0.0)), rgba=WHITE)
+SUN = SceneLight(direction=(0.0, 0.0, -1.0), diffuse=(0.5, 0.5, 0.5, 1.0), casts_shadows=True)
+
+
+def picture(*shapes: Shape, lights: tuple[SceneLight, ...] = (SUN,), **scene: object) -> NDArray[np.uint8]:
+    """What is seen from above."""
+    made = NativeRenderer(replace(Scene(bodies=("b",), shapes=shapes, lights=lights, ambient=BLACK), **scene))
+    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    return made.render(DOWN, LENS).rgb
+
+
+def at(rgb: NDArray[np.uint8], x: float, y: float) -> list[int]:
+    """The colour of the ground there."""
+    return rgb[int(100 - 20 * x), int(100 - 20 * y)].tolist()
+
+
+def leaning(degrees: float) -> SceneLight:
+    """A sun that leans, its light going towards +x."""
+    lean = math.radians(degrees)
+    return replace(SUN, direction=(math.sin(lean), 0.0, -math.cos(lean)))
+
+
+def block(x: float = 0.0, z: float = 1.0, side: float = 1.0) -> Shape:
+    return Shape(name="block", body=0, geometry=Box((side, side, side)), body_from_shape=Pose((x, 0.0, z)), rgba=WHITE)
+
+
+def test_the_ground_answers_the_sun_by_lamberts_law() -> None:
+    assert at(picture(GROUND), 1.0, 1.0) == [128, 128, 128]
+    assert at(picture(GROUND, lights=(leaning(60.0),)), 1.0, 1.0) == pytest.approx([64, 64, 64], abs=1)
+
+
+def test_a_shadow_lies_where_the_sun_is_hidden() -> None:
+    # The block spans x ±0.5, z 0.5 to 1.5; at 45° its shadow lies from x = 0 to 2, half of it below the block.
+    rgb = picture(GROUND, block(), lights=(leaning(45.0),))
+    lit = at(rgb, -2.0, 0.0)
+    assert at(rgb, 1.0, 0.0) == [0, 0, 0]
+    assert at(rgb, 1.9, 0.3) == [0, 0, 0]
+    assert at(rgb, 2.1, 0.0) == at(rgb, 1.0, 0.6) == lit == pytest.approx([90, 90, 90], abs=1)
+
+
+def test_the_edge_of_a_shadow_is_where_it_should_be_to_a_centimetre() -> None:
+    close = replace(LENS, horizontal_fov_rad=2.0 * math.atan(0.05))  # 200 px a metre
+    made = NativeRenderer(Scene(bodies=("b",), shapes=(GROUND, block()), lights=(leaning(45.0),), ambient=BLACK))
+    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    rgb = made.render(Pose.from_rpy(2.0, 0.0, 10.0, 0.0, math.pi / 2, 0.0), close).rgb[:, 100, 0].astype(float)
+    dark = float((90.0 - rgb).sum() / 90.0)  # rows in the shade, from the lowest, x = 1.5, up
+    assert 1.5 + dark / 200.0 == pytest.approx(2.0, abs=0.01)
+
+
+def test_nothing_shades_itself() -> None:
+    ball = Shape(name="ball", body=0, geometry=Sphere(2.0), body_from_shape=Pose((0.0, 0.0, 2.0)), rgba=WHITE)
+    made = picture(ball, lights=(leaning(30.0),)).astype(int)
+    plain = picture(ball, lights=(replace(leaning(30.0), casts_shadows=False),)).astype(int)
+    assert (np.abs(made - plain).max(axis=2) > 8).mean() < 0.001
+
+
+@pytest.mark.parametrize("change", [{"casts_shadow": False}, {"rgba": (1.0, 1.0, 1.0, 0.5)}])
+def test_glass_and_what_is_told_not_to_cast_no_shadow(change: dict[str, object]) -> None:
+    rgb = picture(GROUND, replace(block(), **change), lights=(leaning(45.0),))
+    assert at(rgb, 1.9, 0.0) == at(rgb, -2.0, 0.0)
+
+
+def test_shadows_follow_what_moves() -> None:
+    made = NativeRenderer(
+        Scene(bodies=("still", "moving"), shapes=(GROUND, replace(block(), body=1)), lights=(leaning(45.0),))
+    )
+    here = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
+    seen = []
+    for x in (0.0, 2.0, 0.0):
+        made.update(np.array([here, [x, *here[1:]]]))
+        seen.append(made.render(DOWN, LENS).rgb)
+    assert at(seen[0], 1.9, 0.0) != at(seen[0], 3.9, 0.0)
+    assert at(seen[0], 1.9, 0.0) == at(seen[1], 3.9, 0.0)
+    assert (seen[0] == seen[2]).all()
+
+
+def test_a_point_light_dims_with_distance_and_ends_at_its_range() -> None:
+    lamp = SceneLight(kind="point", position=(0.0, 0.0, 1.0), diffuse=WHITE, attenuation=(0.5, 0.5, 0.5), range_m=2.5)
+    rgb = picture(GROUND, lights=(lamp,))
+    # Pixel centres lie half a pixel off the axis.
+    distance, straight = math.sqrt(1.0 + 2.0 * 0.025**2), 1.0
+    below = 255.0 * (straight / distance) / (0.5 + 0.5 * distance + 0.5 * distance**2)
+    assert at(rgb, 0.01, 0.01)[0] == pytest.approx(below, abs=1)
+    distance = math.sqrt(1.0 + 2.025**2 + 0.025**2)
+    assert at(rgb, 2.01, 0.01)[0] == pytest.approx(255.0 / distance / (0.5 + 0.5 * distance + 0.5 * distance**2), abs=1)
+    assert at(rgb, 2.4, 0.0) == [0, 0, 0]
+
+
+def test_a_spot_lights_its_cone_and_things_in_it_cast_shadows() -> None:
+    spot = SceneLight(
+        kind="spot",
+        position=(0.0, 0.0, 4.0),
+        diffuse=WHITE,
+        inner_angle_rad=2.0 * math.atan(0.25),
+        outer_angle_rad=2.0 * math.atan(0.5),
+        casts_shadows=True,
+    )
+    rgb = picture(GROUND, lights=(spot,))
+    assert at(rgb, 0.0, 0.0)[0] == pytest.approx(255, abs=1)
+    assert 10 < at(rgb, 1.5, 0.0)[0] < at(rgb, 1.2, 0.0)[0] < 250
+    assert at(rgb, 2.1, 0.0) == [0, 0, 0]
+    # A block of 0.2 m, 2 m below the lamp, is twice as large in its shadow 4 m below.
+    shaded = picture(GROUND, block(x=0.5, z=2.0, side=0.2), lights=(spot,))
+    assert at(shaded, 1.1, 0.0) == [0, 0, 0]
+    assert at(shaded, 1.1, 0.4)[0] > 100
+    assert at(shaded, 0.6, 0.4) == at(rgb, 0.6, 0.4)
+
+
+def test_a_light_rides_on_its_body() -> None:
+    lamp = SceneLight(kind="point", body=1, position=(0.0, 0.0, 1.0), diffuse=WHITE, range_m=1.5)
+    made = NativeRenderer(Scene(bodies=("b", "car"), shapes=(GROUND,), lights=(lamp,), ambient=BLACK))
+    made.update(np.array([[0.0, 0, 0, 1, 0, 0, 0], [2.0, 0, 0, 1, 0, 0, 0]]))
+    rgb = made.render(DOWN, LENS).rgb
+    assert at(rgb, 2.0, 0.0)[0] > 200
+    assert at(rgb, 0.0, 0.0) == [0, 0, 0]
+
+
+def test_ambient_specular_and_emitted_light_add_up() -> None:
+    plain = replace(GROUND, rgba=BLACK, ambient=(0.5, 0.25, 0.0, 1.0), emissive=(0.0, 0.0, 0.25, 1.0))
+    assert at(picture(plain, ambient=(0.4, 0.4, 0.4, 1.0)), 1.0, 1.0) == pytest.approx([51, 26, 64], abs=1)
+    glossy = replace(plain, specular=WHITE, shininess=20.0)
+    shine = replace(SUN, specular=WHITE)
+    rgb = picture(glossy, lights=(shine,))
+    # Seen from right above, a mirror of the sun; at 3 m the half vector leans half of atan(0.3).
+    assert at(rgb, 0.0, 0.0)[0] == pytest.approx(255, abs=1)
+    lean = math.atan(math.hypot(3.0, 0.025) / 10.0) / 2.0
+    assert at(rgb, 3.025, 0.0)[0] == pytest.approx(255 * math.cos(lean) ** 20, abs=3)
+
+
+@pytest.mark.parametrize(
+    ("fog", "clear"),
+    [
+        (Fog(type="linear", start_m=5.0, end_m=25.0), 0.75),
+        (Fog(type="exponential", density=0.1), math.exp(-1.0)),
+        (Fog(type="quadratic", density=0.1), math.exp(-1.0)),
+        (Fog(), 1.0),
+    ],
+)
+def test_fog_hides_what_is_far(fog: Fog, clear: float) -> None:
+    rgb = picture(GROUND, fog=replace(fog, colour=(0.0, 0.0, 1.0, 1.0)))
+    assert at(rgb, 1.0, 1.0) == pytest.approx([127.5 * clear, 127.5 * clear, 127.5 * clear + 255 * (1 - clear)], abs=1)
+
+
+def test_the_sky_runs_from_the_horizon_up() -> None:
+    made = NativeRenderer(Scene(bodies=(), shapes=(), sky=((1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 1.0, 1.0))))
+    made.update(np.empty((0, 7)))
+    red = made.render(Pose(), LENS).rgb[:, 100, 0].astype(int)
+    assert (red[100:] == 255).all()
+    assert (np.diff(red[:99]) >= 0).all()
+    assert red[0] < 200
+    assert made.render(Pose.from_rpy(0.0, 0.0, 0.0, 0.0, -math.pi / 2, 0.0), LENS).rgb[100, 100].tolist() == [0, 0, 255]
