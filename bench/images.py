@@ -6,7 +6,7 @@ from pathlib import Path
 
 import trundle
 from bench.table import Row
-from trundle.render import NativeRenderer, scene_of
+from trundle.render import NativeRenderer
 from trundle.sensors import mount_cameras
 
 ROBOT = Path(__file__).parents[1] / "examples/rp2w"
@@ -16,8 +16,7 @@ _ROUNDS = 20
 def run() -> list[Row]:
     """Measure the sensors by themselves: no stepping, no topics."""
     sim = trundle.load(str(ROBOT))
-    renderer = NativeRenderer(scene_of(sim.world, sim.report))
-    cameras = mount_cameras(sim.world, lambda: renderer, sim.report)
+    cameras = mount_cameras(sim.world, NativeRenderer, sim.report)
     rates: list[float] = []
     for _ in range(_ROUNDS):
         sim.step(33)

@@ -11,11 +11,11 @@ import pytest
 
 from trundle.bridge import CameraTopics
 from trundle.bridge.camera import CAMERA_FROM_OPTICAL
-from trundle.diagnostics import Source
+from trundle.diagnostics import Diagnostics, Source
 from trundle.model import CameraOptics, Link, Model, Sensor, World
 from trundle.render import Intrinsics, Picture
 from trundle.ros import Core, GraphLoop, Node, StaticTransformBroadcaster
-from trundle.sensors import CameraSensor
+from trundle.sensors import CameraSensor, Scenery
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
@@ -29,9 +29,11 @@ class Ramp:
     def update(self, poses: Any) -> None:
         """Nothing moves."""
 
-    def render(self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False) -> Picture:
+    def render(
+        self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
+    ) -> Picture:
         """Count up, row by row."""
-        assert (world_from_camera.position, depth) == ((0.1, 0.0, 0.2), False)
+        assert (world_from_camera.position, depth, segmentation) == ((0.1, 0.0, 0.2), False, False)
         shape = (intrinsics.height_px, intrinsics.width_px, 3)
         return Picture(np.arange(math.prod(shape), dtype=np.uint8).reshape(shape))
 
@@ -58,17 +60,18 @@ def stage(monkeypatch: pytest.MonkeyPatch) -> Iterator[SimpleNamespace]:
     for variable in ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE"):
         monkeypatch.delenv(variable, raising=False)
     optics = CameraOptics(width_px=4, height_px=3, horizontal_fov_rad=1.0)
-    sensor = Sensor(name="my eye", type="camera", at=AT, link_from_sensor=Pose((0.1, 0.0, 0.2)), camera=optics)
+    sensor = Sensor(name="my eye", type="camera", at=AT, link_from_sensor=Pose((0.1, 0.0, 0.2)), cameras=(optics,))
     link = Link(name="head", at=AT, sensors=(sensor,))
     model = Model(name="bot", at=AT, links=(link,))
-    camera = CameraSensor(model, link, sensor, link_index=0, renderer=Ramp())
+    world = World(name="w", at=AT, models=(model,))
+    scenery = Scenery(world, lambda _: Ramp(), Diagnostics())
+    camera = CameraSensor(model, link, sensor, optics, link_index=0, scenery=scenery)
     with GraphLoop() as loop:
         core = Core(loop, port=0)
         loop.run(core.start(), PATIENCE_S)
         loop.run(core.ready(), PATIENCE_S)
         node = Node("sim", loop=loop, master_uri=core.uri)
         viewer = Node("viewer", loop=loop, master_uri=core.uri)
-        world = World(name="w", at=AT, models=(model,))
         topics = CameraTopics(node, StaticTransformBroadcaster(node), camera, world)
         loop.run(node.ready(), PATIENCE_S)
         yield SimpleNamespace(camera=camera, viewer=viewer, loop=loop, topics=topics)

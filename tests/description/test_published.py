@@ -28,8 +28,8 @@ def test_the_rp2w_has_its_links_joints_and_cameras(rp2w: Loaded) -> None:
     (model,) = rp2w.world.models
 
     assert (len(model.links), len(model.joints)) == (7, 6)
-    cameras = [s for link in model.links for s in link.sensors if s.camera is not None]
-    assert [(c.name, c.camera.width_px, c.update_rate_hz) for c in cameras if c.camera] == [
+    cameras = [s for link in model.links for s in link.sensors if s.cameras]
+    assert [(c.name, c.cameras[0].width_px, c.update_rate_hz) for c in cameras] == [
         ("netbook_webcam", 320, 30.0),
         ("my_sensor", 320, 30.0),
     ]

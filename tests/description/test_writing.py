@@ -108,7 +108,7 @@ def test_a_world_of_everything_reads_back_as_it_was() -> None:
     assert a.collisions[0].surface == b.collisions[0].surface
     assert [v.geometry for v in a.visuals] == [v.geometry for v in b.visuals]
     assert a.visuals[0].material == b.visuals[0].material
-    assert a.sensors[0].camera == b.sensors[0].camera
+    assert a.sensors[0].cameras == b.sensors[0].cameras
     assert '<a b="1 &lt; 2"/>' in second.world.plugins[0].node.xml()
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from trundle import sensors
 from trundle.diagnostics import Diagnostics, Source
 from trundle.model import CameraOptics, Inertial, Link, Model, PhysicsSettings, Sensor, World
-from trundle.render import Intrinsics, Picture
+from trundle.render import Intrinsics, Picture, Scene
 from trundle.sensors import CameraReading, CameraSensor, mount_cameras
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
@@ -29,14 +29,16 @@ class CountingRenderer:
     def update(self, poses: NDArray[np.float64]) -> None:
         self.updates.append(poses)
 
-    def render(self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False) -> Picture:
-        assert not depth
+    def render(
+        self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
+    ) -> Picture:
+        assert (depth, segmentation) == (False, False)
         self.views.append((world_from_camera, intrinsics))
         return Picture(np.zeros((intrinsics.height_px, intrinsics.width_px, 3), dtype=np.uint8))
 
 
 def camera(name: str = "eye", **rest: object) -> Sensor:
-    made = Sensor(name=name, type="camera", at=AT, camera=OPTICS, update_rate_hz=30.0)
+    made = Sensor(name=name, type="camera", at=AT, cameras=(OPTICS,), update_rate_hz=30.0)
     return replace(made, **rest)  # type: ignore[arg-type]
 
 
@@ -55,7 +57,7 @@ def mounted(*sensors_: Sensor) -> tuple[Simulation, list[CameraSensor], Counting
     made, renderer = world(*sensors_), CountingRenderer()
     report = Diagnostics(strict=True)
     sim = Simulation(made, report)
-    cameras = mount_cameras(made, lambda: renderer, report)
+    cameras = mount_cameras(made, lambda _: renderer, report)
     for one in cameras:
         sim.add_hook(one, period_ns=one.period_ns, wanted=one.wanted)
     return sim, cameras, renderer
@@ -134,7 +136,9 @@ def test_only_who_wants_a_picture_gets_it_and_it_is_taken_once() -> None:
 def test_the_camera_is_where_its_link_carries_it_at_that_instant() -> None:
     tilted = Pose.from_rpy(0.1, 0.0, 0.05, 0.0, 0.3, 0.0)
     optics = replace(OPTICS, sensor_from_camera=Pose((0.0, 0.02, 0.0)))
-    sim, (eye,), renderer = mounted(camera(link_from_sensor=tilted, camera=optics, update_rate_hz=10.0, always_on=True))
+    sim, (eye,), renderer = mounted(
+        camera(link_from_sensor=tilted, cameras=(optics,), update_rate_hz=10.0, always_on=True)
+    )
     sim.run(0.1)
     ((view, intrinsics),) = renderer.views
     expected = sim["m"].link("head").pose @ tilted @ Pose((0.0, 0.02, 0.0))
@@ -158,7 +162,7 @@ def test_taking_pictures_does_not_change_the_world() -> None:
 def test_all_cameras_share_one_renderer_and_a_world_without_makes_none() -> None:
     made: list[CountingRenderer] = []
 
-    def make() -> CountingRenderer:
+    def make(_: Scene) -> CountingRenderer:
         made.append(CountingRenderer())
         return made[-1]
 
@@ -170,6 +174,6 @@ def test_all_cameras_share_one_renderer_and_a_world_without_makes_none() -> None
 
 def test_a_sensor_that_does_not_measure_yet_is_named() -> None:
     report = Diagnostics()
-    sonar = Sensor(name="sonar", type="sonar", at=AT)
-    assert mount_cameras(world(sonar), CountingRenderer, report) == []
-    assert report.warnings == ["robot.sdf:9: warning: sensor 'sonar': sonar sensors are not simulated yet"]
+    odd = Sensor(name="nose", type="smell", at=AT)
+    assert mount_cameras(world(odd), lambda _: CountingRenderer(), report) == []
+    assert report.warnings == ["robot.sdf:9: warning: sensor 'nose': smell sensors are not simulated yet"]

@@ -1,6 +1,6 @@
 """Where the wings meet: snapshots and readings become messages on topics, /clock and tf."""
 
-from .camera import CameraTopics
+from .camera import CameraTopics, camera_topics
 from .clock import ClockTopic
 from .frames import SimulationFrames
 from .joint_states import JointStates
@@ -15,6 +15,7 @@ __all__ = [
     "JointStates",
     "ScanTopic",
     "SimulationFrames",
+    "camera_topics",
     "has_plain_frames",
     "link_frame_name",
     "link_frames",

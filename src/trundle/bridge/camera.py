@@ -1,20 +1,42 @@
-"""A camera's pictures and calibration on ROS topics."""
+"""What cameras see, and their calibration, on ROS topics."""
+
+from collections.abc import Callable, Iterable
+from typing import TypeAlias
 
 from trundle.model import World
-from trundle.names import ros_name
-from trundle.ros import Node, StaticTransformBroadcaster, Transform
-from trundle.sensors import CameraReading, CameraSensor
+from trundle.ros import Node, Publisher, StaticTransformBroadcaster, Transform
+from trundle.sensors import (
+    BoundingBoxCameraSensor,
+    CameraReading,
+    CameraSensor,
+    DepthCameraSensor,
+    SegmentationCameraSensor,
+    ThermalCameraSensor,
+)
 from trundle.spatial import Pose, quaternion_from_rpy
 
-from .naming import has_plain_frames, link_frame_name
+from .calibration import calibration_of
+from .detections import boxes_2d, boxes_3d
+from .naming import has_plain_frames, link_frame_name, sensor_topic
+from .pictures import cloud_maker, depth_image, image, labels_image, thermal_image
 
 _HALF_TURN = 1.5707963267948966
 CAMERA_FROM_OPTICAL = Pose(quaternion=quaternion_from_rpy(-_HALF_TURN, 0.0, -_HALF_TURN))
 """SDF's cameras look along x with z up; ROS images have z forward, x right, y down (REP 103)."""
+_Make: TypeAlias = Callable[[CameraReading], dict[str, object]]
+_Output: TypeAlias = tuple[str, str, _Make]
+"""Topic, type and what makes its messages, without their header."""
+
+
+def camera_topics(node: Node, still: StaticTransformBroadcaster, cameras: Iterable[CameraSensor], world: World) -> None:
+    """Put everything that cameras see on topics of its own."""
+    for camera in cameras:
+        CameraTopics(node, still, camera, world)
 
 
 class CameraTopics:
-    """`<model>/<link>/<sensor>/image_raw` and `camera_info`, drawn only while somebody subscribes."""
+    """`<model>/<link>/<sensor>/image_raw`, `camera_info` and more by the camera's kind, each made only for
+    subscribers."""
 
     def __init__(self, node: Node, still: StaticTransformBroadcaster, camera: CameraSensor, world: World) -> None:
         """Advertise, and place the optical frame.
@@ -33,40 +55,46 @@ class CameraTopics:
         still.send(
             Transform(parent=carrier, child=self.frame, translation=optical.position, rotation=optical.quaternion)
         )
-        base = f"/{ros_name(model.name)}/{ros_name(link.name)}/{ros_name(camera.name)}"
-        self._image = node.advertise(f"{base}/image_raw", "sensor_msgs/Image", queue_size=2)
-        self._info = node.advertise(f"{base}/camera_info", "sensor_msgs/CameraInfo", queue_size=2)
-        self._calibration = _calibration(camera)
-        camera.listen(self._publish, wanted=lambda: self._image.has_subscribers or self._info.has_subscribers)
+        outputs = _outputs(camera)
+        main = outputs[0][0]
+        self._topics: list[tuple[Publisher, _Make]] = []
+        for output, type_, make in outputs:
+            topic = sensor_topic(model, link.name, camera.sensor, output, main=main, part=camera.optics.name)
+            self._topics.append((node.advertise(topic, type_, queue_size=2), make))
+        camera.listen(self._publish, wanted=lambda: any(topic.has_subscribers for topic, _ in self._topics))
 
     def _publish(self, reading: CameraReading) -> None:
         header = {"stamp": reading.time_ns, "frame_id": self.frame}
-        height, width, _ = reading.rgb.shape
-        if self._image.has_subscribers:
-            self._image.publish(
-                {
-                    "header": header,
-                    "height": height,
-                    "width": width,
-                    "encoding": "rgb8",
-                    "step": 3 * width,
-                    "data": reading.rgb.reshape(-1),
-                }
-            )
-        if self._info.has_subscribers:
-            self._info.publish({**self._calibration, "header": header})
+        for topic, make in self._topics:
+            if topic.has_subscribers:
+                topic.publish({**make(reading), "header": header})
 
 
-def _calibration(camera: CameraSensor) -> dict[str, object]:
-    """K, D, R and P of a pinhole without distortion, with gazebo_ros's principal point (w + 1)/2, (h + 1)/2."""
-    seen = camera.intrinsics
-    f, cx, cy = seen.focal_px, (seen.width_px + 1) / 2, (seen.height_px + 1) / 2
-    return {
-        "height": seen.height_px,
-        "width": seen.width_px,
-        "distortion_model": "plumb_bob",
-        "D": [0.0] * 5,
-        "K": [f, 0.0, cx, 0.0, f, cy, 0.0, 0.0, 1.0],
-        "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-        "P": [f, 0.0, cx, 0.0, 0.0, f, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
-    }
+def _outputs(camera: CameraSensor) -> list[_Output]:
+    """What a camera publishes; the first is what it is for."""
+    calibration = calibration_of(camera)
+    info: _Output = ("camera_info", "sensor_msgs/CameraInfo", lambda _: calibration)
+    colours: _Output = ("image_raw", "sensor_msgs/Image", image)
+    match camera:
+        case DepthCameraSensor():
+            return [
+                colours,
+                info,
+                ("depth/image_raw", "sensor_msgs/Image", depth_image),
+                ("depth/camera_info", "sensor_msgs/CameraInfo", lambda _: calibration),
+                ("points", "sensor_msgs/PointCloud2", cloud_maker(camera)),
+            ]
+        case SegmentationCameraSensor():
+            return [
+                ("labels_map", "sensor_msgs/Image", labels_image),
+                info,
+                ("colored_map", "sensor_msgs/Image", image),
+            ]
+        case BoundingBoxCameraSensor() if camera.optics.box_type == "3d":
+            return [("boxes", "vision_msgs/Detection3DArray", boxes_3d), info, colours]
+        case BoundingBoxCameraSensor():
+            return [("boxes", "vision_msgs/Detection2DArray", boxes_2d), info, colours]
+        case ThermalCameraSensor():
+            return [("image_raw", "sensor_msgs/Image", thermal_image), info]
+        case _:
+            return [colours, info]

@@ -6,7 +6,6 @@ from collections.abc import Iterable
 import numpy as np
 
 from trundle.model import World
-from trundle.names import ros_name
 from trundle.ros import Node, StaticTransformBroadcaster, Transform
 from trundle.sensors import (
     ContactReading,
@@ -24,7 +23,7 @@ from trundle.sensors import (
 )
 from trundle.spatial import Vector3, Wrench
 
-from .naming import WORLD_FRAME, has_plain_frames, link_frame_name
+from .naming import WORLD_FRAME, has_plain_frames, link_frame_name, sensor_topic
 
 _FLOAT32 = 7
 """sensor_msgs/PointField's number for it."""
@@ -48,8 +47,8 @@ def sensor_topics(
                 ContactsTopic(node, sensor)
 
 
-def _place(sensor: MeasuringSensor, still: StaticTransformBroadcaster, world: World) -> tuple[str, str]:
-    """Put the sensor's own frame on its link; return the frame and the start of its topics."""
+def _place(sensor: MeasuringSensor, still: StaticTransformBroadcaster, world: World) -> str:
+    """Put the sensor's own frame on its link; return its name."""
     plain = has_plain_frames(world)
     frame = link_frame_name(sensor.model, sensor.name, plain=plain)
     carrier = link_frame_name(sensor.model, sensor.link.name, plain=plain)
@@ -58,11 +57,11 @@ def _place(sensor: MeasuringSensor, still: StaticTransformBroadcaster, world: Wo
     on_joint = isinstance(sensor, ForceTorqueSensor)
     pose = sensor.link_from_sensor if on_joint else sensor.sensor.link_from_sensor
     still.send(Transform(parent=carrier, child=frame, translation=pose.position, rotation=pose.quaternion))
-    return frame, _base(sensor)
+    return frame
 
 
-def _base(sensor: MeasuringSensor) -> str:
-    return f"/{ros_name(sensor.model.name)}/{ros_name(sensor.place)}/{ros_name(sensor.name)}"
+def _topic(sensor: MeasuringSensor, output: str) -> str:
+    return sensor_topic(sensor.model, sensor.place, sensor.sensor, output, main=output)
 
 
 class ImuTopic:
@@ -70,8 +69,8 @@ class ImuTopic:
 
     def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: ImuSensor, world: World) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame, base = _place(sensor, still, world)
-        self._imu = node.advertise(f"{base}/imu", "sensor_msgs/Imu", queue_size=10)
+        self._frame = _place(sensor, still, world)
+        self._imu = node.advertise(_topic(sensor, "imu"), "sensor_msgs/Imu", queue_size=10)
         sensor.listen(self._publish, wanted=lambda: self._imu.has_subscribers)
 
     def _publish(self, reading: ImuReading) -> None:
@@ -91,14 +90,14 @@ class ScanTopic:
 
     def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: RangeSensor, world: World) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame, base = _place(sensor, still, world)
+        self._frame = _place(sensor, still, world)
         self._period_s = sensor.period_ns / 1e9
         self._directions = directions_of(sensor.scan)
         if sensor.scan.vertical.samples == 1:
-            self._topic = node.advertise(f"{base}/scan", "sensor_msgs/LaserScan", queue_size=5)
+            self._topic = node.advertise(_topic(sensor, "scan"), "sensor_msgs/LaserScan", queue_size=5)
             sensor.listen(self._publish_scan, wanted=lambda: self._topic.has_subscribers)
         else:
-            self._topic = node.advertise(f"{base}/points", "sensor_msgs/PointCloud2", queue_size=2)
+            self._topic = node.advertise(_topic(sensor, "points"), "sensor_msgs/PointCloud2", queue_size=2)
             sensor.listen(self._publish_points, wanted=lambda: self._topic.has_subscribers)
 
     def _publish_scan(self, reading: RangeReading) -> None:
@@ -142,10 +141,10 @@ class FixTopic:
 
     def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: GpsSensor, world: World) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame, base = _place(sensor, still, world)
+        self._frame = _place(sensor, still, world)
         across, up = sensor.variances
         self._covariance = [across, 0.0, 0.0, 0.0, across, 0.0, 0.0, 0.0, up]
-        self._fix = node.advertise(f"{base}/fix", "sensor_msgs/NavSatFix", queue_size=5)
+        self._fix = node.advertise(_topic(sensor, "fix"), "sensor_msgs/NavSatFix", queue_size=5)
         sensor.listen(self._publish, wanted=lambda: self._fix.has_subscribers)
 
     def _publish(self, reading: GpsReading) -> None:
@@ -167,14 +166,14 @@ class WrenchTopic:
 
     def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: ForceTorqueSensor, world: World) -> None:
         """Advertise, and place the sensor's frame."""
-        own, base = _place(sensor, still, world)
+        own = _place(sensor, still, world)
         plain = has_plain_frames(world)
         parent = sensor.joint.parent
         self._frame = {
             "child": link_frame_name(sensor.model, sensor.link.name, plain=plain),
             "parent": WORLD_FRAME if parent == "world" else link_frame_name(sensor.model, parent, plain=plain),
         }.get(sensor.settings.frame, own)
-        self._topic = node.advertise(f"{base}/wrench", "geometry_msgs/WrenchStamped", queue_size=10)
+        self._topic = node.advertise(_topic(sensor, "wrench"), "geometry_msgs/WrenchStamped", queue_size=10)
         sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
 
     def _publish(self, reading: ForceTorqueReading) -> None:
@@ -187,7 +186,7 @@ class ContactsTopic:
 
     def __init__(self, node: Node, sensor: ContactSensor) -> None:
         """Advertise."""
-        self._contacts = node.advertise(f"{_base(sensor)}/contacts", "gazebo_msgs/ContactsState", queue_size=5)
+        self._contacts = node.advertise(_topic(sensor, "contacts"), "gazebo_msgs/ContactsState", queue_size=5)
         sensor.listen(self._publish, wanted=lambda: self._contacts.has_subscribers)
 
     def _publish(self, reading: ContactReading) -> None:

@@ -6,10 +6,12 @@ docs/decisions/0002 says why a single robot's links keep their plain names.
 
 from dataclasses import dataclass
 
-from trundle.model import JointType, Model, World
+from trundle.model import JointType, Model, Sensor, World
 from trundle.names import ros_name
 
 WORLD_FRAME = "world"
+_NO_TOPIC = ("__default__", "__default_topic__")
+"""What old files write where they mean none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,6 +31,31 @@ class LinkFrame:
 def link_frame_name(model: Model, link: str, *, plain: bool) -> str:
     """A link's tf frame: its own name for a robot given alone, `<model>/<link>` in a world of several."""
     return ros_name(link) if plain else f"{ros_name(model.name)}/{ros_name(link)}"
+
+
+def sensor_topic(model: Model, place: str, sensor: Sensor, output: str, *, main: str, part: str = "") -> str:
+    """The topic of one of a sensor's outputs: `/<model>/<place>/<sensor>/<output>`, unless the file has a <topic>.
+
+    A <topic> is where the main output goes; camera_info goes beside it, as in gz, and everything else below it.
+
+    Args:
+        model: whose it is.
+        place: the link or joint that it is on.
+        sensor: with its name, and its topic if it has one.
+        output: what is published: imu, scan, image_raw, …
+        main: the output that the sensor is for.
+        part: which of a multicamera's cameras.
+    """
+    parts = (part,) if part else ()
+    given = sensor.topic.strip().removeprefix("~").strip("/")
+    if not given or given in _NO_TOPIC:
+        return "/" + "/".join(ros_name(name) for name in (model.name, place, sensor.name, *parts, output))
+    topic = "/" + "/".join(ros_name(name) for name in (given, *parts))
+    if output == main and not part:
+        return topic
+    if output == "camera_info" and not part:
+        return f"{topic.rpartition('/')[0]}/camera_info"
+    return f"{topic}/{output}"
 
 
 def has_plain_frames(world: World) -> bool:

@@ -8,12 +8,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from trundle.bridge import CameraTopics, ClockTopic, sensor_topics
+from trundle.bridge import ClockTopic, camera_topics, sensor_topics
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import World
 from trundle.packages import Packages
-from trundle.render import NativeRenderer, scene_of
+from trundle.render import NativeRenderer
 from trundle.ros import Node, SimClock, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, MeasuringSensor, mount_cameras, mount_sensors
 from trundle.simulation import ModelHandle, Simulation, SimulationUnstableError
@@ -246,9 +246,7 @@ class GazeboWorld:
         assert self._node is not None
         assert self._still is not None
         world = simulation.world
-        cameras = self._cameras = mount_cameras(
-            world, lambda: NativeRenderer(scene_of(world, self._report)), self._report
-        )
+        cameras = self._cameras = mount_cameras(world, NativeRenderer, self._report)
         sensors = mount_sensors(simulation)
         for sensor in (*cameras, *sensors):
 
@@ -256,8 +254,7 @@ class GazeboWorld:
                 return self._cameras is cameras and sensor.wanted()
 
             simulation.add_hook(sensor, period_ns=sensor.period_ns, wanted=wanted)
-        for camera in cameras:
-            CameraTopics(self._node, self._still, camera, world)
+        camera_topics(self._node, self._still, cameras, world)
         sensor_topics(self._node, self._still, sensors, world)
         if self._page is not None:
             self._page.replace(simulation, cameras)

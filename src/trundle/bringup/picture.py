@@ -10,10 +10,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from trundle.diagnostics import Diagnostics, UsageError
-from trundle.meshes import Mesh
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
 from trundle.packages import Packages
-from trundle.render import Intrinsics, NativeRenderer, Scene, ShapeGeometry, scene_of
+from trundle.render import Intrinsics, NativeRenderer, Scene, corners_of, scene_of
 from trundle.sensors import CameraSensor, mount_cameras
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
@@ -64,7 +62,7 @@ def picture_of(
     scene = scene_of(stage.world, report)
     renderer = NativeRenderer(scene)
     if camera is not None:
-        sensor = _camera(camera, mount_cameras(stage.world, lambda: renderer, report))
+        sensor = _camera(camera, mount_cameras(stage.world, lambda _: renderer, report))
         view = pose_of(poses[sensor.link_index]) @ sensor.link_from_camera
         intrinsics = sensor.intrinsics
         if size is not None:
@@ -97,7 +95,7 @@ def _camera(name: str, cameras: list[CameraSensor]) -> CameraSensor:
 
 def _good_side(scene: Scene, poses: NDArray[np.float64], intrinsics: Intrinsics) -> Pose:
     """A three-quarter view that holds everything but endless planes."""
-    corners = [_corners(shape.geometry) for shape in scene.shapes]
+    corners = [corners_of(shape.geometry) for shape in scene.shapes]
     points = [
         (pose_of(poses[shape.body]) @ shape.body_from_shape).point(corner)
         for shape, box in zip(scene.shapes, corners, strict=True)
@@ -116,23 +114,3 @@ def _good_side(scene: Scene, poses: NDArray[np.float64], intrinsics: Intrinsics)
     needed = np.maximum(np.abs(in_view[:, 1]) / half_width, np.abs(in_view[:, 2]) / half_height) - in_view[:, 0]
     x, y, z = (middle + away * float(needed.max()) * _MARGIN).tolist()
     return Pose((x, y, z), rotation.quaternion)
-
-
-def _corners(geometry: ShapeGeometry) -> list[tuple[float, float, float]]:
-    match geometry:
-        case Box((x, y, z)):
-            half = (x / 2, y / 2, z / 2)
-        case Cylinder(radius, length):
-            half = (radius, radius, length / 2)
-        case Capsule(radius, length):
-            half = (radius, radius, length / 2 + radius)
-        case Sphere(radius):
-            half = (radius, radius, radius)
-        case Ellipsoid(radii):
-            half = radii
-        case Plane():
-            return []
-        case Mesh(vertices):
-            low, high = vertices.min(axis=0).tolist(), vertices.max(axis=0).tolist()
-            return [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
-    return [(sx * half[0], sy * half[1], sz * half[2]) for sx in (-1, 1) for sy in (-1, 1) for sz in (-1, 1)]

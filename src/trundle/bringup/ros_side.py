@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Self
 
-from trundle.bridge import CameraTopics, ClockTopic, JointStates, SimulationFrames, sensor_topics
+from trundle.bridge import ClockTopic, JointStates, SimulationFrames, camera_topics, sensor_topics
 from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, MeasuringSensor
 from trundle.simulation import Simulation
@@ -50,8 +50,7 @@ class RosSide:
         still = StaticTransformBroadcaster(self.node)
         frames = SimulationFrames(self.node, still, stage.world, simulation.snapshot())
         simulation.add_hook(frames, period_ns=frames.period_ns, wanted=frames.wanted)
-        for camera in cameras:
-            CameraTopics(self.node, still, camera, stage.world)
+        camera_topics(self.node, still, cameras, stage.world)
         sensor_topics(self.node, still, sensors, stage.world)
         if stage.urdf is not None:
             loop.run(self.node.set_param("/robot_description", stage.urdf))

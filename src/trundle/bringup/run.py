@@ -13,7 +13,7 @@ from typing import Literal, TypeAlias
 from trundle.description import write_sdf, written_uri
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
-from trundle.render import NativeRenderer, scene_of
+from trundle.render import NativeRenderer
 from trundle.sensors import mount_cameras, mount_sensors
 from trundle.simulation import Simulation, SimulationUnstableError, StateRecorder
 
@@ -74,7 +74,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
     with stop_flag() as stop, ExitStack() as open_things:
         stage = set_stage(file, Packages(env, start=Path.cwd()), report)
         simulation = Simulation(stage.world, report, seed=options.seed)
-        cameras = mount_cameras(stage.world, lambda: NativeRenderer(scene_of(stage.world, report)), report)
+        cameras = mount_cameras(stage.world, NativeRenderer, report)
         sensors = mount_sensors(simulation)
         if not options.sensors:
             cameras.clear()

@@ -1,5 +1,6 @@
 """World, Model, Link, Joint, …: frozen dataclasses with SDF's meaning, the narrow waist of Trundle."""
 
+from .camera import CameraOptics, Distortion, Lens, PixelIntrinsics, Projection
 from .environment import Atmosphere, Fog, Light, LightType, PhysicsSettings, SceneSettings, SphericalCoordinates
 from .flatten import flattened
 from .geometry import (
@@ -23,8 +24,9 @@ from .kinematics import model_from_joint, model_from_links
 from .link import Collision, Link, Visual
 from .material import GREY, Material, Rgba
 from .model import Frame, Model
+from .noise import Noise
 from .plugin import PluginTag
-from .sensor import CameraOptics, ForceTorque, GpsNoise, ImuNoise, Noise, RangeScan, ScanAxis, Sensor
+from .sensor import ForceTorque, GpsNoise, ImuNoise, RangeScan, ScanAxis, Sensor
 from .surface import Surface
 from .world import World
 
@@ -38,6 +40,7 @@ __all__ = [
     "Collision",
     "Cone",
     "Cylinder",
+    "Distortion",
     "Ellipsoid",
     "Empty",
     "Fog",
@@ -51,6 +54,7 @@ __all__ = [
     "Joint",
     "JointAxis",
     "JointType",
+    "Lens",
     "Light",
     "LightType",
     "Link",
@@ -60,9 +64,11 @@ __all__ = [
     "Model",
     "Noise",
     "PhysicsSettings",
+    "PixelIntrinsics",
     "Plane",
     "PluginTag",
     "Polyline",
+    "Projection",
     "RangeScan",
     "Rgba",
     "ScanAxis",

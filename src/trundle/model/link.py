@@ -27,6 +27,10 @@ class Visual:
     cast_shadows: bool = True
     laser_retro: float = 0.0
     """What a laser gets back, as its intensity."""
+    label: int = 0
+    """What segmentation cameras see in it; 0: background."""
+    temperature: float | None = None
+    """What thermal cameras see in it [K]; None: that of the air."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,30 +5,9 @@ from dataclasses import dataclass
 from trundle.diagnostics import Source
 from trundle.spatial import Pose
 
+from .camera import CameraOptics
+from .noise import Noise
 from .plugin import PluginTag
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CameraOptics:
-    """A pinhole camera looking along +x of its frame, y to the left, z up."""
-
-    sensor_from_camera: Pose = Pose()
-    horizontal_fov_rad: float = 1.047
-    width_px: int = 320
-    height_px: int = 240
-    format: str = "R8G8B8"
-    near_m: float = 0.1
-    far_m: float = 100.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Noise:
-    """What is added to every value: a Gaussian and a bias drawn once, of either sign."""
-
-    mean: float = 0.0
-    stddev: float = 0.0
-    bias_mean: float = 0.0
-    bias_stddev: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,8 +76,8 @@ class Sensor:
     always_on: bool = False
     visualize: bool = False
     topic: str = ""
-    camera: CameraOptics | None = None
-    """Set for cameras."""
+    cameras: tuple[CameraOptics, ...] = ()
+    """One for cameras of every kind, several for a multicamera."""
     scan: RangeScan | None = None
     """Set for ray sensors and lidars."""
     imu: ImuNoise | None = None

@@ -1,5 +1,6 @@
 """What there is to see, as plain data, and what a renderer makes of it."""
 
+from .extent import corners_of
 from .from_world import scene_of
 from .native import NativeRenderer
 from .renderer import Intrinsics, Picture, Renderer
@@ -14,5 +15,6 @@ __all__ = [
     "SceneLight",
     "Shape",
     "ShapeGeometry",
+    "corners_of",
     "scene_of",
 ]

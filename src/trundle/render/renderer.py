@@ -45,6 +45,8 @@ class Renderer(Protocol):
         """Move the scene's bodies: (bodies, 7) x y z qw qx qy qz in the world."""
         ...
 
-    def render(self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False) -> Picture:
+    def render(
+        self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
+    ) -> Picture:
         """Draw; the camera looks along its +x, with y to the left and z up, as in SDF."""
         ...

@@ -1,7 +1,9 @@
 """Snapshots become readings."""
 
-from .camera import CameraReading, CameraSensor
+from .bounding_box_camera import BoundingBoxCameraSensor
+from .camera import CameraReading, CameraSensor, SeenBox
 from .contact import ContactReading, ContactSensor
+from .depth_camera import DepthCameraSensor
 from .force_torque import ForceTorqueReading, ForceTorqueSensor
 from .gps import GpsReading, GpsSensor
 from .imu import ImuReading, ImuSensor
@@ -9,13 +11,18 @@ from .mount import SIMULATED, mount_cameras
 from .mount_measuring import MeasuringSensor, mount_sensors
 from .noise import NoiseSource
 from .range import RangeReading, RangeSensor, angles_of, directions_of
+from .scenery import Scenery
+from .segmentation_camera import SegmentationCameraSensor
+from .thermal_camera import ThermalCameraSensor
 
 __all__ = [
     "SIMULATED",
+    "BoundingBoxCameraSensor",
     "CameraReading",
     "CameraSensor",
     "ContactReading",
     "ContactSensor",
+    "DepthCameraSensor",
     "ForceTorqueReading",
     "ForceTorqueSensor",
     "GpsReading",
@@ -26,6 +33,10 @@ __all__ = [
     "NoiseSource",
     "RangeReading",
     "RangeSensor",
+    "Scenery",
+    "SeenBox",
+    "SegmentationCameraSensor",
+    "ThermalCameraSensor",
     "angles_of",
     "directions_of",
     "mount_cameras",

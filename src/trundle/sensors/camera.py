@@ -5,43 +5,75 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.model import Link, Model, Sensor
-from trundle.render import Intrinsics, Renderer
+from trundle.model import CameraOptics, Link, Model, Sensor
+from trundle.render import Intrinsics, Picture
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
 from .mounted import MountedSensor
+from .scenery import Scenery
 
 FASTEST_HZ = 30.0
 """Of a camera whose update_rate is 0. Gazebo then draws at every step, which nobody means."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SeenBox:
+    """A thing that a bounding box camera found."""
+
+    model: str
+    label: int
+    center: tuple[float, ...]
+    """[px]; of a box in space [m], in the camera's frame."""
+    size: tuple[float, ...]
+    """[px]; of a box in space [m], along its own axes."""
+    camera_from_box: Pose = Pose()
+    """Of a box in space."""
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class CameraReading:
-    """What a camera saw, and when."""
+    """What a camera saw, and when; what its kind does not see is None."""
 
     time_ns: int
     """The instant the world looked so."""
     rgb: NDArray[np.uint8]
-    """(height, width, 3)"""
+    """(height, width, 3) For the eye: of a thermal camera it is grey, of a segmentation camera it has a colour for each
+    label."""
+    depth: NDArray[np.float32] | None = None
+    """(height, width) [m] along the view axis; not a number where nothing is within the clip distances."""
+    labels: NDArray[np.uint8] | NDArray[np.int32] | None = None
+    """(height, width) The label, or 65536 times the label plus a number for each thing that has it."""
+    boxes: tuple[SeenBox, ...] | None = None
+    temperatures: NDArray[np.float32] | None = None
+    """(height, width) [K]"""
 
 
 class CameraSensor(MountedSensor[CameraReading]):
     """A hook that takes a picture when it is due and somebody wants it."""
 
-    def __init__(self, model: Model, link: Link, sensor: Sensor, *, link_index: int, renderer: Renderer) -> None:
+    def __init__(
+        self,
+        model: Model,
+        link: Link,
+        sensor: Sensor,
+        optics: CameraOptics,
+        *,
+        link_index: int,
+        scenery: Scenery,
+    ) -> None:
         """Mount a camera.
 
         Args:
             model: whose it is.
             link: that carries it.
-            sensor: with its camera.
+            sensor: that the camera is one of.
+            optics: of this camera.
             link_index: of the link in `Snapshot.poses`.
-            renderer: draws the world; shared by all cameras.
+            scenery: shared by all cameras.
         """
-        optics = sensor.camera
-        assert optics is not None, f"{sensor.name!r} is no camera"
         super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
+        self.optics = optics
         self.link_from_camera: Pose = sensor.link_from_sensor @ optics.sensor_from_camera
         self.intrinsics = Intrinsics(
             width_px=optics.width_px,
@@ -52,12 +84,23 @@ class CameraSensor(MountedSensor[CameraReading]):
         )
         self.images = 0
         """Pictures finished."""
-        self._renderer = renderer
+        self.scenery = scenery
+
+    @property
+    def name(self) -> str:
+        """As in the file; of a multicamera's: `<sensor>/<camera>`."""
+        return f"{self.sensor.name}/{self.optics.name}" if self.optics.name else self.sensor.name
 
     def take(self, snapshot: Snapshot) -> CameraReading:
         """Take a picture of this instant."""
-        world_from_camera = self.world_from_link(snapshot) @ self.link_from_camera
-        self._renderer.update(snapshot.poses)
-        picture = self._renderer.render(world_from_camera, self.intrinsics)
+        return CameraReading(time_ns=snapshot.time_ns, rgb=self.look(snapshot).rgb)
+
+    def look(self, snapshot: Snapshot, *, depth: bool = False, segmentation: bool = False) -> Picture:
+        """What the camera sees at this instant."""
         self.images += 1
-        return CameraReading(time_ns=snapshot.time_ns, rgb=picture.rgb)
+        view = self.world_from_camera(snapshot)
+        return self.scenery.render(snapshot, view, self.intrinsics, depth=depth, segmentation=segmentation)
+
+    def world_from_camera(self, snapshot: Snapshot) -> Pose:
+        """Where it is at this instant."""
+        return self.world_from_link(snapshot) @ self.link_from_camera

@@ -11,6 +11,7 @@ from .frames import FrameGraph
 from .geometry import read_geometry
 from .inertial import read_inertial
 from .light import read_light
+from .marks import read_marks
 from .material import read_material
 from .sensor import read_sensor
 from .surface import read_surface
@@ -50,6 +51,7 @@ def _flag(node: XmlNode, tag: str, context: Context) -> bool | None:
 
 
 def _read_visual(node: XmlNode, link: str, graph: FrameGraph, context: Context) -> Visual:
+    label, temperature = read_marks(node.all("plugin"), context)
     visual = Visual(
         name=node.attribute("name") or "visual",
         geometry=read_geometry(node, context),
@@ -59,6 +61,8 @@ def _read_visual(node: XmlNode, link: str, graph: FrameGraph, context: Context) 
         transparency=min(max(node.number("transparency", default=0.0, report=context.report), 0.0), 1.0),
         cast_shadows=node.flag("cast_shadows", default=True, report=context.report),
         laser_retro=node.number("laser_retro", default=0.0, report=context.report),
+        label=label or 0,
+        temperature=temperature,
     )
     for tag in ("meta", "visibility_flags"):  # layers of Gazebo's editor and camera masks
         node.find(tag)

@@ -4,6 +4,7 @@ from trundle.model import ForceTorque, GpsNoise, ImuNoise, Noise, RangeScan, Sca
 from trundle.xmlnode import XmlNode
 
 from .context import Context
+from .noise import read_noise
 
 RANGING = frozenset({"ray", "gpu_ray", "lidar", "gpu_lidar"})
 _MOST_RAYS = 2_000_000
@@ -30,7 +31,7 @@ def read_scan(sensor: XmlNode, context: Context) -> RangeScan:
         vertical=vertical,
         min_m=low,
         max_m=high,
-        noise=_noise(node.find("noise"), context),
+        noise=read_noise(node.find("noise"), context),
     )
     if limits is not None:
         limits.find("resolution")  # Gazebo reads it and rounds nothing
@@ -88,7 +89,7 @@ def read_gps(sensor: XmlNode, context: Context) -> GpsNoise:
     across, up = (
         None if (way := position.find(tag)) is None else way.find("noise") for tag in ("horizontal", "vertical")
     )
-    return GpsNoise(horizontal=_noise(across, context), vertical=_noise(up, context))
+    return GpsNoise(horizontal=read_noise(across, context), vertical=read_noise(up, context))
 
 
 def read_touching(sensor: XmlNode, context: Context) -> tuple[str, ...]:
@@ -123,29 +124,7 @@ def read_force_torque(sensor: XmlNode, context: Context) -> ForceTorque:
 def _axes(imu: XmlNode, tag: str, old: XmlNode | None, context: Context) -> tuple[Noise, Noise, Noise]:
     node = imu.find(tag)
     if node is None:
-        every = Noise() if old is None else _noise(old, context)
+        every = Noise() if old is None else read_noise(old, context)
         return every, every, every
     x, y, z = (None if (axis := node.find(name)) is None else axis.find("noise") for name in "xyz")
-    return _noise(x, context), _noise(y, context), _noise(z, context)
-
-
-def _noise(node: XmlNode | None, context: Context) -> Noise:
-    """Gaussian noise; every other type is none."""
-    if node is None:
-        return Noise()
-    type_ = node.attribute("type") or node.string("type") or "gaussian"
-    if type_ == "none":
-        return Noise()
-    report = context.report
-    noise = Noise(
-        mean=node.number("mean", default=0.0, report=report),
-        stddev=abs(node.number("stddev", default=0.0, report=report)),
-        bias_mean=node.number("bias_mean", default=0.0, report=report),
-        bias_stddev=abs(node.number("bias_stddev", default=0.0, report=report)),
-    )
-    for tag in ("precision", "dynamic_bias_stddev", "dynamic_bias_correlation_time"):
-        node.find(tag)
-    if not type_.startswith("gaussian"):
-        report.warn(node.at, f"no noise type {type_!r}; gaussian is used")
-    node.report_unread(report)
-    return noise
+    return read_noise(x, context), read_noise(y, context), read_noise(z, context)

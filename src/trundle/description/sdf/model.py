@@ -12,6 +12,7 @@ from .frames import MODEL, WORLD, FrameGraph
 from .include import open_include, read_included_model
 from .joint import read_joint
 from .link import read_link
+from .marks import is_label, labelled
 from .merge import Merged, merged
 from .part import Part
 from .sensor import read_plugin
@@ -48,8 +49,9 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> Part:
         joints=tuple(joint.read(graph, context) for joint in joints),
         frames=tuple(replace(frame, model_from_frame=graph.pose(frame.name)) for frame in frames),
         models=tuple(replace(part.model, world_from_model=graph.pose(part.model.name)) for part in nested),
-        plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
+        plugins=tuple(read_plugin(tag) for tag in node.all("plugin") if not is_label(tag)),
     )
+    model = labelled(model, node.all("plugin"), context)
     for each in dissolved:
         model = each.into(model, graph)
     model = replace(model, canonical_link=_canonical(node, model, graph))

@@ -1,8 +1,9 @@
 """Writes <sensor>."""
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import CameraOptics, GpsNoise, ImuNoise, Noise, RangeScan, Sensor
+from trundle.model import GpsNoise, ImuNoise, Noise, RangeScan, Sensor
 
+from .sdf_camera import add_camera, add_noise
 from .tag import Tag
 
 
@@ -14,8 +15,9 @@ def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
     tag.add_unless("always_on", sensor.always_on, default=False)
     tag.add_unless("visualize", sensor.visualize, default=False)
     tag.add_unless("topic", sensor.topic, default="")
-    if sensor.camera is not None:
-        _add_camera(tag, sensor.camera)
+    if sensor.cameras:
+        for optics in sensor.cameras:
+            add_camera(tag, optics)
     elif sensor.scan is not None:
         _add_scan(tag, sensor.scan)
     elif sensor.imu is not None:
@@ -36,18 +38,6 @@ def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
     tag.children += [plugin.node.xml() for plugin in sensor.plugins]
 
 
-def _add_camera(sensor: Tag, optics: CameraOptics) -> None:
-    camera = sensor.add("camera")
-    camera.add_pose(optics.sensor_from_camera)
-    camera.add("horizontal_fov", optics.horizontal_fov_rad)
-    image, clip = camera.add("image"), camera.add("clip")
-    image.add("width", optics.width_px)
-    image.add("height", optics.height_px)
-    image.add("format", optics.format)
-    clip.add("near", optics.near_m)
-    clip.add("far", optics.far_m)
-
-
 def _add_scan(sensor: Tag, scan: RangeScan) -> None:
     ray = sensor.add("ray")
     fans = ray.add("scan")
@@ -60,7 +50,7 @@ def _add_scan(sensor: Tag, scan: RangeScan) -> None:
     limits = ray.add("range")
     limits.add("min", scan.min_m)
     limits.add("max", scan.max_m)
-    _add_noise(ray, scan.noise)
+    add_noise(ray, scan.noise)
 
 
 def _add_imu(sensor: Tag, imu: ImuNoise) -> None:
@@ -69,21 +59,11 @@ def _add_imu(sensor: Tag, imu: ImuNoise) -> None:
         if any(noise != Noise() for noise in noises):
             quantity = tag.add(name)
             for axis, noise in zip("xyz", noises, strict=True):
-                _add_noise(quantity.add(axis), noise)
+                add_noise(quantity.add(axis), noise)
 
 
 def _add_gps(sensor: Tag, gps: GpsNoise) -> None:
     position = sensor.add("gps").add("position_sensing")
     for name, noise in (("horizontal", gps.horizontal), ("vertical", gps.vertical)):
         if noise != Noise():
-            _add_noise(position.add(name), noise)
-
-
-def _add_noise(home: Tag, noise: Noise) -> None:
-    if noise == Noise():
-        return
-    tag = home.add("noise", type="gaussian")
-    tag.add("mean", noise.mean)
-    tag.add("stddev", noise.stddev)
-    tag.add_unless("bias_mean", noise.bias_mean, default=0.0)
-    tag.add_unless("bias_stddev", noise.bias_stddev, default=0.0)
+            add_noise(position.add(name), noise)

@@ -34,6 +34,12 @@ def add_visual(link: Tag, visual: Visual, uri_of: UriOf) -> None:
     tag.add_unless("transparency", visual.transparency, default=0.0)
     tag.add_unless("cast_shadows", visual.cast_shadows, default=True)
     tag.add_unless("laser_retro", visual.laser_retro, default=0.0)
+    if visual.label:
+        plugin = tag.add("plugin", filename="gz-sim-label-system", name="gz::sim::systems::Label")
+        plugin.add("label", visual.label)
+    if visual.temperature is not None:
+        plugin = tag.add("plugin", filename="gz-sim-thermal-system", name="gz::sim::systems::Thermal")
+        plugin.add("temperature", visual.temperature)
 
 
 def add_collision(link: Tag, collision: Collision, uri_of: UriOf) -> None:

@@ -1,0 +1,77 @@
+"""Pictures of every kind as messages, without their headers."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.sensors import CameraReading, CameraSensor
+
+_FLOAT32 = 7
+"""sensor_msgs/PointField's number for it."""
+_KELVIN_STEP = 0.01
+"""[K] What gz's thermal cameras count in."""
+
+
+def image(reading: CameraReading) -> dict[str, object]:
+    """sensor_msgs/Image in colours."""
+    return _image(reading.rgb, "rgb8")
+
+
+def depth_image(reading: CameraReading) -> dict[str, object]:
+    """sensor_msgs/Image of distances [m]."""
+    assert reading.depth is not None
+    return _image(reading.depth, "32FC1")
+
+
+def labels_image(reading: CameraReading) -> dict[str, object]:
+    """sensor_msgs/Image of labels, or of 65536 times the label plus the instance's number."""
+    assert reading.labels is not None
+    return _image(reading.labels, "mono8" if reading.labels.dtype == np.uint8 else "32SC1")
+
+
+def thermal_image(reading: CameraReading) -> dict[str, object]:
+    """sensor_msgs/Image of temperatures [0.01 K]."""
+    assert reading.temperatures is not None
+    counts = np.clip(np.rint(reading.temperatures / _KELVIN_STEP), 0, 65535)
+    return _image(counts.astype(np.uint16), "mono16")
+
+
+def _image(pixels: NDArray[np.generic], encoding: str) -> dict[str, object]:
+    height, width = pixels.shape[:2]
+    data = np.ascontiguousarray(pixels).reshape(-1).view(np.uint8)
+    return {"height": height, "width": width, "encoding": encoding, "step": data.size // height, "data": data}
+
+
+def cloud_maker(camera: CameraSensor) -> Callable[[CameraReading], dict[str, object]]:
+    """What makes sensor_msgs/PointCloud2: a point for each pixel, in its colour, in the optical frame; one without
+    depth is not a number."""
+    seen = camera.intrinsics
+    x = (np.arange(seen.width_px, dtype=np.float32) + 0.5 - seen.width_px / 2) / np.float32(seen.focal_px)
+    y = (np.arange(seen.height_px, dtype=np.float32) + 0.5 - seen.height_px / 2) / np.float32(seen.focal_px)
+    fields = [
+        {"name": name, "offset": 4 * i, "datatype": _FLOAT32, "count": 1}
+        for i, name in enumerate(("x", "y", "z", "rgb"))
+    ]
+
+    def cloud(reading: CameraReading) -> dict[str, object]:
+        assert reading.depth is not None
+        height, width = reading.depth.shape
+        points = np.empty((height, width, 4), dtype="<f4")
+        points[..., 0] = x * reading.depth
+        points[..., 1] = y[:, None] * reading.depth
+        points[..., 2] = reading.depth
+        colours = points.view(np.uint8).reshape(height, width, 16)[..., 12:]
+        colours[..., :3] = reading.rgb[..., ::-1]
+        colours[..., 3] = 0
+        return {
+            "height": height,
+            "width": width,
+            "fields": fields,
+            "point_step": 16,
+            "row_step": 16 * width,
+            "data": points.reshape(-1).view(np.uint8),
+            "is_dense": False,
+        }
+
+    return cloud

@@ -1,0 +1,238 @@
+"""Reads <camera>: what a camera of any kind is made of."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+from trundle.model import CameraOptics, Distortion, Lens, PixelIntrinsics, Projection
+from trundle.xmlnode import XmlNode
+
+from .context import Context, read_pose
+from .noise import read_noise
+
+WIDE = frozenset({"wideanglecamera", "wide_angle_camera"})
+SEEING = WIDE | {
+    "camera",
+    "multicamera",
+    "depth",
+    "depth_camera",
+    "rgbd",
+    "rgbd_camera",
+    "segmentation",
+    "segmentation_camera",
+    "boundingbox",
+    "boundingbox_camera",
+    "thermal",
+    "thermal_camera",
+}
+"""Sensor types with a <camera>."""
+_LARGEST_PX = 16384
+_MOST_PX = 1 << 25
+"""Of a whole picture."""
+_WIDEST_PINHOLE = 3.1
+_ELSEWHERE = ("triggered", "trigger_topic", "camera_info_topic", "optical_frame_id", "visibility_mask")
+_LENSES: Mapping[str, tuple[float, float, str]] = {
+    "gnomonical": (1.0, 1.0, "tan"),
+    "stereographic": (2.0, 2.0, "tan"),
+    "equidistant": (1.0, 1.0, "id"),
+    "equisolid_angle": (2.0, 2.0, "sin"),
+    "orthographic": (1.0, 1.0, "sin"),
+}
+"""Type → c1, c2, fun."""
+
+
+def read_cameras(sensor: XmlNode, type_: str, context: Context) -> tuple[CameraOptics, ...]:
+    """Read the sensor's <camera>; of a multicamera, all of them."""
+    nodes = sensor.all("camera")
+    if not nodes:
+        context.report.warn(
+            sensor.at, f"sensor {sensor.attribute('name')!r} has no <camera>; SDF's default one is used"
+        )
+        return (_with_lens(CameraOptics(), None, type_, context),)
+    if type_ == "multicamera":
+        names = [node.attribute("name") or f"camera_{i}" for i, node in enumerate(nodes)]
+        return tuple(replace(_read(n, type_, context), name=name) for n, name in zip(nodes, names, strict=True))
+    return (_read(nodes[0], type_, context),)
+
+
+def _read(node: XmlNode, type_: str, context: Context) -> CameraOptics:
+    report = context.report
+    default = CameraOptics()
+    image, clip, depth = node.find("image"), node.find("clip"), node.find("depth_camera")
+    depth_clip = None if depth is None else depth.find("clip")
+    optics = CameraOptics(
+        sensor_from_camera=read_pose(node, context).pose,
+        horizontal_fov_rad=node.number("horizontal_fov", default=default.horizontal_fov_rad, report=report),
+        width_px=default.width_px if image is None else image.integer("width", default=320, report=report),
+        height_px=default.height_px if image is None else image.integer("height", default=240, report=report),
+        format=default.format if image is None else image.string("format", default=default.format),
+        near_m=default.near_m if clip is None else clip.number("near", default=default.near_m, report=report),
+        far_m=default.far_m if clip is None else clip.number("far", default=default.far_m, report=report),
+        noise=read_noise(node.find("noise"), context),
+        distortion=_distortion(node.find("distortion"), context),
+        save_path=_save_path(node.find("save"), context),
+        panoptic=_one_of(node, "segmentation_type", ("semantic", "instance", "panoptic"), context) != "semantic",
+        box_type=_box_type(node, context),
+    )
+    if depth_clip is not None:
+        optics = replace(
+            optics,
+            depth_near_m=depth_clip.number("near", default=optics.near_m, report=report),
+            depth_far_m=depth_clip.number("far", default=optics.far_m, report=report),
+        )
+    node.attribute("name")
+    if image is not None:
+        image.find("anti_aliasing")  # a wish to the renderer's quality, not to what is seen
+    if depth is not None:
+        depth.find("output")
+    for tag in _ELSEWHERE:
+        left_out = node.find(tag)
+        if left_out is not None:
+            report.info(left_out.at, f"<{tag}> of a camera is not supported; the camera works without")
+    optics = _with_lens(_mended(optics, node, type_, context), node.find("lens"), type_, context)
+    for each in (node, image, clip, depth, depth_clip):
+        if each is not None:
+            each.report_unread(report)
+    return optics
+
+
+def _distortion(node: XmlNode | None, context: Context) -> Distortion:
+    if node is None:
+        return Distortion()
+    report = context.report
+    k1, k2, k3, p1, p2 = (node.number(tag, default=0.0, report=report) for tag in ("k1", "k2", "k3", "p1", "p2"))
+    center = node.find("center")
+    middle = None if center is None else center.as_numbers(2, report=report)
+    node.report_unread(report)
+    return Distortion(
+        k1=k1, k2=k2, k3=k3, p1=p1, p2=p2, center=(0.5, 0.5) if middle is None else (middle[0], middle[1])
+    )
+
+
+def _save_path(node: XmlNode | None, context: Context) -> str | None:
+    if node is None:
+        return None
+    enabled = (node.attribute("enabled") or "").lower() in ("true", "1")
+    path = node.string("path")
+    node.report_unread(context.report)
+    return path if enabled and path not in ("", "__default__") else None
+
+
+def _box_type(node: XmlNode, context: Context) -> str:
+    names = {"2d": "2d", "visible_2d": "2d", "visible_box_2d": "2d", "full_2d": "full_2d", "full_box_2d": "full_2d"}
+    names["3d"] = "3d"
+    return names[_one_of(node, "box_type", tuple(names), context)]
+
+
+def _one_of(node: XmlNode, tag: str, words: tuple[str, ...], context: Context) -> str:
+    """A child's word in lower case; the first of those there are where it is none of them."""
+    word = node.string(tag).lower() or words[0]
+    if word not in words:
+        context.report.warn(node.at, f"no {tag} {word!r}: {', '.join(words)}; {words[0]} is used")
+        return words[0]
+    return word
+
+
+def _mended(optics: CameraOptics, node: XmlNode, type_: str, context: Context) -> CameraOptics:
+    """A camera that can make no picture becomes SDF's default one, aloud."""
+    default, report = CameraOptics(), context.report
+    width, height, fov = optics.width_px, optics.height_px, optics.horizontal_fov_rad
+    if not (0 < width <= _LARGEST_PX and 0 < height <= _LARGEST_PX and width * height <= _MOST_PX):
+        size = f"{default.width_px} x {default.height_px}"
+        report.warn(node.at, f"a camera of {width} x {height} pixels is not possible; {size} is used")
+        optics = replace(optics, width_px=default.width_px, height_px=default.height_px)
+    widest = math.tau + 1e-3 if type_ in WIDE else _WIDEST_PINHOLE
+    if not 0.0 < fov <= widest:
+        instead = default.horizontal_fov_rad
+        report.warn(node.at, f"horizontal_fov {fov:g} rad is not possible; {instead:g} is used")
+        optics = replace(optics, horizontal_fov_rad=instead)
+    if not 0.0 < optics.near_m < optics.far_m:
+        report.warn(node.at, f"clip near {optics.near_m:g}, far {optics.far_m:g} shows nothing; 0.1 and 100 are used")
+        optics = replace(optics, near_m=default.near_m, far_m=default.far_m)
+    near, far = optics.depth_near_m, optics.depth_far_m
+    if near is not None and far is not None and not 0.0 <= near < far:
+        report.warn(node.at, f"depth clip near {near:g}, far {far:g} shows nothing; the camera's own clip is used")
+        optics = replace(optics, depth_near_m=None, depth_far_m=None)
+    return optics
+
+
+def _with_lens(optics: CameraOptics, node: XmlNode | None, type_: str, context: Context) -> CameraOptics:
+    if type_ in WIDE:
+        optics = replace(optics, lens=_lens(node, context))
+    if node is None:
+        return optics
+    if type_ in WIDE:
+        node.find("intrinsics")  # a wide lens has none
+    else:
+        for tag in ("type", "scale_to_hfov", "custom_function", "cutoff_angle", "env_texture_size"):
+            node.find(tag)  # of wide-angle cameras
+        optics = replace(optics, intrinsics=_intrinsics(node.find("intrinsics"), context))
+    optics = replace(optics, projection=_projection(node.find("projection"), context))
+    node.report_unread(context.report)
+    return optics
+
+
+def _lens(node: XmlNode | None, context: Context) -> Lens:
+    if node is None:
+        c1, c2, fun = _LENSES["stereographic"]
+        return Lens(c1=c1, c2=c2, fun=fun)
+    report = context.report
+    type_ = node.string("type").lower() or "stereographic"
+    custom = node.find("custom_function")
+    if type_ == "custom" and custom is not None:
+        c1, c2, c3, f = (
+            custom.number(tag, default=value, report=report)
+            for tag, value in (("c1", 1.0), ("c2", 1.0), ("c3", 0.0), ("f", 1.0))
+        )
+        fun = custom.string("fun").lower() or "tan"
+        custom.report_unread(report)
+        if fun not in ("tan", "sin", "id") or 0.0 in (c1, c2, f):
+            report.warn(custom.at, "a lens needs fun tan, sin or id, and c1, c2 and f other than 0; tan is used alone")
+            c1, c2, c3, f, fun = 1.0, 1.0, 0.0, 1.0, "tan"
+    elif type_ in _LENSES:
+        (c1, c2, fun), c3, f = _LENSES[type_], 0.0, 1.0
+    else:
+        known = ", ".join([*_LENSES, "custom"])
+        report.warn(node.at, f"no lens {type_!r}: {known}; stereographic is used")
+        (c1, c2, fun), c3, f = _LENSES["stereographic"], 0.0, 1.0
+    face = node.integer("env_texture_size", default=256, report=report)
+    if not 16 <= face <= 4096:
+        report.warn(node.at, f"env_texture_size {face} is not possible; 256 is used")
+        face = 256
+    return Lens(
+        c1=c1,
+        c2=c2,
+        c3=c3,
+        f=f,
+        fun=fun,
+        scale_to_hfov=node.flag("scale_to_hfov", default=True, report=report),
+        cutoff_rad=node.number("cutoff_angle", default=1.5707, report=report),
+        face_px=face,
+    )
+
+
+def _intrinsics(node: XmlNode | None, context: Context) -> PixelIntrinsics | None:
+    if node is None:
+        return None
+    report = context.report
+    fx, fy, cx, cy, skew = (
+        node.number(tag, default=value, report=report)
+        for tag, value in (("fx", 277.0), ("fy", 277.0), ("cx", 160.0), ("cy", 120.0), ("s", 0.0))
+    )
+    node.report_unread(report)
+    if not (fx > 0.0 and fy > 0.0):
+        report.warn(node.at, f"focal lengths of {fx:g} and {fy:g} pixels are not possible; horizontal_fov is used")
+        return None
+    return PixelIntrinsics(fx=fx, fy=fy, cx=cx, cy=cy, skew=skew)
+
+
+def _projection(node: XmlNode | None, context: Context) -> Projection | None:
+    if node is None:
+        return None
+    report = context.report
+    fx, fy, cx, cy, tx, ty = (
+        node.number(tag, default=value, report=report)
+        for tag, value in (("p_fx", 277.0), ("p_fy", 277.0), ("p_cx", 160.0), ("p_cy", 120.0), ("tx", 0.0), ("ty", 0.0))
+    )
+    node.report_unread(report)
+    return Projection(fx=fx, fy=fy, cx=cx, cy=cy, tx=tx, ty=ty)

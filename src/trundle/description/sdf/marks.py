@@ -1,0 +1,56 @@
+"""Reads what marks things for cameras that see more than colours: gz's Label and Thermal plugins."""
+
+from dataclasses import replace
+
+from trundle.diagnostics import Diagnostics
+from trundle.model import Model
+from trundle.xmlnode import XmlNode
+
+from .context import Context
+
+_LARGEST_LABEL = 255
+
+
+def read_marks(plugins: list[XmlNode], context: Context) -> tuple[int | None, float | None]:
+    """Label and temperature [K] among a visual's plugins; others are named, for visuals have none here."""
+    label: int | None = None
+    temperature: float | None = None
+    for node in plugins:
+        if _is(node, "label"):
+            label = _label(node, context.report)
+        elif _is(node, "thermal"):
+            temperature = node.number("temperature", default=0.0, report=context.report)
+        else:
+            what = f"visual plugin {node.attribute('filename')!r} is not supported; the visual is drawn without it"
+            context.report.warn(node.at, what)
+    return label, temperature
+
+
+def labelled(model: Model, plugins: list[XmlNode], context: Context) -> Model:
+    """A model whose own Label plugin, if it has one, has marked each visual that has no label."""
+    labels = [_label(node, context.report) for node in plugins if is_label(node)]
+    if not labels:
+        return model
+    links = tuple(
+        replace(link, visuals=tuple(v if v.label else replace(v, label=labels[-1]) for v in link.visuals))
+        for link in model.links
+    )
+    return replace(model, links=links)
+
+
+def is_label(node: XmlNode) -> bool:
+    """Whether a <plugin> gives labels."""
+    return _is(node, "label")
+
+
+def _is(node: XmlNode, what: str) -> bool:
+    file, name = node.attribute("filename") or "", node.attribute("name") or ""
+    return file.removesuffix(".so").endswith(f"-{what}-system") or name.endswith(f"systems::{what.capitalize()}")
+
+
+def _label(node: XmlNode, report: Diagnostics) -> int:
+    label = node.integer("label", default=0, report=report)
+    if 0 <= label <= _LARGEST_LABEL:
+        return label
+    report.warn(node.at, f"label {label} is not between 0 and {_LARGEST_LABEL}; 0 is used")
+    return 0

@@ -1,0 +1,28 @@
+"""Reads <noise>."""
+
+from trundle.model import Noise
+from trundle.xmlnode import XmlNode
+
+from .context import Context
+
+
+def read_noise(node: XmlNode | None, context: Context) -> Noise:
+    """Gaussian noise; every other type is none."""
+    if node is None:
+        return Noise()
+    type_ = node.attribute("type") or node.string("type") or "gaussian"
+    if type_ == "none":
+        return Noise()
+    report = context.report
+    noise = Noise(
+        mean=node.number("mean", default=0.0, report=report),
+        stddev=abs(node.number("stddev", default=0.0, report=report)),
+        bias_mean=node.number("bias_mean", default=0.0, report=report),
+        bias_stddev=abs(node.number("bias_stddev", default=0.0, report=report)),
+    )
+    for tag in ("precision", "dynamic_bias_stddev", "dynamic_bias_correlation_time"):
+        node.find(tag)
+    if not type_.startswith("gaussian"):
+        report.warn(node.at, f"no noise type {type_!r}; gaussian is used")
+    node.report_unread(report)
+    return noise

@@ -1,0 +1,95 @@
+"""Bounding box cameras: where the labelled things are."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import CameraOptics, Link, Model, Sensor
+from trundle.render import corners_of
+from trundle.simulation import Snapshot
+from trundle.spatial import Pose
+
+from .camera import CameraReading, CameraSensor, SeenBox
+from .scenery import Scenery
+from .segmentation_camera import INSTANCES, instances_of
+
+_Points = NDArray[np.float64]
+
+
+class BoundingBoxCameraSensor(CameraSensor):
+    """Tells a box around each labelled model of which a pixel can be seen."""
+
+    def __init__(
+        self, model: Model, link: Link, sensor: Sensor, optics: CameraOptics, *, link_index: int, scenery: Scenery
+    ) -> None:
+        """Mount it; see `CameraSensor`."""
+        super().__init__(model, link, sensor, optics, link_index=link_index, scenery=scenery)
+        self._things = instances_of(scenery)
+
+    def take(self, snapshot: Snapshot) -> CameraReading:
+        """Look, and draw a box round each thing."""
+        picture = self.look(snapshot, segmentation=True)
+        assert picture.segmentation is not None
+        seen = self._things[picture.segmentation]
+        boxes = [self._box(int(thing), seen, snapshot) for thing in np.unique(seen[seen > 0])]
+        return CameraReading(time_ns=snapshot.time_ns, rgb=picture.rgb, boxes=tuple(boxes))
+
+    def _box(self, thing: int, seen: NDArray[np.int32], snapshot: Snapshot) -> SeenBox:
+        (shapes,) = np.nonzero(self._things == thing)
+        bodies = self.scenery.scene.bodies
+        model = bodies[self.scenery.scene.shapes[int(shapes[0])].body].partition("::")[0]
+        label = thing // INSTANCES
+        if self.optics.box_type == "3d":
+            world_from_box, size = self._in_space(shapes.tolist(), snapshot)
+            camera_from_box = self.world_from_camera(snapshot).inverse() @ world_from_box
+            return SeenBox(
+                model=model, label=label, center=camera_from_box.position, size=size, camera_from_box=camera_from_box
+            )
+        rows, columns = np.nonzero(seen == thing)
+        low, high = (columns.min(), rows.min()), (columns.max() + 1, rows.max() + 1)
+        if self.optics.box_type == "full_2d":
+            low, high = self._whole(shapes.tolist(), snapshot, low, high)
+        center = (float(low[0] + high[0]) / 2, float(low[1] + high[1]) / 2)
+        return SeenBox(model=model, label=label, center=center, size=(float(high[0] - low[0]), float(high[1] - low[1])))
+
+    def _in_space(self, shapes: list[int], snapshot: Snapshot) -> tuple[Pose, tuple[float, float, float]]:
+        """The box along the axes of the thing's first body."""
+        world_from_body = _pose(snapshot.poses[self.scenery.scene.shapes[shapes[0]].body])
+        points = _moved(world_from_body.inverse(), self._corners(shapes, snapshot))
+        low, high = points.min(axis=0), points.max(axis=0)
+        x, y, z = ((low + high) / 2).tolist()
+        dx, dy, dz = (high - low).tolist()
+        return world_from_body @ Pose((x, y, z)), (dx, dy, dz)
+
+    def _whole(
+        self, shapes: list[int], snapshot: Snapshot, low: tuple[int, int], high: tuple[int, int]
+    ) -> tuple[tuple[float, float], tuple[float, float]]:
+        """What is visible, and beyond it what other things hide, up to the picture's rim."""
+        points = _moved(self.world_from_camera(snapshot).inverse(), self._corners(shapes, snapshot))
+        points = points[points[:, 0] > self.optics.near_m]
+        if not len(points):
+            return low, high
+        width, height, f = self.optics.width_px, self.optics.height_px, self.intrinsics.focal_px
+        columns = np.clip(width / 2 - f * points[:, 1] / points[:, 0], 0, width)
+        rows = np.clip(height / 2 - f * points[:, 2] / points[:, 0], 0, height)
+        first = (min(float(low[0]), float(columns.min())), min(float(low[1]), float(rows.min())))
+        return first, (max(float(high[0]), float(columns.max())), max(float(high[1]), float(rows.max())))
+
+    def _corners(self, shapes: list[int], snapshot: Snapshot) -> _Points:
+        """(n, 3) of the shapes' own boxes, in the world; of endless planes the place alone."""
+        found: list[_Points] = []
+        for number in shapes:
+            shape = self.scenery.scene.shapes[number]
+            corners = np.array(corners_of(shape.geometry) or [(0.0, 0.0, 0.0)])
+            found.append(_moved(_pose(snapshot.poses[shape.body]) @ shape.body_from_shape, corners))
+        return np.concatenate(found)
+
+
+def _pose(row: _Points) -> Pose:
+    x, y, z, qw, qx, qy, qz = row.tolist()
+    return Pose((x, y, z), (qw, qx, qy, qz))
+
+
+def _moved(a_from_b: Pose, points: _Points) -> _Points:
+    """(n, 3) points of frame b in frame a."""
+    axes = np.array([a_from_b.direction(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))])
+    return points @ axes + np.array(a_from_b.position)

@@ -1,0 +1,59 @@
+"""Segmentation cameras: what each pixel shows."""
+
+import colorsys
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import CameraOptics, Link, Model, Sensor
+from trundle.simulation import Snapshot
+
+from .camera import CameraReading, CameraSensor
+from .scenery import Scenery
+
+INSTANCES = 1 << 16
+"""What a label is multiplied by where things of one label are told apart."""
+_GOLDEN = 0.6180339887498949
+"""Hues that many golden sections apart are never close to one another."""
+
+
+class SegmentationCameraSensor(CameraSensor):
+    """Sees the labels that gz's Label plugin gave; what has none is background.
+
+    Semantic pictures hold labels; panoptic ones also number the models that share a label, from 1 on.
+    """
+
+    def __init__(
+        self, model: Model, link: Link, sensor: Sensor, optics: CameraOptics, *, link_index: int, scenery: Scenery
+    ) -> None:
+        """Mount it; see `CameraSensor`."""
+        super().__init__(model, link, sensor, optics, link_index=link_index, scenery=scenery)
+        self._values = instances_of(scenery) if optics.panoptic else scenery.labels
+        kinds, self._kind_of = np.unique(self._values, return_inverse=True)
+        self._colours = np.array([_colour(int(value)) for value in kinds], dtype=np.uint8)
+
+    def take(self, snapshot: Snapshot) -> CameraReading:
+        """See what is where."""
+        shapes = self.look(snapshot, segmentation=True).segmentation
+        assert shapes is not None
+        colours = self._colours[self._kind_of[shapes]]
+        return CameraReading(time_ns=snapshot.time_ns, rgb=colours, labels=self._values[shapes])
+
+
+def instances_of(scenery: Scenery) -> NDArray[np.int32]:
+    """By shape: 65536 times its label, plus the number of its model among those of that label."""
+    values = np.zeros(len(scenery.labels), dtype=np.int32)
+    for label in np.unique(scenery.labels[scenery.labels > 0]):
+        of_label = scenery.labels == label
+        _, number = np.unique(scenery.models[of_label], return_inverse=True)
+        values[of_label] = int(label) * INSTANCES + number + 1
+    return values
+
+
+def _colour(value: int) -> tuple[int, int, int]:
+    """Black for the background, else a hue of its own."""
+    if value == 0:
+        return (0, 0, 0)
+    label, instance = divmod(value, INSTANCES) if value >= INSTANCES else (value, 0)
+    r, g, b = colorsys.hsv_to_rgb((label * _GOLDEN) % 1.0, 1.0 - 0.5 * ((instance * _GOLDEN) % 1.0), 1.0)
+    return round(255 * r), round(255 * g), round(255 * b)

@@ -1,0 +1,76 @@
+"""Whole paths: an SDF file goes in, ROS messages come out."""
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+import trundle
+from trundle.bridge import camera_topics, sensor_topics
+from trundle.render import NativeRenderer
+from trundle.ros import Core, GraphLoop, Node, StaticTransformBroadcaster
+from trundle.sensors import mount_cameras, mount_sensors
+
+PATIENCE_S = 20.0
+
+
+def until(condition: Callable[[], object]) -> None:
+    """Wait for something that is bound to happen."""
+    end = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.002)
+
+
+@pytest.fixture
+def graph(monkeypatch: pytest.MonkeyPatch) -> Iterator[SimpleNamespace]:
+    """A graph of its own with two nodes: one that publishes and one that listens."""
+    for variable in ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE"):
+        monkeypatch.delenv(variable, raising=False)
+    with GraphLoop() as loop:
+        core = Core(loop, port=0)
+        loop.run(core.start(), PATIENCE_S)
+        loop.run(core.ready(), PATIENCE_S)
+        node, ear = (Node(name, loop=loop, master_uri=core.uri) for name in ("sim", "ear"))
+        yield SimpleNamespace(loop=loop, node=node, ear=ear)
+        for one in (ear, node):
+            loop.run(one.shutdown(), PATIENCE_S)
+        loop.run(core.stop(), PATIENCE_S)
+
+
+Hear = Callable[..., Any]
+
+
+@pytest.fixture
+def hear(graph: SimpleNamespace, tmp_path: Path) -> Hear:
+    """Simulate a world for a while and return the first message on each of some topics, and the frames there are."""
+
+    def hear(
+        world: str, topics: Mapping[str, str], *, seconds: float = 0.1, seed: int = 0, version: str = "1.6"
+    ) -> tuple[dict[str, Any], set[str]]:
+        file = tmp_path / "w.sdf"
+        file.write_text(f'<sdf version="{version}"><world name="w">{world}</world></sdf>')
+        sim = trundle.load(str(file), seed=seed)
+        cameras = mount_cameras(sim.world, NativeRenderer, sim.report)
+        sensors = mount_sensors(sim)
+        for sensor in (*cameras, *sensors):
+            sim.add_hook(sensor, period_ns=sensor.period_ns, wanted=sensor.wanted)
+        still = StaticTransformBroadcaster(graph.node)
+        camera_topics(graph.node, still, cameras, sim.world)
+        sensor_topics(graph.node, still, sensors, sim.world)
+        heard: dict[str, Any] = {}
+        frames: set[str] = set()
+        graph.ear.subscribe(
+            "/tf_static", "tf2_msgs/TFMessage", lambda m: frames.update(t.child_frame_id for t in m.transforms)
+        )
+        for topic, type_ in topics.items():
+            graph.ear.subscribe(topic, type_, lambda message, topic=topic: heard.setdefault(topic, message))
+            until(lambda topic=topic, type_=type_: graph.node.advertise(topic, type_).has_subscribers)
+        sim.run(seconds)
+        until(lambda: heard.keys() == topics.keys() and frames)
+        return heard, frames
+
+    return hear

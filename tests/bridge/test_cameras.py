@@ -1,0 +1,170 @@
+"""Every kind of camera, from the file that describes it to the messages that others hear."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+IMAGE, INFO = "sensor_msgs/Image", "sensor_msgs/CameraInfo"
+F = 64 / (2 * math.tan(0.5))
+"""Focal length [px] of the cameras here."""
+
+
+def eye(type_: str, *, inside: str = "", more: str = "", cameras: str = "") -> str:
+    """A static robot whose camera, 64 by 48, looks along x from the origin."""
+    shape = "<image><width>64</width><height>48</height></image><clip><near>0.1</near><far>9</far></clip>"
+    own = f"<camera><horizontal_fov>1</horizontal_fov>{shape}{inside}</camera>"
+    sensor = f'<sensor name="eye" type="{type_}"><update_rate>20</update_rate>{more}{cameras or own}</sensor>'
+    return f'<model name="bot"><static>1</static><link name="head">{sensor}</link></model>'
+
+
+def box(name: str, place: str, *, size: str = "1 1 1", mark: str = "") -> str:
+    visual = f'<visual name="v"><geometry><box><size>{size}</size></box></geometry>{mark}</visual>'
+    return f'<model name="{name}"><static>1</static><pose>{place} 0 0 0</pose><link name="l">{visual}</link></model>'
+
+
+def label(number: int) -> str:
+    return f'<plugin filename="gz-sim-label-system" name="gz::sim::systems::Label"><label>{number}</label></plugin>'
+
+
+WALL = box("wall", "3.5 0 0", size="1 2 2")
+"""Its face is 3 m ahead."""
+
+
+@pytest.mark.parametrize("type_", ["depth", "depth_camera", "rgbd", "rgbd_camera"])
+def test_a_depth_camera_tells_metres_and_nothing_out_of_range(hear: Any, type_: str) -> None:
+    topics = {
+        "/bot/head/eye/image_raw": IMAGE,
+        "/bot/head/eye/camera_info": INFO,
+        "/bot/head/eye/depth/image_raw": IMAGE,
+        "/bot/head/eye/depth/camera_info": INFO,
+        "/bot/head/eye/points": "sensor_msgs/PointCloud2",
+    }
+    heard, frames = hear(eye(type_) + WALL, topics)
+    colours, info, depths, depth_info, cloud = (heard[topic] for topic in topics)
+
+    assert (colours.encoding, depths.encoding, depths.step) == ("rgb8", "32FC1", 64 * 4)
+    depth = np.frombuffer(depths.data.tobytes(), dtype="<f4").reshape(48, 64)
+    assert depth[24, 32] == pytest.approx(3.0, abs=1e-5)
+    assert np.isnan(depth[0, 0])
+    # The face is 2 m wide, 3 m ahead.
+    assert np.count_nonzero(np.isfinite(depth[24])) == pytest.approx(2 * F / 3, abs=1)
+    assert list(depth_info.K) == list(info.K)
+    assert {m.header.frame_id for m in heard.values()} == {"bot/eye_optical"}
+    assert "bot/eye_optical" in frames
+    assert {m.header.stamp.nanosec for m in heard.values()} == {50_000_000}
+
+    assert (cloud.height, cloud.width, cloud.is_dense) == (48, 64, False)
+    raw = np.frombuffer(cloud.data.tobytes(), dtype="<f4").reshape(48, 64, cloud.point_step // 4)
+    x, y, z = raw[24, 40, :3]
+    assert (x, y, z) == pytest.approx((3 * 8.5 / F, 3 * 0.5 / F, 3.0), abs=1e-4)
+    offsets = {field.name: field.offset for field in cloud.fields}
+    b, g, r = cloud.data.reshape(48, 64, -1)[24, 40, offsets["rgb"] : offsets["rgb"] + 3]
+    assert [r, g, b] == list(colours.data.reshape(48, 64, 3)[24, 40])
+
+
+def test_depths_have_a_clip_of_their_own(hear: Any) -> None:
+    topic = "/bot/head/eye/depth/image_raw"
+    clip = "<depth_camera><clip><near>0.5</near><far>2.9</far></clip></depth_camera>"
+    heard, _ = hear(eye("depth", inside=clip) + WALL, {topic: IMAGE})
+
+    assert np.isnan(np.frombuffer(heard[topic].data.tobytes(), dtype="<f4")).all()
+
+
+def test_a_segmentation_camera_sees_labels(hear: Any) -> None:
+    """A label of a model is that of all its visuals; what has none is background."""
+    whole = box("right", "3.5 -1 0", mark="").replace("</model>", label(7) + "</model>")
+    world = (
+        eye("segmentation") + box("left", "3.5 1 0", mark=label(40)) + whole + box("none", "3.5 0 1", size="1 0.2 0.2")
+    )
+    topics = {"/bot/head/eye/labels_map": IMAGE, "/bot/head/eye/colored_map": IMAGE}
+    heard, _ = hear(world, topics)
+    labels, colours = (heard[topic] for topic in topics)
+
+    assert (labels.encoding, colours.encoding) == ("mono8", "rgb8")
+    row = labels.data.reshape(48, 64)[24]
+    assert (row[32 - int(F / 3)], row[32], row[32 + int(F / 3)]) == (40, 0, 7)
+    assert set(labels.data) == {0, 7, 40}
+    shown = colours.data.reshape(48, 64, 3)[24]
+    assert tuple(shown[32]) == (0, 0, 0)
+    assert tuple(shown[32 - int(F / 3)]) != tuple(shown[32 + int(F / 3)])
+
+
+def test_a_panoptic_camera_numbers_what_shares_a_label(hear: Any) -> None:
+    world = box("a", "3.5 1 0", mark=label(3)) + box("b", "3.5 -1 0", mark=label(3))
+    topic = "/bot/head/eye/labels_map"
+    kind = "<segmentation_type>instance</segmentation_type>"
+    heard, _ = hear(eye("segmentation_camera", inside=kind) + world, {topic: IMAGE})
+
+    assert heard[topic].encoding == "32SC1"
+    seen = np.frombuffer(heard[topic].data.tobytes(), dtype="<i4").reshape(48, 64)[24]
+    assert (seen[32 - int(F / 3)], seen[32 + int(F / 3)]) == (3 * 65536 + 1, 3 * 65536 + 2)
+
+
+@pytest.mark.parametrize(("kind", "width"), [("visible_2d", F / 6), ("full_2d", F / 3)])
+def test_boxes_are_around_what_is_seen_or_around_it_all(hear: Any, kind: str, width: float) -> None:
+    """The left half of a one metre face, three metres ahead, is behind a board."""
+    topic = "/bot/head/eye/boxes"
+    board = box("board", "2 0.5 0", size="0.01 1 3")
+    world = box("thing", "3.5 0 0", mark=label(9)) + board
+    inside = f"<box_type>{kind}</box_type>"
+    heard, _ = hear(eye("boundingbox", inside=inside) + world, {topic: "vision_msgs/Detection2DArray"})
+
+    (found,) = heard[topic].detections
+    assert heard[topic].header.frame_id == "bot/eye_optical"
+    assert (found.results[0].id, found.results[0].score) == (9, 1.0)
+    assert found.bbox.size_x == pytest.approx(width, abs=2)
+    assert found.bbox.size_y == pytest.approx(F / 3, abs=2)
+    assert found.bbox.center.x + found.bbox.size_x / 2 == pytest.approx(32 + F / 6, abs=1)
+
+
+def test_boxes_in_space_are_in_the_optical_frame(hear: Any) -> None:
+    topic = "/bot/head/eye/boxes"
+    world = box("thing", "4 1 0.5", size="1 0.5 0.25", mark=label(9))
+    inside = "<box_type>3d</box_type>"
+    heard, _ = hear(eye("boundingbox_camera", inside=inside) + world, {topic: "vision_msgs/Detection3DArray"})
+
+    (found,) = heard[topic].detections
+    middle, size = found.bbox.center.position, found.bbox.size
+    assert (middle.x, middle.y, middle.z) == pytest.approx((-1, -0.5, 4))
+    assert (size.x, size.y, size.z) == pytest.approx((1, 0.5, 0.25))
+
+
+def test_a_thermal_camera_sees_how_warm_things_are(hear: Any) -> None:
+    warm = '<plugin filename="gz-sim-thermal-system" name="gz::sim::systems::Thermal"><temperature>310.5</temperature>'
+    topic = "/bot/head/eye/image_raw"
+    heard, _ = hear(eye("thermal") + box("hot", "3.5 0 0", mark=warm + "</plugin>"), {topic: IMAGE})
+
+    assert heard[topic].encoding == "mono16"
+    counts = np.frombuffer(heard[topic].data.tobytes(), dtype="<u2").reshape(48, 64)
+    assert (counts[24, 32], counts[0, 0]) == (31050, 28815)  # hundredths of a kelvin; the air has 288.15 K
+
+
+def test_a_multicamera_s_right_eye_knows_how_far_it_is_from_the_left(hear: Any) -> None:
+    def one(name: str, y: float) -> str:
+        image = "<image><width>64</width><height>48</height></image>"
+        return f'<camera name="{name}"><pose>0 {y} 0 0 0 0</pose><horizontal_fov>1</horizontal_fov>{image}</camera>'
+
+    world = eye("multicamera", cameras=one("left", 0.06) + one("right", -0.06)) + WALL
+    topics = {
+        f"/bot/head/eye/{side}/{what}": type_
+        for side in ("left", "right")
+        for what, type_ in (("image_raw", IMAGE), ("camera_info", INFO))
+    }
+    heard, frames = hear(world, topics)
+
+    left, right = (heard[f"/bot/head/eye/{side}/camera_info"] for side in ("left", "right"))
+    assert (left.P[3], right.P[3]) == (0.0, pytest.approx(-F * 0.12))
+    assert {"bot/eye/left_optical", "bot/eye/right_optical"} <= frames
+    pictures = [heard[f"/bot/head/eye/{side}/image_raw"] for side in ("left", "right")]
+    assert pictures[0].header.stamp == pictures[1].header.stamp
+    edges = [int(np.flatnonzero(np.diff(p.data.reshape(48, 64, 3)[24, :, 0].astype(int)))[0]) for p in pictures]
+    assert edges[0] - edges[1] == pytest.approx(F * 0.12 / 3, abs=1)
+
+
+def test_a_topic_in_the_file_is_where_pictures_go(hear: Any) -> None:
+    topics = {"/front/picture": IMAGE, "/front/camera_info": INFO}
+    heard, _ = hear(eye("camera", more="<topic>front/picture</topic>"), topics)
+
+    assert heard["/front/picture"].width == heard["/front/camera_info"].width == 64
