@@ -1,19 +1,13 @@
 """A world behind /gazebo: opened, filled, pushed, paused and turned back by services, as scripts do it."""
 
 import asyncio
-import time
-from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
+from tests.bringup.conftest import PATIENCE_S, Gazebo, until
 
-from trundle.bringup.gazebo_world import GazeboWorld
-from trundle.bringup.graph import Graph
-from trundle.diagnostics import Diagnostics
-from trundle.nodes import Host
 from trundle.nodes.gazebo import GazeboServer, SpawnModel
-from trundle.ros import Core, GraphLoop, Message, Node
+from trundle.ros import Message, Node
 
 _BALL = """<sdf version="1.6"><model name="as_written"><pose>0 0 1 0 0 0</pose><link name="link">
 <inertial><mass>2</mass><inertia><ixx>0.02</ixx><iyy>0.02</iyy><izz>0.02</izz></inertia></inertial>
@@ -25,70 +19,6 @@ _ARM = f"""<robot name="arm"><link name="world"/>
 <joint name="fix" type="fixed"><parent link="world"/><child link="base"/></joint>
 <joint name="turn" type="revolute"><parent link="base"/><child link="rod"/><axis xyz="0 0 1"/>
 <limit lower="-2" upper="2" effort="10" velocity="1"/></joint></robot>"""
-
-PATIENCE_S = 60.0
-"""How long anything may take on a busy machine before a test gives up."""
-
-
-def until(condition: Callable[[], object]) -> None:
-    """Wait for something that the simulation's thread brings about."""
-    end = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.01)
-
-
-class Gazebo:
-    """A server on a graph of its own, and a node that asks it things."""
-
-    def __init__(self, loop: GraphLoop, uri: str, folder: Path) -> None:
-        self.loop = loop
-        self.said: list[str] = []
-        self.report = Diagnostics()
-        self.world = GazeboWorld(
-            graph=Graph(loop, uri, None, "127.0.0.1"),
-            start=folder,
-            env={"HOME": str(folder)},
-            report=self.report,
-            folder=folder,
-            say=self.said.append,
-            window=None,
-        )
-        self.host = Host(simulator=self.world)
-        self.client = Node("/client", loop=loop, master_uri=uri)
-        self.server = Node("/gazebo", loop=loop, master_uri=uri)
-        loop.spawn(GazeboServer(self.server, ["-u", "-e", "ode"], self.host).run())
-        loop.run(self.client.wait_for_service("/gazebo/unpause_physics", PATIENCE_S), timeout_s=PATIENCE_S)
-        loop.run(self.server.ready())
-
-    def call(self, name: str, kind: str = "std_srvs/Empty", **fields: Any) -> Message:
-        return self.loop.run(self.client.call_service(f"/gazebo/{name}", kind, fields), timeout_s=PATIENCE_S)
-
-    def spawn(self, xml: str, name: str, *, x: float = 0.0, **more: Any) -> Message:
-        pose = {"position": {"x": x}}
-        return self.call(
-            "spawn_sdf_model", "gazebo_msgs/SpawnModel", model_name=name, model_xml=xml, initial_pose=pose, **more
-        )
-
-    def state(self, name: str, relative_to: str = "") -> Message:
-        kind = "gazebo_msgs/GetModelState"
-        return self.call("get_model_state", kind, model_name=name, relative_entity_name=relative_to)
-
-    def until_s(self, seconds: float) -> None:
-        """Wait until so much has been simulated."""
-        kind = "gazebo_msgs/GetWorldProperties"
-        until(lambda: self.call("get_world_properties", kind).sim_time >= seconds)
-
-
-@pytest.fixture
-def gazebo(tmp_path: Path) -> Iterator[Gazebo]:
-    with GraphLoop() as loop:
-        core = Core(loop, port=0)
-        loop.run(core.start())
-        running = Gazebo(loop, core.uri, tmp_path)
-        yield running
-        running.world.close()
-        loop.run(core.stop(), timeout_s=PATIENCE_S)
 
 
 def test_a_spawned_model_stands_where_it_was_asked_for_and_falls_when_time_goes_on(gazebo: Gazebo) -> None:

@@ -1,7 +1,7 @@
 """Where the wings meet: snapshots and readings become messages on topics, /clock and tf."""
 
 from .camera import CameraTopics, camera_topics
-from .clock import ClockTopic
+from .clock import ClockTopic, clock_rate_hz
 from .frames import SimulationFrames
 from .joint_states import JointStates
 from .measuring import ImuTopic, ScanTopic, sensor_topics
@@ -16,6 +16,7 @@ __all__ = [
     "ScanTopic",
     "SimulationFrames",
     "camera_topics",
+    "clock_rate_hz",
     "has_plain_frames",
     "link_frame_name",
     "link_frames",

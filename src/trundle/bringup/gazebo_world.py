@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from trundle.bridge import ClockTopic, camera_topics, sensor_topics
+from trundle.bridge import ClockTopic, camera_topics, clock_rate_hz, sensor_topics
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import World
@@ -73,6 +73,7 @@ class GazeboWorld:
         self._nodes: dict[str, list[Node]] = {}
         """Model → nodes of its plugins; the world's have no name."""
         self._clock = SimClock(graph.loop)
+        self._clock_hz = ClockTopic.RATE_HZ
         self._pacer = Pacer(1.0)
         self._page: Page | None = None
         self._node: Node | None = None
@@ -88,6 +89,7 @@ class GazeboWorld:
         self._env = {**self._env, **env}
         self._packages = Packages(self._env, start=self._start)
         self._node, self._still, self._paused = node, StaticTransformBroadcaster(node), paused
+        self._clock_hz = await clock_rate_hz(node)
         loaded = await asyncio.to_thread(load, world, self._report, packages=self._packages)
         if loaded.kind != "world":
             raise UsageError(f"{world} is a model; a world is needed")
@@ -182,6 +184,18 @@ class GazeboWorld:
             self._graph.loop.run(node.shutdown(), timeout_s=_CALL_S)
         self._look_anew(simulation)
 
+    def edit(self, world: World) -> None:
+        """Go on with other gravity, masses, limits or lights."""
+        simulation = self.simulation
+        lights = simulation.world.lights
+        simulation.edit(world)
+        if world.lights != lights:
+            self._look_anew(simulation)
+
+    def set_speed(self, speed: float | None) -> None:
+        """Simulate so many seconds a second of the wall."""
+        self._pacer.set_speed(speed)
+
     def reset(self, *, time: bool) -> None:
         """Put everything back to where it came."""
         simulation = self.simulation
@@ -235,7 +249,7 @@ class GazeboWorld:
     def _build(self, world: World) -> None:
         assert self._node is not None
         simulation = Simulation(world, self._report)
-        clock = ClockTopic(self._node)
+        clock = ClockTopic(self._node, rate_hz=self._clock_hz)
         simulation.add_hook(clock, period_ns=clock.period_ns, wanted=clock.wanted)
         self._look_anew(simulation)
         self._simulation = simulation

@@ -10,6 +10,7 @@ from trundle.spatial import Pose
 from .profile import PROFILES, Profile
 
 if TYPE_CHECKING:
+    from trundle.model import World
     from trundle.simulation import Simulation
 
 
@@ -89,6 +90,18 @@ class Simulator(Protocol):
         Raises:
             TrundleError: there is none.
         """
+        ...
+
+    def edit(self, world: "World") -> None:
+        """Go on with other gravity, masses, limits or lights.
+
+        Raises:
+            TrundleError: it cannot be simulated; nothing has changed.
+        """
+        ...
+
+    def set_speed(self, speed: float | None) -> None:
+        """Simulate so many seconds a second of the wall; None: as many as there can be."""
         ...
 
     def reset(self, *, time: bool) -> None:

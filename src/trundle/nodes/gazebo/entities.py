@@ -1,6 +1,7 @@
 """Models, links and joints by the names that /gazebo uses: `model`, `model::link`, `link` where it is the only one."""
 
 from trundle.diagnostics import UsageError
+from trundle.model import Light, World
 from trundle.simulation import JointHandle, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Pose
 
@@ -35,6 +36,18 @@ def find_joint(simulation: Simulation, name: str) -> JointHandle:
             if joint.name == joint_name and (not scope or model.name == model_name):
                 return joint
     raise UsageError(f"no joint {name!r}; there are: {_listed(names)}")
+
+
+def find_light(world: World, name: str) -> Light:
+    """The light of a name.
+
+    Raises:
+        UsageError: with the names there are.
+    """
+    for light in world.lights:
+        if light.name == name:
+            return light
+    raise UsageError(f"no light {name!r}; there are: {_listed([light.name for light in world.lights])}")
 
 
 def scoped_links(simulation: Simulation) -> list[tuple[str, LinkHandle]]:

@@ -53,7 +53,7 @@ def answered(work: Callable[[Message], dict[str, Any]], done: str) -> Callable[[
 
     def handle(request: Message) -> dict[str, Any]:
         try:
-            return {**work(request), "success": True, "status_message": done}
+            return {"status_message": done, **work(request), "success": True}
         except TrundleError as error:
             return {"success": False, "status_message": str(error)}
 

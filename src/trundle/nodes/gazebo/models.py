@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from typing import Any
 
-from trundle.diagnostics import UsageError
 from trundle.ros import Message, Node
 
 from ..host import Simulator
@@ -12,7 +11,7 @@ from .messages import answered, pose_of
 
 
 def advertise_models(node: Node, simulator: Simulator) -> None:
-    """Provide spawn_urdf_model, spawn_sdf_model, delete_model and delete_light."""
+    """Provide spawn_urdf_model, spawn_sdf_model and delete_model."""
     for name in ("spawn_urdf_model", "spawn_sdf_model"):
         node.advertise_service(f"~{name}", "gazebo_msgs/SpawnModel", answered(_spawn(node, simulator), _SPAWNED))
 
@@ -20,13 +19,9 @@ def advertise_models(node: Node, simulator: Simulator) -> None:
         simulator.delete(request.model_name)
         return {}
 
-    def delete_light(request: Message) -> dict[str, Any]:
-        raise UsageError(f"light {request.light_name!r}: lights stay as the world has them")
-
     node.advertise_service(
         "~delete_model", "gazebo_msgs/DeleteModel", answered(delete, "DeleteModel: successfully deleted model")
     )
-    node.advertise_service("~delete_light", "gazebo_msgs/DeleteLight", answered(delete_light, ""))
 
 
 _SPAWNED = "SpawnModel: Successfully spawned entity"

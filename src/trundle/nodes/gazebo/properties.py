@@ -3,12 +3,11 @@
 import math
 from typing import Any
 
-from trundle.diagnostics import UsageError
 from trundle.model import JointType
 from trundle.ros import Message, Node
 
 from ..host import Simulator
-from .entities import find_joint, find_link, find_model
+from .entities import find_joint, find_light, find_link, find_model
 from .messages import answered, pose_fields, vector_fields
 
 _JOINT_TYPES = {
@@ -19,10 +18,20 @@ _JOINT_TYPES = {
     JointType.UNIVERSAL: 5,
 }
 _CONTINUOUS = 1
+_ODE = {
+    "auto_disable_bodies": False,
+    "sor_pgs_iters": 50,
+    "sor_pgs_w": 1.3,
+    "contact_surface_layer": 0.001,
+    "contact_max_correcting_vel": 100.0,
+    "erp": 0.2,
+    "max_contacts": 20,
+}
+"""Gazebo's defaults: scripts read them and send them back; MuJoCo has no such settings."""
 
 
 def advertise_properties(node: Node, simulator: Simulator) -> None:
-    """Provide the get_…_properties; those that set are answered with no."""
+    """Provide the get_…_properties."""
     properties = _Properties(simulator)
     for name, kind, work in (
         ("get_world_properties", "GetWorldProperties", properties.of_world),
@@ -30,11 +39,9 @@ def advertise_properties(node: Node, simulator: Simulator) -> None:
         ("get_link_properties", "GetLinkProperties", properties.of_link),
         ("get_joint_properties", "GetJointProperties", properties.of_joint),
         ("get_physics_properties", "GetPhysicsProperties", properties.of_physics),
+        ("get_light_properties", "GetLightProperties", properties.of_light),
     ):
         node.advertise_service(f"~{name}", f"gazebo_msgs/{kind}", answered(work, f"{kind}: got properties"))
-    for what in ("physics", "link", "joint", "light"):
-        kind = f"Set{what.capitalize()}Properties"
-        node.advertise_service(f"~set_{what}_properties", f"gazebo_msgs/{kind}", answered(_refuse(what), ""))
 
 
 class _Properties:
@@ -60,11 +67,12 @@ class _Properties:
         }
 
     def of_link(self, request: Message) -> dict[str, Any]:
-        inertial = find_link(self._simulator.simulation, request.link_name).link.inertial
+        link = find_link(self._simulator.simulation, request.link_name).link
+        inertial = link.inertial
         (ixx, iyy, izz), (ixy, ixz, iyz) = inertial.moments, inertial.products
         return {
             "com": pose_fields(inertial.link_from_com),
-            "gravity_mode": True,
+            "gravity_mode": link.gravity,
             "mass": inertial.mass,
             "ixx": ixx,
             "iyy": iyy,
@@ -80,9 +88,9 @@ class _Properties:
         endless = joint.type is JointType.REVOLUTE and joint.axis is not None and joint.axis.upper == math.inf
         return {
             "type": _CONTINUOUS if endless else _JOINT_TYPES.get(joint.type, _JOINT_TYPES[JointType.REVOLUTE]),
-            "damping": [] if joint.axis is None else [joint.axis.damping],
-            "position": [handle.position],
-            "rate": [handle.velocity],
+            "damping": [axis.damping for axis in (joint.axis, joint.axis2) if axis is not None],
+            "position": list(handle.positions),
+            "rate": list(handle.velocities),
         }
 
     def of_physics(self, _request: Message) -> dict[str, Any]:
@@ -92,11 +100,14 @@ class _Properties:
             "pause": self._simulator.paused,
             "max_update_rate": physics.real_time_update_rate_hz,
             "gravity": vector_fields(physics.gravity),
+            "ode_config": _ODE,
         }
 
-
-def _refuse(what: str) -> Any:
-    def refuse(_request: Message) -> dict[str, Any]:
-        raise UsageError(f"{what} properties cannot be set while the simulation runs; write them into the file")
-
-    return refuse
+    def of_light(self, request: Message) -> dict[str, Any]:
+        light = find_light(self._simulator.simulation.world, request.light_name)
+        return {
+            "diffuse": dict(zip("rgba", light.diffuse, strict=True)),
+            "attenuation_constant": light.constant,
+            "attenuation_linear": light.linear,
+            "attenuation_quadratic": light.quadratic,
+        }

@@ -6,6 +6,7 @@ from trundle.diagnostics import TrundleError
 from trundle.ros import Node
 
 from ..host import Host, Simulator
+from .changes import advertise_changes
 from .efforts import advertise_efforts
 from .models import advertise_models
 from .properties import advertise_properties
@@ -74,6 +75,7 @@ class GazeboServer:
             advertise_models,
             advertise_states,
             advertise_properties,
+            advertise_changes,
             advertise_efforts,
             advertise_timing,
         ):

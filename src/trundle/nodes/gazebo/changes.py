@@ -1,0 +1,154 @@
+"""/gazebo's services that change what a running world, its links, joints and lights are made of."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from trundle.diagnostics import UsageError
+from trundle.model import Inertial, Joint, JointAxis, Light, Link, Model
+from trundle.ros import Message, Node
+
+from ..host import Simulator
+from .entities import find_joint, find_light, find_link
+from .messages import answered, pose_of, vector_of
+
+_NO_COUNTERPART = ("erp", "cfm", "stop_erp", "stop_cfm", "fudge_factor")
+"""Of ODE's joints; MuJoCo's have none of them."""
+
+
+def advertise_changes(node: Node, simulator: Simulator) -> None:
+    """Provide set_physics_, set_link_, set_joint_ and set_light_properties, and delete_light."""
+    changes = _Changes(simulator)
+    for name, kind, work, done in (
+        ("set_physics_properties", "SetPhysicsProperties", changes.of_physics, "physics engine updated"),
+        ("set_link_properties", "SetLinkProperties", changes.of_link, "SetLinkProperties: properties set"),
+        ("set_joint_properties", "SetJointProperties", changes.of_joint, "SetJointProperties: properties set"),
+        ("set_light_properties", "SetLightProperties", changes.of_light, "SetLightProperties: properties set"),
+        ("delete_light", "DeleteLight", changes.delete_light, "DeleteLight: successfully deleted light"),
+    ):
+        node.advertise_service(f"~{name}", f"gazebo_msgs/{kind}", answered(work, done))
+
+
+class _Changes:
+    def __init__(self, simulator: Simulator) -> None:
+        self._simulator = simulator
+
+    def of_physics(self, request: Message) -> dict[str, Any]:
+        """Gravity and the rate at which steps are taken; ODE's own settings have no counterpart."""
+        world = self._simulator.simulation.world
+        if not math.isclose(request.time_step, world.physics.max_step_size_s, rel_tol=1e-9):
+            raise UsageError(
+                f"the time step of a running simulation stays {world.physics.max_step_size_s:g} s; "
+                "write <max_step_size> into the world"
+            )
+        gravity, rate = vector_of(request.gravity), float(request.max_update_rate)
+        if not all(math.isfinite(value) for value in (*gravity, rate)) or rate < 0.0:
+            raise UsageError("gravity and max_update_rate must be finite, the rate not below 0")
+        physics = replace(world.physics, gravity=gravity, real_time_update_rate_hz=rate)
+        self._simulator.edit(replace(world, physics=physics))
+        # As in Gazebo: so many steps a second of the wall, 0 as many as there can be.
+        self._simulator.set_speed(rate * physics.max_step_size_s or None)
+        return {}
+
+    def of_link(self, request: Message) -> dict[str, Any]:
+        """Mass, centre of mass, inertia, and whether gravity pulls."""
+        simulation = self._simulator.simulation
+        handle = find_link(simulation, request.link_name)
+        inertial = Inertial(
+            mass=float(request.mass),
+            link_from_com=pose_of(request.com),
+            moments=(float(request.ixx), float(request.iyy), float(request.izz)),
+            products=(float(request.ixy), float(request.ixz), float(request.iyz)),
+        )
+        if not inertial.mass > 0.0 or not all(moment > 0.0 for moment in inertial.moments):
+            raise UsageError("a link's mass and its moments of inertia ixx, iyy and izz must be greater than 0")
+        model = next(model.model for model in simulation.models if handle in model.links)
+        link = replace(handle.link, inertial=inertial, gravity=bool(request.gravity_mode))
+        self._put(replace(model, links=_with(model.links, link)))
+        return {}
+
+    def of_joint(self, request: Message) -> dict[str, Any]:
+        """Damping and limits of each axis, and the motor of ODE that fmax and vel are."""
+        simulation = self._simulator.simulation
+        handle = find_joint(simulation, request.joint_name)
+        asked = request.ode_joint_config
+        for name in ("damping", "hiStop", "loStop", "fmax", "vel"):
+            given = len(getattr(asked, name))
+            if given > len(handle.axes):
+                raise UsageError(f"{name} has {given} values; the joint has {len(handle.axes)} axes")
+        model = next((model.model for model in simulation.models if handle in model.joints), None)
+        if model is None:
+            raise UsageError(f"joint {handle.name!r} belongs to the world; its properties stay as they are")
+        joint = handle.joint
+        changed = replace(joint, axis=_axis(joint, 0, asked), axis2=_axis(joint, 1, asked))
+        if changed != joint:
+            self._put(replace(model, joints=_with(model.joints, changed)))
+        for axis, (effort, speed) in enumerate(zip(asked.fmax, asked.vel, strict=False)):
+            handle.set_velocity(float(speed), max_effort=float(effort), axis=axis)
+        ignored = [name for name in _NO_COUNTERPART if len(getattr(asked, name))]
+        note = f"SetJointProperties: properties set; without effect here: {', '.join(ignored)}"
+        return {"status_message": note} if ignored else {}
+
+    def of_light(self, request: Message) -> dict[str, Any]:
+        """Colours, reach, and where it is."""
+        world = self._simulator.simulation.world
+        light = find_light(world, request.light_name)
+        direction = vector_of(request.direction)
+        length = math.hypot(*direction)
+        x, y, z = direction
+        changed = replace(
+            light,
+            cast_shadows=bool(request.cast_shadows),
+            diffuse=_colour(request.diffuse),
+            specular=_colour(request.specular),
+            constant=float(request.attenuation_constant),
+            linear=float(request.attenuation_linear),
+            quadratic=float(request.attenuation_quadratic),
+            direction=(x / length, y / length, z / length) if length > 0.0 else light.direction,
+            world_from_light=pose_of(request.pose),
+        )
+        self._light(light, [changed])
+        return {}
+
+    def delete_light(self, request: Message) -> dict[str, Any]:
+        """Take a light of the world away."""
+        self._light(find_light(self._simulator.simulation.world, request.light_name), [])
+        return {}
+
+    def _light(self, light: Light, now: list[Light]) -> None:
+        world = self._simulator.simulation.world
+        lights = tuple(new for old in world.lights for new in (now if old is light else [old]))
+        self._simulator.edit(replace(world, lights=lights))
+
+    def _put(self, model: Model) -> None:
+        world = self._simulator.simulation.world
+        self._simulator.edit(
+            replace(world, models=tuple(model if there.name == model.name else there for there in world.models))
+        )
+
+
+def _with(parts: "Sequence[Link] | Sequence[Joint]", part: "Link | Joint") -> Any:
+    return tuple(part if there.name == part.name else there for there in parts)
+
+
+def _axis(joint: Joint, number: int, asked: Message) -> JointAxis | None:
+    axis = (joint.axis, joint.axis2)[number]
+    if axis is None:
+        return None
+
+    def value(name: str, default: float) -> float:
+        values = getattr(asked, name)
+        return float(values[number]) if len(values) > number else default
+
+    lower, upper = value("loStop", axis.lower), value("hiStop", axis.upper)
+    if not lower < upper:
+        raise UsageError(f"loStop {lower:g} must be less than hiStop {upper:g}")
+    damping = value("damping", axis.damping)
+    if not (math.isfinite(damping) and damping >= 0.0):
+        raise UsageError(f"damping must be 0 or more, got {damping:g}")
+    return replace(axis, lower=lower, upper=upper, damping=damping)
+
+
+def _colour(colour: Message) -> tuple[float, float, float, float]:
+    return (float(colour.r), float(colour.g), float(colour.b), float(colour.a))

@@ -1,0 +1,110 @@
+"""A world behind /gazebo on a graph of its own."""
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from trundle.bringup.gazebo_world import GazeboWorld
+from trundle.bringup.graph import Graph
+from trundle.diagnostics import Diagnostics
+from trundle.nodes import Host
+from trundle.nodes.gazebo import GazeboServer
+from trundle.ros import Core, GraphLoop, Message, Node
+
+PATIENCE_S = 60.0
+"""How long anything may take on a busy machine before a test gives up."""
+
+
+def until(condition: Callable[[], object]) -> None:
+    """Wait for something that the simulation's thread brings about."""
+    end = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.01)
+
+
+class Gazebo:
+    """A server, and a node that asks it things."""
+
+    def __init__(self, loop: GraphLoop, uri: str, folder: Path) -> None:
+        self.loop = loop
+        self.said: list[str] = []
+        self.report = Diagnostics()
+        self.world = GazeboWorld(
+            graph=Graph(loop, uri, None, "127.0.0.1"),
+            start=folder,
+            env={"HOME": str(folder)},
+            report=self.report,
+            folder=folder,
+            say=self.said.append,
+            window=None,
+        )
+        self.host = Host(simulator=self.world)
+        self.client = Node("/client", loop=loop, master_uri=uri)
+
+    def start(self) -> None:
+        """Start the server."""
+        self.server = Node("/gazebo", loop=self.loop, master_uri=self.client.master_uri)
+        self.loop.spawn(GazeboServer(self.server, ["-u", "-e", "ode"], self.host).run())
+        wait = self.client.wait_for_service("/gazebo/unpause_physics", PATIENCE_S)
+        self.loop.run(wait, timeout_s=PATIENCE_S)
+        self.loop.run(self.server.ready())
+
+    def call(self, name: str, kind: str = "std_srvs/Empty", **fields: Any) -> Message:
+        """Call a service of the server's."""
+        return self.loop.run(self.client.call_service(f"/gazebo/{name}", kind, fields), timeout_s=PATIENCE_S)
+
+    def spawn(self, xml: str, name: str, *, x: float = 0.0, **more: Any) -> Message:
+        """Spawn a model from its text."""
+        pose = {"position": {"x": x}}
+        return self.call(
+            "spawn_sdf_model", "gazebo_msgs/SpawnModel", model_name=name, model_xml=xml, initial_pose=pose, **more
+        )
+
+    def state(self, name: str, relative_to: str = "") -> Message:
+        """Where a model is."""
+        kind = "gazebo_msgs/GetModelState"
+        return self.call("get_model_state", kind, model_name=name, relative_entity_name=relative_to)
+
+    @property
+    def time_s(self) -> float:
+        """How much has been simulated."""
+        return self.call("get_world_properties", "gazebo_msgs/GetWorldProperties").sim_time
+
+    def until_s(self, seconds: float) -> None:
+        """Wait until so much has been simulated."""
+        until(lambda: self.time_s >= seconds)
+
+    def hear(self, topic: str, kind: str) -> list[Message]:
+        """Gather what is published there from now on; returns once somebody who publishes it is heard."""
+        heard: list[Message] = []
+        subscription = self.client.subscribe(topic, kind, heard.append, queue_size=None)
+        until(lambda: subscription.publishers)
+        return heard
+
+    def speak(self, topic: str, kind: str) -> Callable[[dict[str, Any]], None]:
+        """A function that publishes there; returns once somebody listens."""
+        publisher = self.client.advertise(topic, kind, queue_size=None)
+        until(lambda: publisher.has_subscribers)
+        return publisher.publish
+
+
+@pytest.fixture
+def bare_gazebo(tmp_path: Path) -> Iterator[Gazebo]:
+    """Not started yet, so that parameters can be set before."""
+    with GraphLoop() as loop:
+        core = Core(loop, port=0)
+        loop.run(core.start())
+        running = Gazebo(loop, core.uri, tmp_path)
+        yield running
+        running.world.close()
+        loop.run(core.stop(), timeout_s=PATIENCE_S)
+
+
+@pytest.fixture
+def gazebo(bare_gazebo: Gazebo) -> Gazebo:
+    bare_gazebo.start()
+    return bare_gazebo
