@@ -70,13 +70,15 @@ def scenery(tmp_path: Path) -> Iterator[Scenery]:
         robot = Node("robot", loop=loop, master_uri=core.uri)
         loop.run(robot.set_param("/robot_description", _URDF))
         rviz = Node("rviz", loop=loop, master_uri=core.uri)
-        page = GraphPage(packages=Packages({}, start=tmp_path), report=report, port=0)
+        said: list[str] = []
+        page = GraphPage(packages=Packages({}, start=tmp_path), report=report, say=said.append, port=0)
         shown = loop.spawn(page.show(rviz, config=str(config)))
         deadline = time.monotonic() + _PATIENCE_S
         while page.url is None:
             assert not shown.done(), shown.exception()
             assert time.monotonic() < deadline
             time.sleep(0.02)
+        assert said == [f"see it at {page.url}"]
         yield Scenery(loop, robot, page, shown, report)
         page.close()
         loop.run(rviz.shutdown())

@@ -79,7 +79,9 @@ class LaunchSession:
         self.clock = graph.loop.run(follow_time(launcher))
         page = None
         if not options.headless:
-            page = GraphPage(packages=read.packages, report=read.report, host=options.host, port=options.view_port)
+            page = GraphPage(
+                packages=read.packages, report=read.report, say=show.line, host=options.host, port=options.view_port
+            )
             self._open_things.callback(page.close)
         logs = log_folder(read.env, str(graph.loop.run(launcher.get_param("/run_id", ""))))
         self.starter = NodeStarter(

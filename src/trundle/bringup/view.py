@@ -54,7 +54,7 @@ def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> 
         node = Node(anonymous_name("rviz"), loop=loop, master_uri=uri, host=options.host)
         loop.run(follow_time(node))
         packages = Packages(env, start=Path.cwd())
-        page = GraphPage(packages=packages, report=report, host=options.host, port=options.port)
+        page = GraphPage(packages=packages, report=report, say=show.line, host=options.host, port=options.port)
         open_things.callback(page.close)
         shown = loop.spawn(page.show(node, config=options.config, fixed_frame=options.fixed_frame))
         while not stop.wait(0.1):

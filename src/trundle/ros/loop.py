@@ -174,10 +174,7 @@ class _ClosingLoop(asyncio.SelectorEventLoop):
             for task in opened:  # their own callbacks may come only after this
                 self._opened(task)
         for server in self._servers:
-            server.close()
-        # A connection that was accepted just now becomes a transport in a pass of its own; cancelled before, its
-        # socket would belong to nobody.
-        await _passes()
+            await close_server(server)
         mine = asyncio.current_task()
         others = [task for task in asyncio.all_tasks() if task is not mine]
         for task in others:
@@ -194,6 +191,19 @@ class _ClosingLoop(asyncio.SelectorEventLoop):
         self._opening.discard(task)
         if not task.cancelled() and task.exception() is None:
             self._servers.add(task.result())
+
+
+async def close_server(server: asyncio.Server) -> None:
+    """Close a server once nobody is at its door.
+
+    A connection that was accepted just now becomes a transport in a pass of its own. asyncio forgets one whose server
+    is closed by then, with its socket open.
+    """
+    loop = asyncio.get_running_loop()
+    for socket in server.sockets:
+        loop.remove_reader(socket.fileno())
+    await _passes()
+    server.close()
 
 
 async def _passes() -> None:

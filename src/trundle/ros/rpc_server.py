@@ -10,6 +10,7 @@ from typing import Any
 
 from .errors import PortTakenError, RosError, WireError
 from .http import MAX_HEAD_BYTES, Head, answer, parse_head
+from .loop import close_server
 from .xmlrpc import decode_call, encode_fault, encode_response
 
 _log = logging.getLogger(__name__)
@@ -64,7 +65,7 @@ class RpcServer:
     async def stop(self) -> None:
         """Stop listening and drop every client."""
         if self._server is not None:
-            self._server.close()
+            await close_server(self._server)
         for writer in list(self._clients):
             writer.close()
 

@@ -4,6 +4,7 @@ import asyncio
 import os
 from typing import TYPE_CHECKING, Any
 
+from .loop import close_server
 from .network import ServerAddress
 from .rpc_server import RpcServer, UnknownMethodError
 from .tcpros import FrameProtocol
@@ -49,7 +50,7 @@ class Slave:
     async def stop(self) -> None:
         """Stop listening and drop every peer."""
         if self._server is not None:
-            self._server.close()
+            await close_server(self._server)
         for link in list(self._links):
             link.close("the node shuts down")
         await self._rpc.stop()

@@ -13,7 +13,7 @@ EventKind: TypeAlias = Literal["started", "failed", "finished", "died", "respawn
 
 _QUICK_DEATH_S = 2.0
 _LONGEST_BACK_OFF_S = 10.0
-_LAST_WORDS_S = 2.0
+_LAST_WORDS_S = 5.0
 """How long a stopped job's last output may take to arrive."""
 
 

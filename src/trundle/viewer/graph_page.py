@@ -49,8 +49,16 @@ class GraphPage:
     """One page for a launch or for `trundle view`, however many rviz nodes ask for it."""
 
     def __init__(
-        self, *, packages: Packages, report: Diagnostics, host: str = "127.0.0.1", port: int | None = None
+        self,
+        *,
+        packages: Packages,
+        report: Diagnostics,
+        say: Callable[[str], None],
+        host: str = "127.0.0.1",
+        port: int | None = None,
     ) -> None:
+        """`say` takes what people must see whatever becomes of a node's log: where the page is."""
+        self._say = say
         self._packages = packages
         self._report = report
         self._host = host
@@ -92,7 +100,7 @@ class GraphPage:
         try:
             first = self._layout(shown)
             self._viewer = await asyncio.to_thread(Viewer.start, first, host=self._host, port=self._port)
-            node.log_info(f"see it at {self._viewer.url}")
+            self._say(f"see it at {self._viewer.url}")
             await self._feed(self._viewer, shown)
         finally:
             self.close()
