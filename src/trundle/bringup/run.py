@@ -72,7 +72,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
     show = Showing(sys.stderr, report)
     warn_of_exposure(options.host, show.line)
     with stop_flag() as stop, ExitStack() as open_things:
-        stage = set_stage(file, Packages(env, start=Path.cwd()), report)
+        stage = set_stage(file, Packages(env, start=Path.cwd()), report, seed=options.seed)
         simulation = Simulation(stage.world, report, seed=options.seed)
         cameras = mount_cameras(stage.world, NativeRenderer, report)
         sensors = mount_sensors(simulation)

@@ -25,13 +25,13 @@ class Stage:
     """The expanded XML, what goes on the parameter /robot_description."""
 
 
-def set_stage(file: str, packages: Packages, report: Diagnostics) -> Stage:
+def set_stage(file: str, packages: Packages, report: Diagnostics, *, seed: int = 0) -> Stage:
     """Read a file; a robot alone is put on a ground plane under a sun, a world is taken as it is.
 
     Raises:
         DescriptionError: the file cannot be made sense of.
     """
-    loaded = load(file, report, packages=packages)
+    loaded = load(file, report, packages=packages, seed=seed)
     world = loaded.world if loaded.kind == "world" else _on_the_ground(loaded, packages, report)
     return Stage(world=flattened(world), written=world, robot=loaded.robot, urdf=loaded.urdf)
 
@@ -39,7 +39,7 @@ def set_stage(file: str, packages: Packages, report: Diagnostics) -> Stage:
 def load_simulation(file: str, *, seed: int = 0) -> Simulation:
     """Read a file and compile it, with the process's environment; see `trundle.load`."""
     report = Diagnostics()
-    stage = set_stage(file, Packages(dict(os.environ), start=Path.cwd()), report)
+    stage = set_stage(file, Packages(dict(os.environ), start=Path.cwd()), report, seed=seed)
     return Simulation(stage.world, report, seed=seed)
 
 

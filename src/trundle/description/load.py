@@ -13,13 +13,14 @@ from .urdf import lower_robot, read_urdf_text
 from .xacro import expand_xacro, is_xacro
 
 
-def load(what: str, report: Diagnostics, *, packages: Packages) -> Loaded:
+def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -> Loaded:
     """Read a description: SDF, URDF or xacro.
 
     Args:
         what: a path, a folder with model.config, model://NAME, or the name of a world, such as empty.world.
         report: takes everything worth saying.
         packages: where URIs lead.
+        seed: of what an SDF places at random.
 
     Raises:
         DescriptionError: of which nothing sensible can be made.
@@ -39,7 +40,7 @@ def load(what: str, report: Diagnostics, *, packages: Packages) -> Loaded:
         if "xmlns:xacro" in text:
             text = expand_xacro(path, {}, packages=packages, report=report)
         return load_urdf(text, str(path), path, packages, report)
-    return load_sdf(root, path, packages, report)
+    return load_sdf(root, path, packages, report, seed=seed)
 
 
 def load_text(text: str, *, name: str, folder: Path, packages: Packages, report: Diagnostics) -> Loaded:
@@ -63,8 +64,8 @@ def load_text(text: str, *, name: str, folder: Path, packages: Packages, report:
     return load_urdf(text, name, folder / name, packages, report)
 
 
-def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics) -> Loaded:
-    """Read a parsed SDF file; `path` is where it is.
+def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics, *, seed: int = 0) -> Loaded:
+    """Read a parsed SDF file; `path` is where it is, `seed` of what it places at random.
 
     Raises:
         DescriptionError: it is no SDF.
@@ -76,7 +77,7 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics)
         report.info(root.at, f"SDF {version}: values written as attributes are read as the elements of SDF 1.2")
         rewrite_old_style(root)
     context = Context(
-        version=version, folder=path.parent, packages=packages, report=report, including=(path.resolve(),)
+        version=version, folder=path.parent, packages=packages, report=report, including=(path.resolve(),), seed=seed
     )
     world, has_world = read_root(root, context)
     return Loaded(kind="world" if has_world else "model", world=world)

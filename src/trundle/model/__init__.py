@@ -1,5 +1,6 @@
 """World, Model, Link, Joint, …: frozen dataclasses with SDF's meaning, the narrow waist of Trundle."""
 
+from .actor import Actor, Animation, Skin, Trajectory, Waypoint
 from .camera import CameraOptics, Distortion, Lens, PixelIntrinsics, Projection
 from .environment import Atmosphere, Fog, Light, LightType, PhysicsSettings, SceneSettings, SphericalCoordinates
 from .flatten import flattened
@@ -17,6 +18,7 @@ from .geometry import (
     Polyline,
     Solid,
     Sphere,
+    TerrainLayer,
 )
 from .inertial import Inertial
 from .joint import UNLIMITED, Joint, JointAxis, JointType, Mimic
@@ -26,6 +28,7 @@ from .material import GREY, Material, Rgba
 from .model import Frame, Model
 from .noise import Noise
 from .plugin import PluginTag
+from .road import Road
 from .sensor import ForceTorque, GpsNoise, ImuNoise, RangeScan, ScanAxis, Sensor
 from .surface import Surface
 from .world import World
@@ -33,6 +36,8 @@ from .world import World
 __all__ = [
     "GREY",
     "UNLIMITED",
+    "Actor",
+    "Animation",
     "Atmosphere",
     "Box",
     "CameraOptics",
@@ -71,14 +76,19 @@ __all__ = [
     "Projection",
     "RangeScan",
     "Rgba",
+    "Road",
     "ScanAxis",
     "SceneSettings",
     "Sensor",
+    "Skin",
     "Solid",
     "Sphere",
     "SphericalCoordinates",
     "Surface",
+    "TerrainLayer",
+    "Trajectory",
     "Visual",
+    "Waypoint",
     "World",
     "flattened",
     "model_from_joint",

@@ -81,6 +81,21 @@ class Polyline:
     """[m]"""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TerrainLayer:
+    """An image that is repeated over terrain."""
+
+    size: float = 10.0
+    """Side of one repetition [m]."""
+    diffuse: Path | None = None
+    """Its colours; None: nowhere, which was said."""
+    normal: Path | None = None
+    from_height: float = 0.0
+    """Above the lowest point it covers the layer before it [m]."""
+    fade: float = 0.0
+    """Height over which it does [m]."""
+
+
 @dataclass(frozen=True, slots=True)
 class Heightmap:
     """Terrain from a grey image: black is the lowest, white the highest."""
@@ -95,6 +110,8 @@ class Heightmap:
     """Of its centre [m]."""
     sampling: int = 2
     """Samples per pixel and axis."""
+    layers: tuple[TerrainLayer, ...] = ()
+    """What it is painted with, the lowest first."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -54,6 +54,8 @@ class Link:
     at: Source
     model_from_link: Pose = Pose()
     """At rest, as written."""
+    start: Pose | None = None
+    """Where a saved state of the world has it, in the model frame; None: as written."""
     inertial: Inertial = Inertial()
     visuals: tuple[Visual, ...] = ()
     collisions: tuple[Collision, ...] = ()

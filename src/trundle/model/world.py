@@ -5,10 +5,12 @@ from dataclasses import dataclass
 from trundle.diagnostics import Source
 from trundle.spatial import ZERO, Vector3
 
+from .actor import Actor
 from .environment import Atmosphere, Light, PhysicsSettings, SceneSettings, SphericalCoordinates
 from .joint import Joint
 from .model import Frame, Model
 from .plugin import PluginTag
+from .road import Road
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,6 +24,8 @@ class World:
     """Between models; links by `model::link`, poses and axes in the world."""
     frames: tuple[Frame, ...] = ()
     lights: tuple[Light, ...] = ()
+    roads: tuple[Road, ...] = ()
+    actors: tuple[Actor, ...] = ()
     plugins: tuple[PluginTag, ...] = ()
     physics: PhysicsSettings = PhysicsSettings()
     scene: SceneSettings = SceneSettings()

@@ -7,7 +7,7 @@ from dataclasses import replace
 from trundle.model import CameraOptics, Distortion, Lens, PixelIntrinsics, Projection
 from trundle.xmlnode import XmlNode
 
-from .context import Context, read_pose
+from .context import Context, leave_out, read_pose
 from .noise import read_noise
 
 WIDE = frozenset({"wideanglecamera", "wide_angle_camera"})
@@ -82,9 +82,9 @@ def _read(node: XmlNode, type_: str, context: Context) -> CameraOptics:
         )
     node.attribute("name")
     if image is not None:
-        image.find("anti_aliasing")  # a wish to the renderer's quality, not to what is seen
+        leave_out(image, ("anti_aliasing",), "is a wish to the renderer's quality, not to what is seen", context)
     if depth is not None:
-        depth.find("output")
+        leave_out(depth, ("output",), "is not heeded: distances and points both are told", context)
     for tag in _ELSEWHERE:
         left_out = node.find(tag)
         if left_out is not None:
@@ -162,10 +162,10 @@ def _with_lens(optics: CameraOptics, node: XmlNode | None, type_: str, context: 
     if node is None:
         return optics
     if type_ in WIDE:
-        node.find("intrinsics")  # a wide lens has none
+        leave_out(node, ("intrinsics",), "is nothing that a wide-angle camera has", context)
     else:
-        for tag in ("type", "scale_to_hfov", "custom_function", "cutoff_angle", "env_texture_size"):
-            node.find(tag)  # of wide-angle cameras
+        wide = ("type", "scale_to_hfov", "custom_function", "cutoff_angle", "env_texture_size")
+        leave_out(node, wide, "is for wide-angle cameras", context)
         optics = replace(optics, intrinsics=_intrinsics(node.find("intrinsics"), context))
     optics = replace(optics, projection=_projection(node.find("projection"), context))
     node.report_unread(context.report)

@@ -1,7 +1,8 @@
 """What every reader of one SDF file needs to know."""
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from trundle.diagnostics import Diagnostics, Source
@@ -23,10 +24,23 @@ class Context:
     report: Diagnostics
     including: tuple[Path, ...] = ()
     """The files above this one, outermost first: a model that includes itself is found out."""
+    seed: int = 0
+    """Of what is placed at random."""
+    left_out: set[tuple[str, str, str]] = field(default_factory=set[tuple[str, str, str]])
+    """File, element and child of what `leave_out` has named."""
 
     def inside(self, file: Path, version: Version) -> "Context":
         """The context of a file that this one includes."""
         return replace(self, version=version, folder=file.parent, including=(*self.including, file))
+
+
+def leave_out(node: XmlNode, tags: Iterable[str], why: str, context: Context) -> None:
+    """Name children that mean nothing here, once in a file; `why` follows their names."""
+    for tag in tags:
+        child, key = node.find(tag), (node.at.file, node.tag, tag)
+        if child is not None and key not in context.left_out:
+            context.left_out.add(key)
+            context.report.info(child.at, f"<{tag}> in <{node.tag}> {why}; it is ignored")
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from trundle.model import Atmosphere, Fog, PhysicsSettings, Rgba, SceneSettings, SphericalCoordinates
 from trundle.xmlnode import XmlNode
 
-from .context import Context
+from .context import Context, leave_out
 from .material import read_colour
 
 _AMBIENT: Mapping[tuple[int, int], Rgba] = {(1, 3): (0.0, 0.0, 0.0, 1.0), (1, 4): (0.2, 0.2, 0.2, 1.0)}
@@ -34,10 +34,14 @@ def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
     rate_tag = "update_rate" if context.version < (1, 4) else "real_time_update_rate"
     rate = node.number(rate_tag, default=default.real_time_update_rate_hz, report=report)
     factor = node.number("real_time_factor", default=1.0, report=report)
-    node.find("max_contacts")
-    for engine in ("ode", "bullet", "simbody", "dart"):
-        if node.find(engine) is not None:
-            report.info(node.at, f"<{engine}>: the engine here is MuJoCo, with settings of its own")
+    leave_out(
+        node,
+        ("max_contacts", "ode", "bullet", "simbody", "dart"),
+        "is for Gazebo's engines; the one here is MuJoCo, with settings of its own",
+        context,
+    )
+    if (node.attribute("type") or "ode") != "ode":
+        report.info(node.at, f"physics of type {node.attribute('type')!r}: the engine here is MuJoCo")
     node.attributes()
     node.report_unread(report)
     return PhysicsSettings(
@@ -69,13 +73,22 @@ def read_scene(world: XmlNode, context: Context) -> SceneSettings:
         ambient=read_colour(node, "ambient", ambient, context),
         background=read_colour(node, "background", default.background, context),
         shadows=node.flag("shadows", default=True, report=report),
-        sky=node.find("sky") is not None,
+        sky=_has_sky(node, context),
         grid=node.flag("grid", default=True, report=report),
         origin_visual=node.flag("origin_visual", default=True, report=report),
         fog=_fog(node, context),
     )
     node.report_unread(report)
     return scene
+
+
+def _has_sky(scene: XmlNode, context: Context) -> bool:
+    node = scene.find("sky")
+    if node is None:
+        return False
+    leave_out(node, ("time", "sunrise", "sunset", "clouds", "cubemap_uri"), "is not drawn", context)
+    node.report_unread(context.report)
+    return True
 
 
 def _fog(scene: XmlNode, context: Context) -> Fog:
@@ -117,8 +130,9 @@ def read_atmosphere(world: XmlNode, context: Context) -> Atmosphere:
     node = world.find("atmosphere")
     if node is None:
         return Atmosphere()
-    report, default = context.report, Atmosphere()
-    node.attribute("type")
+    report, default, default_type = context.report, Atmosphere(), "adiabatic"
+    if (node.attribute("type") or default_type) != default_type:
+        report.warn(node.at, f"no air of type {node.attribute('type')!r}; it is {default_type}")
     air = Atmosphere(
         temperature=node.number("temperature", default=default.temperature, report=report),
         pressure=node.number("pressure", default=default.pressure, report=report),

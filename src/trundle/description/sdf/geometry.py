@@ -17,11 +17,12 @@ from trundle.model import (
     Plane,
     Polyline,
     Sphere,
+    TerrainLayer,
 )
 from trundle.spatial import normalized
 from trundle.xmlnode import XmlNode
 
-from .context import Context
+from .context import Context, leave_out
 
 _UNSUPPORTED = ("image", "voxel_grid")
 
@@ -110,16 +111,45 @@ def _heightmap(shape: XmlNode, context: Context) -> Geometry:
     if not uri:
         report.warn(shape.at, "<heightmap> without <uri>; it has no shape")
         return Empty()
-    for tag in ("texture", "blend"):
-        shape.all(tag)
-    shape.find("use_terrain_paging")
+    leave_out(shape, ("use_terrain_paging",), "is for terrain that does not fit in memory", context)
     return Heightmap(
         path=_path(uri, shape, context, "the terrain is left out"),
         uri=uri,
         size=shape.vector("size", default=(1.0, 1.0, 1.0), report=report),
         position=shape.vector("pos", default=(0.0, 0.0, 0.0), report=report),
         sampling=shape.integer("sampling", default=1 if context.version >= (1, 8) else 2, report=report),
+        layers=_layers(shape, context),
     )
+
+
+def _layers(shape: XmlNode, context: Context) -> tuple[TerrainLayer, ...]:
+    """Each <texture>, with the <blend> that lies between the layer below and it."""
+    report = context.report
+    layers: list[TerrainLayer] = []
+    blends = shape.all("blend")
+    for number, node in enumerate(shape.all("texture")):
+        blend = blends[number - 1] if 0 < number <= len(blends) else None
+        layer = TerrainLayer(
+            size=node.number("size", default=10.0, report=report),
+            diffuse=_image(node.find("diffuse"), context),
+            normal=_image(node.find("normal"), context),
+            from_height=0.0 if blend is None else blend.number("min_height", default=0.0, report=report),
+            fade=0.0 if blend is None else blend.number("fade_dist", default=0.0, report=report),
+        )
+        layers.append(layer)
+        node.report_unread(report)
+    for blend in blends:
+        blend.report_unread(report)
+    if len(blends) > max(len(layers) - 1, 0):
+        what = f"<heightmap> has {len(layers)} <texture> and {len(blends)} <blend>; the last ones are left out"
+        report.warn(blends[-1].at, what)
+    return tuple(layers)
+
+
+def _image(node: XmlNode | None, context: Context) -> Path | None:
+    if node is None or not node.text:
+        return None
+    return _path(node.text, node, context, "the texture is left out")
 
 
 def _polyline(shapes: list[XmlNode], context: Context) -> Geometry:

@@ -6,7 +6,7 @@ from trundle.model import Light, LightType
 from trundle.spatial import normalized
 from trundle.xmlnode import XmlNode
 
-from .context import Context, read_pose
+from .context import Context, leave_out, read_pose
 from .frames import FrameGraph
 from .material import read_colour
 
@@ -47,7 +47,7 @@ def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -
     if not node.flag("light_on", default=True, report=report):
         report.info(node.at, f"light {light.name!r} is off")
         light = replace(light, intensity=0.0)
-    node.find("visualize")
+    leave_out(node, ("visualize",), "is for the window, where lights are not drawn", context)
     for each in (node, attenuation, spot):
         if each is not None:
             each.report_unread(report)

@@ -6,7 +6,7 @@ from trundle.model import Collision, Link, Visual
 from trundle.xmlnode import XmlNode
 
 from .auto_inertia import inertial_of_collisions
-from .context import Context, read_pose
+from .context import Context, leave_out, read_pose
 from .frames import FrameGraph
 from .geometry import read_geometry
 from .inertial import read_inertial
@@ -40,7 +40,7 @@ def read_link(node: XmlNode, name: str, graph: FrameGraph, context: Context) -> 
     inertial = node.find("inertial")
     if inertial is not None and (inertial.attribute("auto") or "").lower() in ("true", "1"):
         link = replace(link, inertial=inertial_of_collisions(link, node, context))
-    node.find("must_be_base_link")  # tells Simbody, one of Gazebo's engines, where to cut a loop
+    leave_out(node, ("must_be_base_link",), "tells Simbody where to cut a loop", context)
     node.report_unread(report)
     return link
 
@@ -64,8 +64,8 @@ def _read_visual(node: XmlNode, link: str, graph: FrameGraph, context: Context) 
         label=label or 0,
         temperature=temperature,
     )
-    for tag in ("meta", "visibility_flags"):  # layers of Gazebo's editor and camera masks
-        node.find(tag)
+    leave_out(node, ("meta",), "is for Gazebo's editor", context)
+    leave_out(node, ("visibility_flags",), "is not heeded: every camera sees every visual", context)
     node.report_unread(context.report)
     return visual
 
@@ -79,8 +79,8 @@ def _read_collision(node: XmlNode, link: str, graph: FrameGraph, context: Contex
         surface=read_surface(node, context),
         laser_retro=node.number("laser_retro", default=0.0, report=context.report),
     )
-    node.find("max_contacts")  # ODE's; MuJoCo makes as many contacts as the shapes need
-    for tag in ("density", "auto_inertia_params"):
-        node.find(tag)
+    leave_out(node, ("max_contacts",), "is ODE's; MuJoCo makes as many contacts as the shapes need", context)
+    leave_out(node, ("auto_inertia_params",), "is for calculators of one's own", context)
+    node.find("density")  # for automatic inertias, which read it themselves
     node.report_unread(context.report)
     return collision

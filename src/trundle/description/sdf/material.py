@@ -8,7 +8,7 @@ from trundle.model import GREY, Material, Rgba
 from trundle.xmlnode import XmlNode
 
 from ..ogre import find_material
-from .context import Context
+from .context import Context, leave_out
 from .gazebo_materials import GAZEBO_MATERIALS, TEXTURED
 
 _WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
@@ -37,11 +37,7 @@ def read_material(visual: XmlNode, context: Context) -> Material:
         texture=base.texture,
         texture_scale=base.texture_scale,
     )
-    for tag in ("lighting", "shader", "render_order", "double_sided"):
-        node.find(tag)
-    shininess = node.find("shininess")
-    if shininess is not None:
-        context.report.info(shininess.at, "<shininess> is not drawn; highlights are as Gazebo's materials have them")
+    leave_out(node, ("lighting", "shader", "render_order", "double_sided", "shininess"), "is not drawn", context)
     node.report_unread(context.report)
     return material
 

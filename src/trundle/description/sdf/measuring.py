@@ -3,7 +3,7 @@
 from trundle.model import ForceTorque, GpsNoise, ImuNoise, Noise, RangeScan, ScanAxis
 from trundle.xmlnode import XmlNode
 
-from .context import Context
+from .context import Context, leave_out
 from .noise import read_noise
 
 RANGING = frozenset({"ray", "gpu_ray", "lidar", "gpu_lidar"})
@@ -34,7 +34,7 @@ def read_scan(sensor: XmlNode, context: Context) -> RangeScan:
         noise=read_noise(node.find("noise"), context),
     )
     if limits is not None:
-        limits.find("resolution")  # Gazebo reads it and rounds nothing
+        leave_out(limits, ("resolution",), "rounds nothing, in Gazebo too", context)
         limits.report_unread(report)
     if scan is not None:
         scan.report_unread(report)
@@ -63,6 +63,8 @@ def read_imu(sensor: XmlNode, context: Context) -> ImuNoise:
     if node is None:
         return ImuNoise()
     old = node.find("noise")
+    if old is not None and old.string("type") == "none":
+        old = None
     rates = _axes(node, "angular_velocity", None if old is None else old.find("rate"), context)
     accelerations = _axes(node, "linear_acceleration", None if old is None else old.find("accel"), context)
     frame = node.find("orientation_reference_frame")
@@ -70,8 +72,7 @@ def read_imu(sensor: XmlNode, context: Context) -> ImuNoise:
         context.report.info(
             frame.at, "<orientation_reference_frame> is not supported; orientation is in the world frame"
         )
-    for tag in ("topic", "enable_orientation"):
-        node.find(tag)
+    leave_out(node, ("topic", "enable_orientation"), "is not heeded", context)
     node.report_unread(context.report)
     return ImuNoise(angular_velocity=rates, linear_acceleration=accelerations)
 
@@ -82,7 +83,7 @@ def read_gps(sensor: XmlNode, context: Context) -> GpsNoise:
     if node is None:
         return GpsNoise()
     position = node.find("position_sensing")
-    node.find("velocity_sensing")
+    leave_out(node, ("velocity_sensing",), "is noise of velocities, which are not told", context)
     node.report_unread(context.report)
     if position is None:
         return GpsNoise()
@@ -98,7 +99,7 @@ def read_touching(sensor: XmlNode, context: Context) -> tuple[str, ...]:
     if node is None:
         return ()
     names = [child.text.rpartition("::")[2] for child in node.all("collision")]
-    node.find("topic")
+    leave_out(node, ("topic",), "is not heeded", context)
     node.report_unread(context.report)
     return tuple(name for name in names if name not in ("", "__default__"))
 

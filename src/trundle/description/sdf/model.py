@@ -58,7 +58,8 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> Part:
     if model.canonical_link is None and not model.static:
         context.report.warn(node.at, f"model {name!r} has no links; nothing of it can move")
     raw = read_pose(node, context)
-    node.attribute("namespace")
+    if node.attribute("namespace"):
+        context.report.info(node.at, f"attribute 'namespace' of model {name!r} is not supported; it is ignored")
     placement = node.attribute("placement_frame") or ""
     node.report_unread(context.report)
     return Part(model=model, scope=graph.scope(model.canonical_link), raw=raw, placement_frame=placement)

@@ -3,7 +3,7 @@
 from trundle.model import Noise
 from trundle.xmlnode import XmlNode
 
-from .context import Context
+from .context import Context, leave_out
 
 
 def read_noise(node: XmlNode | None, context: Context) -> Noise:
@@ -20,8 +20,7 @@ def read_noise(node: XmlNode | None, context: Context) -> Noise:
         bias_mean=node.number("bias_mean", default=0.0, report=report),
         bias_stddev=abs(node.number("bias_stddev", default=0.0, report=report)),
     )
-    for tag in ("precision", "dynamic_bias_stddev", "dynamic_bias_correlation_time"):
-        node.find(tag)
+    leave_out(node, ("precision", "dynamic_bias_stddev", "dynamic_bias_correlation_time"), "is not simulated", context)
     if not type_.startswith("gaussian"):
         report.warn(node.at, f"no noise type {type_!r}; gaussian is used")
     node.report_unread(report)

@@ -4,7 +4,7 @@ from trundle.model import PluginTag, Sensor
 from trundle.xmlnode import XmlNode
 
 from .camera import SEEING, read_cameras
-from .context import Context, read_pose
+from .context import Context, leave_out, read_pose
 from .frames import FrameGraph
 from .measuring import RANGING, read_force_torque, read_gps, read_imu, read_scan, read_touching
 
@@ -35,6 +35,8 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
     )
     if sensor.type in WHOLE:
         node.report_unread(report)
+    else:
+        leave_out(node, [child.tag for child in node.unread()], f"of type {type_!r} is not read yet", context)
     return sensor
 
 

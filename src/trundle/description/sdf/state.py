@@ -3,14 +3,26 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from trundle.model import Light, Model
+from trundle.model import Light, Link, Model
 from trundle.spatial import Pose
 from trundle.xmlnode import XmlNode
 
-from .context import Context, read_pose
+from .context import Context, leave_out, read_pose
+from .scale import scaled_model
 
-_MOVED_M = 1e-3
-"""A link less than this from where its model has it was saved as it was written."""
+_MOVED = 1e-3
+"""[m, and of a unit quaternion] A link less than this from where its model has it was saved as it was written."""
+_AT_REST = ("velocity", "acceleration", "wrench", "linear_velocity", "angular_velocity")
+_ACCELERATED = ("linear_acceleration", "angular_acceleration", "force", "torque")
+
+
+def inserted(world: XmlNode) -> Iterator[XmlNode]:
+    """The models and lights that came after the world was loaded, in the order they came."""
+    for state in world.all("state"):
+        insertions = state.find("insertions")
+        for child in [] if insertions is None else insertions.children:
+            if child.tag in ("model", "light"):
+                yield child
 
 
 def apply_state(
@@ -28,56 +40,81 @@ def _applied(
     node: XmlNode, models: Sequence[Model], lights: Sequence[Light], context: Context
 ) -> tuple[Sequence[Model], Sequence[Light]]:
     report = context.report
-    poses = {state.attribute("name"): state for state in _model_states(node)}
-    lit = {state.attribute("name"): state for tag in ("light", "light_state") for state in node.all(tag)}
-    deletions = node.find("deletions")
-    gone = {child.text for child in deletions.all("name")} if deletions is not None else set[str]()
-    for tag in ("sim_time", "wall_time", "real_time", "iterations", "time", "joint_state"):
-        node.find(tag)
+    poses = {state.attribute("name"): state for state in _states(node, "model")}
+    lit = {state.attribute("name"): state for state in _states(node, "light")}
+    gone = _deleted(node, {each.name for each in (*models, *lights)}, context)
+    leave_out(
+        node, ("sim_time", "wall_time", "real_time", "iterations", "time"), "is not heeded: time starts at 0", context
+    )
+    leave_out(node, ("joint_state",), "is not supported: joints start as written", context)
     insertions = node.find("insertions")
-    if insertions is not None and insertions.children:
-        report.warn(insertions.at, "<insertions> of a <state> are not supported; what was added later is left out")
+    if insertions is not None:
+        insertions.all("model")
+        insertions.all("light")
+        insertions.report_unread(report)
     node.report_unread(report)
-    there = {model.name for model in models}
-    for name, state in poses.items():
-        if name not in there:
-            report.warn(state.at, f"<state> of model {name!r}, which is not in this world; it is ignored")
+    for kind, states, there in (("model", poses, models), ("light", lit, lights)):
+        for name, state in states.items():
+            if name not in {each.name for each in there}:
+                report.warn(state.at, f"<state> of {kind} {name!r}, which is not in this world; it is ignored")
+                state.mark_all_read()
     placed = [
         _placed(model, poses[model.name], Pose(), context) if model.name in poses else model
         for model in models
         if model.name not in gone
     ]
-    shone = [
-        replace(light, world_from_light=read_pose(lit[light.name], context).pose)
-        if light.name in lit and lit[light.name].find("pose") is not None
-        else light
-        for light in lights
-        if light.name not in gone
-    ]
+    shone = [_shone(light, lit.get(light.name), context) for light in lights if light.name not in gone]
     return placed, shone
+
+
+def _deleted(node: XmlNode, there: set[str], context: Context) -> set[str]:
+    deletions = node.find("deletions")
+    if deletions is None:
+        return set()
+    names = deletions.all("name")
+    for each in names:
+        if each.text not in there:
+            context.report.warn(each.at, f"<deletions> of a <state>: no model or light {each.text!r} in this world")
+    deletions.report_unread(context.report)
+    return {each.text for each in names}
+
+
+def _shone(light: Light, state: XmlNode | None, context: Context) -> Light:
+    if state is None:
+        return light
+    pose = state.find("pose")
+    state.report_unread(context.report)
+    return light if pose is None else replace(light, world_from_light=read_pose(state, context).pose)
 
 
 def _placed(model: Model, state: XmlNode, world_from_outer: Pose, context: Context) -> Model:
     """A model where its state has it; states of nested models are in the world too."""
-    if state.find("pose") is None:
-        return model
-    world_from_model = read_pose(state, context).pose
-    nested = {inner.attribute("name"): inner for inner in _model_states(state)}
-    scale = state.vector("scale", default=(1.0, 1.0, 1.0), report=context.report)
+    report = context.report
+    has_pose = state.find("pose") is not None
+    nested = {inner.attribute("name"): inner for inner in _states(state, "model")}
+    links = {link.attribute("name"): link for link in _states(state, "link")}
+    scale = state.vector("scale", default=(1.0, 1.0, 1.0), report=report)
+    leave_out(state, ("joint", "joint_state"), "is not heeded, in Gazebo neither: the poses of links are", context)
+    state.report_unread(report)
+    for name, each in links.items():
+        if name not in {link.name for link in model.links}:
+            report.warn(each.at, f"<state> of model {model.name!r}: no link {name!r}; it is ignored")
     if scale != (1.0, 1.0, 1.0):
-        context.report.warn(
-            state.at, f"<state> of model {model.name!r}: <scale> is not supported; the size is as written"
-        )
-    moved = [link for link in _link_states(state) if _has_moved(model, link, world_from_model, context)]
+        model = scaled_model(model, scale, state.at, report)
+    world_from_model = read_pose(state, context).pose if has_pose else world_from_outer @ model.world_from_model
+    started = tuple(
+        _started(link, links[link.name], world_from_model, context) if link.name in links else link
+        for link in model.links
+    )
+    moved = [link for link in started if link.start is not None]
     if moved:
-        names = ", ".join(repr(link.attribute("name")) for link in moved[:5])
-        context.report.info(
-            moved[0].at,
-            f"<state> of model {model.name!r}: links saved elsewhere than written ({names}) start as written",
-        )
+        names = ", ".join(repr(link.name) for link in moved[:5])
+        what = f"<state> of model {model.name!r}: links saved elsewhere than written ({names}) start as written"
+        report.info(links[moved[0].name].at, what)
     return replace(
         model,
         world_from_model=world_from_outer.inverse() @ world_from_model,
+        links=started,
         models=tuple(
             _placed(inner, nested[inner.name], world_from_model, context) if inner.name in nested else inner
             for inner in model.models
@@ -85,19 +122,20 @@ def _placed(model: Model, state: XmlNode, world_from_outer: Pose, context: Conte
     )
 
 
-def _has_moved(model: Model, state: XmlNode, world_from_model: Pose, context: Context) -> bool:
-    link = next((link for link in model.links if link.name == state.attribute("name")), None)
-    if link is None or state.find("pose") is None:
-        return False
-    saved = world_from_model.inverse() @ read_pose(state, context).pose
-    return any(abs(a - b) > _MOVED_M for a, b in zip(saved.position, link.model_from_link.position, strict=True))
+def _started(link: Link, state: XmlNode, world_from_model: Pose, context: Context) -> Link:
+    leave_out(state, _AT_REST + _ACCELERATED, "is not heeded: everything starts at rest", context)
+    leave_out(state, ("collision", "collision_state"), "is not heeded, in Gazebo neither", context)
+    has_pose = state.find("pose") is not None
+    state.report_unread(context.report)
+    if not has_pose:
+        return link
+    model_from_link = world_from_model.inverse() @ read_pose(state, context).pose
+    written_from_saved = link.model_from_link.inverse() @ model_from_link
+    moved = max(map(abs, (*written_from_saved.position, *written_from_saved.quaternion[1:])))
+    return replace(link, start=model_from_link) if moved > _MOVED else link
 
 
-def _model_states(node: XmlNode) -> Iterator[XmlNode]:
-    for tag in ("model", "model_state"):
-        yield from node.all(tag)
-
-
-def _link_states(node: XmlNode) -> Iterator[XmlNode]:
-    for tag in ("link", "link_state"):
+def _states(node: XmlNode, kind: str) -> Iterator[XmlNode]:
+    """States of models, links or lights; SDF 1.12 calls them `…_state`."""
+    for tag in (kind, f"{kind}_state"):
         yield from node.all(tag)

@@ -77,5 +77,5 @@ def _find(node: XmlNode | None, tag: str) -> XmlNode | None:
 def _name_tuning(node: XmlNode, context: Context) -> None:
     for tag in _TUNING:
         child = node.find(tag)
-        if child is not None and child.text.strip("0.") != "":
+        if child is not None and (child.children or child.text.strip("0.") != ""):
             context.report.info(child.at, f"<{tag}> in <{node.tag}> tunes Gazebo's engines; it is ignored")

@@ -6,17 +6,18 @@ from trundle.diagnostics import DescriptionError
 from trundle.model import Light, Model, World
 from trundle.xmlnode import XmlNode
 
-from .context import Context, read_pose
+from .actor import read_actor
+from .context import Context, leave_out, read_pose
 from .environment import read_atmosphere, read_physics, read_scene, read_spherical_coordinates
 from .frames import WORLD, FrameGraph
 from .include import open_include, read_included_model
 from .light import read_light
 from .model import WrittenJoint, read_frames, read_model
 from .part import Part
+from .population import read_population
+from .road import read_road
 from .sensor import read_plugin
-from .state import apply_state
-
-_NOT_SIMULATED = ("actor", "road", "population")
+from .state import apply_state, inserted
 
 
 def read_root(root: XmlNode, context: Context) -> tuple[World, bool]:
@@ -32,16 +33,15 @@ def read_root(root: XmlNode, context: Context) -> tuple[World, bool]:
             context.report.warn(worlds[1].at, "a second <world>; only the first is simulated")
         return replace(read_world(worlds[0], context), sdf_version=version), True
     contents = _Contents(root, context)
-    for tag in _NOT_SIMULATED:
-        for node in root.all(tag):
-            context.report.warn(node.at, f"<{tag}> is not supported yet; it is left out")
-            node.mark_all_read()
+    actors = tuple(read_actor(child, context) for child in root.all("actor"))
     root.report_unread(context.report)
     if not contents.parts and not contents.lights and not root.children:
         raise DescriptionError(root.at, f"<{root.tag}> holds no world, model or light")
     models = contents.models()
-    name = models[0].name if models else contents.lights[0].name if contents.lights else ""
-    return World(name=name, at=root.at, models=models, lights=tuple(contents.lights), sdf_version=version), False
+    named = (*models, *contents.lights, *actors)
+    name = named[0].name if named else ""
+    lights = tuple(contents.lights)
+    return World(name=name, at=root.at, models=models, lights=lights, actors=actors, sdf_version=version), False
 
 
 def read_world(node: XmlNode, context: Context) -> World:
@@ -50,6 +50,8 @@ def read_world(node: XmlNode, context: Context) -> World:
     default = World(name=node.attribute("name") or "default", at=node.at)
     name = default.name
     contents = _Contents(node, context)
+    for child in inserted(node):
+        contents.add(child)
     frames = read_frames(node, contents.graph, context)
     joints = [j for child in node.all("joint") if (j := WrittenJoint(child, contents.graph, context)).is_sound]
     for joint in joints:
@@ -63,6 +65,8 @@ def read_world(node: XmlNode, context: Context) -> World:
         joints=tuple(joint.read(contents.graph, context) for joint in joints),
         frames=tuple(replace(frame, model_from_frame=contents.graph.pose(frame.name)) for frame in frames),
         lights=lights,
+        roads=tuple(road for child in node.all("road") if (road := read_road(child, context)) is not None),
+        actors=tuple(read_actor(child, context) for child in node.all("actor")),
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
         physics=read_physics(node, context),
         scene=read_scene(node, context),
@@ -71,15 +75,7 @@ def read_world(node: XmlNode, context: Context) -> World:
         magnetic_field=node.vector("magnetic_field", default=default.magnetic_field, report=report),
         wind=default.wind if wind is None else wind.vector("linear_velocity", default=default.wind, report=report),
     )
-    for tag in _NOT_SIMULATED:
-        for child in node.all(tag):
-            who = child.attribute("name")
-            report.warn(child.at, f"<{tag}>{f' {who!r}' if who else ''} is not supported yet; it is left out")
-            child.mark_all_read()
-    for tag in ("gui", "audio"):
-        element = node.find(tag)
-        if element is not None:
-            report.info(element.at, f"<{tag}> speaks to Gazebo's own window; it is ignored")
+    leave_out(node, ("gui", "audio"), "speaks to Gazebo's own window", context)
     node.report_unread(report)
     return world
 
@@ -93,14 +89,24 @@ class _Contents:
         self.lights: list[Light] = []
         self._context = context
         for child in node.children:
-            if child.tag == "model":
-                self._add(read_model(child, context))
-            elif child.tag == "include":
-                self._include(child)
-            elif child.tag == "light":
-                self.lights.append(read_light(child, WORLD, self.graph, context))
-        for tag in ("model", "include", "light"):
+            self.add(child)
+        for tag in ("model", "include", "light", "population"):
             node.all(tag)
+
+    def add(self, child: XmlNode) -> None:
+        """Add what an element brings, if it brings a model or a light."""
+        match child.tag:
+            case "model":
+                self._add(read_model(child, self._context))
+            case "include":
+                self._include(child)
+            case "light":
+                self.lights.append(read_light(child, WORLD, self.graph, self._context))
+            case "population":
+                for part in read_population(child, read_model, self._context):
+                    self._add(part)
+            case _:
+                pass
 
     def models(self) -> tuple[Model, ...]:
         """Every model, where it goes."""

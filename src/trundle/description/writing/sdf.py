@@ -6,10 +6,11 @@ A pose stands relative to its parent element, an axis in the model's frame, so t
 import math
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import Frame, Joint, JointAxis, JointType, Link, Model, World, model_from_joint
+from trundle.model import Actor, Frame, Joint, JointAxis, JointType, Link, Model, World, model_from_joint
 
 from .files import UriOf
 from .sdf_environment import add_light, add_surroundings
+from .sdf_scenery import add_actor, add_road, add_state
 from .sdf_sensor import add_sensor
 from .sdf_shapes import add_collision, add_visual
 from .tag import Tag
@@ -44,7 +45,12 @@ def write_sdf(world: World, *, is_world: bool, uri_of: UriOf, report: Diagnostic
             _add_frame(home, frame, "world")
         for joint in world.joints:
             writer.add_joint(home, joint, joint.name, whole, "world")
+        for road in world.roads:
+            add_road(home, road, uri_of)
         home.children += [plugin.node.xml() for plugin in world.plugins]
+        add_state(home, world)
+    for actor in world.actors:
+        writer.add_actor(home, actor)
     return root.document()
 
 
@@ -75,6 +81,16 @@ class _Writer:
             name = f"{joint.name}_joint" if joint.name in taken else joint.name
             self.add_joint(tag, joint, name, model, "__model__")
         tag.children += [plugin.node.xml() for plugin in model.plugins]
+
+    def add_actor(self, home: Tag, actor: Actor) -> None:
+        """Append <actor>."""
+        tag = add_actor(home, actor, self.uri_of)
+        as_model = Model(name=actor.name, at=actor.at, links=actor.links)
+        for link in actor.links:
+            self._add_link(tag, link)
+        for joint in actor.joints:
+            self.add_joint(tag, joint, joint.name, as_model, "__model__")
+        tag.children += [plugin.node.xml() for plugin in actor.plugins]
 
     def _add_link(self, home: Tag, link: Link) -> None:
         tag = home.add("link", name=link.name)

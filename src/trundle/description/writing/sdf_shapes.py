@@ -30,7 +30,7 @@ def add_visual(link: Tag, visual: Visual, uri_of: UriOf) -> None:
     tag.add_pose(visual.link_from_visual)
     add_geometry(tag, visual.geometry, uri_of)
     if visual.material != GREY:
-        _add_material(tag, visual.material, uri_of)
+        add_material(tag, visual.material, uri_of)
     tag.add_unless("transparency", visual.transparency, default=0.0)
     tag.add_unless("cast_shadows", visual.cast_shadows, default=True)
     tag.add_unless("laser_retro", visual.laser_retro, default=0.0)
@@ -80,6 +80,15 @@ def add_geometry(home: Tag, geometry: Geometry, uri_of: UriOf) -> None:
             shape.add("uri", uri_of(geometry.path, geometry.uri))
             shape.add("size", geometry.size)
             shape.add("pos", geometry.position)
+            for layer in geometry.layers:
+                texture = shape.add("texture")
+                texture.add("size", layer.size)
+                texture.add("diffuse", uri_of(layer.diffuse, ""))
+                texture.add("normal", uri_of(layer.normal, ""))
+            for layer in geometry.layers[1:]:
+                blend = shape.add("blend")
+                blend.add("min_height", layer.from_height)
+                blend.add("fade_dist", layer.fade)
             shape.add("sampling", geometry.sampling)
         case MeshFile():
             shape = tag.add("mesh")
@@ -93,8 +102,9 @@ def add_geometry(home: Tag, geometry: Geometry, uri_of: UriOf) -> None:
             tag.add("empty")
 
 
-def _add_material(visual: Tag, material: Material, uri_of: UriOf) -> None:
-    tag = visual.add("material")
+def add_material(home: Tag, material: Material, uri_of: UriOf) -> None:
+    """Append <material>."""
+    tag = home.add("material")
     for name in ("ambient", "diffuse", "specular", "emissive"):
         tag.add(name, getattr(material, name))
     if material.texture is not None:

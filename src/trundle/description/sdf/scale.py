@@ -1,0 +1,72 @@
+"""Stretches what is on the links of a model, as a saved <scale> asks."""
+
+import math
+from dataclasses import replace
+
+from trundle.diagnostics import Diagnostics, Source
+from trundle.model import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Empty,
+    Geometry,
+    Heightmap,
+    Link,
+    MeshFile,
+    Model,
+    Plane,
+    Polyline,
+    Sphere,
+)
+from trundle.spatial import Vector3
+
+
+def scaled_model(model: Model, scale: Vector3, at: Source, report: Diagnostics) -> Model:
+    """Every visual and collision of the model's own links in another size, each about its own middle, as in Gazebo."""
+    if not all(math.isfinite(s) and s > 0.0 for s in scale):
+        report.warn(at, f"<scale> of model {model.name!r} wants three numbers > 0; the size is as written")
+        return model
+    report.info(at, f"<scale> of model {model.name!r}: its shapes are stretched, masses and inertias are as written")
+    return replace(model, links=tuple(_scaled_link(link, scale) for link in model.links))
+
+
+def _scaled_link(link: Link, scale: Vector3) -> Link:
+    return replace(
+        link,
+        visuals=tuple(replace(each, geometry=scaled(each.geometry, scale)) for each in link.visuals),
+        collisions=tuple(replace(each, geometry=scaled(each.geometry, scale)) for each in link.collisions),
+    )
+
+
+def scaled(geometry: Geometry, scale: Vector3) -> Geometry:
+    """A shape in another size; what is round stays round, by the larger scale."""
+    x, y, z = scale
+    match geometry:
+        case Box(size):
+            return Box(_by(size, scale))
+        case Sphere(radius):
+            return Sphere(radius * max(scale))
+        case Ellipsoid(radii):
+            return Ellipsoid(_by(radii, scale))
+        case Cylinder(radius, length):
+            return Cylinder(radius * max(x, y), length * z)
+        case Capsule(radius, length):
+            return Capsule(radius * max(x, y), length * z)
+        case Cone(radius, length):
+            return Cone(radius * max(x, y), length * z)
+        case Plane(normal, (width, height)):
+            return Plane(normal, (width * x, height * y))
+        case Polyline(outlines, height):
+            return Polyline(tuple(tuple((u * x, v * y) for u, v in outline) for outline in outlines), height * z)
+        case MeshFile():
+            return replace(geometry, scale=_by(geometry.scale, scale))
+        case Heightmap():
+            return replace(geometry, size=_by(geometry.size, scale))
+        case Empty():
+            return geometry
+
+
+def _by(a: Vector3, b: Vector3) -> Vector3:
+    return a[0] * b[0], a[1] * b[1], a[2] * b[2]

@@ -1,0 +1,80 @@
+"""People and things that walk through a world by a script; nothing pushes them."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from trundle.diagnostics import Source
+from trundle.spatial import Pose
+
+from .joint import Joint
+from .link import Link
+from .plugin import PluginTag
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Skin:
+    """A mesh with bones in it."""
+
+    path: Path | None
+    """None: nowhere, which was said."""
+    uri: str
+    scale: float = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Animation:
+    """How the bones move, over and over."""
+
+    name: str
+    path: Path | None
+    """.dae or .bvh; None: nowhere, which was said."""
+    uri: str
+    scale: float = 1.0
+    interpolate_x: bool = False
+    """Whether it goes on with the way that is covered, not with time."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Waypoint:
+    """Where an actor is at a time of its trajectory."""
+
+    time_s: float
+    """From the trajectory's start."""
+    pose: Pose
+    """Of the actor's frame in its first place."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Trajectory:
+    """A smooth way through waypoints."""
+
+    id: int
+    type: str
+    """The name of the animation that plays meanwhile."""
+    tension: float = 0.0
+    """0: a Catmull-Rom spline; 1: straight lines."""
+    waypoints: tuple[Waypoint, ...] = ()
+    """By time."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Actor:
+    """Something that moves as its script or its plugins say."""
+
+    name: str
+    at: Source
+    world_from_actor: Pose = Pose()
+    skin: Skin | None = None
+    """None: what is seen is on its links."""
+    animations: tuple[Animation, ...] = ()
+    loop: bool = True
+    """Begin again when all trajectories are done."""
+    delay_start_s: float = 0.0
+    """Wait before each round."""
+    auto_start: bool = True
+    """Move as soon as the world does."""
+    trajectories: tuple[Trajectory, ...] = ()
+    """By their numbers."""
+    links: tuple[Link, ...] = ()
+    joints: tuple[Joint, ...] = ()
+    plugins: tuple[PluginTag, ...] = ()
