@@ -10,8 +10,8 @@ import pytest
 from PIL import Image
 
 import trundle
+from trundle.meshes import triangles_of
 from trundle.physics.pieces import MOST_PIECES, convex_pieces
-from trundle.physics.polygons import triangles_of
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist
 

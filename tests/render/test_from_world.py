@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 import trimesh
+from PIL import Image
 
 from trundle import render
 from trundle.diagnostics import Diagnostics, Source
@@ -12,12 +13,15 @@ from trundle.meshes import Mesh
 from trundle.model import (
     Box,
     Collision,
+    Cone,
     Geometry,
+    Heightmap,
     Light,
     Link,
     Material,
     MeshFile,
     Model,
+    Polyline,
     SceneSettings,
     Sphere,
     Visual,
@@ -175,3 +179,24 @@ def test_a_mesh_that_cannot_be_read_is_left_out_aloud(tmp_path: Path) -> None:
 def test_the_focal_length_is_that_of_gazebo_ros() -> None:
     # camera_info of a 320 px wide camera of 1.047 rad in Gazebo: K[0] = 277.19.
     assert Intrinsics(width_px=320, height_px=240, horizontal_fov_rad=1.047).focal_px == pytest.approx(277.19, abs=0.01)
+
+
+def test_cones_polylines_and_terrain_are_drawn(tmp_path: Path) -> None:
+    Image.new("L", (5, 5), 255).save(tmp_path / "flat.png")
+    terrain = Heightmap(path=tmp_path / "flat.png", uri="flat.png", size=(4.0, 4.0, 0.5), position=(0.0, 0.0, 1.0))
+    square = Polyline((((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)),), 2.0)
+    forms = (visual("cone", Cone(0.5, 1.0)), visual("tower", square), visual("hill", terrain))
+    tops = {}
+    for shape in drawn(*forms).shapes:
+        assert isinstance(shape.geometry, Mesh)
+        tops[shape.name] = shape.geometry.vertices[:, 2].max()
+    assert tops == pytest.approx({"cone": 0.5, "tower": 2.0, "hill": 1.5})
+
+
+def test_terrain_without_its_image_is_left_out_aloud(tmp_path: Path) -> None:
+    report = Diagnostics()
+    lost = Heightmap(path=tmp_path / "lost.png", uri="file://lost.png")
+    assert scene_of(world(visual("hill", lost)), report).shapes == ()
+    (said,) = report.warnings
+    assert said.startswith("w.sdf:3: warning: heightmap 'file://lost.png': ")
+    assert said.endswith("; it is not drawn")

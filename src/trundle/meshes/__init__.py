@@ -1,7 +1,21 @@
-"""Vertex arrays from .dae, .stl, .obj and .glb files."""
+"""Vertex arrays from .dae, .stl, .obj and .glb files, from images and from outlines."""
 
+from .heights import read_heights
 from .load import load_mesh
 from .mesh import Mesh, MeshPart, Texture
+from .polygons import triangles_of
 from .raw import MeshError
+from .solids import cone_mesh, prism_mesh, terrain_mesh
 
-__all__ = ["Mesh", "MeshError", "MeshPart", "Texture", "load_mesh"]
+__all__ = [
+    "Mesh",
+    "MeshError",
+    "MeshPart",
+    "Texture",
+    "cone_mesh",
+    "load_mesh",
+    "prism_mesh",
+    "read_heights",
+    "terrain_mesh",
+    "triangles_of",
+]

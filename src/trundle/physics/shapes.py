@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.meshes import Mesh, MeshError, load_mesh
+from trundle.meshes import Mesh, MeshError, load_mesh, triangles_of
 from trundle.model import (
     Box,
     Capsule,
@@ -27,7 +27,6 @@ from trundle.model import (
 from trundle.spatial import Pose, Vector3, upright
 
 from .pieces import convex_pieces
-from .polygons import triangles_of
 from .terrain import add_terrain
 
 _CONE_SIDES = 32

@@ -1,0 +1,51 @@
+"""Shapes that are made of triangles for want of a formula."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .mesh import Mesh
+from .polygons import Point, triangles_of
+
+_SIDES = 48
+
+
+def cone_mesh(radius: float, length: float) -> Mesh:
+    """A cone along z, its tip up, centred at half its height."""
+    turns = np.linspace(0.0, 2 * np.pi, _SIDES, endpoint=False)
+    rim = np.column_stack([radius * np.cos(turns), radius * np.sin(turns), np.full(_SIDES, -length / 2)])
+    vertices = np.vstack([rim, [[0.0, 0.0, length / 2], [0.0, 0.0, -length / 2]]])
+    here = np.arange(_SIDES)
+    after = np.roll(here, -1)
+    tip, middle = np.full(_SIDES, _SIDES), np.full(_SIDES, _SIDES + 1)
+    faces = np.vstack([np.column_stack([here, after, tip]), np.column_stack([after, here, middle])])
+    return Mesh(vertices.astype(np.float32), faces.astype(np.int32))
+
+
+def prism_mesh(outlines: Sequence[Sequence[Point]], height: float) -> Mesh:
+    """Outlines in the x-y plane drawn up to a height [m]; no faces where nothing is inside."""
+    corners: list[tuple[float, float, float]] = []
+    plan = triangles_of(outlines)
+    for a, b, c in plan:
+        corners += [(*a, height), (*b, height), (*c, height), (*c, 0.0), (*b, 0.0), (*a, 0.0)]
+    # Walls are where an edge belongs to one triangle only: its other side has none that runs the other way.
+    edges = {(p, q) for a, b, c in plan for p, q in ((a, b), (b, c), (c, a))}
+    for p, q in sorted(edges):
+        if (q, p) not in edges:
+            corners += [(*p, 0.0), (*q, 0.0), (*q, height), (*p, 0.0), (*q, height), (*p, height)]
+    vertices = np.array(corners, dtype=np.float32).reshape(-1, 3)
+    return Mesh(vertices, np.arange(len(vertices), dtype=np.int32).reshape(-1, 3))
+
+
+def terrain_mesh(heights: NDArray[np.float32], size: tuple[float, float, float]) -> Mesh:
+    """Heights (rows, columns) from 0 to 1, the upper edge, +y, first; `size` [m] about the middle, z from 0 up."""
+    rows, columns = heights.shape
+    x = np.linspace(-size[0] / 2, size[0] / 2, columns, dtype=np.float32)
+    y = np.linspace(size[1] / 2, -size[1] / 2, rows, dtype=np.float32)
+    vertices = np.stack([*np.meshgrid(x, y), heights * np.float32(size[2])], axis=-1).reshape(-1, 3)
+    corner = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
+    nw, ne, sw, se = corner[:-1, :-1], corner[:-1, 1:], corner[1:, :-1], corner[1:, 1:]
+    faces = np.stack([np.stack([sw, se, ne], axis=-1), np.stack([sw, ne, nw], axis=-1)], axis=2).reshape(-1, 3)
+    places = np.stack(np.meshgrid(np.linspace(0, 1, columns), np.linspace(1, 0, rows)), axis=-1).reshape(-1, 2)
+    return Mesh(vertices, faces, uv=places.astype(np.float32)[faces])
