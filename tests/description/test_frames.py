@@ -123,6 +123,89 @@ def test_a_merged_include_dissolves_in_its_model(tmp_path: Path) -> None:
     assert axis.direction == pytest.approx((0, 1, 0), abs=1e-12)
 
 
+STAND = """<sdf version="1.10"><model name="stand"><frame name="top"><pose>0 0 2 0 0 0</pose></frame>
+<model name="left"><pose>1 0 0 0 0 0</pose><link name="l"/></model><model name="right"><link name="l"/></model>
+<joint name="bar" type="revolute"><parent>right::l</parent><child>left::l</child><axis><xyz>1 0 0</xyz></axis></joint>
+{}<plugin name="p" filename="libp.so"/></model></sdf>"""
+
+
+def merged_world(tmp_path: Path, more: str = "", around: str = "") -> tuple[World, Diagnostics]:
+    (tmp_path / "stand.sdf").write_text(STAND.format(more))
+    include = f'<include merge="true"><uri>stand.sdf</uri><pose>0 5 0 0 0 {QUARTER}</pose></include>'
+    lamp = '<model name="lamp"><pose relative_to="top"/><link name="l"/></model>'
+    report = Diagnostics()
+    return read(tmp_path, f'<world name="w">{around}{include}{lamp}</world>', report, version="1.10"), report
+
+
+def test_a_model_dissolves_in_a_world(tmp_path: Path) -> None:
+    world, report = merged_world(tmp_path)
+
+    places = {model.name: model.world_from_model.position for model in world.models}
+    assert places == {
+        "lamp": pytest.approx((0, 5, 2)),
+        "left": pytest.approx((0, 6, 0)),
+        "right": pytest.approx((0, 5, 0)),
+    }
+    (bar,) = world.joints
+    assert (bar.parent, bar.child) == ("right::l", "left::l")
+    assert bar.axis is not None
+    assert bar.axis.direction == pytest.approx((0, 1, 0), abs=1e-12)
+    assert {frame.name: frame.attached_to for frame in world.frames} == {
+        "_merged__stand__model__": "left::l",
+        "top": "_merged__stand__model__",
+    }
+    assert [plugin.name for plugin in world.plugins] == ["p"]
+    assert report.findings == []
+
+
+@pytest.mark.parametrize(
+    ("more", "around", "why"),
+    [
+        ('<link name="own"/>', "", "links of its own, which a world has not"),
+        ("", '<model name="left"><link name="l"/></model>', "a model 'left', as the world"),
+    ],
+)
+def test_what_cannot_dissolve_in_a_world_stays_a_model(tmp_path: Path, more: str, around: str, why: str) -> None:
+    world, report = merged_world(tmp_path, more, around)
+
+    assert "stand" in [model.name for model in world.models]
+    assert any(f"model 'stand' has {why}; it is not merged, but stays one" in warning for warning in report.warnings)
+
+
+ROBOT = """<?xml version="1.0"?>
+<robot name="cart"><link name="base"><inertial><mass value="2"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="arm"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="hinge" type="continuous"><origin xyz="0 0 3"/><parent link="base"/><child link="arm"/></joint>
+<link name="bad"><visual/></link><joint name="glue" type="fixed"><parent link="arm"/><child link="bad"/></joint></robot>
+"""
+
+
+def test_a_urdf_can_be_included(tmp_path: Path) -> None:
+    (tmp_path / "cart.urdf").write_text(ROBOT)
+    include = "<include><uri>cart.urdf</uri><name>{}</name><pose>1 0 0 0 0 0</pose></include>"
+    tip = '<model name="tip"><pose relative_to="one::hinge"/><link name="l"/></model>'
+    report = Diagnostics()
+
+    world = read(tmp_path, f'<world name="w">{include.format("one")}{include.format("two")}{tip}</world>', report)
+
+    one, two, tip_model = world.models
+    assert (one.name, two.name) == ("one", "two")
+    assert [link.name for link in one.links] == ["base", "arm"]
+    assert tip_model.world_from_model.position == pytest.approx((1, 0, 3))
+    assert any("cart.urdf:6: warning: <visual> without a shape" in warning for warning in report.warnings)
+
+
+def test_a_xacro_file_cannot_be_included(tmp_path: Path) -> None:
+    (tmp_path / "cart.urdf").write_text(ROBOT.replace("<robot", "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'"))
+    report = Diagnostics()
+
+    world = read(tmp_path, '<world name="w"><include><uri>cart.urdf</uri></include></world>', report)
+
+    assert world.models == ()
+    assert "a xacro file cannot be included; `trundle xacro` expands it" in report.warnings[0]
+
+
 def test_models_and_frames_of_a_world_are_placed_by_one_another(tmp_path: Path) -> None:
     body = (
         '<world name="w"><frame name="dock"><pose>5 0 0 0 0 0</pose></frame>'

@@ -4,6 +4,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.model import Model
 from trundle.packages import Packages, model_file, refuse_template
 from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
@@ -76,8 +77,22 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics,
     if version < (1, 2):
         report.info(root.at, f"SDF {version}: values written as attributes are read as the elements of SDF 1.2")
         rewrite_old_style(root)
+
+    def read_urdf(file: Path, robot: XmlNode) -> Model:
+        text = file.read_text(encoding="utf-8", errors="replace")
+        if "xmlns:xacro" in text:
+            raise DescriptionError(robot.at, "a xacro file cannot be included; `trundle xacro` expands it")
+        (model,) = load_urdf(text, str(file), file, packages, report).world.models
+        return model
+
     context = Context(
-        version=version, folder=path.parent, packages=packages, report=report, including=(path.resolve(),), seed=seed
+        version=version,
+        folder=path.parent,
+        packages=packages,
+        report=report,
+        including=(path.resolve(),),
+        read_urdf=read_urdf,
+        seed=seed,
     )
     world, has_world = read_root(root, context)
     return Loaded(kind="world" if has_world else "model", world=world)

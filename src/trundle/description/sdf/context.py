@@ -1,11 +1,12 @@
 """What every reader of one SDF file needs to know."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from trundle.diagnostics import Diagnostics, Source
+from trundle.model import Model
 from trundle.packages import Packages
 from trundle.spatial import Pose
 from trundle.xmlnode import XmlNode
@@ -24,6 +25,8 @@ class Context:
     report: Diagnostics
     including: tuple[Path, ...] = ()
     """The files above this one, outermost first: a model that includes itself is found out."""
+    read_urdf: Callable[[Path, XmlNode], Model] | None = None
+    """Reads a <robot> that an <include> leads to, in its file."""
     seed: int = 0
     """Of what is placed at random."""
     left_out: set[tuple[str, str, str]] = field(default_factory=set[tuple[str, str, str]])

@@ -6,10 +6,12 @@ from pathlib import Path
 from typing import TypeAlias
 
 from trundle.diagnostics import DescriptionError, UsageError
+from trundle.model import Model, model_from_joint
 from trundle.packages import model_file
 from trundle.xmlnode import XmlNode, read_xml
 
 from .context import Context, RawPose, read_pose
+from .frames import MODEL, FrameGraph
 from .part import Part
 from .sensor import read_plugin
 from .version import read_version
@@ -41,6 +43,13 @@ def read_included_model(
     node: XmlNode, root: XmlNode, inner: Context, context: Context, read_model: ReadModel
 ) -> Part | None:
     """The model of an opened <include>; None where there is no model in it."""
+    if root.tag == "robot" and inner.read_urdf is not None:
+        try:
+            robot = inner.read_urdf(inner.including[-1], root)
+        except DescriptionError as error:
+            inner.report.warn(error.at, f"{error.what}; the <include> is left out")
+            return None
+        return _overridden(_robot(robot, inner), node, context)
     models = root.all("model")
     if not models:
         return None
@@ -70,6 +79,21 @@ def _root(file: Path, node: XmlNode, context: Context) -> tuple[XmlNode, Context
     if file.resolve() in context.including or len(context.including) > _DEEPEST_INCLUDE:
         raise DescriptionError(node.at, f"{file} includes itself")
     root = read_xml(file, report=context.report)
+    if root.tag == "robot":
+        return root, context.inside(file.resolve(), context.version)
     if root.tag != "sdf":
-        raise DescriptionError(root.at, f"<{root.tag}> is no SDF; only SDF files can be included")
+        raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")
     return root, context.inside(file.resolve(), read_version(root, context.report))
+
+
+def _robot(model: Model, context: Context) -> Part:
+    """A converted URDF, its links and frames known by their names."""
+    graph = FrameGraph(MODEL, context.report)
+    for link in model.links:
+        graph.add(link.name, RawPose(link.model_from_link), link.at)
+    for frame in model.frames:
+        graph.add(frame.name, RawPose(frame.model_from_frame), frame.at, attached_to=frame.attached_to)
+    for joint in model.joints:
+        if joint.name not in graph:
+            graph.add(joint.name, RawPose(model_from_joint(model, joint)), joint.at, attached_to=joint.child)
+    return Part(model=model, scope=graph.scope(model.canonical_link), raw=RawPose())

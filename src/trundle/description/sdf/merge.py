@@ -1,4 +1,4 @@
-"""Dissolves an included model in the one around it: <include merge="true">."""
+"""Dissolves an included model in the model or world around it: <include merge="true">."""
 
 from dataclasses import dataclass, replace
 
@@ -6,13 +6,13 @@ from trundle.model import Frame, Joint, JointAxis, Link, Model
 from trundle.spatial import Pose
 
 from .context import RawPose
-from .frames import FrameGraph
+from .frames import MODEL, FrameGraph
 from .part import Part
 
 
 @dataclass(frozen=True, slots=True)
 class Merged:
-    """A model whose parts have become known as the outer model's."""
+    """A model whose parts have become known as the outer model's, or the world's."""
 
     part: Part
     frame: str
@@ -43,7 +43,7 @@ def merged(part: Part, graph: FrameGraph) -> Merged:
     frame = f"_merged__{part.model.name}__model__"
     graph.add(frame, part.placed(graph), part.model.at, attached_to=part.model.canonical_link or graph.root)
     for each, pose in part.scope.poses.items():
-        if "::" not in each and each not in graph:  # the model's own frame is in every graph
+        if "::" not in each and each not in graph and each != MODEL:
             attached = part.scope.links.get(each, frame)
             graph.add(each, RawPose(pose, frame), part.model.at, attached_to=attached)
     for model in part.model.models:
@@ -56,7 +56,7 @@ def _moved(link: Link, graph: FrameGraph) -> Link:
 
 
 def _moved_frame(frame: Frame, model_frame: str, graph: FrameGraph) -> Frame:
-    attached_to = model_frame if frame.attached_to == graph.root else frame.attached_to
+    attached_to = model_frame if frame.attached_to == MODEL else frame.attached_to
     return replace(frame, model_from_frame=graph.pose(frame.name), attached_to=attached_to)
 
 

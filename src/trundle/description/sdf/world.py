@@ -12,6 +12,7 @@ from .environment import read_atmosphere, read_physics, read_scene, read_spheric
 from .frames import WORLD, FrameGraph
 from .include import open_include, read_included_model
 from .light import read_light
+from .merge import Merged, merged
 from .model import WrittenJoint, read_frames, read_model
 from .part import Part
 from .population import read_population
@@ -57,17 +58,27 @@ def read_world(node: XmlNode, context: Context) -> World:
     for joint in joints:
         joint.add_to(contents.graph)
     wind = node.find("wind")
-    models, lights = apply_state(node, name, contents.models(), contents.lights, context)
+    whole = Model(
+        name=name,
+        at=node.at,
+        models=contents.models(),
+        joints=tuple(joint.read(contents.graph, context) for joint in joints),
+        frames=tuple(replace(frame, model_from_frame=contents.graph.pose(frame.name)) for frame in frames),
+        plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
+    )
+    for each in contents.dissolved:
+        whole = each.into(whole, contents.graph)
+    models, lights = apply_state(node, name, whole.models, contents.lights, context)
     world = World(
         name=name,
         at=node.at,
         models=models,
-        joints=tuple(joint.read(contents.graph, context) for joint in joints),
-        frames=tuple(replace(frame, model_from_frame=contents.graph.pose(frame.name)) for frame in frames),
+        joints=whole.joints,
+        frames=whole.frames,
         lights=lights,
         roads=tuple(road for child in node.all("road") if (road := read_road(child, context)) is not None),
         actors=tuple(read_actor(child, context) for child in node.all("actor")),
-        plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
+        plugins=whole.plugins,
         physics=read_physics(node, context),
         scene=read_scene(node, context),
         spherical_coordinates=read_spherical_coordinates(node, context),
@@ -87,6 +98,8 @@ class _Contents:
         self.graph = FrameGraph(WORLD, context.report)
         self.parts: list[Part] = []
         self.lights: list[Light] = []
+        self.dissolved: list[Merged] = []
+        """Models that are none of the world's: what is in them is."""
         self._context = context
         for child in node.children:
             self.add(child)
@@ -120,9 +133,10 @@ class _Contents:
         root, inner = opened
         part = read_included_model(node, root, inner, self._context, read_model)
         if part is not None:
-            if part.merge:
-                self._context.report.warn(node.at, "merging a model into a world is not supported; it stays a model")
-            self._add(part)
+            if part.merge and self._can_dissolve(part, node):
+                self.dissolved.append(merged(part, self.graph))
+            else:
+                self._add(part)
             return
         name = node.string("name")
         for light in (read_light(child, WORLD, self.graph, inner) for child in root.all("light")):
@@ -135,6 +149,18 @@ class _Contents:
                     world_from_light=pose if has_pose else light.world_from_light,
                 )
             )
+
+    def _can_dissolve(self, part: Part, node: XmlNode) -> bool:
+        """Links are in models only, and a name stands for one thing."""
+        taken = [inner.name for inner in part.model.models if inner.name in self.graph]
+        why = ""
+        if part.model.links:
+            why = "links of its own, which a world has not"
+        elif taken:
+            why = f"a model {taken[0]!r}, as the world"
+        if why:
+            self._context.report.warn(node.at, f"model {part.model.name!r} has {why}; it is not merged, but stays one")
+        return not why
 
     def _add(self, part: Part) -> None:
         """Two models of one name are told apart by a number, as in Gazebo."""
