@@ -2,6 +2,7 @@
 
 from .compile import compile_mjcf, compile_world
 from .engine import Engine, EngineState, SimulationUnstableError
+from .grip import ContactPoint, Grip, GripLaw
 from .index import CompiledWorld
 from .instant import Instant
 from .postmortem import Runaway
@@ -10,8 +11,11 @@ from .touching import Contact
 __all__ = [
     "CompiledWorld",
     "Contact",
+    "ContactPoint",
     "Engine",
     "EngineState",
+    "Grip",
+    "GripLaw",
     "Instant",
     "Runaway",
     "SimulationUnstableError",

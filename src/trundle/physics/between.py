@@ -1,6 +1,7 @@
 """What a world needs in every step between finding contacts and solving them, and MuJoCo does not have.
 
-Bounces, friction with a direction of its own, and velocities that decay: a world without them steps in C alone.
+Bounces, friction with a direction of its own, moving and slipping surfaces, and velocities that decay: a world without
+them steps in C alone.
 """
 
 from collections.abc import Mapping
@@ -12,6 +13,7 @@ from trundle.model import Link
 from trundle.spatial import ZERO
 
 from .bounce import Bounce
+from .grip import Grips
 from .index import CompiledWorld, GeomPair
 from .surfaces import Touch
 
@@ -27,23 +29,30 @@ class Between:
         self._data = data
         self._bounce = Bounce(compiled.model, data, compiled.touches)
         self._grain = _Grain(data, compiled.touches)
+        self.grips = Grips(compiled.model, data)
         self._decay = _Decay(compiled, data)
 
     def __bool__(self) -> bool:
         """Whether there is anything to do at all."""
-        return bool(self._bounce or self._grain or self._decay)
+        return bool(self._bounce or self._grain or self.grips or self._decay)
 
     def step(self) -> None:
         """Take one time step."""
         model, data = self._model, self._data
+        if self.grips:
+            self.grips.weigh()
         mujoco.mj_step1(model, data)
         turned = bool(self._grain) and self._grain.turn()
+        if self.grips and self.grips.turn():
+            turned = True
         if turned:
             mujoco.mj_makeConstraint(model, data)
             mujoco.mj_island(model, data)
             mujoco.mj_projectConstraint(model, data)
         if (self._bounce and self._bounce()) or turned:
             mujoco.mj_fwdVelocity(model, data)
+        if self.grips:
+            self.grips.drag()
         if self._decay:
             self._decay.slow()
         mujoco.mj_step2(model, data)

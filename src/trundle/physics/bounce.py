@@ -12,6 +12,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from .approach import Approach
 from .index import GeomPair
 from .surfaces import Touch
 
@@ -27,7 +28,7 @@ class Bounce:
         self._model = model
         self._data = data
         self._touches = {pair: touch for pair, touch in touches.items() if touch.restitution > 0 and touch.is_felt}
-        self._jacobian = np.zeros((2, 3, model.nv))
+        self._approach = Approach(model, data)
 
     def __bool__(self) -> bool:
         """Whether anything bounces at all."""
@@ -46,7 +47,7 @@ class Bounce:
             touch = self._touches.get((min(g1, g2), max(g1, g2)))
             if touch is None or contact.dist > 0:
                 continue
-            jacobian = self._of(contact, g1, g2)
+            jacobian = self._approach.of(contact)
             speed = float(jacobian[0] @ data.qvel)
             target = self._target(touch, -speed, depth=-float(contact.dist), pull=self._pull(contact, g1, g2))
             if target is not None:
@@ -58,13 +59,6 @@ class Bounce:
             return False
         self._push(np.concatenate(rows), targets, frictions)
         return True
-
-    def _of(self, contact: mujoco.MjContact, g1: int, g2: int) -> NDArray[np.float64]:
-        """(3, nv) relative velocity along the normal, out of the first body, and two tangents."""
-        bodies = self._model.geom_bodyid
-        for jacobian, geom in zip(self._jacobian, (g1, g2), strict=True):
-            mujoco.mj_jac(self._model, self._data, jacobian, None, contact.pos, int(bodies[geom]))
-        return contact.frame.reshape(3, 3) @ (self._jacobian[1] - self._jacobian[0])
 
     def _pull(self, contact: mujoco.MjContact, g1: int, g2: int) -> float:
         """How gravity speeds the approach up [m/s²]; two bodies that both fall, not at all."""

@@ -4,6 +4,7 @@ Nothing here runs in Python at every step: `step(n)` is one call, and the state 
 """
 
 import copy
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import mujoco
@@ -14,6 +15,7 @@ from trundle.diagnostics import TrundleError, UsageError
 from trundle.spatial import Pose, Twist, Wrench
 
 from .between import Between
+from .grip import GripLaw
 from .index import CompiledWorld
 from .instant import Instant, Looker
 from .motors import Motors
@@ -142,6 +144,11 @@ class Engine:
         """What `set_wrench` holds."""
         fx, fy, fz, tx, ty, tz = self._data.xfrc_applied[self.compiled.link_bodies[link]].tolist()
         return Wrench((fx, fy, fz), (tx, ty, tz))
+
+    def set_grips(self, laws: Mapping[int, GripLaw]) -> None:
+        """Have contacts of these links, by index, follow laws from now on; all others are ordinary."""
+        self._between.grips.set_laws({int(self.compiled.link_bodies[link]): law for link, law in laws.items()})
+        self._rest.forbid()
 
     def set_axis_position(self, axis: int, position: float) -> None:
         """Put an axis to a position [rad or m], at rest."""

@@ -57,10 +57,18 @@ class Rest:
         still = np.count_nonzero(np.abs(data.qvel) < TOLERANCE)
         wanted = self._model.nv > 0 and 2 * still >= self._model.nv
         if wanted != self.is_on:
-            state = np.empty(mujoco.mj_stateSize(self._model, STATE))
-            mujoco.mj_getState(self._model, data, state, STATE)
-            self.allow(wanted)
-            self.put(state, data.qfrc_actuator.copy())
+            self._switch(wanted)
+
+    def forbid(self) -> None:
+        """Wake everybody: from now on every step is watched."""
+        if self.is_on:
+            self._switch(False)
+
+    def _switch(self, sleep: bool) -> None:
+        state = np.empty(mujoco.mj_stateSize(self._model, STATE))
+        mujoco.mj_getState(self._model, self._data, state, STATE)
+        self.allow(sleep)
+        self.put(state, self._data.qfrc_actuator.copy())
 
     def put(self, state: NDArray[np.float64], efforts: NDArray[np.float64]) -> None:
         """Set the engine's state, everybody awake: who sleeps is forgotten by a reset alone."""

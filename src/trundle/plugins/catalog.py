@@ -29,7 +29,10 @@ BUILTIN: dict[str, str] = {
     "libKeysToJointsPlugin.so": "trundle.plugins.keys_to_joints:KeysToJoints",
     "libLiftDragPlugin.so": "trundle.plugins.lift_drag:LiftDrag",
     "libRandomVelocityPlugin.so": "trundle.plugins.random_velocity:RandomVelocity",
+    "libSimpleTrackedVehiclePlugin.so": "trundle.plugins.simple_tracked_vehicle:SimpleTrackedVehicle",
     "libSkidSteerDrivePlugin.so": "trundle.plugins.skid_steer_drive:SkidSteerDrive",
+    "libWheelSlipPlugin.so": "trundle.plugins.wheel_slip:WheelSlip",
+    "libWheelTrackedVehiclePlugin.so": "trundle.plugins.wheel_tracked_vehicle:WheelTrackedVehicle",
     "libWindPlugin.so": "trundle.plugins.wind:Wind",
 }
 """File name → "module:Class", imported only when a model asks."""

@@ -30,7 +30,7 @@ class DiffDrive(Plugin):
             model_from_joint(model.model, self._left.joint), model_from_joint(model.model, self._right.joint)
         )
         self._radius = max(bounding_box(model.link(self._left.joint.child).link)) / 2 or 1.0
-        self._command = VelocityCommand(model, node)
+        self._command = VelocityCommand.of(model, node)
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:

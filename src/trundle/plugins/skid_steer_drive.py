@@ -29,7 +29,7 @@ class SkidSteerDrive(Plugin):
         right, left = (model_from_joint(model.model, wheels[0].joint).position for wheels in (self._right, self._left))
         self._separation = sum((a - b) ** 2 for a, b in zip(right, left, strict=True)) ** 0.5
         self._radius = max(bounding_box(model.link(self._right[0].joint.child).link)) / 2 or 1.0
-        self._command = VelocityCommand(model, node)
+        self._command = VelocityCommand.of(model, node)
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:

@@ -5,6 +5,7 @@
 """
 
 import math
+from typing import Self
 
 from trundle.names import ros_name
 from trundle.ros import Message, Node
@@ -15,13 +16,18 @@ from trundle.spatial import rpy_from_quaternion
 class VelocityCommand:
     """The last speeds asked for; they hold until the next."""
 
-    def __init__(self, model: ModelHandle, node: Node | None) -> None:
+    def __init__(self, topic: str, node: Node | None) -> None:
         self.speed = 0.0
         """[m/s]"""
         self.turning = 0.0
         """[rad/s]"""
         if node is not None:
-            node.subscribe(f"/{ros_name(model.name)}/vel_cmd", "geometry_msgs/Pose", self._take)
+            node.subscribe(topic, "geometry_msgs/Pose", self._take)
+
+    @classmethod
+    def of(cls, model: ModelHandle, node: Node | None) -> Self:
+        """Listen to `/<model>/vel_cmd`."""
+        return cls(f"/{ros_name(model.name)}/vel_cmd", node)
 
     def stop(self) -> None:
         """Ask for nothing."""

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from trundle.diagnostics import UsageError
 from trundle.model import Link, Model, World
+from trundle.physics import GripLaw
 from trundle.spatial import Pose, Twist, Vector3, Wrench, cross
 
 from .joint_handle import JointHandle
@@ -98,6 +99,14 @@ class LinkHandle:
             turning = cross(arm, wrench.force)
             wrench = wrench + Wrench(torque=turning)
         self._simulation.add_wrench(self.index, wrench)
+
+    def set_grip(self, law: GripLaw | None) -> None:
+        """Have a law say, at every step and for every contact, how the link's surface moves and slips there.
+
+        Args:
+            law: asked with where the link touches; None: contacts are ordinary ones again.
+        """
+        self._simulation.set_grip(self.index, law)
 
 
 _Named = TypeVar("_Named", LinkHandle, JointHandle)

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Model, World
-from trundle.physics import Contact, Engine, EngineState, compile_world
+from trundle.physics import Contact, Engine, EngineState, GripLaw, compile_world
 from trundle.spatial import Pose, Wrench
 
 from .handles import ModelHandle, handles_of
@@ -64,6 +64,7 @@ class Simulation:
         """Link → the step after which its wrench ends."""
         self._added_to: dict[int, Wrench] = {}
         """Link → its lasting wrench, below what was added for the coming step."""
+        self._grips: dict[int, GripLaw] = {}
 
     @property
     def _first_world_joint(self) -> int:
@@ -251,6 +252,9 @@ class Simulation:
         names = old.compiled.link_names
         self._wrench_ends = {links[names[link]]: end for link, end in self._wrench_ends.items() if names[link] in links}
         self._added_to = {links[names[link]]: w for link, w in self._added_to.items() if names[link] in links}
+        self._grips = {links[names[link]]: law for link, law in self._grips.items() if names[link] in links}
+        if self._grips:
+            engine.set_grips(self._grips)
         known = {handle.name: handle for handle in self.models}
         self.models[:] = handles_of(self, self.world, known)
         for i, joint in enumerate(self.joints, self._first_world_joint):
@@ -281,6 +285,14 @@ class Simulation:
         now = self.engine.wrench(link)
         self._added_to.setdefault(link, now)
         self.engine.set_wrench(link, now + wrench)
+
+    def set_grip(self, link: int, law: GripLaw | None) -> None:
+        """Have the contacts of a link, by its index, follow a law; see `LinkHandle.set_grip`."""
+        if law is None:
+            self._grips.pop(link, None)
+        else:
+            self._grips[link] = law
+        self.engine.set_grips(self._grips)
 
     def _end_wrenches(self) -> None:
         for link, lasting in self._added_to.items():

@@ -1,0 +1,81 @@
+"""libSimpleTrackedVehiclePlugin.so: tracks as surfaces that run."""
+
+import math
+from typing import Self
+
+from trundle.model import PluginTag
+from trundle.physics import ContactPoint, Grip
+from trundle.ros import Node
+from trundle.simulation import LinkHandle, ModelHandle, Simulation
+from trundle.spatial import Pose, Vector3, cross, normalized
+
+from .plugin import Plugin
+from .tracked_vehicle import Tracks
+
+_SLOWEST = 0.1
+"""[m/s, rad/s] Gazebo takes what is slower for straight on, or for a turn on the spot."""
+
+
+class SimpleTrackedVehicle(Plugin):
+    """Drives a robot whose tracks are links of any convex shape, without wheels.
+
+    Parameters: <body>, <left_track>, <right_track> (required), any number of <left_flipper> and <right_flipper>: links;
+    and those of `Tracks`. At each contact the surface runs along the body's x, and holds best (mu) across the way to
+    the point the robot turns about, and worse (mu2) along it, as in Gazebo.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
+        self._tracks = Tracks(sim, model, node, tag)
+        parameters = tag.node
+        self._body = model.link(parameters.string("body"))
+        sides = (("left_track", "left_flipper"), ("right_track", "right_flipper"))
+        links = [
+            [model.link(parameters.string(track)), *(model.link(each.text) for each in parameters.all(flipper))]
+            for track, flipper in sides
+        ]
+        parameters.find("collide_without_contact_bitmask")
+        parameters.report_unread(sim.report)
+        self._tracks.grease(sim, [*links[0], *links[1]])
+        self._speeds = (0.0, 0.0)
+        self._pose = Pose()
+        for side, belts in enumerate(links):
+            for link in belts:
+                self._cover(link, side)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        return cls(sim, model, node, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Have the tracks run as fast as they are told to."""
+        del sim
+        self._speeds, self._pose = self._tracks.speeds, self._body.pose
+
+    def reset(self) -> None:
+        """Stand still."""
+        self._tracks.command.stop()
+
+    def _cover(self, link: LinkHandle, side: int) -> None:
+        link.set_grip(lambda point: self._grip(point, self._speeds[side]))
+
+    def _grip(self, point: ContactPoint, speed: float) -> Grip | None:
+        left = self._pose.direction((0.0, 1.0, 0.0))
+        backwards = cross(point.normal, left)
+        along = self._direction(point, left) or normalized(backwards)
+        if along is None:
+            return None
+        return Grip(along=along, speed=speed * sum(a * b for a, b in zip(along, backwards, strict=True)))
+
+    def _direction(self, point: ContactPoint, left: Vector3) -> Vector3 | None:
+        """Across the way from the point that the robot turns about; None: straight on."""
+        one, other = self._speeds
+        turning = (one - other) * self._tracks.efficiency / self._tracks.separation
+        forwards = (one + other) / 2
+        if abs(turning) < _SLOWEST:
+            return None
+        away = 0.0 if abs(forwards) < _SLOWEST else -forwards / turning
+        centre = [p + away * y for p, y in zip(self._pose.position, left, strict=True)]
+        x, y, z = (p - c for p, c in zip(point.position, centre, strict=True))
+        assert math.isfinite(away)
+        return normalized(cross(point.normal, (x, y, z)))

@@ -1,0 +1,87 @@
+"""What vehicles on tracks have in common: a command, two track speeds, and the friction of the tracks."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from trundle.model import Link, PluginTag
+from trundle.names import ros_name
+from trundle.ros import Node
+from trundle.simulation import LinkHandle, ModelHandle, Simulation
+
+from .velocity_command import VelocityCommand
+
+
+class Tracks:
+    """Turns `/<robot_namespace>/cmd_vel` into the speeds of a left and a right track.
+
+    Parameters: <robot_namespace> (the model's name), <steering_efficiency> (0.5: how much of what a turn takes without
+    slip a turn takes), <tracks_separation> [m] (0.4), <max_linear_speed> [m/s] (1), <max_angular_speed> [rad/s] (1),
+    <track_mu>, <track_mu2>. As in Gazebo a positive yaw speeds the left track up, which turns to the right. The speeds
+    are told on `/<robot_namespace>/tracks_speed` (geometry_msgs/Vector3, x left, y right).
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+
+        def positive(name: str, default: float) -> float:
+            value = parameters.number(name, default=default, report=report)
+            if value > 0.0:
+                return value
+            report.warn(tag.at, f"plugin {tag.name!r}: <{name}> must be above 0, got {value:g}; {default:g} is used")
+            return default
+
+        self.efficiency = positive("steering_efficiency", 0.5)
+        self.separation = positive("tracks_separation", 0.4)
+        self._fastest = positive("max_linear_speed", 1.0)
+        self._fastest_turn = abs(parameters.number("max_angular_speed", default=1.0, report=report))
+        namespace = ros_name(parameters.string("robot_namespace") or model.name).strip("/")
+        self._mu = _friction(tag, "track_mu", sim), _friction(tag, "track_mu2", sim)
+        self.command = VelocityCommand(f"/{namespace}/cmd_vel", node)
+        self._told = (0.0, 0.0)
+        self._topic = None
+        if node is not None:
+            self._topic = node.advertise(f"/{namespace}/tracks_speed", "geometry_msgs/Vector3", queue_size=10)
+
+    @property
+    def speeds(self) -> tuple[float, float]:
+        """Of the left and the right track [m/s], positive forwards."""
+        speed = _clamped(self.command.speed, self._fastest)
+        half = _clamped(self.command.turning, self._fastest_turn) * self.separation / 2 / self.efficiency
+        left, right = _clamped(speed + half, self._fastest), _clamped(speed - half, self._fastest)
+        if self._topic is not None and self._told != (left, right):
+            self._told = (left, right)
+            self._topic.publish({"x": left, "y": right})
+        return left, right
+
+    def grease(self, sim: Simulation, links: Iterable[LinkHandle]) -> None:
+        """Give these links' surfaces the friction that the plugin's tag states."""
+        mu, mu2 = self._mu
+        if mu is None and mu2 is None:
+            return
+
+        def greased(link: Link) -> Link:
+            surfaces = [
+                replace(
+                    each.surface,
+                    mu=each.surface.mu if mu is None else mu,
+                    mu2=each.surface.mu2 if mu2 is None else mu2,
+                )
+                for each in link.collisions
+            ]
+            collisions = zip(link.collisions, surfaces, strict=True)
+            return replace(link, collisions=tuple(replace(each, surface=surface) for each, surface in collisions))
+
+        wanted = {id(link.link) for link in links}
+        models = [
+            replace(model, links=tuple(greased(link) if id(link) in wanted else link for link in model.links))
+            for model in sim.world.models
+        ]
+        sim.edit(replace(sim.world, models=tuple(models)))
+
+
+def _friction(tag: PluginTag, name: str, sim: Simulation) -> float | None:
+    return None if tag.node.find(name) is None else tag.node.number(name, default=1.0, report=sim.report)
+
+
+def _clamped(value: float, most: float) -> float:
+    return min(max(value, -most), most)

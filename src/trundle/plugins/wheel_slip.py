@@ -1,0 +1,137 @@
+"""libWheelSlipPlugin.so: tyres, whose slip grows with the force they pass on."""
+
+from dataclasses import dataclass
+from typing import Self
+
+from trundle.diagnostics import UsageError
+from trundle.model import Cylinder, Joint, JointType, PluginTag, Sphere
+from trundle.names import ros_name
+from trundle.physics import ContactPoint, Grip
+from trundle.ros import Message, Node, Publisher
+from trundle.simulation import LinkHandle, ModelHandle, Simulation
+from trundle.spatial import Vector3, cross, normalized
+from trundle.xmlnode import XmlNode
+
+from .plugin import Plugin
+
+
+@dataclass(slots=True, eq=False)
+class _Wheel:
+    link: LinkHandle
+    axis: Vector3
+    """It spins about, in the link's frame."""
+    radius: float
+    """[m]"""
+    normal_force: float
+    """[N]"""
+    lateral: float
+    longitudinal: float
+    """Slip ratio over force ratio."""
+    topic: Publisher | None = None
+    grip: Grip | None = None
+    """For the coming step."""
+
+    def at(self, point: ContactPoint) -> Grip | None:
+        """How it holds on, wherever it touches."""
+        del point
+        return self.grip
+
+
+class WheelSlip(Plugin):
+    """Lets wheels slip along and across their way by compliance · speed of the tread / normal force, for each newton.
+
+    Parameters, of any number of <wheel link_name="…">: <slip_compliance_lateral>, <slip_compliance_longitudinal> (0: no
+    slip), <wheel_normal_force> [N] (required, about what the wheel carries) and <wheel_radius> [m], else that of its
+    only collision, a cylinder or sphere. `/<model>/wheel_slip/<link>` has each wheel's slip (geometry_msgs/Vector3: x
+    along, y across, z speed of the tread [m/s]); `…/lateral_compliance` and `…/longitudinal_compliance` (Float64) set
+    all wheels'. What slips less than its force changes within a step holds.
+    """
+
+    def __init__(self, model: ModelHandle, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
+        self._model = model
+        self._down = model.pose.inverse().direction(normalized(sim.world.physics.gravity) or (0.0, 0.0, -1.0))
+        self._wheels: list[_Wheel] = []
+        for wheel in tag.node.all("wheel"):
+            try:
+                self._wheels.append(_read(wheel, model, sim))
+            except UsageError as error:
+                sim.report.warn(wheel.at, f"<wheel>: {error}; it holds on as before")
+        tag.node.report_unread(sim.report)
+        for wheel in self._wheels:
+            wheel.link.set_grip(wheel.at)
+        if node is not None:
+            base = f"/{ros_name(model.name)}/wheel_slip"
+            for wheel in self._wheels:
+                topic = f"{base}/{ros_name(wheel.link.name)}"
+                wheel.topic = node.advertise(topic, "geometry_msgs/Vector3", queue_size=10)
+            node.subscribe(f"{base}/lateral_compliance", "std_msgs/Float64", self._set_lateral)
+            node.subscribe(f"{base}/longitudinal_compliance", "std_msgs/Float64", self._set_longitudinal)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        return cls(model, node, tag, sim)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Work out how much each wheel may slip."""
+        del sim
+        for wheel in self._wheels:
+            pose, twist = wheel.link.pose, wheel.link.twist
+            axis = pose.direction(wheel.axis)
+            tread = wheel.radius * _dot(twist.angular, axis)
+            per_newton = abs(tread) / wheel.normal_force
+            wheel.grip = Grip(along=axis, slip=per_newton * wheel.lateral, slip_across=per_newton * wheel.longitudinal)
+            if wheel.topic is not None and wheel.topic.has_subscribers:
+                along = self._model.pose.direction(
+                    cross(self._down, self._model.pose.inverse().direction(axis)),
+                )
+                slip = _dot(along, twist.linear) - tread
+                wheel.topic.publish({"x": slip, "y": _dot(axis, twist.linear), "z": tread})
+
+    def _set_lateral(self, message: Message) -> None:
+        for wheel in self._wheels:
+            wheel.lateral = max(float(message.data), 0.0)
+
+    def _set_longitudinal(self, message: Message) -> None:
+        for wheel in self._wheels:
+            wheel.longitudinal = max(float(message.data), 0.0)
+
+
+def _read(node: XmlNode, model: ModelHandle, sim: Simulation) -> _Wheel:
+    """Read one wheel.
+
+    Raises:
+        UsageError: something needed is not there.
+    """
+    report = sim.report
+    link = model.link(node.attribute("link_name") or "")
+    radius = node.number("wheel_radius", default=0.0, report=report)
+    normal_force = node.number("wheel_normal_force", default=0.0, report=report)
+    lateral = node.number("slip_compliance_lateral", default=0.0, report=report)
+    longitudinal = node.number("slip_compliance_longitudinal", default=0.0, report=report)
+    node.report_unread(report)
+    joints = [joint.joint for joint in model.joints if joint.joint.child == link.name]
+    if len(joints) != 1 or joints[0].axis is None:
+        raise UsageError(f"link {link.name!r} hangs from {len(joints)} joints with an axis; one is needed")
+    if radius <= 0.0:
+        radius = _radius(link)
+    if not normal_force > 0.0:
+        raise UsageError(f"<wheel_normal_force> must be above 0 N, got {normal_force:g}")
+    return _Wheel(link, _axis_in_link(joints[0], link), radius, normal_force, max(lateral, 0.0), max(longitudinal, 0.0))
+
+
+def _radius(link: LinkHandle) -> float:
+    shapes = [collision.geometry for collision in link.link.collisions]
+    if len(shapes) == 1 and isinstance(shapes[0], Cylinder | Sphere):
+        return shapes[0].radius
+    raise UsageError(f"link {link.name!r} is no single cylinder or sphere; <wheel_radius> is needed")
+
+
+def _axis_in_link(joint: Joint, link: LinkHandle) -> Vector3:
+    axis = joint.axis2 if joint.type is JointType.REVOLUTE2 and joint.axis2 is not None else joint.axis
+    assert axis is not None
+    return link.link.model_from_link.inverse().direction(axis.direction)
+
+
+def _dot(a: Vector3, b: Vector3) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

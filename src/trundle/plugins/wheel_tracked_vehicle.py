@@ -1,0 +1,54 @@
+"""libWheelTrackedVehiclePlugin.so: tracks made of many wheels."""
+
+from typing import Self
+
+from trundle.model import Cylinder, PluginTag
+from trundle.ros import Node
+from trundle.simulation import JointHandle, ModelHandle, Simulation
+
+from .bounds import bounding_box
+from .plugin import Plugin
+from .tracked_vehicle import Tracks
+
+
+class WheelTrackedVehicle(Plugin):
+    """Turns all wheels of a side as one.
+
+    Parameters: two or more <left_joint> and <right_joint> each, <max_torque> [N·m] (5) of each wheel, and those of
+    `Tracks`. A wheel's radius is its only cylinder's, else half the largest side of its bounding box.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
+        self._tracks = Tracks(sim, model, node, tag)
+        self._torque = tag.node.number("max_torque", default=5.0, report=sim.report)
+        sides = [[model.joint(each.text) for each in tag.node.all(f"{side}_joint")] for side in ("left", "right")]
+        for side, joints in zip(("left", "right"), sides, strict=True):
+            if len(joints) < 2:
+                what = f"plugin {tag.name!r} wants two or more <{side}_joint>, got {len(joints)}"
+                sim.report.warn(tag.at, f"{what}; it drives those")
+        tag.node.report_unread(sim.report)
+        self._wheels = [[(joint, _radius(model, joint)) for joint in joints] for joints in sides]
+        self._tracks.grease(sim, [model.link(joint.joint.child) for joints in sides for joint in joints])
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        return cls(sim, model, node, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Keep all wheels at their speeds."""
+        del sim
+        for speed, wheels in zip(self._tracks.speeds, self._wheels, strict=True):
+            for joint, radius in wheels:
+                joint.set_velocity(speed / radius, max_effort=self._torque)
+
+    def reset(self) -> None:
+        """Stand still."""
+        self._tracks.command.stop()
+
+
+def _radius(model: ModelHandle, joint: JointHandle) -> float:
+    link = model.link(joint.joint.child).link
+    if len(link.collisions) == 1 and isinstance(link.collisions[0].geometry, Cylinder):
+        return link.collisions[0].geometry.radius
+    return max(bounding_box(link)) / 2 or 1.0
