@@ -13,6 +13,7 @@ from trundle.bridge import camera_topics, sensor_topics
 from trundle.render import NativeRenderer
 from trundle.ros import Core, GraphLoop, Node, StaticTransformBroadcaster
 from trundle.sensors import mount_cameras, mount_sensors
+from trundle.simulation import Simulation
 
 PATIENCE_S = 20.0
 
@@ -42,19 +43,30 @@ def graph(monkeypatch: pytest.MonkeyPatch) -> Iterator[SimpleNamespace]:
 
 
 Hear = Callable[..., Any]
+Described = Callable[..., Simulation]
 
 
 @pytest.fixture
-def hear(graph: SimpleNamespace, tmp_path: Path) -> Hear:
+def described(tmp_path: Path) -> Described:
+    """Read what is inside a <world>, from a file."""
+
+    def described(world: str, *, seed: int = 0, version: str = "1.6") -> Simulation:
+        file = tmp_path / "w.sdf"
+        file.write_text(f'<sdf version="{version}"><world name="w">{world}</world></sdf>')
+        return trundle.load(str(file), seed=seed)
+
+    return described
+
+
+@pytest.fixture
+def hear(graph: SimpleNamespace, described: Described) -> Hear:
     """Simulate a world for a while and return the first message on each of some topics, and the frames there are."""
 
     def hear(
         world: str, topics: Mapping[str, str], *, seconds: float = 0.1, seed: int = 0, version: str = "1.6"
     ) -> tuple[dict[str, Any], set[str]]:
-        file = tmp_path / "w.sdf"
-        file.write_text(f'<sdf version="{version}"><world name="w">{world}</world></sdf>')
-        sim = trundle.load(str(file), seed=seed)
-        cameras = mount_cameras(sim.world, NativeRenderer, sim.report)
+        sim = described(world, seed=seed, version=version)
+        cameras = mount_cameras(sim.world, NativeRenderer, sim.report, seed=seed)
         sensors = mount_sensors(sim)
         for sensor in (*cameras, *sensors):
             sim.add_hook(sensor, period_ns=sensor.period_ns, wanted=sensor.wanted)

@@ -65,7 +65,7 @@ def stage(monkeypatch: pytest.MonkeyPatch) -> Iterator[SimpleNamespace]:
     model = Model(name="bot", at=AT, links=(link,))
     world = World(name="w", at=AT, models=(model,))
     scenery = Scenery(world, lambda _: Ramp(), Diagnostics())
-    camera = CameraSensor(model, link, sensor, optics, link_index=0, scenery=scenery)
+    camera = CameraSensor(model, link, sensor, optics, link_index=0, scenery=scenery, random=np.random.default_rng(0))
     with GraphLoop() as loop:
         core = Core(loop, port=0)
         loop.run(core.start(), PATIENCE_S)

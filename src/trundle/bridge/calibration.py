@@ -1,30 +1,66 @@
 """What camera_info says."""
 
-from trundle.sensors import CameraSensor
+import math
+
+import numpy as np
+
+from trundle.model import Lens, PixelIntrinsics
+from trundle.sensors import CameraSensor, radius_of
 from trundle.spatial import Pose
+
+_ALIGNED = 1e-6
+"""Sine of half the angle between cameras that count as looking the same way, and [m] in the same plane."""
+_TERMS = 4
+"""Coefficients of ROS' model `equidistant`: θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸)."""
 
 
 def calibration_of(camera: CameraSensor) -> dict[str, object]:
-    """K, D, R and P of a pinhole without distortion, with gazebo_ros's principal point (w + 1)/2, (h + 1)/2.
+    """The picture's size, and D, K, R and P.
 
-    Of a multicamera's cameras, P's fourth column says where each is from the first one, if they look the same way.
+    A pinhole has gazebo_ros's principal point (w + 1)/2, (h + 1)/2 unless the file has <intrinsics>. Of a multicamera's
+    cameras, P's fourth column says where each is from the first one, if they look the same way. A wide lens is told by
+    the model `equidistant`, whose coefficients are fitted to it.
     """
-    seen = camera.intrinsics
-    f, cx, cy = seen.focal_px, (seen.width_px + 1) / 2, (seen.height_px + 1) / 2
+    optics = camera.optics
+    pinhole = optics.intrinsics or _pinhole(camera)
+    bend = optics.distortion
+    model, coefficients = "plumb_bob", [bend.k1, bend.k2, bend.p1, bend.p2, bend.k3]
+    if optics.lens is not None:
+        model = "equidistant"
+        pinhole, coefficients = _wide(optics.lens, optics.horizontal_fov_rad, pinhole, optics.width_px)
     right, down = _baseline(camera)
+    told = optics.projection
+    if told is None:
+        p = [pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, 0.0 - pinhole.fx * right, 0.0 - pinhole.fy * down]
+    else:
+        p = [told.fx, told.fy, told.cx, told.cy, told.tx, told.ty]
     return {
-        "height": seen.height_px,
-        "width": seen.width_px,
-        "distortion_model": "plumb_bob",
-        "D": [0.0] * 5,
-        "K": [f, 0.0, cx, 0.0, f, cy, 0.0, 0.0, 1.0],
+        "height": optics.height_px,
+        "width": optics.width_px,
+        "distortion_model": model,
+        "D": coefficients,
+        "K": [pinhole.fx, pinhole.skew, pinhole.cx, 0.0, pinhole.fy, pinhole.cy, 0.0, 0.0, 1.0],
         "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-        "P": [f, 0.0, cx, -f * right, 0.0, f, cy, -f * down, 0.0, 0.0, 1.0, 0.0],
+        "P": [p[0], 0.0, p[2], p[4], 0.0, p[1], p[3], p[5], 0.0, 0.0, 1.0, 0.0],
     }
 
 
-_ALIGNED = 1e-6
-"""Sine of half the angle [rad] between cameras that count as looking the same way."""
+def _pinhole(camera: CameraSensor) -> PixelIntrinsics:
+    seen = camera.intrinsics
+    f = seen.focal_px
+    return PixelIntrinsics(fx=f, fy=f, cx=(seen.width_px + 1) / 2, cy=(seen.height_px + 1) / 2)
+
+
+def _wide(lens: Lens, fov_rad: float, pinhole: PixelIntrinsics, width_px: int) -> tuple[PixelIntrinsics, list[float]]:
+    """A focal length and coefficients by least squares over what the picture's width shows."""
+    angles = np.linspace(0.01, max(min(lens.cutoff_rad, fov_rad / 2), 0.02), 200)
+    radii = radius_of(lens, fov_rad, angles) * width_px / 2
+    sound = np.isfinite(radii)
+    powers = np.stack([angles ** (2 * i + 1) for i in range(_TERMS + 1)], axis=-1)
+    fitted, *_ = np.linalg.lstsq(powers[sound], radii[sound], rcond=None)
+    focal = float(fitted[0])
+    coefficients = [float(value) / focal for value in fitted[1:]]
+    return PixelIntrinsics(fx=focal, fy=focal, cx=pinhole.cx, cy=pinhole.cy), coefficients
 
 
 def _baseline(camera: CameraSensor) -> tuple[float, float]:
@@ -32,7 +68,7 @@ def _baseline(camera: CameraSensor) -> tuple[float, float]:
     first: Pose = camera.sensor.cameras[0].sensor_from_camera
     first_from_camera = first.inverse() @ camera.optics.sensor_from_camera
     ahead, left, up = first_from_camera.position
-    turned = max(map(abs, first_from_camera.quaternion[1:]))
+    turned = math.hypot(*first_from_camera.quaternion[1:])
     if turned > _ALIGNED or abs(ahead) > _ALIGNED:
         return 0.0, 0.0
     return 0.0 - left, 0.0 - up

@@ -18,7 +18,7 @@ from trundle.spatial import Pose, quaternion_from_rpy
 from .calibration import calibration_of
 from .detections import boxes_2d, boxes_3d
 from .naming import has_plain_frames, link_frame_name, sensor_topic
-from .pictures import cloud_maker, depth_image, image, labels_image, thermal_image
+from .pictures import cloud_maker, depth_image, image_maker, labels_image, thermal_image
 
 _HALF_TURN = 1.5707963267948966
 CAMERA_FROM_OPTICAL = Pose(quaternion=quaternion_from_rpy(-_HALF_TURN, 0.0, -_HALF_TURN))
@@ -74,7 +74,7 @@ def _outputs(camera: CameraSensor) -> list[_Output]:
     """What a camera publishes; the first is what it is for."""
     calibration = calibration_of(camera)
     info: _Output = ("camera_info", "sensor_msgs/CameraInfo", lambda _: calibration)
-    colours: _Output = ("image_raw", "sensor_msgs/Image", image)
+    colours: _Output = ("image_raw", "sensor_msgs/Image", image_maker(camera.optics.format))
     match camera:
         case DepthCameraSensor():
             return [
@@ -88,7 +88,7 @@ def _outputs(camera: CameraSensor) -> list[_Output]:
             return [
                 ("labels_map", "sensor_msgs/Image", labels_image),
                 info,
-                ("colored_map", "sensor_msgs/Image", image),
+                ("colored_map", "sensor_msgs/Image", image_maker("R8G8B8")),
             ]
         case BoundingBoxCameraSensor() if camera.optics.box_type == "3d":
             return [("boxes", "vision_msgs/Detection3DArray", boxes_3d), info, colours]

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.sensors import CameraReading, CameraSensor
+from trundle.sensors import CameraReading, CameraSensor, pixels_in
 
 _FLOAT32 = 7
 """sensor_msgs/PointField's number for it."""
@@ -13,9 +13,9 @@ _KELVIN_STEP = 0.01
 """[K] What gz's thermal cameras count in."""
 
 
-def image(reading: CameraReading) -> dict[str, object]:
-    """sensor_msgs/Image in colours."""
-    return _image(reading.rgb, "rgb8")
+def image_maker(format_: str) -> Callable[[CameraReading], dict[str, object]]:
+    """What makes sensor_msgs/Image of colours in one of SDF's formats."""
+    return lambda reading: _image(*pixels_in(format_, reading.rgb))
 
 
 def depth_image(reading: CameraReading) -> dict[str, object]:
@@ -46,9 +46,7 @@ def _image(pixels: NDArray[np.generic], encoding: str) -> dict[str, object]:
 def cloud_maker(camera: CameraSensor) -> Callable[[CameraReading], dict[str, object]]:
     """What makes sensor_msgs/PointCloud2: a point for each pixel, in its colour, in the optical frame; one without
     depth is not a number."""
-    seen = camera.intrinsics
-    x = (np.arange(seen.width_px, dtype=np.float32) + 0.5 - seen.width_px / 2) / np.float32(seen.focal_px)
-    y = (np.arange(seen.height_px, dtype=np.float32) + 0.5 - seen.height_px / 2) / np.float32(seen.focal_px)
+    x, y = (slopes.astype(np.float32) for slopes in camera.view.slopes())
     fields = [
         {"name": name, "offset": 4 * i, "datatype": _FLOAT32, "count": 1}
         for i, name in enumerate(("x", "y", "z", "rgb"))
@@ -59,7 +57,7 @@ def cloud_maker(camera: CameraSensor) -> Callable[[CameraReading], dict[str, obj
         height, width = reading.depth.shape
         points = np.empty((height, width, 4), dtype="<f4")
         points[..., 0] = x * reading.depth
-        points[..., 1] = y[:, None] * reading.depth
+        points[..., 1] = y * reading.depth
         points[..., 2] = reading.depth
         colours = points.view(np.uint8).reshape(height, width, 16)[..., 12:]
         colours[..., :3] = reading.rgb[..., ::-1]

@@ -5,8 +5,10 @@ from .camera import CameraReading, CameraSensor, SeenBox
 from .contact import ContactReading, ContactSensor
 from .depth_camera import DepthCameraSensor
 from .force_torque import ForceTorqueReading, ForceTorqueSensor
+from .formats import pixels_in
 from .gps import GpsReading, GpsSensor
 from .imu import ImuReading, ImuSensor
+from .lens import radius_of
 from .mount import SIMULATED, mount_cameras
 from .mount_measuring import MeasuringSensor, mount_sensors
 from .noise import NoiseSource
@@ -41,4 +43,6 @@ __all__ = [
     "directions_of",
     "mount_cameras",
     "mount_sensors",
+    "pixels_in",
+    "radius_of",
 ]

@@ -19,10 +19,18 @@ class BoundingBoxCameraSensor(CameraSensor):
     """Tells a box around each labelled model of which a pixel can be seen."""
 
     def __init__(
-        self, model: Model, link: Link, sensor: Sensor, optics: CameraOptics, *, link_index: int, scenery: Scenery
+        self,
+        model: Model,
+        link: Link,
+        sensor: Sensor,
+        optics: CameraOptics,
+        *,
+        link_index: int,
+        scenery: Scenery,
+        random: np.random.Generator,
     ) -> None:
         """Mount it; see `CameraSensor`."""
-        super().__init__(model, link, sensor, optics, link_index=link_index, scenery=scenery)
+        super().__init__(model, link, sensor, optics, link_index=link_index, scenery=scenery, random=random)
         self._things = instances_of(scenery)
 
     def take(self, snapshot: Snapshot) -> CameraReading:

@@ -5,13 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.model import CameraOptics, Link, Model, Sensor
+from trundle.model import CameraOptics, Link, Model, Noise, Sensor
 from trundle.render import Intrinsics, Picture
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
 from .mounted import MountedSensor
 from .scenery import Scenery
+from .view import view_of
 
 FASTEST_HZ = 30.0
 """Of a camera whose update_rate is 0. Gazebo then draws at every step, which nobody means."""
@@ -61,6 +62,7 @@ class CameraSensor(MountedSensor[CameraReading]):
         *,
         link_index: int,
         scenery: Scenery,
+        random: np.random.Generator,
     ) -> None:
         """Mount a camera.
 
@@ -71,6 +73,7 @@ class CameraSensor(MountedSensor[CameraReading]):
             optics: of this camera.
             link_index: of the link in `Snapshot.poses`.
             scenery: shared by all cameras.
+            random: for its noise.
         """
         super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
         self.optics = optics
@@ -82,6 +85,8 @@ class CameraSensor(MountedSensor[CameraReading]):
             near_m=optics.near_m,
             far_m=optics.far_m,
         )
+        self.view = view_of(optics, self.intrinsics)
+        self.random = random
         self.images = 0
         """Pictures finished."""
         self.scenery = scenery
@@ -93,13 +98,26 @@ class CameraSensor(MountedSensor[CameraReading]):
 
     def take(self, snapshot: Snapshot) -> CameraReading:
         """Take a picture of this instant."""
-        return CameraReading(time_ns=snapshot.time_ns, rgb=self.look(snapshot).rgb)
+        return CameraReading(time_ns=snapshot.time_ns, rgb=self.noisy(self.look(snapshot).rgb))
 
     def look(self, snapshot: Snapshot, *, depth: bool = False, segmentation: bool = False) -> Picture:
         """What the camera sees at this instant."""
         self.images += 1
-        view = self.world_from_camera(snapshot)
-        return self.scenery.render(snapshot, view, self.intrinsics, depth=depth, segmentation=segmentation)
+        camera = self.world_from_camera(snapshot)
+        return self.view.developed(
+            [
+                self.scenery.render(snapshot, camera @ face, seen, depth=depth, segmentation=segmentation)
+                for face, seen in self.view.faces
+            ]
+        )
+
+    def noisy(self, rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        """The picture with noise of the same size on all colours of a pixel, as Gazebo's shader adds it."""
+        noise = self.optics.noise
+        if noise == Noise():
+            return rgb
+        grain = self.random.normal(noise.mean, noise.stddev, rgb.shape[:2]) * 255.0
+        return np.clip(np.rint(rgb + grain[..., None]), 0, 255).astype(np.uint8)
 
     def world_from_camera(self, snapshot: Snapshot) -> Pose:
         """Where it is at this instant."""

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from trundle.model import Noise
 from trundle.simulation import Snapshot
 
 from .camera import CameraReading, CameraSensor
@@ -11,12 +12,15 @@ class DepthCameraSensor(CameraSensor):
     """Sees colours and depths from one place, as Gazebo's depth cameras do."""
 
     def take(self, snapshot: Snapshot) -> CameraReading:
-        """Take both pictures; as gazebo_ros' openni plugin has it, depths out of range are not numbers."""
+        """Take both pictures; as in gazebo_ros' openni plugin, depths out of range are not numbers."""
         picture = self.look(snapshot, depth=True)
         assert picture.depth is not None
+        noise = self.optics.noise
         near, far = self.optics.depth_near_m, self.optics.depth_far_m
         depth = picture.depth.copy()
         depth[~np.isfinite(depth)] = np.nan
+        if noise != Noise():
+            depth += self.random.normal(noise.mean, noise.stddev, depth.shape).astype(np.float32)
         with np.errstate(invalid="ignore"):
             if near is not None:
                 depth[depth < near] = np.nan

@@ -1,20 +1,26 @@
 """Mounts the cameras of a world."""
 
-from collections.abc import Callable, Mapping
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import Distortion, Noise, Sensor, World
+from trundle.model import CameraOptics, Distortion, Sensor, World
 from trundle.render import Renderer, Scene
 
 from .bounding_box_camera import BoundingBoxCameraSensor
 from .camera import CameraSensor
 from .depth_camera import DepthCameraSensor
+from .formats import FORMATS
+from .lens import fits
 from .mount_measuring import MEASURING
+from .saving import PictureSaver, folder_for
 from .scenery import Scenery
 from .segmentation_camera import SegmentationCameraSensor
 from .thermal_camera import ThermalCameraSensor
 
-_RGB = ("R8G8B8", "RGB_INT8")
 _KINDS: Mapping[str, type[CameraSensor]] = {
     "boundingbox": BoundingBoxCameraSensor,
     "boundingbox_camera": BoundingBoxCameraSensor,
@@ -28,25 +34,31 @@ _KINDS: Mapping[str, type[CameraSensor]] = {
     "segmentation_camera": SegmentationCameraSensor,
     "thermal": ThermalCameraSensor,
     "thermal_camera": ThermalCameraSensor,
+    "wide_angle_camera": CameraSensor,
+    "wideanglecamera": CameraSensor,
 }
 SIMULATED = frozenset(_KINDS) | MEASURING
 """SDF's sensor types that measure."""
 
 
-def mount_cameras(world: World, make: Callable[[Scene], Renderer], report: Diagnostics) -> list[CameraSensor]:
+def mount_cameras(
+    world: World, make: Callable[[Scene], Renderer], report: Diagnostics, *, seed: int = 0
+) -> list[CameraSensor]:
     """Every camera of a world, in file order; sensors of types that do not measure yet are named.
 
     Args:
         world: with its sensors.
         make: makes the one renderer all cameras share; called only if there is a camera.
         report: takes what is not simulated.
+        seed: of the noise.
     """
     cameras: list[CameraSensor] = []
     scenery: Scenery | None = None
-    index = 0
+    index = number = 0
     for model in world.models:
         for link in model.links:
             for sensor in link.sensors:
+                number += 1
                 if sensor.type in MEASURING:
                     continue
                 kind = _KINDS.get(sensor.type)
@@ -56,9 +68,11 @@ def mount_cameras(world: World, make: Callable[[Scene], Renderer], report: Diagn
                 _name_unsupported(sensor, report)
                 scenery = scenery or Scenery(world, make, report)
                 _doubt_labels(sensor, kind, scenery, report)
-                cameras += [
-                    kind(model, link, sensor, optics, link_index=index, scenery=scenery) for optics in sensor.cameras
-                ]
+                for part, optics in enumerate(_made(sensor, report)):
+                    random = np.random.default_rng([seed, number, part])
+                    camera = kind(model, link, sensor, optics, link_index=index, scenery=scenery, random=random)
+                    _save(camera, world.name, report)
+                    cameras.append(camera)
             index += 1
     return cameras
 
@@ -72,12 +86,39 @@ def _doubt_labels(sensor: Sensor, kind: type[CameraSensor], scenery: Scenery, re
         )
 
 
+def _made(sensor: Sensor, report: Diagnostics) -> Iterator[CameraOptics]:
+    """The sensor's cameras, in formats that are made."""
+    for optics in sensor.cameras:
+        if optics.format in FORMATS:
+            yield optics
+        else:
+            report.warn(
+                sensor.at,
+                f"sensor {sensor.name!r}: no image format {optics.format}: {', '.join(FORMATS)}; R8G8B8 is used",
+            )
+            yield replace(optics, format="R8G8B8")
+
+
+def _save(camera: CameraSensor, world: str, report: Diagnostics) -> None:
+    path = camera.optics.save_path
+    if path is None:
+        return
+    folder = folder_for(path)
+    if folder is None:
+        what = f"pictures are saved below the working directory or {tempfile.gettempdir()} only; <path> {path} is not"
+        report.warn(camera.sensor.at, f"sensor {camera.name!r}: {what}, and they are not saved")
+        return
+    saver = PictureSaver(camera, folder, world, report)
+    camera.listen(saver.save, wanted=saver.wanted)
+
+
 def _name_unsupported(sensor: Sensor, report: Diagnostics) -> None:
     who = f"sensor {sensor.name!r}"
     for optics in sensor.cameras:
-        if optics.format not in _RGB:
-            report.warn(sensor.at, f"{who}: image format {optics.format} is not made yet; R8G8B8 is")
-    if any(optics.noise != Noise() or optics.distortion != Distortion() for optics in sensor.cameras):
-        report.warn(sensor.at, f"{who}: noise and distortion of pictures are not made yet")
+        if optics.lens is not None and optics.lens.scale_to_hfov and not fits(optics.lens, optics.horizontal_fov_rad):
+            fov = f"{optics.horizontal_fov_rad:g} rad"
+            report.warn(sensor.at, f"{who}: no such lens sees {fov}; it is not scaled to the field of view")
+        if optics.box_type == "full_2d" and (optics.distortion != Distortion() or optics.intrinsics is not None):
+            report.warn(sensor.at, f"{who}: full_2d boxes leave distortion and <intrinsics> out of account")
     for plugin in sensor.plugins:
         report.warn(plugin.at, f"{who}: plugin {plugin.filename} is not supported yet; the sensor has topics without")

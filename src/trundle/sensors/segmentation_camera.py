@@ -24,10 +24,18 @@ class SegmentationCameraSensor(CameraSensor):
     """
 
     def __init__(
-        self, model: Model, link: Link, sensor: Sensor, optics: CameraOptics, *, link_index: int, scenery: Scenery
+        self,
+        model: Model,
+        link: Link,
+        sensor: Sensor,
+        optics: CameraOptics,
+        *,
+        link_index: int,
+        scenery: Scenery,
+        random: np.random.Generator,
     ) -> None:
         """Mount it; see `CameraSensor`."""
-        super().__init__(model, link, sensor, optics, link_index=link_index, scenery=scenery)
+        super().__init__(model, link, sensor, optics, link_index=link_index, scenery=scenery, random=random)
         self._values = instances_of(scenery) if optics.panoptic else scenery.labels
         kinds, self._kind_of = np.unique(self._values, return_inverse=True)
         self._colours = np.array([_colour(int(value)) for value in kinds], dtype=np.uint8)

@@ -1,0 +1,68 @@
+"""Image formats of SDF, made of colours."""
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Rgb = NDArray[np.uint8]
+_Pixels = NDArray[np.uint8] | NDArray[np.uint16]
+_FULL = np.uint16(257)
+"""What makes 65535 of 255."""
+
+
+def pixels_in(format_: str, rgb: _Rgb) -> tuple[_Pixels, str]:
+    """(height, width[, 3]) in a format, and ROS' name for it.
+
+    Args:
+        format_: one of FORMATS.
+        rgb: (height, width, 3)
+    """
+    encoding, make = FORMATS[format_]
+    return make(rgb), encoding
+
+
+def _same(rgb: _Rgb) -> _Pixels:
+    return rgb
+
+
+def _bgr(rgb: _Rgb) -> _Pixels:
+    return rgb[..., ::-1]
+
+
+def _grey(rgb: _Rgb) -> NDArray[np.uint8]:
+    """ITU-R BT.601's luma, as OpenCV makes it."""
+    r, g, b = (rgb[..., i].astype(np.uint32) for i in range(3))
+    return ((299 * r + 587 * g + 114 * b + 500) // 1000).astype(np.uint8)
+
+
+def _deep(rgb: _Rgb) -> _Pixels:
+    return rgb * _FULL
+
+
+def _deep_grey(rgb: _Rgb) -> _Pixels:
+    return _grey(rgb) * _FULL
+
+
+def _bayer(pattern: str) -> Callable[[_Rgb], _Pixels]:
+    """Each pixel keeps the one colour of its place in a pattern of two by two, row by row."""
+
+    def make(rgb: _Rgb) -> _Pixels:
+        mosaic = np.empty(rgb.shape[:2], dtype=np.uint8)
+        for place, colour in enumerate(pattern):
+            row, column = divmod(place, 2)
+            mosaic[row::2, column::2] = rgb[row::2, column::2, "rgb".index(colour)]
+        return mosaic
+
+    return make
+
+
+FORMATS: Mapping[str, tuple[str, Callable[[_Rgb], _Pixels]]] = {
+    **dict.fromkeys(("L8", "L_INT8"), ("mono8", _grey)),
+    **dict.fromkeys(("L16", "L_INT16"), ("mono16", _deep_grey)),
+    **dict.fromkeys(("R8G8B8", "RGB_INT8"), ("rgb8", _same)),
+    **dict.fromkeys(("B8G8R8", "BGR_INT8"), ("bgr8", _bgr)),
+    **dict.fromkeys(("R16G16B16", "RGB_INT16"), ("rgb16", _deep)),
+    **{f"BAYER_{p.upper()}8": (f"bayer_{p}8", _bayer(p)) for p in ("rggb", "bggr", "gbrg", "grbg")},
+}
+"""SDF's and gz's names → ROS' encoding, and how to make it."""
