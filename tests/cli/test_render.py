@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
+import av
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from PIL import Image
+from PIL import Image, ImageSequence
 
 from trundle.cli import main
 
@@ -131,3 +132,73 @@ def test_a_picture_that_no_memory_holds_is_refused_in_one_sentence(
     assert main(arguments) != 0
 
     assert "a picture of 5000x5000 is too large" in capsys.readouterr().err
+
+
+def test_segmentation_has_one_colour_for_each_visual(box: Path, tmp_path: Path) -> None:
+    out = tmp_path / "seg.png"
+
+    assert main(["render", str(box), "-o", str(out), "--camera", "eye", "--seg"]) == 0
+
+    colours = {tuple(pixel) for row in np.asarray(Image.open(out)) for pixel in row.tolist()}
+    assert len(colours) == 3  # nothing, the ground, the cube
+    assert (0, 0, 0) in colours
+
+
+FALLING = BOX.replace("<static>true</static>", "").replace("<visual", "<inertial><mass>1</mass></inertial><visual", 1)
+
+
+def test_a_picture_is_taken_when_it_is_asked_for(box: Path, tmp_path: Path) -> None:
+    """A link with its camera falls 1.225 m in half a second, past the ground's horizon: nothing else moves."""
+    box.write_text(
+        FALLING.replace("<far>20<", "<far>50<").replace(
+            '<sensor name="eye"', '<pose>0 0 9 0 0 0</pose><sensor name="eye"'
+        )
+    )
+    for name, at in (("start", "0"), ("later", "0.5")):
+        command = ["render", str(box), "-o", str(tmp_path / f"{name}.png"), "--camera", "eye", "--depth", "--at", at]
+        assert main(command) == 0
+    depths = [np.asarray(Image.open(tmp_path / f"{name}.png")) for name in ("start", "later")]
+    low = depths[0].shape[0] - 1
+    # The ground, seen down at atan((79.5 - 40) / f) below the horizon, is so many times the height away.
+    away = FOCAL_PX / (low + 0.5 - 40)
+    for depth, height in zip(depths, (9.5, 9.5 - 9.8 / 2 * 0.25), strict=True):
+        assert depth[low, 110] == pytest.approx(1000 * height * away, rel=2e-3)
+
+
+@pytest.mark.parametrize("suffix", ["mp4", "webp", "gif"])
+def test_a_film_goes_around_or_shows_what_happens(box: Path, tmp_path: Path, suffix: str) -> None:
+    around, run = tmp_path / f"around.{suffix}", tmp_path / f"run.{suffix}"
+
+    assert main(["render", str(box), "-o", str(around), "--orbit", "--size", "64x48"]) == 0
+    box.write_text(FALLING)
+    assert main(["render", str(box), "-o", str(run), "--duration", "0.4", "--size", "64x48"]) == 0
+
+    frames = _frames(around)
+    assert len(frames) == 200
+    assert frames[0].shape == (48, 64, 3)
+    assert np.abs(frames[0].astype(int) - frames[100]).max() > 50
+    assert len(_frames(run)) == 10
+
+
+def _frames(film: Path) -> list[NDArray[np.uint8]]:
+    if film.suffix == ".mp4":
+        with av.open(str(film)) as container:
+            return [frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)]
+    with Image.open(film) as moving:
+        return [np.asarray(frame.convert("RGB")) for frame in ImageSequence.all_frames(moving)]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["-o", "a.png", "--orbit"], "that is a film: its file ends in .mp4, .webp, .gif, .apng, not in '.png'"),
+        (["-o", "a.png", "--duration", "2"], "that is a film"),
+        (["-o", "a.mp4", "--depth"], "depth has 16 bits"),
+        (["-o", "a.mp4", "--orbit", "--camera", "eye"], "it takes neither --camera nor --duration"),
+    ],
+)
+def test_what_cannot_be_filmed_is_said(
+    box: Path, capsys: pytest.CaptureFixture[str], words: list[str], said: str
+) -> None:
+    assert main(["render", str(box), *words]) != 0
+    assert said in capsys.readouterr().err

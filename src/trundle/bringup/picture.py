@@ -1,9 +1,11 @@
-"""`trundle render`: one picture of what a file describes, from a camera of its own or from a good side."""
+"""Pictures of what a file describes, from a camera of its own or from a good side."""
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from colorsys import hsv_to_rgb
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,61 +30,86 @@ _MARGIN = 1.08
 _SAMPLES = 2
 """Pictures are drawn twice as large and averaged: smooth edges."""
 _MOST_PX = 3840 * 2160
-"""A picture of that many pixels takes 3.3 GB to draw, measured; memory grows in proportion."""
+_GOLDEN = 0.61803398875
+_COLOURS = [(0.0, 0.0, 0.0)] + [hsv_to_rgb(i * _GOLDEN % 1.0, 0.5 + i % 3 * 0.2, 1.0 - i % 2 * 0.3) for i in range(255)]
+_PALETTE = np.round(np.array(_COLOURS) * 255.0).astype(np.uint8)
+"""Black for nothing, then colours that differ much from one to the next."""
 
 
-def picture_of(
-    file: str,
-    environment: Mapping[str, str],
-    report: Diagnostics,
-    *,
-    start: Path,
-    camera: str | None = None,
-    size: tuple[int, int] | None = None,
-    depth: bool = False,
-) -> Image.Image:
-    """Draw a file as it is at time zero.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PictureOptions:
+    """What to draw, and from where."""
 
-    Args:
-        file: as for `trundle run`.
-        environment: says where packages and models are.
-        report: takes findings.
-        start: packages are looked for around it too.
-        camera: a camera sensor's name; None: a view of everything that is not the ground.
-        size: width and height [px].
-        depth: distances [mm] as 16 bit grey instead of colours; 0 where nothing is.
+    camera: str | None = None
+    """A camera sensor's name; None: a view of everything that is not the ground."""
+    size: tuple[int, int] | None = None
+    """Width and height [px]; None: the camera's, or 800 by 600."""
+    content: Literal["colour", "depth", "segmentation"] = "colour"
+    """Depth is in millimetres, 16 bit, 0 where nothing is; segmentation has a colour for each visual."""
+    at_s: float = 0.0
+    """Of simulated time."""
 
-    Raises:
-        DescriptionError: the file is at fault.
-        UsageError: no such camera, or a picture too large to draw.
-    """
-    stage = set_stage(file, Packages(environment, start=start), report)
-    simulation = Simulation(stage.world, report)
-    poses = simulation.snapshot().poses
-    scene = scene_of(stage.world, report)
-    renderer = NativeRenderer(scene)
-    if camera is not None:
-        sensor = _camera(camera, mount_cameras(stage.world, lambda _: renderer, report))
-        view = pose_of(poses[sensor.link_index]) @ sensor.link_from_camera
-        intrinsics = sensor.intrinsics
-        if size is not None:
-            intrinsics = replace(intrinsics, width_px=size[0], height_px=size[1])
-    else:
-        width, height = size or DEFAULT_SIZE
-        intrinsics = Intrinsics(width_px=width, height_px=height, horizontal_fov_rad=_FOV, near_m=0.01, far_m=1000.0)
-        view = _good_side(scene, poses, intrinsics)
-    if intrinsics.width_px * intrinsics.height_px > _MOST_PX:
-        asked = f"{intrinsics.width_px}x{intrinsics.height_px}"
-        raise UsageError(f"a picture of {asked} is too large; it may have {_MOST_PX} pixels, as 3840x2160 has")
-    renderer.update(poses)
-    if depth:
-        ranges = renderer.render(view, intrinsics, depth=True).depth
-        assert ranges is not None
-        millimetres = np.where(np.isfinite(ranges), np.minimum(ranges * 1000.0, 65535.0), 0.0)
-        return Image.fromarray(millimetres.astype(np.uint16))
-    large = replace(intrinsics, width_px=intrinsics.width_px * _SAMPLES, height_px=intrinsics.height_px * _SAMPLES)
-    picture = Image.fromarray(renderer.render(view, large).rgb)
-    return picture.resize((intrinsics.width_px, intrinsics.height_px), Image.Resampling.BOX)
+
+class Studio:
+    """A file that is ready to be drawn."""
+
+    def __init__(
+        self, file: str, environment: Mapping[str, str], report: Diagnostics, *, start: Path, options: PictureOptions
+    ) -> None:
+        """Read a file, and simulate it until the picture is to be taken.
+
+        Args:
+            file: as for `trundle run`.
+            environment: says where packages and models are.
+            report: takes findings.
+            start: packages are looked for around it too.
+            options: what to draw.
+
+        Raises:
+            DescriptionError: the file is at fault.
+            UsageError: no such camera, or a picture too large to draw.
+        """
+        stage = set_stage(file, Packages(environment, start=start), report)
+        self._content = options.content
+        self.simulation = Simulation(stage.world, report)
+        scene = scene_of(stage.world, report)
+        self._renderer = NativeRenderer(scene)
+        self._sensor: CameraSensor | None = None
+        width, height = options.size or DEFAULT_SIZE
+        self._lens = Intrinsics(width_px=width, height_px=height, horizontal_fov_rad=_FOV, near_m=0.01, far_m=1000.0)
+        if options.camera is not None:
+            self._sensor = _camera(options.camera, mount_cameras(stage.world, lambda _: self._renderer, report))
+            self._lens = self._sensor.intrinsics
+            if options.size is not None:
+                self._lens = replace(self._lens, width_px=width, height_px=height)
+        if self._lens.width_px * self._lens.height_px > _MOST_PX:
+            asked = f"{self._lens.width_px}x{self._lens.height_px}"
+            raise UsageError(f"a picture of {asked} is too large; it may have {_MOST_PX} pixels, as 3840x2160 has")
+        if options.at_s > 0.0:
+            self.simulation.run(options.at_s)
+        self._cloud = _corners(scene, self.simulation.snapshot().poses)
+
+    def picture(self, *, turned_rad: float = 0.0) -> Image.Image:
+        """Draw what is there now; the view of everything may have gone around, counter-clockwise from above."""
+        poses = self.simulation.snapshot().poses
+        self._renderer.update(poses)
+        if self._sensor is not None:
+            view = pose_of(poses[self._sensor.link_index]) @ self._sensor.link_from_camera
+        else:
+            view = _good_side(self._cloud, self._lens, turned_rad)
+        if self._content == "depth":
+            ranges = self._renderer.render(view, self._lens, depth=True).depth
+            assert ranges is not None
+            millimetres = np.where(np.isfinite(ranges), np.minimum(ranges * 1000.0, 65535.0), 0.0)
+            return Image.fromarray(millimetres.astype(np.uint16))
+        if self._content == "segmentation":
+            segments = self._renderer.render(view, self._lens, segmentation=True).segmentation
+            assert segments is not None
+            return Image.fromarray(_PALETTE[np.where(segments < 0, 0, segments % (len(_PALETTE) - 1) + 1)])
+        width, height = self._lens.width_px, self._lens.height_px
+        large = replace(self._lens, width_px=width * _SAMPLES, height_px=height * _SAMPLES)
+        picture = Image.fromarray(self._renderer.render(view, large).rgb)
+        return picture.resize((width, height), Image.Resampling.BOX)
 
 
 def _camera(name: str, cameras: list[CameraSensor]) -> CameraSensor:
@@ -93,24 +120,27 @@ def _camera(name: str, cameras: list[CameraSensor]) -> CameraSensor:
     raise UsageError(f"no camera {name!r}; cameras there: {there}")
 
 
-def _good_side(scene: Scene, poses: NDArray[np.float64], intrinsics: Intrinsics) -> Pose:
-    """A three-quarter view that holds everything but endless planes."""
-    corners = [corners_of(shape.geometry) for shape in scene.shapes]
+def _corners(scene: Scene, poses: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(N, 3) points that a view of everything but endless planes must hold [m]."""
     points = [
         (pose_of(poses[shape.body]) @ shape.body_from_shape).point(corner)
-        for shape, box in zip(scene.shapes, corners, strict=True)
-        for corner in box
+        for shape in scene.shapes
+        for corner in corners_of(shape.geometry)
     ]
-    cloud = np.array(points or [(-1.0, -1.0, 0.0), (1.0, 1.0, 1.0)])
+    return np.array(points or [(-1.0, -1.0, 0.0), (1.0, 1.0, 1.0)])
+
+
+def _good_side(cloud: NDArray[np.float64], lens: Intrinsics, turned_rad: float) -> Pose:
+    """A three-quarter view that holds all points."""
     middle = (cloud.min(axis=0) + cloud.max(axis=0)) / 2
-    azimuth, elevation = _FROM
+    azimuth, elevation = _FROM[0] + turned_rad, _FROM[1]
     away = np.array(
         [math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)]
     )
     rotation = Pose.from_rpy(0.0, 0.0, 0.0, 0.0, elevation, azimuth + math.pi)
     in_view = np.array([rotation.inverse().direction((x, y, z)) for x, y, z in (cloud - middle).tolist()])
-    half_width = math.tan(intrinsics.horizontal_fov_rad / 2)
-    half_height = half_width * intrinsics.height_px / intrinsics.width_px
+    half_width = math.tan(lens.horizontal_fov_rad / 2)
+    half_height = half_width * lens.height_px / lens.width_px
     needed = np.maximum(np.abs(in_view[:, 1]) / half_width, np.abs(in_view[:, 2]) / half_height) - in_view[:, 0]
     x, y, z = (middle + away * float(needed.max()) * _MARGIN).tolist()
     return Pose((x, y, z), rotation.quaternion)

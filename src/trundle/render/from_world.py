@@ -125,7 +125,11 @@ def _prism(
     if sum(map(len, outlines)) > _MOST_CORNERS:
         report.warn(at, f"a polyline of more than {_MOST_CORNERS} corners; it is not drawn")
         return None
-    return prism_mesh(outlines, height)
+    prism = prism_mesh(outlines, height)
+    if len(prism.faces) == 0:
+        report.warn(at, "a polyline that holds no area; it is not drawn")
+        return None
+    return prism
 
 
 def _terrain(terrain: Heightmap, at: Source, report: Diagnostics) -> Mesh | None:
