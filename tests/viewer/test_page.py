@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from trundle.viewer import (
+    DrawnLine,
     Drive,
     Pause,
     Play,
@@ -95,6 +96,17 @@ def test_a_body_without_a_pose_is_not_drawn(page: Any, viewer: Viewer, car_state
     viewer.show(state)
 
     _eventually(page, lambda picture: _blue(picture).sum() == 0)
+
+
+def test_lines_are_drawn_and_go(page: Any, viewer: Viewer, car_state: Callable[..., ViewerState]) -> None:
+    _eventually(page, lambda picture: _blue(picture).sum() > 5000)
+    points = np.array([[0.0, y / 100, 0.5] for y in range(-30, 31)], dtype=np.float32)
+
+    viewer.show(car_state(time_s=2.0, lines=(DrawnLine(points, (255, 0, 0)),)))
+    _eventually(page, lambda picture: _red(picture).sum() > 100)
+    viewer.show(car_state(time_s=3.0))
+
+    _eventually(page, lambda picture: _red(picture).sum() == 0)
 
 
 def test_time_controls_ask_the_owner(page: Any, viewer: Viewer) -> None:

@@ -10,7 +10,7 @@ from trundle.simulation import Simulation
 from trundle.viewer import Drive, Pause, Play, Reset, SetJoint, SetSpeed, Step, Viewer, ViewerState
 
 from .pace import Pacer
-from .page_layout import joint_indices, lay_out, slider_names
+from .page_layout import drawn_lines, joint_indices, lay_out, slider_names
 
 _FRAME_NS = 33_000_000
 """The page is fed 30 times a second of wall time."""
@@ -98,6 +98,7 @@ class Page:
                 joint_positions=snapshot.joint_positions[self._slider_indices],
                 real_time_factor=None if paused else pacer.real_time_factor,
                 paused=paused,
+                lines=drawn_lines(self._simulation),
             )
         )
 

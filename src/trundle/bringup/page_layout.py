@@ -2,14 +2,18 @@
 
 import math
 from dataclasses import dataclass
+from itertools import islice
+
+import numpy as np
 
 from trundle.bridge import WORLD_FRAME, link_frames
 from trundle.model import Joint, JointType
 from trundle.render import scene_of
 from trundle.sensors import CameraSensor
 from trundle.simulation import Simulation
-from trundle.viewer import CameraView, FrameInfo, JointSlider, ViewerScene, ViewerState
+from trundle.viewer import MOST_LINE_POINTS, CameraView, DrawnLine, FrameInfo, JointSlider, ViewerScene, ViewerState
 
+_MOST_LINES = 200
 _SLIDER_RANGE = math.pi
 """Of a joint without limits [rad or m]."""
 _MOVABLE = frozenset({JointType.REVOLUTE, JointType.PRISMATIC})
@@ -90,3 +94,17 @@ def joint_indices(simulation: Simulation, joints: list[tuple[str, str]]) -> list
 def _first_moving_link(simulation: Simulation) -> int | None:
     links = [(model, link) for model in simulation.world.models for link in model.links]
     return next((i for i, (model, _) in enumerate(links) if not model.static), None)
+
+
+def drawn_lines(simulation: Simulation) -> tuple[DrawnLine, ...]:
+    """What plugins have drawn; of too much, the first."""
+    drawn: list[DrawnLine] = []
+    left = MOST_LINE_POINTS
+    for line in islice(simulation.lines.values(), _MOST_LINES):
+        points = np.array(line.points[-left:], dtype=np.float32).reshape(-1, 3)
+        red, green, blue = (round(255 * value) for value in line.rgb)
+        drawn.append(DrawnLine(points, (red, green, blue)))
+        left -= len(points)
+        if left <= 0:
+            break
+    return tuple(drawn)

@@ -2,10 +2,12 @@
 
 from .load import load, load_text, load_urdf
 from .loaded import Loaded
+from .sdf import GAZEBO_MATERIALS
 from .writing import UriOf, write_sdf, write_urdf, written_uri
 from .xacro import expand_xacro
 
 __all__ = [
+    "GAZEBO_MATERIALS",
     "Loaded",
     "UriOf",
     "expand_xacro",

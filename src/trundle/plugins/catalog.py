@@ -28,6 +28,7 @@ BUILTIN: dict[str, str] = {
     "libKeysToCmdVelPlugin.so": "trundle.plugins.keys_to_cmd_vel:KeysToCmdVel",
     "libKeysToJointsPlugin.so": "trundle.plugins.keys_to_joints:KeysToJoints",
     "libLiftDragPlugin.so": "trundle.plugins.lift_drag:LiftDrag",
+    "libLinkPlot3DPlugin.so": "trundle.plugins.link_plot_3d:LinkPlot3D",
     "libRandomVelocityPlugin.so": "trundle.plugins.random_velocity:RandomVelocity",
     "libSimpleTrackedVehiclePlugin.so": "trundle.plugins.simple_tracked_vehicle:SimpleTrackedVehicle",
     "libSkidSteerDrivePlugin.so": "trundle.plugins.skid_steer_drive:SkidSteerDrive",

@@ -4,6 +4,7 @@ from trundle.physics import SimulationUnstableError
 
 from .handles import JointHandle, LinkHandle, ModelHandle
 from .hooks import AfterStep, BeforeStep
+from .line import Line
 from .simulation import SavedSimulation, Simulation
 from .snapshot import Snapshot
 from .state_log import StateLog, StateRecorder, read_state_log
@@ -12,6 +13,7 @@ __all__ = [
     "AfterStep",
     "BeforeStep",
     "JointHandle",
+    "Line",
     "LinkHandle",
     "ModelHandle",
     "SavedSimulation",

@@ -17,6 +17,7 @@ from trundle.spatial import Pose, Wrench
 from .handles import ModelHandle, handles_of
 from .hooks import AfterStep, BeforeStep, ScheduledHook
 from .joint_handle import JointHandle
+from .line import Line
 from .snapshot import Snapshot
 
 NS = 1_000_000_000
@@ -56,6 +57,8 @@ class Simulation:
         first = self._first_world_joint
         self.joints = [JointHandle(self, joint, first + i) for i, joint in enumerate(self.world.joints)]
         """Between models, in file order."""
+        self.lines: dict[str, Line] = {}
+        """What plugins draw, by `model::name`."""
         self._commands: deque[Command] = deque()
         self._hooks: list[ScheduledHook] = []
         self._on_change: list[Callable[[], None]] = []
@@ -217,6 +220,7 @@ class Simulation:
         gone = self[name]
         self._go_on_with(replace(self.world, models=tuple(m for m in self.world.models if m.name != name)))
         gone.move_to(None, None)
+        self.lines = {key: line for key, line in self.lines.items() if not key.startswith(f"{name}::")}
 
     def fix_elsewhere(self, handle: ModelHandle, world_from_model: Pose) -> None:
         """Put a model that hangs from the world elsewhere; see `ModelHandle.set_pose`."""

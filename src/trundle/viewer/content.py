@@ -74,6 +74,20 @@ class ViewerScene:
     """Draw the path of `follow_body` from the start."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class DrawnLine:
+    """A line strip."""
+
+    points: NDArray[np.float32]
+    """(points, 3) in `root_frame` [m]."""
+    rgb: tuple[int, int, int]
+    """0 to 255."""
+
+
+MOST_LINE_POINTS = 20_000
+"""Of all lines of a state."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ViewerState:
     """One moment of a scene."""
@@ -87,5 +101,7 @@ class ViewerState:
     """(joints,) in the order of the sliders; None leaves the sliders to the person at the page."""
     real_time_factor: float | None = None
     paused: bool = False
+    lines: tuple[DrawnLine, ...] = ()
+    """At most `MOST_LINE_POINTS` in all."""
     status: tuple[str, ...] = ()
     """Lines for the panel, warnings among them."""

@@ -12,6 +12,7 @@ from .batches import batches_of
 from .content import ViewerScene, ViewerState
 from .display import Display
 from .framing import Extent, extent_of
+from .lines import Lines
 from .marks import Frames, Frusta, Path
 from .mood import add_grid, add_lights, sky
 from .poses import Array, composed, inverted
@@ -47,6 +48,7 @@ class Stage:
         self._frames = Frames(server, "/view/root/frames", scene.frames)
         self._frusta = Frusta(server, "/view/root/cameras", scene.cameras)
         self._path = Path(server, "/view/root/path")
+        self._lines = Lines(server, "/view/root/lines")
 
     @property
     def extent(self) -> Extent | None:
@@ -77,6 +79,7 @@ class Stage:
                     batch.update(state.body_poses)
             self._frames.update(frame_poses, axes=display.frames, names=display.frames and display.names)
             self._frusta.update(state.body_poses, shown=display.cameras)
+            self._lines.update(state.lines)
             self._path.update(state.time_ns, followed, shown=display.path)
         return told
 

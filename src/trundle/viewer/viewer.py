@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from trundle.diagnostics import UsageError
 
-from .content import ViewerScene, ViewerState
+from .content import MOST_LINE_POINTS, ViewerScene, ViewerState
 from .errors import ViewerError
 from .mailbox import Mailbox
 from .requests import Request
@@ -23,6 +23,7 @@ from .wire import THUMBNAIL_HEIGHT_PX, THUMBNAIL_WIDTH_PX, Refused, Serve, Serve
 _START_TIMEOUT_S = 60.0
 _STOP_TIMEOUT_S = 1.5
 _STATUS_BYTES = 16_384
+_LINES_BYTES = 2 * 3 * 4 * MOST_LINE_POINTS
 _IMAGE_HEADER_BYTES = 8
 
 
@@ -114,7 +115,7 @@ class Viewer:
     def replace(self, scene: ViewerScene, *, state: ViewerState | None = None) -> None:
         """Show another scene on the same page: models were spawned or deleted, frames appeared."""
         rows = len(scene.scene.bodies) + len(scene.frames)
-        state_box = Mailbox.create(8 * (7 * rows + len(scene.joints)) + _STATUS_BYTES)
+        state_box = Mailbox.create(8 * (7 * rows + len(scene.joints)) + _STATUS_BYTES + _LINES_BYTES)
         image_bytes = _IMAGE_HEADER_BYTES + 3 * THUMBNAIL_WIDTH_PX * THUMBNAIL_HEIGHT_PX
         image_boxes = [Mailbox.create(image_bytes) for _ in scene.cameras]
         self._forget_boxes()

@@ -1,0 +1,100 @@
+"""libLinkPlot3DPlugin.so: the way that links have gone, as lines."""
+
+import math
+from dataclasses import dataclass
+from typing import Self
+
+from trundle.description import GAZEBO_MATERIALS
+from trundle.diagnostics import UsageError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import Line, LinkHandle, ModelHandle, Simulation
+from trundle.spatial import Pose, Vector3
+
+from .plugin import Plugin
+
+_APART = 0.05
+"""[m] Between two points."""
+_MOST, _FEWER = 1000, 5
+"""Points of a line, and how many are dropped beyond them."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Plot:
+    link: LinkHandle
+    link_from_pen: Pose
+    line: Line
+
+
+class LinkPlot3D(Plugin):
+    """Draws where links have been: on the page, in `Simulation.lines`, and as visualization_msgs/Marker on /marker.
+
+    Parameters: <frequency> [Hz] (30) and of any number of <plot>: <link>, <pose> in the link's frame, <material>
+    (Gazebo/Black). A point is kept every 5 cm, the newest thousand of them.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
+        report = sim.report
+        frequency = tag.node.number("frequency", default=30.0, report=report)
+        self.period_ns = round(1e9 / frequency) if frequency > 0.0 else 0
+        self._plots: list[_Plot] = []
+        for plot in tag.node.all("plot"):
+            pose = plot.find("pose")
+            pen = Pose() if pose is None else pose.as_pose(report=report)
+            name = plot.string("material", default="Gazebo/Black")
+            colour = GAZEBO_MATERIALS.get(name)
+            if colour is None:
+                report.warn(plot.at, f"no material {name!r} among Gazebo's; the line is black")
+            try:
+                link = model.link(plot.string("link"))
+            except UsageError as error:
+                report.warn(plot.at, f"<plot>: {error}; it is left out")
+                continue
+            line = Line((0.0, 0.0, 0.0) if colour is None else colour.diffuse[:3])
+            sim.lines[f"{model.name}::plot_{link.name}_{len(self._plots)}"] = line
+            self._plots.append(_Plot(link, pen, line))
+        tag.node.report_unread(report)
+        self._topic = None if node is None else node.advertise("/marker", "visualization_msgs/Marker", queue_size=10)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        return cls(sim, model, node, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Note where the links are."""
+        for number, plot in enumerate(self._plots):
+            here = (plot.link.pose @ plot.link_from_pen).position
+            points = plot.line.points
+            if points and math.dist(here, points[-1]) <= _APART:
+                continue
+            points.append(here)
+            if len(points) > _MOST:
+                del points[:_FEWER]
+            self._tell(number, plot, sim.time_ns)
+
+    def reset(self) -> None:
+        """Begin anew."""
+        for plot in self._plots:
+            plot.line.points.clear()
+
+    def _tell(self, number: int, plot: _Plot, time_ns: int) -> None:
+        if self._topic is None or not self._topic.has_subscribers:
+            return
+        red, green, blue = plot.line.rgb
+        self._topic.publish(
+            {
+                "header": {"stamp": time_ns, "frame_id": "world"},
+                "ns": f"plot_{plot.link.name}",
+                "id": number,
+                "type": 4,  # LINE_STRIP
+                "pose": {"orientation": {"w": 1.0}},
+                "scale": {"x": 0.01},
+                "color": {"r": red, "g": green, "b": blue, "a": 1.0},
+                "points": [_point(point) for point in plot.line.points],
+            }
+        )
+
+
+def _point(point: Vector3) -> dict[str, float]:
+    return {"x": point[0], "y": point[1], "z": point[2]}
