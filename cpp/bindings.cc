@@ -110,7 +110,8 @@ NB_MODULE(_native, module) {
           },
           nb::arg("kind"), nb::kw_only(), nb::arg("colour"), nb::arg("start"), nb::arg("end"), nb::arg("density"));
 
-  nb::class_<Renderer>(module, "Renderer")
+  nb::class_<Renderer> renderer(module, "Renderer");
+  renderer
       .def(
           "__init__",
           [](Renderer* self, int32_t bodies, std::vector<Mesh> meshes, std::vector<Image> textures,
@@ -152,6 +153,21 @@ NB_MODULE(_native, module) {
           },
           nb::arg("world_from_camera"), nb::kw_only(), nb::arg("focal"), nb::arg("near"), nb::arg("far"),
           nb::arg("rgb"), nb::arg("depth") = nb::none(), nb::arg("segmentation") = nb::none());
+
+  renderer.def(
+      "cast",
+      [](Renderer& self, std::array<double, 7> world_from_place, Array<const float, nb::shape<-1, 3>> directions,
+         float reach, int32_t exclude, Array<float, nb::shape<-1>> ranges, Array<int32_t, nb::shape<-1>> shapes) {
+        const size_t count = directions.shape(0);
+        if (ranges.shape(0) != count || shapes.shape(0) != count)
+          throw std::invalid_argument("there must be one range and one shape for each direction");
+        if (count > 100'000'000) throw std::invalid_argument("more than a hundred million rays");
+        const Frame place = frame_of(world_from_place, "the place that rays start from");
+        nb::gil_scoped_release unlocked;
+        self.cast(place, directions.data(), count, reach, exclude, ranges.data(), shapes.data());
+      },
+      nb::arg("world_from_place"), nb::arg("directions"), nb::kw_only(), nb::arg("reach"), nb::arg("exclude") = -1,
+      nb::arg("ranges"), nb::arg("shapes"));
 
   module.def("instruction_set", [] { return best_kernel().name; }, "Of the kernel that draws on this machine.");
 }

@@ -2,6 +2,7 @@
 // of the standard library is used here, so that no copy of it for one instruction set is linked into another.
 #include "kernel.h"
 
+#include "cast.h"
 #include "intersect.h"
 #include "lanes.h"
 #include "raster.h"
@@ -87,6 +88,6 @@ void shade(const View& view, const Solid& solid, const Lighting& lighting, const
 #define TRUNDLE_TEXT(name) #name
 #define TRUNDLE_NAME(name) TRUNDLE_TEXT(name)
 extern const Kernel kernel;
-const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), see, shade};
+const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), see, shade, cast};
 
 }  // namespace trundle::TRUNDLE_ISA

@@ -30,6 +30,21 @@ struct Triangles {
   int32_t vertex_count, face_count;
 };
 
+constexpr int kDeepestBvh = 64;
+
+// A box, and below it either triangles, `count` from `first` on, or two boxes: the next one and `first`.
+struct BvhNode {
+  float low[3];
+  int32_t first;
+  float high[3];
+  int32_t count;
+};
+
+struct BvhView {
+  const BvhNode* nodes;
+  const float* corners;
+};
+
 // An image and its halves, down to one pixel; it repeats.
 struct Texture {
   const int32_t* texels;  // red | green << 8 | blue << 16, the lowest row first
@@ -59,6 +74,11 @@ struct Solid {
   int32_t index;        // in the scene
   const Triangles* mesh;
   const Look* look;
+  // Only for rays:
+  BvhView bvh;
+  float middle[3];      // of a ball around it, in the frame that rays start from [m]
+  float radius;         // of that ball [m]; less than 0: endless
+  float reach;          // the square of how far along a ray its middle is where the ray only touches it [m²]
 };
 
 // What a light sees. Where something is nearer to it than a point, the point is in the shade.
@@ -105,6 +125,8 @@ struct Kernel {
   const char* name;
   void (*see)(const View&, const Solid&, const Buffers&);
   void (*shade)(const View&, const Solid&, const Lighting&, const Buffers&);
+  void (*cast)(const Solid*, int32_t, const float* directions, int32_t count, float reach, float* ranges,
+               int32_t* shapes);
 };
 
 namespace baseline {

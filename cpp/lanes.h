@@ -4,6 +4,10 @@
 
 #include <cstdint>
 
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
 namespace trundle::TRUNDLE_ISA {
 
 #if defined(__AVX512F__)
@@ -16,7 +20,6 @@ constexpr int kLanes = 4;
 
 typedef float F __attribute__((vector_size(kLanes * 4)));
 typedef int32_t I __attribute__((vector_size(kLanes * 4)));  // also masks: 0 or -1
-typedef int64_t L __attribute__((vector_size(kLanes * 4)));
 
 struct F3 {
   F x, y, z;
@@ -38,10 +41,17 @@ inline F sqrt(F a) {
 }
 
 inline bool any(I mask) {
-  const L wide = (L)mask;
-  int64_t all = 0;
-  for (int i = 0; i < kLanes / 2; ++i) all |= wide[i];
+#if defined(__AVX512F__)
+  return _mm512_test_epi32_mask((__m512i)mask, (__m512i)mask) != 0;
+#elif defined(__AVX2__)
+  return !_mm256_testz_si256((__m256i)mask, (__m256i)mask);
+#elif defined(__SSE2__)
+  return _mm_movemask_epi8((__m128i)mask) != 0;
+#else
+  int32_t all = 0;
+  for (int i = 0; i < kLanes; ++i) all |= mask[i];
   return all != 0;
+#endif
 }
 
 inline F counting() {
@@ -87,15 +97,17 @@ inline I load(const int32_t* at) {
   return value;
 }
 inline F gather(const float* from, I at) {
+#if defined(__AVX512F__)
+  return (F)_mm512_i32gather_ps((__m512i)at, from, 4);
+#elif defined(__AVX2__)
+  return (F)_mm256_i32gather_ps(from, (__m256i)at, 4);
+#else
   F value;
   for (int i = 0; i < kLanes; ++i) value[i] = from[at[i]];
   return value;
+#endif
 }
-inline I gather(const int32_t* from, I at) {
-  I value;
-  for (int i = 0; i < kLanes; ++i) value[i] = from[at[i]];
-  return value;
-}
+inline I gather(const int32_t* from, I at) { return (I)gather((const float*)from, at); }
 inline void store(float* at, F value) { __builtin_memcpy(at, &value, sizeof value); }
 inline void store(int32_t* at, I value) { __builtin_memcpy(at, &value, sizeof value); }
 

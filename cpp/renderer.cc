@@ -108,10 +108,11 @@ bool Renderer::is_endless(const ShapeSpec& shape) const {
   return shape.kind == Kind::kPlane && !(shape.size[0] > 0 && shape.size[1] > 0);
 }
 
-bool Renderer::place(const View& view, const Frame& world_from_camera, size_t index, Solid& solid) const {
+// Where a shape is as seen from somewhere; nothing where it is nowhere.
+std::optional<Frame> Renderer::orient(const Frame& world_from_camera, size_t index, Solid& solid) const {
   const ShapeSpec& shape = scene_.shapes[index];
   const auto& body = body_poses_[shape.body];
-  if (!body || !is_finite(shape.size)) return false;
+  if (!body || !is_finite(shape.size)) return std::nullopt;
   const Frame world_from_shape = *body * shape.body_from_shape;
   Frame camera_from_shape;
   for (int i = 0; i < 3; ++i) {
@@ -127,7 +128,7 @@ bool Renderer::place(const View& view, const Frame& world_from_camera, size_t in
     solid.eye[i] = (float)eye[i];
     solid.centre[i] = (float)camera_from_shape.position[i];
     solid.size[i] = shape.size[i];
-    if (!std::isfinite(solid.eye[i]) || !std::isfinite(solid.centre[i])) return false;
+    if (!std::isfinite(solid.eye[i]) || !std::isfinite(solid.centre[i])) return std::nullopt;
   }
   solid.kind = shape.kind;
   solid.look = &looks_[index];
@@ -135,15 +136,64 @@ bool Renderer::place(const View& view, const Frame& world_from_camera, size_t in
   solid.index = (int32_t)index;
   solid.mesh = shape.kind == Kind::kMesh ? &triangles_[shape.mesh] : nullptr;
   solid.id_count = solid.mesh ? solid.mesh->face_count : 1;
-  if (solid.id_count == 0) return false;
+  if (solid.id_count == 0) return std::nullopt;
+  return camera_from_shape;
+}
+
+bool Renderer::place(const View& view, const Frame& world_from_camera, size_t index, Solid& solid) const {
+  const auto camera_from_shape = orient(world_from_camera, index, solid);
+  if (!camera_from_shape) return false;
+  const ShapeSpec& shape = scene_.shapes[index];
   if (is_endless(shape)) {
     solid.left = solid.top = 0, solid.right = view.width, solid.bottom = view.height;
-    return eye[2] > 0.0;
+    return solid.eye[2] > 0.0f;
   }
   const auto [low, high] = bounds_of(shape);
-  const Rectangle pixels = covered(view, camera_from_shape, low, high);
+  const Rectangle pixels = covered(view, *camera_from_shape, low, high);
   solid.left = pixels.left, solid.top = pixels.top, solid.right = pixels.right, solid.bottom = pixels.bottom;
   return !pixels.empty();
+}
+
+void Renderer::cast(const Frame& world_from_place, const float* directions, size_t count, float reach,
+                    int32_t exclude, float* ranges, int32_t* shapes) {
+  if (trees_.empty())
+    for (const Triangles& mesh : triangles_) trees_.push_back(mesh.face_count > 0 ? make_bvh(mesh) : Bvh());
+  std::vector<Solid> solids;
+  for (size_t i = 0; i < scene_.shapes.size(); ++i) {
+    const ShapeSpec& shape = scene_.shapes[i];
+    Solid solid;
+    if (shape.body == exclude) continue;
+    const auto place_from_shape = orient(world_from_place, i, solid);
+    if (!place_from_shape) continue;
+    solid.radius = solid.reach = -1.0f;
+    if (shape.kind == Kind::kMesh) solid.bvh = trees_[shape.mesh].view();
+    if (!is_endless(shape)) {
+      const auto [low, high] = bounds_of(shape);
+      Vec3 middle;
+      double square = 0.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        middle[axis] = 0.5 * (low[axis] + high[axis]);
+        square += 0.25 * (high[axis] - low[axis]) * (high[axis] - low[axis]);
+      }
+      middle = place_from_shape->move(middle);
+      const double radius = std::sqrt(square) * 1.0001 + 1e-4;
+      double away = 0.0;
+      for (int axis = 0; axis < 3; ++axis) solid.middle[axis] = (float)middle[axis], away += middle[axis] * middle[axis];
+      if (std::sqrt(away) - radius > reach) continue;
+      // What single precision loses in the difference of two large squares is added.
+      solid.radius = (float)radius, solid.reach = (float)(away - radius * radius - 1e-6 * away);
+    }
+    solids.push_back(solid);
+  }
+  const size_t padded = (count + kWidest - 1) / kWidest * kWidest;
+  std::vector<float> rows(3 * padded, 0.0f), found(padded);
+  std::vector<int32_t> met(padded);
+  for (size_t i = 0; i < count; ++i)
+    for (int axis = 0; axis < 3; ++axis) rows[axis * padded + i] = directions[3 * i + axis];
+  best_kernel().cast(solids.data(), (int32_t)solids.size(), rows.data(), (int32_t)padded, reach, found.data(),
+                     met.data());
+  std::copy_n(found.begin(), count, ranges);
+  std::copy_n(met.begin(), count, shapes);
 }
 
 // Flat things lie on the ground: what a plane would shade is below it.

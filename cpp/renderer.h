@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bvh.h"
 #include "geometry.h"
 #include "kernel.h"
 #include "light.h"
@@ -57,6 +58,10 @@ class Renderer {
   void update(const double* poses);  // (bodies, 7)
   // Into (height, width, 3), (height, width), (height, width); depth and segment may be null.
   void render(const Camera& camera, uint8_t* rgb, float* depth, int32_t* segment);
+  // How far rays from one place go before they meet a shape [m], and which; `reach` and -1 where they meet none. Unit
+  // directions (count, 3) in the frame of that place; of the body `exclude`, nothing is met.
+  void cast(const Frame& world_from_place, const float* directions, size_t count, float reach, int32_t exclude,
+            float* ranges, int32_t* shapes);
   int32_t bodies() const { return scene_.bodies; }
 
  private:
@@ -65,6 +70,7 @@ class Renderer {
   };
   Bounds bounds_of(const ShapeSpec& shape) const;
   bool is_endless(const ShapeSpec& shape) const;
+  std::optional<Frame> orient(const Frame& world_from_camera, size_t index, Solid& solid) const;
   bool place(const View& view, const Frame& world_from_camera, size_t index, Solid& solid) const;
   void draw_maps();
   void clear(const View& view, const Frame& world_from_camera, bool segment);
@@ -72,6 +78,7 @@ class Renderer {
 
   SceneSpec scene_;
   std::vector<Triangles> triangles_;
+  std::vector<Bvh> trees_;  // made when first a ray is cast
   std::vector<Look> looks_;
   std::vector<int32_t> first_ids_;
   std::vector<std::optional<Frame>> body_poses_;  // nothing: nowhere, and not drawn

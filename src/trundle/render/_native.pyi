@@ -106,5 +106,15 @@ class Renderer:
         depth: NDArray[np.float32] | None = None,
         segmentation: NDArray[np.int32] | None = None,
     ) -> None: ...
+    def cast(
+        self,
+        world_from_place: Sequence[float],
+        directions: NDArray[np.float32],
+        *,
+        reach: float,
+        exclude: int = -1,
+        ranges: NDArray[np.float32],
+        shapes: NDArray[np.int32],
+    ) -> None: ...
 
 def instruction_set() -> str: ...

@@ -115,6 +115,34 @@ class NativeRenderer:
         )
         return Picture(rgb, depths, segments)
 
+    def cast(
+        self, world_from_place: Pose, directions: NDArray[np.float32], *, reach_m: float, exclude: int | None = None
+    ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+        """Send rays from one place.
+
+        Args:
+            world_from_place: where they start.
+            directions: (N, 3), of unit length, in that place's frame.
+            reach_m: how far they go.
+            exclude: a body to look through.
+
+        Returns:
+            (N,) distances to the first shape [m], infinite where none is within reach; of a shape that a ray starts
+            inside, nothing is met. (N,) indices of the shapes in the scene, −1 for none.
+        """
+        ranges = np.empty(len(directions), dtype=np.float32)
+        shapes = np.empty(len(directions), dtype=np.int32)
+        self._renderer.cast(
+            (*world_from_place.position, *world_from_place.quaternion),
+            np.ascontiguousarray(directions, dtype=np.float32),
+            reach=min(reach_m, 1e30),
+            exclude=-1 if exclude is None else exclude,
+            ranges=ranges,
+            shapes=shapes,
+        )
+        ranges[shapes < 0] = np.inf
+        return ranges, shapes
+
 
 def _native_mesh(mesh: Mesh) -> _native.Mesh:
     uv = None if mesh.uv is None else np.ascontiguousarray(mesh.uv, dtype=np.float32)

@@ -1,0 +1,123 @@
+#include "bvh.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace trundle {
+
+namespace {
+
+constexpr int kBins = 16;
+constexpr int32_t kLeaf = 4;      // triangles that are not worth a division
+constexpr int kDeepest = kDeepestBvh - 2;
+
+struct Box {
+  std::array<float, 3> low{3e38f, 3e38f, 3e38f}, high{-3e38f, -3e38f, -3e38f};
+
+  void take(const Box& other) {
+    for (int i = 0; i < 3; ++i)
+      low[i] = std::min(low[i], other.low[i]), high[i] = std::max(high[i], other.high[i]);
+  }
+  double area() const {
+    const double x = (double)high[0] - low[0], y = (double)high[1] - low[1], z = (double)high[2] - low[2];
+    return x < 0 ? 0 : x * y + y * z + z * x;
+  }
+  float middle(int axis) const { return 0.5f * (low[axis] + high[axis]); }
+};
+
+struct Builder {
+  const Triangles& mesh;
+  std::vector<Box> boxes;
+  std::vector<int32_t> order;
+  std::vector<BvhNode> nodes;
+
+  explicit Builder(const Triangles& mesh) : mesh(mesh), boxes((size_t)mesh.face_count) {
+    for (int32_t face = 0; face < mesh.face_count; ++face) {
+      order.push_back(face);
+      for (int corner = 0; corner < 3; ++corner) {
+        const float* p = mesh.vertices + 3 * (int64_t)mesh.faces[3 * (int64_t)face + corner];
+        boxes[face].take({{p[0], p[1], p[2]}, {p[0], p[1], p[2]}});
+      }
+    }
+    divide(0, mesh.face_count, 0);
+  }
+
+  // Where the surface area heuristic says; the number of triangles in the first part, 0 where none is better.
+  int32_t split(int32_t first, int32_t count, const Box& middles, double whole) {
+    double best = (double)count * whole;
+    int best_axis = -1, best_bin = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float extent = middles.high[axis] - middles.low[axis];
+      if (!(extent > 0.0f)) continue;
+      std::array<Box, kBins> bins;
+      std::array<int32_t, kBins> counts{};
+      for (int32_t i = first; i < first + count; ++i) {
+        const int bin = bin_of(boxes[order[i]].middle(axis), middles, axis);
+        bins[bin].take(boxes[order[i]]);
+        ++counts[bin];
+      }
+      std::array<double, kBins> above{};
+      Box box;
+      int32_t many = 0;
+      for (int bin = kBins - 1; bin > 0; --bin) box.take(bins[bin]), many += counts[bin], above[bin] = many * box.area();
+      box = Box(), many = 0;
+      for (int bin = 0; bin + 1 < kBins; ++bin) {
+        box.take(bins[bin]), many += counts[bin];
+        const double cost = many * box.area() + above[bin + 1] + 0.5 * whole;
+        if (many > 0 && many < count && cost < best) best = cost, best_axis = axis, best_bin = bin;
+      }
+    }
+    if (best_axis < 0) return 0;
+    const auto begin = order.begin() + first;
+    return (int32_t)(std::stable_partition(begin, begin + count, [&](int32_t face) {
+                       return bin_of(boxes[face].middle(best_axis), middles, best_axis) <= best_bin;
+                     }) -
+                     begin);
+  }
+
+  static int bin_of(float at, const Box& middles, int axis) {
+    const float share = (at - middles.low[axis]) / (middles.high[axis] - middles.low[axis]);
+    return std::clamp((int)(share * kBins), 0, kBins - 1);
+  }
+
+  void divide(int32_t first, int32_t count, int depth) {
+    Box box, middles;
+    for (int32_t i = first; i < first + count; ++i) {
+      const Box& one = boxes[order[i]];
+      const std::array<float, 3> middle{one.middle(0), one.middle(1), one.middle(2)};
+      box.take(one);
+      middles.take({middle, middle});
+    }
+    const size_t here = nodes.size();
+    nodes.push_back({{box.low[0], box.low[1], box.low[2]}, first, {box.high[0], box.high[1], box.high[2]}, count});
+    if (count <= kLeaf) return;
+    int32_t left = depth < kDeepest ? split(first, count, middles, box.area()) : 0;
+    if (left == 0 && count <= 64) return;
+    if (left == 0 && depth >= kDeepest) return;
+    if (left == 0) left = count / 2;
+    divide(first, left, depth + 1);
+    nodes[here].first = (int32_t)nodes.size();
+    nodes[here].count = 0;
+    divide(first + left, count - left, depth + 1);
+  }
+};
+
+}  // namespace
+
+Bvh make_bvh(const Triangles& mesh) {
+  Builder builder(mesh);
+  Bvh bvh;
+  for (const int32_t face : builder.order) {
+    const float* p[3];
+    for (int corner = 0; corner < 3; ++corner)
+      p[corner] = mesh.vertices + 3 * (int64_t)mesh.faces[3 * (int64_t)face + corner];
+    for (int i = 0; i < 3; ++i) bvh.corners.push_back(p[0][i]);
+    for (int edge = 1; edge < 3; ++edge)
+      for (int i = 0; i < 3; ++i) bvh.corners.push_back(p[edge][i] - p[0][i]);
+  }
+  bvh.nodes = std::move(builder.nodes);
+  return bvh;
+}
+
+}  // namespace trundle

@@ -1,0 +1,19 @@
+// A tree of boxes around the triangles of a mesh.
+#pragma once
+
+#include <vector>
+
+#include "kernel.h"
+
+namespace trundle {
+
+struct Bvh {
+  std::vector<BvhNode> nodes;
+  std::vector<float> corners;  // 9 for each triangle: a corner, and the edges to the two others
+  BvhView view() const { return {nodes.data(), corners.data()}; }
+};
+
+// Of what is never empty: a mesh with faces.
+Bvh make_bvh(const Triangles& mesh);
+
+}  // namespace trundle

@@ -1,0 +1,182 @@
+"""How far it is, and to what."""
+
+import math
+
+import mujoco
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from trundle.meshes import Mesh
+from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
+from trundle.render import NativeRenderer, Scene, Shape, ShapeGeometry
+from trundle.spatial import Pose
+
+HERE = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
+SOLIDS: dict[str, ShapeGeometry] = {
+    "box": Box((1.0, 0.6, 0.8)),
+    "sphere": Sphere(0.5),
+    "cylinder": Cylinder(0.4, 1.1),
+    "capsule": Capsule(0.3, 0.9),
+    "ellipsoid": Ellipsoid((0.6, 0.3, 0.45)),
+}
+
+
+def renderer(*shapes: Shape, bodies: int = 1) -> NativeRenderer:
+    made = NativeRenderer(Scene(bodies=tuple(map(str, range(bodies))), shapes=shapes))
+    made.update(np.array([HERE] * bodies))
+    return made
+
+
+def around(columns: int, rows: int = 1) -> NDArray[np.float32]:
+    """Unit directions all around, rows of them from 40° below to 40° above."""
+    yaw, pitch = np.meshgrid(np.linspace(-math.pi, math.pi, columns), np.linspace(-0.7, 0.7, rows))
+    flat = np.cos(pitch)
+    return np.stack([flat * np.cos(yaw), flat * np.sin(yaw), np.sin(pitch)], axis=-1).reshape(-1, 3).astype(np.float32)
+
+
+def ico(level: int) -> Mesh:
+    """A ball of 0.7 m, of triangles."""
+    import trimesh
+
+    ball = trimesh.creation.icosphere(subdivisions=level, radius=0.7)
+    return Mesh(ball.vertices.astype(np.float32), ball.faces.astype(np.int32))
+
+
+def engine(placed: list[tuple[str, ShapeGeometry, Pose]]) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """The same in MuJoCo."""
+    spec = mujoco.MjSpec()
+    kinds = mujoco.mjtGeom
+    for number, (name, geometry, pose) in enumerate(placed):
+        geom = spec.worldbody.add_geom(name=f"{name}{number}", pos=pose.position, quat=pose.quaternion)
+        match geometry:
+            case Box((x, y, z)):
+                geom.type, geom.size = kinds.mjGEOM_BOX, [x / 2, y / 2, z / 2]
+            case Sphere(radius):
+                geom.type, geom.size = kinds.mjGEOM_SPHERE, [radius, 0, 0]
+            case Cylinder(radius, length):
+                geom.type, geom.size = kinds.mjGEOM_CYLINDER, [radius, length / 2, 0]
+            case Capsule(radius, length):
+                geom.type, geom.size = kinds.mjGEOM_CAPSULE, [radius, length / 2, 0]
+            case Ellipsoid(radii):
+                geom.type, geom.size = kinds.mjGEOM_ELLIPSOID, list(radii)
+            case _:
+                raise AssertionError(geometry)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+def test_rays_meet_what_mujocos_meet() -> None:
+    random = np.random.default_rng(3)
+    placed = []
+    for _ in range(40):
+        name = str(random.choice(list(SOLIDS)))
+        yaw = random.uniform(-math.pi, math.pi)
+        away, up = random.uniform(1.6, 12.0), random.uniform(-2.0, 2.0)
+        rpy = random.uniform(-3.0, 3.0, 3).tolist()
+        placed.append((name, SOLIDS[name], Pose.from_rpy(away * math.cos(yaw), away * math.sin(yaw), up, *rpy)))
+    made = renderer(*(Shape(name=n, body=0, geometry=g, body_from_shape=p) for n, g, p in placed))
+    directions = around(1800, 16)
+    ranges, shapes = made.cast(Pose(), directions, reach_m=30.0)
+
+    model, data = engine(placed)
+    count = len(directions)
+    geoms, far = np.empty(count, dtype=np.int32), np.empty(count)
+    flat = directions.astype(float).reshape(-1)
+    mujoco.mj_multiRay(model, data, np.zeros(3), flat, None, 1, -1, geoms, far, None, count, 30.0)
+    met = far >= 0.0
+    assert met.mean() > 0.1
+    # At a rim, where a ray only touches, the last bit decides.
+    same = shapes == np.where(met, geoms, -1)
+    assert (~same).sum() <= 3
+    off = np.abs(ranges[same & met] - far[same & met])
+    # A ray that grazes a curve finds it less exactly: the square root of a rounding error.
+    assert np.quantile(off, 0.999) < 1e-5
+    assert np.median(off) < 1e-6
+
+
+def test_a_fan_on_a_wall_reads_what_the_wall_is_to_a_hundredth_of_a_millimetre() -> None:
+    wall = Shape(name="wall", body=0, geometry=Box((1.0, 400.0, 40.0)), body_from_shape=Pose((20.5, 0.0, 0.0)))
+    angles = np.linspace(-1.2, 1.2, 720)
+    fan = np.stack([np.cos(angles), np.sin(angles), np.zeros(720)], axis=-1).astype(np.float32)
+    ranges, shapes = renderer(wall).cast(Pose(), fan, reach_m=100.0)
+    assert (shapes == 0).all()
+    assert np.abs(ranges - 20.0 / fan[:, 0].astype(float)).max() < 1e-5
+
+
+def test_rays_start_where_they_are_told_to_and_end_at_their_reach() -> None:
+    ball = Shape(name="ball", body=0, geometry=Sphere(0.5), body_from_shape=Pose((1.0, 4.0, 2.0)))
+    made = renderer(ball)
+    place = Pose.from_rpy(1.0, 1.0, 2.0, 0.0, 0.0, math.pi / 2)
+    ahead = np.array([[1.0, 0.0, 0.0]], dtype=np.float32)
+    ranges, shapes = made.cast(place, ahead, reach_m=10.0)
+    assert (ranges[0], shapes[0]) == (pytest.approx(2.5, abs=1e-6), 0)
+    ranges, shapes = made.cast(place, ahead, reach_m=2.4)
+    assert (ranges[0], shapes[0]) == (math.inf, -1)
+
+
+@pytest.mark.parametrize("level", [0, 2, 4])
+def test_meshes_are_met_from_outside_and_inside(level: int) -> None:
+    mesh = Shape(name="m", body=0, geometry=ico(level), body_from_shape=Pose.from_rpy(2.0, 0.1, 0.0, 0.4, 0.3, 0.2))
+    made = renderer(mesh)
+    directions = around(720, 8)
+    ranges, shapes = made.cast(Pose(), directions, reach_m=10.0)
+    # Triangles lie a little below the ball that they make.
+    slack = {0: 0.16, 2: 0.02, 4: 0.002}[level]
+    exact, _ = renderer(Shape(name="b", body=0, geometry=Sphere(0.7), body_from_shape=mesh.body_from_shape)).cast(
+        Pose(), directions, reach_m=10.0
+    )
+    core = renderer(Shape(name="c", body=0, geometry=Sphere(0.7 - slack), body_from_shape=mesh.body_from_shape))
+    inner, _ = core.cast(Pose(), directions, reach_m=10.0)
+    assert (shapes[np.isfinite(inner)] == 0).all()
+    assert (shapes[np.isinf(exact)] == -1).all()
+    hit = np.isfinite(inner)
+    assert (ranges[hit] >= exact[hit] - 1e-5).all()
+    assert (ranges[hit] <= inner[hit] + 1e-5).all()
+    within, shapes = made.cast(Pose((2.0, 0.1, 0.0)), directions, reach_m=10.0)
+    assert (shapes == 0).all()
+    assert within.min() > 0.7 - slack
+    assert within.max() < 0.7 + 1e-5
+
+
+def test_every_triangle_of_a_large_mesh_is_found() -> None:
+    """A sheet of 20,000 triangles, each looked at through its middle."""
+    side = np.linspace(-1.0, 1.0, 101)
+    heights = 0.1 * np.sin(9.0 * side)[:, None] * np.cos(7.0 * side)[None, :]
+    vertices = np.stack([*np.meshgrid(side, side), heights], axis=-1).reshape(-1, 3).astype(np.float32)
+    corner = np.arange(101 * 101).reshape(101, 101)
+    a, b, c, d = corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]
+    faces = np.concatenate([np.stack([a, b, c], -1).reshape(-1, 3), np.stack([a, c, d], -1).reshape(-1, 3)])
+    made = renderer(Shape(name="sheet", body=0, geometry=Mesh(vertices, faces.astype(np.int32))))
+    eye = np.array([0.1, 0.2, 3.0])
+    ways = vertices[faces].mean(axis=1) - eye
+    away = np.linalg.norm(ways, axis=1)
+    ranges, _ = made.cast(Pose((0.1, 0.2, 3.0)), (ways / away[:, None]).astype(np.float32), reach_m=10.0)
+    assert (ranges <= away + 1e-5).all()
+    assert (np.abs(ranges - away) < 1e-5).mean() > 0.99  # a few are hidden behind a crest
+
+
+def test_a_body_can_be_looked_through_and_one_that_is_nowhere_is_not_met() -> None:
+    near = Shape(name="near", body=0, geometry=Sphere(0.2), body_from_shape=Pose((1.0, 0.0, 0.0)))
+    far = Shape(name="far", body=1, geometry=Sphere(0.2), body_from_shape=Pose((3.0, 0.0, 0.0)))
+    ground = Shape(name="ground", body=2, geometry=Plane((0.0, 0.0, 1.0), (0.0, 0.0)))
+    made = renderer(near, far, ground, bodies=3)
+    ways = np.array([[1.0, 0.0, 0.0], [0.0, 0.6, -0.8]], dtype=np.float32)
+    eye = Pose((0.0, 0.0, 2.0))
+    made.update(np.array([[0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0]] * 2 + [HERE]))
+    ranges, shapes = made.cast(eye, ways, reach_m=9.0)
+    assert shapes.tolist() == [0, 2]
+    assert ranges == pytest.approx([0.8, 2.5], abs=1e-5)
+    assert made.cast(eye, ways, reach_m=9.0, exclude=0)[1].tolist() == [1, 2]
+    made.update(np.array([[math.nan] * 7, [0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0], HERE]))
+    assert made.cast(eye, ways, reach_m=9.0)[1].tolist() == [1, 2]
+
+
+def test_no_rays_and_no_shapes_are_no_trouble() -> None:
+    made = renderer()
+    ranges, shapes = made.cast(Pose(), around(5), reach_m=9.0)
+    assert np.isinf(ranges).all()
+    assert (shapes == -1).all()
+    assert len(made.cast(Pose(), np.empty((0, 3), dtype=np.float32), reach_m=9.0)[0]) == 0
