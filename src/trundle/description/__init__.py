@@ -2,7 +2,7 @@
 
 from .load import load, load_text, load_urdf
 from .loaded import Loaded
-from .sdf import GAZEBO_MATERIALS
+from .sdf import GAZEBO_MATERIALS, read_extra_joint
 from .writing import UriOf, write_sdf, write_urdf, written_uri
 from .xacro import expand_xacro
 
@@ -14,6 +14,7 @@ __all__ = [
     "load",
     "load_text",
     "load_urdf",
+    "read_extra_joint",
     "write_sdf",
     "write_urdf",
     "written_uri",

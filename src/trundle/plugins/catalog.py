@@ -22,6 +22,7 @@ from .plugin import Hooks, Plugin, WorldPlugin
 BUILTIN: dict[str, str] = {
     "libBuoyancyPlugin.so": "trundle.plugins.buoyancy:Buoyancy",
     "libDiffDrivePlugin.so": "trundle.plugins.diff_drive:DiffDrive",
+    "libHarnessPlugin.so": "trundle.plugins.harness:Harness",
     "libInitialVelocityPlugin.so": "trundle.plugins.initial_velocity:InitialVelocity",
     "libJointControlPlugin.so": "trundle.plugins.joint_control:JointControl",
     "libJointTrajectoryPlugin.so": "trundle.plugins.joint_trajectory:JointTrajectory",

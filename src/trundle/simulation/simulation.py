@@ -10,10 +10,11 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from trundle.diagnostics import Diagnostics, UsageError
-from trundle.model import Model, World
+from trundle.model import Joint, Model, World
 from trundle.physics import Contact, Engine, EngineState, GripLaw, compile_world
-from trundle.spatial import Pose, Wrench
+from trundle.spatial import Pose, Twist, Wrench
 
+from .attaching import attached
 from .handles import ModelHandle, handles_of
 from .hooks import AfterStep, BeforeStep, ScheduledHook
 from .joint_handle import JointHandle
@@ -222,6 +223,32 @@ class Simulation:
         gone.move_to(None, None)
         self.lines = {key: line for key, line in self.lines.items() if not key.startswith(f"{name}::")}
 
+    def attach(self, joint: Joint) -> JointHandle:
+        """Join two links, or one and the world, where they are now; everything keeps its place.
+
+        Args:
+            joint: links by `model::link` or "world", the frame in the child's, axes in the world as they lie now.
+
+        Raises:
+            UsageError: there is no such link, or such a joint already.
+            DescriptionError: the engine cannot simulate it; nothing has changed.
+        """
+        self._go_on_with(attached(self.world, self.models, joint))
+        return self.joints[-1]
+
+    def detach(self, name: str) -> None:
+        """Take a joint between models away; everything keeps its place and speed, what hung from it is free.
+
+        Raises:
+            UsageError: with the names there are.
+        """
+        if not any(joint.name == name for joint in self.joints):
+            there = ", ".join(repr(joint.name) for joint in self.joints) or "none"
+            raise UsageError(f"no joint {name!r} between models; there are: {there}")
+        gone = next(joint for joint in self.joints if joint.name == name)
+        self._go_on_with(replace(self.world, joints=tuple(j for j in self.world.joints if j.name != name)))
+        gone.move_to(None)
+
     def fix_elsewhere(self, handle: ModelHandle, world_from_model: Pose) -> None:
         """Put a model that hangs from the world elsewhere; see `ModelHandle.set_pose`."""
         moved = replace(handle.model, world_from_model=world_from_model)
@@ -251,6 +278,7 @@ class Simulation:
         old = self.engine
         engine = Engine(compile_world(world, self.report))
         engine.take_over(old)
+        _keep_free(old, engine)
         self.engine, self.world = engine, engine.compiled.world
         links = {name: index for index, name in enumerate(engine.compiled.link_names)}
         names = old.compiled.link_names
@@ -261,6 +289,8 @@ class Simulation:
             engine.set_grips(self._grips)
         known = {handle.name: handle for handle in self.models}
         self.models[:] = handles_of(self, self.world, known)
+        joints = {handle.name: handle for handle in self.joints}
+        self.joints[:] = [joints.get(joint.name) or JointHandle(self, joint, 0) for joint in self.world.joints]
         for i, joint in enumerate(self.joints, self._first_world_joint):
             joint.move_to(i)
         for call in self._on_change:
@@ -305,6 +335,19 @@ class Simulation:
         for link in [link for link, end in self._wrench_ends.items() if end <= self.steps]:
             del self._wrench_ends[link]
             self.engine.set_wrench(link, Wrench())
+
+
+def _keep_free(old: Engine, engine: Engine) -> None:
+    """Links that hung from something and are free now stay where they are, as fast as they were."""
+    links = {name: index for index, name in enumerate(old.compiled.link_names)}
+    poses, twists = old.reader.link_poses(), old.reader.link_twists()
+    for link, name in enumerate(engine.compiled.link_names):
+        before = links.get(name)
+        if before is not None and engine.is_free(link) and not old.is_free(before):
+            x, y, z, qw, qx, qy, qz = poses[before].tolist()
+            vx, vy, vz, wx, wy, wz = twists[before].tolist()
+            engine.set_tree_pose(link, Pose((x, y, z), (qw, qx, qy, qz)))
+            engine.set_tree_twist(link, Twist((vx, vy, vz), (wx, wy, wz)))
 
 
 def _names_of(world: World) -> list[tuple[str, list[str], list[str]]]:

@@ -1,0 +1,133 @@
+"""libHarnessPlugin.so: a robot hung from a winch until it is let go."""
+
+from dataclasses import replace
+from typing import Self
+
+from trundle.control import Pid
+from trundle.description import read_extra_joint
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.model import Joint, JointAxis, PluginTag
+from trundle.names import ros_name
+from trundle.ros import Message, Node
+from trundle.simulation import JointHandle, ModelHandle, Simulation
+from trundle.spatial import Pose
+from trundle.xmlnode import XmlNode
+
+from .plugin import Plugin
+
+_PID = (("p", "p"), ("i", "i"), ("d", "d"), ("i_min", "i_min"), ("i_max", "i_max"), ("low", "cmd_min"))
+_STILL = 1e-6
+"""[m/s] What is slower is holding on."""
+
+
+class Harness(Plugin):
+    """Joins links of the model with the world, winds, and lets go.
+
+    Parameters: any number of <joint>, as in a model; <winch> with <joint>, <pos_pid> and <vel_pid> (p, i, d, i_max,
+    i_min, cmd_max, cmd_min, all 0); <detach>: the joint that opens. `/<model>/harness/velocity` (std_msgs/Float32) is
+    how fast the winch winds [m/s], 0 holds; `/<model>/harness/detach` (std_msgs/Bool) lets go, once. The speed loop
+    only ever pulls up, as in Gazebo.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
+        self._sim = sim
+        report = sim.report
+        self._joints: list[JointHandle] = []
+        for child in tag.node.all("joint"):
+            joint = read_extra_joint(child, model.model, report)
+            if joint is not None:
+                self._joints.append(sim.attach(_in_world(joint, model)))
+        if not self._joints:
+            raise UsageError("a harness needs a <joint>")
+        winch = tag.node.find("winch")
+        self._winch: JointHandle | None = self._named(winch, "joint", model, tag, report)
+        self._opens: JointHandle | None = self._named(tag.node, "detach", model, tag, report)
+        self._position = _read_pid(winch and winch.find("pos_pid"), report)
+        self._speed = _read_pid(winch and winch.find("vel_pid"), report)
+        tag.node.report_unread(report)
+        self._target, self._target_speed = 0.0, 0.0
+        if node is not None:
+            base = f"/{ros_name(model.name)}/harness"
+            node.subscribe(f"{base}/velocity", "std_msgs/Float32", self._take_velocity)
+            node.subscribe(f"{base}/detach", "std_msgs/Bool", self._take_detach)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        return cls(sim, model, node, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Wind, or hold."""
+        if self._winch is None:
+            return
+        dt = sim.step_ns / 1e9
+        holds = abs(self._target_speed) < _STILL
+        error = self._winch.position - self._target if holds else 0.0
+        pull = max(self._speed.command(self._winch.velocity - self._target_speed, dt), 0.0)
+        self._winch.set_effort(pull + self._position.command(error, dt))
+
+    def reset(self) -> None:
+        """Hold where the winch begins; what was let go stays so."""
+        self._target = self._target_speed = 0.0
+        self._position.reset()
+        self._speed.reset()
+
+    def wind(self, speed: float) -> None:
+        """Wind at a speed [m/s]; 0 holds."""
+        self._target_speed = speed
+        if abs(speed) < _STILL and self._winch is not None:
+            self._target = self._winch.position
+            self._position.reset()
+
+    def let_go(self) -> None:
+        """Open the joint; afterwards nothing winds any more."""
+        if self._opens is not None:
+            self._sim.detach(self._opens.name)
+            self._opens = self._winch = None
+
+    def _take_velocity(self, message: Message) -> None:
+        self.wind(float(message.data))
+
+    def _take_detach(self, message: Message) -> None:
+        if message.data:
+            self.let_go()
+
+    def _named(
+        self, node: XmlNode | None, tag: str, model: ModelHandle, plugin: PluginTag, report: Diagnostics
+    ) -> JointHandle:
+        """The joint that a tag names; without one, the first, which is said."""
+        name = "" if node is None else node.string(tag)
+        for joint in self._joints:
+            if joint.name == f"{model.name}::{name}":
+                return joint
+        at = plugin.at if node is None else node.at
+        report.warn(at, f"harness: no joint {name!r} for <{tag}>; the first one is used")
+        return self._joints[0]
+
+
+def _in_world(joint: Joint, model: ModelHandle) -> Joint:
+    """A joint of a model as one between models."""
+
+    def named(link: str) -> str:
+        return link if link == "world" else f"{model.name}::{link}"
+
+    def turned(axis: JointAxis | None, by: Pose) -> JointAxis | None:
+        return None if axis is None else replace(axis, direction=by.direction(axis.direction))
+
+    return replace(
+        joint,
+        name=f"{model.name}::{joint.name}",
+        parent=named(joint.parent),
+        child=named(joint.child),
+        axis=turned(joint.axis, model.pose),
+        axis2=turned(joint.axis2, model.pose),
+    )
+
+
+def _read_pid(node: XmlNode | None, report: Diagnostics) -> Pid:
+    """Gains and limits; what is not given is 0, the command's limits as well."""
+    pid = Pid(high=0.0)
+    if node is not None:
+        for name, tag in (*_PID, ("high", "cmd_max")):
+            setattr(pid, name, node.number(tag, default=0.0, report=report))
+    return pid

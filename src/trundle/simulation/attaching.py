@@ -1,0 +1,57 @@
+"""Joints that come while the world runs: where everything has to be for them, and what they are like."""
+
+from dataclasses import replace
+
+from trundle.diagnostics import UsageError
+from trundle.model import Joint, JointAxis, Model, World
+from trundle.spatial import Pose
+
+from .handles import LinkHandle, ModelHandle
+
+WORLD = "world"
+
+
+def attached(world: World, models: list[ModelHandle], joint: Joint) -> World:
+    """The world with a joint between models, its models put so that the joint is at zero as everything is now.
+
+    Args:
+        world: as it runs.
+        models: where everything is.
+        joint: links by `model::link` or "world"; its axes in the world, as everything is now.
+
+    Raises:
+        UsageError: no such link, or such a joint is there already.
+    """
+    if any(there.name == joint.name for there in world.joints):
+        raise UsageError(f"there is a joint {joint.name!r} already")
+    parent, child = _find(models, joint.parent), _find(models, joint.child)
+    if child is None:
+        raise UsageError(f"joint {joint.name!r}: its child has to be a link")
+    seen_from = Pose() if parent is None else _at_zero(*parent) @ parent[1].pose.inverse()
+    moved = (seen_from @ child[1].pose) @ child[1].link.model_from_link.inverse()
+
+    def put(model: Model) -> Model:
+        return replace(model, world_from_model=moved) if model.name == child[0].name else model
+
+    joint = replace(joint, axis=_turned(joint.axis, seen_from), axis2=_turned(joint.axis2, seen_from))
+    # A parent in the same model stands where its child does: the two are at zero together or not at all.
+    models_put = world.models if parent is not None and parent[0] is child[0] else tuple(map(put, world.models))
+    return replace(world, models=models_put, joints=(*world.joints, joint))
+
+
+def _find(models: list[ModelHandle], name: str) -> tuple[ModelHandle, LinkHandle] | None:
+    if name == WORLD:
+        return None
+    for model in models:
+        for link in model.links:
+            if f"{model.name}::{link.name}" == name:
+                return model, link
+    raise UsageError(f"no link {name!r}; links are named 'model::link'")
+
+
+def _at_zero(model: ModelHandle, link: LinkHandle) -> Pose:
+    return model.model.world_from_model @ link.link.model_from_link
+
+
+def _turned(axis: JointAxis | None, by: Pose) -> JointAxis | None:
+    return None if axis is None else replace(axis, direction=by.direction(axis.direction))

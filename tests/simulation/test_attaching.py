@@ -1,0 +1,94 @@
+"""Links joined and let go while the world runs."""
+
+from pathlib import Path
+
+import pytest
+
+import trundle
+from trundle.diagnostics import Source, UsageError
+from trundle.model import Joint, JointAxis, JointType
+from trundle.simulation import Simulation
+from trundle.spatial import Pose, Twist
+
+BODY = """<link name="l"><inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>
+</inertial></link>"""
+ARM = """<link name="arm"><pose>0 0 0.5 0 0 0</pose><inertial><mass>1</mass></inertial></link><joint name="hinge"
+type="revolute"><parent>l</parent><child>arm</child><axis><xyz>0 1 0</xyz></axis></joint>"""
+
+
+@pytest.fixture
+def sim(tmp_path: Path) -> Simulation:
+    """Two bodies that fly apart, the second turning and swinging an arm."""
+    file = tmp_path / "w.sdf"
+    models = f'<model name="a"><pose>0 0 1 0 0 0</pose>{BODY}</model>'
+    models += f'<model name="b"><pose>1 0 1 0 0 0.3</pose>{BODY}{ARM}</model>'
+    file.write_text(f'<sdf version="1.6"><world name="w"><gravity>0 0 -10</gravity>{models}</world></sdf>')
+    sim = trundle.load(str(file))
+    sim["a"].set_twist(Twist((0.0, 1.0, 0.0)))
+    sim["b"].set_twist(Twist((0.0, 2.0, 0.0), (0.0, 0.0, 1.0)))
+    sim["b"].joint("hinge").start(1.0)
+    sim.run(0.5)
+    return sim
+
+
+def joint(kind: JointType, parent: str, child: str, axis: JointAxis | None = None) -> Joint:
+    return Joint(name="tie", type=kind, parent=parent, child=child, at=Source("test"), axis=axis)
+
+
+def same(a: Pose, b: Pose) -> bool:
+    return a.position == pytest.approx(b.position, abs=1e-9) and a.rpy == pytest.approx(b.rpy, abs=1e-9)
+
+
+@pytest.mark.parametrize("child", ["b::l", "b::arm"])
+def test_what_is_attached_to_the_world_stays_where_it_is_and_falls_when_let_go(sim: Simulation, child: str) -> None:
+    before = [link.pose for model in sim.models for link in model.links]
+    sim.attach(joint(JointType.FIXED, "world", child))
+    after = [link.pose for model in sim.models for link in model.links]
+    assert all(same(a, b) for a, b in zip(before, after, strict=True))
+
+    there = sim["b"].link(child.split("::")[1])
+    sim.run(1.0)
+    assert there.pose.position == pytest.approx(before[1 if child == "b::l" else 2].position, abs=2e-3)
+    sim.detach("tie")
+    height = there.pose.position[2]
+    sim.run(0.5)
+    assert there.pose.position[2] < height - 0.3
+
+
+def test_two_models_go_on_as_one(sim: Simulation) -> None:
+    one, other = sim["a"].link("l"), sim["b"].link("l")
+    before = one.pose.inverse() @ other.pose
+    sim.attach(joint(JointType.FIXED, "a::l", "b::l"))
+    sim.run(0.3)
+    assert same(one.pose.inverse() @ other.pose, before)
+
+    poses, twists = (one.pose, other.pose), other.twist
+    sim.detach("tie")
+    assert all(same(a, b) for a, b in zip(poses, (one.pose, other.pose), strict=True))
+    assert other.twist.linear == pytest.approx(twists.linear)
+    assert other.twist.angular == pytest.approx(twists.angular)
+
+
+def test_a_joint_moves_along_the_axis_as_it_lies_in_the_world(sim: Simulation) -> None:
+    slide = JointAxis(direction=(1.0, 0.0, 0.0))
+    tie = sim.attach(joint(JointType.PRISMATIC, "world", "b::l", slide))
+    x, y, z = sim["b"].link("l").pose.position
+    tie.set_velocity(0.5)
+    sim.run(1.0)
+
+    assert tie.position == pytest.approx(0.5, abs=0.02)
+    assert sim["b"].link("l").pose.position == pytest.approx((x + tie.position, y, z), abs=1e-6)
+
+
+def test_what_cannot_be_joined_or_let_go_is_said(sim: Simulation) -> None:
+    sim.attach(joint(JointType.FIXED, "world", "b::l"))
+
+    for wrong, words in (
+        (joint(JointType.FIXED, "world", "a::l"), "there is a joint 'tie' already"),
+        (Joint(name="x", type=JointType.FIXED, parent="a", child="b::l", at=Source("t")), "no link 'a'"),
+        (Joint(name="x", type=JointType.FIXED, parent="a::l", child="world", at=Source("t")), "has to be a link"),
+    ):
+        with pytest.raises(UsageError, match=words):
+            sim.attach(wrong)
+    with pytest.raises(UsageError, match="no joint 'rope' between models; there are: 'tie'"):
+        sim.detach("rope")
