@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from trundle.nodes.arbotix.gripper import read_gripper
-from trundle.nodes.settings import SettingError, Settings
+from trundle.ros import SettingError, Settings
 
 SUCCEEDED, ABORTED, PREEMPTED = 3, 4, 2
 ARBOTIX: dict[str, Any] = {

@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 from tests.nodes.conftest import PATIENCE_S
 
-from trundle.nodes.settings import SettingError
 from trundle.nodes.twist_mux import Source, allowed, read_sources
+from trundle.ros import SettingError
 
 TWIST = "geometry_msgs/Twist"
 S = 1_000_000_000

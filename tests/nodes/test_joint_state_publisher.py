@@ -10,7 +10,7 @@ from tests.nodes.fakes import MESSAGES, FakeClock, FakeNode, run_to_end
 from trundle.diagnostics import Diagnostics
 from trundle.nodes import PROFILES, Host, Slider
 from trundle.nodes.joint_state_publisher import JointSet, JointStatePublisher, JointStatePublisherGui
-from trundle.nodes.settings import Settings
+from trundle.ros import Settings
 from trundle.xmlnode import parse_xml
 
 S = 1_000_000_000

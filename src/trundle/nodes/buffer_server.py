@@ -5,11 +5,20 @@ from typing import Any
 
 import yaml
 
-from trundle.ros import Message, Node, Transform, TransformBuffer, TransformError, TransformListener, ns_of
+from trundle.ros import (
+    ActionOutcome,
+    ActionServer,
+    Message,
+    Node,
+    Settings,
+    Transform,
+    TransformBuffer,
+    TransformError,
+    TransformListener,
+    ns_of,
+)
 
-from .action_server import ActionServer, Outcome
 from .host import Host
-from .settings import Settings
 
 _NO_ERROR, _LOOKUP_ERROR, _CONNECTIVITY_ERROR, _EXTRAPOLATION_ERROR = 0, 1, 2, 3
 _LOOK_S = 0.02
@@ -34,7 +43,7 @@ class BufferServer:
         await node.closed.wait()
         return 0
 
-    async def _look_up(self, goal: Message) -> Outcome:
+    async def _look_up(self, goal: Message) -> ActionOutcome:
         """Look until it is found or the time is over."""
         clock = self._node.clock
         end_ns = clock.now_ns() + ns_of(goal.timeout)
@@ -43,9 +52,9 @@ class BufferServer:
                 found = self._ask(goal)
             except TransformError as error:
                 if clock.now_ns() >= end_ns:
-                    return Outcome(status="aborted", result={"error": _error(error)})
+                    return ActionOutcome(status="aborted", result={"error": _error(error)})
             else:
-                return Outcome(result={"transform": _stamped(found), "error": {"error": _NO_ERROR}})
+                return ActionOutcome(result={"transform": _stamped(found), "error": {"error": _NO_ERROR}})
             await asyncio.sleep(_LOOK_S)
 
     def _ask(self, goal: Message) -> Transform:

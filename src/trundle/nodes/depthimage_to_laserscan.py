@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.ros import Message, Node
+from trundle.ros import Message, Node, Settings
 
 from .host import Host
-from .settings import Settings
 
 _ENCODINGS: dict[str, tuple[type[np.generic], float]] = {
     "32FC1": (np.float32, 1.0),

@@ -5,13 +5,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
-from trundle.ros import Message, Node
+from trundle.ros import Message, Node, SettingError, Settings
 from trundle.xmlnode import XmlNode, parse_numbers, parse_xml
 
 from .host import Host, Slider
 from .profile import Profile
 from .rate import Rate
-from .settings import SettingError, Settings
 
 _OPTIONS = (
     "delta",

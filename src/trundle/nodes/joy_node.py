@@ -1,10 +1,9 @@
 """joy/joy_node without a joystick: a virtual one at rest, which `~set` moves."""
 
-from trundle.ros import Message, Node
+from trundle.ros import Message, Node, Settings
 
 from .host import Host
 from .rate import Rate
-from .settings import Settings
 
 _AXES, _BUTTONS = 8, 11
 """Those of the usual game pad."""

@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.ros import Message, Node, Subscription, TransformError, TransformListener, ns_of
+from trundle.ros import Message, Node, Settings, Subscription, TransformError, TransformListener, ns_of
 from trundle.spatial import Pose
 
 from .host import Host
 from .rate import Throttle
-from .settings import Settings
 
 _HUGE = 1.7976931348623157e308
 _LOOK_S = 0.1

@@ -4,12 +4,11 @@ from dataclasses import dataclass
 
 from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.robot import Robot, RobotJoint, parent_from_child, read_robot
-from trundle.ros import Message, Node, StaticTransformBroadcaster, Transform, TransformBroadcaster, ns_of
+from trundle.ros import Message, Node, Settings, StaticTransformBroadcaster, Transform, TransformBroadcaster, ns_of
 from trundle.xmlnode import parse_xml
 
 from .host import Host
 from .rate import Throttle, period_ns
-from .settings import Settings
 
 _NS = 1_000_000_000
 _OLD_NS = 30 * _NS

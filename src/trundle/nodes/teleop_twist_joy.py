@@ -1,9 +1,8 @@
 """teleop_twist_joy/teleop_node: a joystick's axes as a velocity, while a button is held."""
 
-from trundle.ros import Message, Node
+from trundle.ros import Message, Node, Settings
 
 from .host import Host
-from .settings import Settings
 
 _MOVES = {"x": ("linear", "x"), "y": ("linear", "y"), "z": ("linear", "z")}
 _TURNS = {"yaw": ("angular", "z"), "pitch": ("angular", "y"), "roll": ("angular", "x")}

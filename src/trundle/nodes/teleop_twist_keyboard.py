@@ -1,10 +1,9 @@
 """teleop_twist_keyboard: drives a robot with the keys around i, and with speeds that keys change."""
 
-from trundle.ros import Node
+from trundle.ros import Node, Settings
 
 from .host import Host
 from .keyboard import Keyboard
-from .settings import Settings
 
 _HELP = """
 Reading from the keyboard  and Publishing to Twist!

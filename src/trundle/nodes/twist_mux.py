@@ -3,10 +3,9 @@
 from dataclasses import dataclass
 from typing import Any
 
-from trundle.ros import Message, Node
+from trundle.ros import Message, Node, SettingError, Settings
 
 from .host import Host
-from .settings import SettingError, Settings
 
 _KIND = "geometry_msgs/Twist"
 

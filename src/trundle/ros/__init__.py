@@ -6,6 +6,7 @@ Names are imported on first use: a command that only asks the master pays for ne
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .action_server import ActionOutcome, ActionServer
     from .bags import (
         BagConnection,
         BagError,
@@ -43,12 +44,15 @@ if TYPE_CHECKING:
     from .proxy import MasterProxy, blocking_call
     from .publisher import Publisher
     from .service import Service, probe_service
+    from .settings import SettingError, Settings
     from .subscription import Subscription
     from .tf_buffer import Transform, TransformBuffer
     from .tf_nodes import StaticTransformBroadcaster, TransformBroadcaster, TransformListener
     from .views import MessageView
 
 _HOMES = {
+    "ActionOutcome": "action_server",
+    "ActionServer": "action_server",
     "BagConnection": "bags",
     "BagError": "bags",
     "BagMessage": "bags",
@@ -80,6 +84,8 @@ _HOMES = {
     "Service": "service",
     "ServiceError": "errors",
     "ServiceType": "messages",
+    "SettingError": "settings",
+    "Settings": "settings",
     "SimClock": "clock",
     "StaticTransformBroadcaster": "tf_nodes",
     "Subscription": "subscription",
@@ -114,6 +120,8 @@ def __getattr__(name: str) -> Any:
 
 
 __all__ = [
+    "ActionOutcome",
+    "ActionServer",
     "BagConnection",
     "BagError",
     "BagMessage",
@@ -145,6 +153,8 @@ __all__ = [
     "Service",
     "ServiceError",
     "ServiceType",
+    "SettingError",
+    "Settings",
     "SimClock",
     "StaticTransformBroadcaster",
     "Subscription",

@@ -3,10 +3,9 @@
 import math
 from dataclasses import dataclass
 
-from trundle.ros import Message, Node, Transform, TransformBroadcaster
+from trundle.ros import Message, Node, Settings, Transform, TransformBroadcaster
 
 from ..rate import Cadence
-from ..settings import Settings
 from .part import JointReading, Status
 
 

@@ -1,10 +1,9 @@
 """arbotix_python/arbotix_driver in its simulated mode: kinematic, no serial port, no physics."""
 
-from trundle.ros import Message, MessageError, Node
+from trundle.ros import Message, MessageError, Node, SettingError, Settings
 
 from ..host import Host
 from ..rate import Cadence, Rate
-from ..settings import SettingError, Settings
 from .diff import DiffController
 from .follow import FollowController
 from .linear import LinearController, LinearJoint

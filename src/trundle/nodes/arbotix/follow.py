@@ -2,11 +2,9 @@
 
 import asyncio
 
-from trundle.ros import Message, Node, ns_of
+from trundle.ros import ActionOutcome, ActionServer, Message, Node, SettingError, Settings, ns_of
 
-from ..action_server import ActionServer, Outcome
 from ..rate import Rate
-from ..settings import SettingError, Settings
 from .part import Joint, JointReading, Status
 from .servos import Servo
 
@@ -37,13 +35,13 @@ class FollowController:
             raise SettingError(f"no servo {missing[0]!r}; servos here: {', '.join(joints) or 'none'}")
         action = settings.text("action_name", "follow_joint_trajectory")
         self._server = ActionServer(node, f"{name}/{action}", "control_msgs/FollowJointTrajectory", self._asked)
-        self._topic_task: asyncio.Task[Outcome] | None = None
+        self._topic_task: asyncio.Task[ActionOutcome] | None = None
         node.subscribe(f"{name}/command", "trajectory_msgs/JointTrajectory", self._command, queue_size=1)
         node.log_info(
             f"Started FollowController ({name}). Joints: {self._joints} on C{settings.number('index', 0.0):g}"
         )
 
-    async def _asked(self, goal: Message) -> Outcome:
+    async def _asked(self, goal: Message) -> ActionOutcome:
         return await self._follow(goal.trajectory)
 
     def _command(self, trajectory: Message) -> None:
@@ -55,20 +53,20 @@ class FollowController:
             self._topic_task.cancel()
         self._topic_task = asyncio.get_running_loop().create_task(self._follow(trajectory))
 
-    async def _follow(self, trajectory: Message) -> Outcome:
+    async def _follow(self, trajectory: Message) -> ActionOutcome:
         names = list(trajectory.joint_names)
         if missing := [joint for joint in self._joints if joint not in names]:
             text = f"Trajectory joint names does not match action controlled joints: {missing[0]!r} is missing"
             self._node.log_error(text)
-            return Outcome(status="aborted", text=text)
+            return ActionOutcome(status="aborted", text=text)
         if not trajectory.points:
             self._node.log_error("Trajectory empty.")
-            return Outcome(status="aborted", text="Trajectory empty.")
+            return ActionOutcome(status="aborted", text="Trajectory empty.")
         if len(names) > len(self._joints):
             self._node.log_warn("Extra joints in trajectory")
         order = [names.index(joint) for joint in self._joints]
         if any(len(point.positions) <= max(order) for point in trajectory.points):
-            return Outcome(status="aborted", text="a point has fewer positions than there are joints")
+            return ActionOutcome(status="aborted", text="a point has fewer positions than there are joints")
         clock = self._node.clock
         start_ns = ns_of(trajectory.header.stamp) or clock.now_ns()
         await clock.sleep_until(start_ns)
@@ -80,7 +78,7 @@ class FollowController:
             while clock.now_ns() + _EARLY_NS < end_ns:
                 self._step(last, wanted, cycles=self._rate_hz * (end_ns - clock.now_ns()) / 1e9)
                 await rate.sleep()
-        return Outcome(text="Trajectory execution complete")
+        return ActionOutcome(text="Trajectory execution complete")
 
     def _step(self, last: list[float], wanted: list[float], *, cycles: float) -> None:
         """Go one of the cycles that are left until the point."""

@@ -4,11 +4,9 @@ import asyncio
 import math
 from dataclasses import dataclass
 
-from trundle.ros import Message, Node
+from trundle.ros import ActionOutcome, ActionServer, Message, Node, SettingError, Settings
 
-from ..action_server import ActionServer, Outcome
 from ..host import Host
-from ..settings import SettingError, Settings
 
 _NEAR_RAD = 0.02
 """A joint so near to its command is there; servos count in ticks of 0.3 degrees."""
@@ -119,13 +117,13 @@ class GripperController:
     def _hear(self, message: Message) -> None:
         self._positions.update(zip(message.name, map(float, message.position), strict=False))
 
-    async def _move(self, goal: Message) -> Outcome:
+    async def _move(self, goal: Message) -> ActionOutcome:
         opening_m = float(goal.command.position)
         try:
             commands = self._gripper.commands(opening_m)
         except ValueError as error:
             self._node.log_error(str(error))
-            return Outcome(status="aborted", text=str(error))
+            return ActionOutcome(status="aborted", text=str(error))
         for joint, command in commands.items():
             self._commands[joint].publish({"data": command})
         clock = self._node.clock
@@ -134,10 +132,10 @@ class GripperController:
             await asyncio.sleep(_LOOK_S)
             here = {joint: self._positions.get(joint, math.inf) for joint in commands}
             if all(abs(here[joint] - command) < _NEAR_RAD for joint, command in commands.items()):
-                return Outcome(result={"position": opening_m, "reached_goal": True})
+                return ActionOutcome(result={"position": opening_m, "reached_goal": True})
             if any(self._positions.get(joint) != last.get(joint) for joint in commands):
                 last, since_ns = dict(self._positions), clock.now_ns()
             elif clock.now_ns() - since_ns > max(self._stalled_s, 1.0) * 1e9:
                 if math.inf in here.values():
-                    return Outcome(status="aborted", text="nobody tells the gripper's position on joint_states")
-                return Outcome(result={"position": opening_m, "stalled": True})
+                    return ActionOutcome(status="aborted", text="nobody tells the gripper's position on joint_states")
+                return ActionOutcome(result={"position": opening_m, "stalled": True})

@@ -1,8 +1,7 @@
 """arbotix_python's linear joints and their controllers, simulated: they are where they are told to be."""
 
-from trundle.ros import Message, Node
+from trundle.ros import Message, Node, Settings
 
-from ..settings import Settings
 from .part import JointReading, Status
 
 

@@ -2,10 +2,9 @@
 
 import math
 
-from trundle.ros import Message, Node
+from trundle.ros import Message, Node, Settings
 
 from ..rate import Cadence
-from ..settings import Settings
 from .part import Joint, JointReading, Status
 
 

@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from trundle.diagnostics import UsageError
-from trundle.ros import Message, Node
+from trundle.ros import Message, Node, Settings
 
 from ..host import Host
-from ..settings import Settings
 from .occupancy import OccupancyMap, read_map
 
 _USAGE = "usage: map_server MAP.yaml"

@@ -2,10 +2,9 @@
 
 from typing import Any
 
-from trundle.ros import Message, Node, RawMessage, ServiceError
+from trundle.ros import Message, Node, RawMessage, ServiceError, Settings
 
 from ..host import Host
-from ..settings import Settings
 from .passing import Inlet, Outlet
 
 _NONE = "__none"

@@ -2,10 +2,9 @@
 
 import asyncio
 
-from trundle.ros import Node
+from trundle.ros import Node, Settings
 
 from ..host import Host
-from ..settings import Settings
 from .passing import Inlet, Outlet
 
 _USAGE = "usage: relay IN_TOPIC [OUT_TOPIC]"

@@ -4,10 +4,9 @@ import time
 from collections import deque
 from collections.abc import Callable
 
-from trundle.ros import Node, RawMessage
+from trundle.ros import Node, RawMessage, Settings
 
 from ..host import Host
-from ..settings import Settings
 from .passing import Inlet, Outlet
 
 _USAGE = (

@@ -1,10 +1,9 @@
 """turtlesim/turtle_teleop_key: drives turtle1 with the arrow keys."""
 
-from trundle.ros import Node
+from trundle.ros import Node, Settings
 
 from ..host import Host
 from ..keyboard import Keyboard
-from ..settings import Settings
 
 _MOVES = {"up": (1.0, 0.0), "down": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
 

@@ -6,7 +6,9 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from trundle.ros import Message, Node, ns_of
+from .clock import ns_of
+from .messages import Message
+from .node import Node
 
 _STATUS_RATE_HZ = 5.0
 _KEPT_S = 5.0
@@ -17,7 +19,7 @@ _MOST_GOALS = 1000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Outcome:
+class ActionOutcome:
     """How a goal ended."""
 
     status: Literal["succeeded", "aborted", "preempted"] = "succeeded"
@@ -43,7 +45,7 @@ class ActionServer:
         node: Node,
         name: str,
         type_name: str,
-        work: Callable[[Message], Awaitable[Outcome]],
+        work: Callable[[Message], Awaitable[ActionOutcome]],
         *,
         side_by_side: bool = False,
     ) -> None:
@@ -107,7 +109,7 @@ class ActionServer:
         try:
             outcome = await self._work(asked)
         except asyncio.CancelledError:
-            outcome = Outcome(status="preempted")
+            outcome = ActionOutcome(status="preempted")
         goal.status, goal.text = _NUMBERS[outcome.status], outcome.text
         goal.ended_ns = self._node.clock.now_ns()
         self._publish_status()
