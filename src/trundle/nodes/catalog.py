@@ -7,6 +7,10 @@ STAND_INS: dict[tuple[str, str], str] = {
     ("arbotix_python", "arbotix_driver.py"): "trundle.nodes.arbotix:ArbotixDriver",
     ("arbotix_python", "arbotix_gui"): "trundle.nodes.windows:RqtWindow",
     ("arbotix_python", "driver.py"): "trundle.nodes.arbotix:ArbotixDriver",
+    ("controller_manager", "controller_manager"): "trundle.nodes.controller_manager:ControllerManagerTool",
+    ("controller_manager", "spawner"): "trundle.nodes.controller_manager:Spawner",
+    ("controller_manager", "spawner.py"): "trundle.nodes.controller_manager:Spawner",
+    ("controller_manager", "unspawner"): "trundle.nodes.controller_manager:Unspawner",
     (
         "depthimage_to_laserscan",
         "depthimage_to_laserscan",

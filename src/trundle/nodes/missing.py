@@ -3,12 +3,10 @@
 OVER_THE_WIRE = "the real one can run in a container with ROS_MASTER_URI set to this master"
 _NAVIGATION = f"planning and localisation are out of scope; {OVER_THE_WIRE}"
 _DRIVER = "a driver of real hardware; the simulator's sensors publish the same topics where the model has them"
-_CONTROL = "the controllers of ros_control are not simulated; a plugin of the model can drive its joints"
 
 WAYS_OUT: dict[str, str] = {
     "amcl": _NAVIGATION,
     "cartographer_ros": _NAVIGATION,
-    "controller_manager": _CONTROL,
     "costmap_2d": _NAVIGATION,
     "explore_lite": _NAVIGATION,
     "frontier_exploration": _NAVIGATION,

@@ -36,6 +36,7 @@ BUILTIN: dict[str, str] = {
     "libWheelSlipPlugin.so": "trundle.plugins.wheel_slip:WheelSlip",
     "libWheelTrackedVehiclePlugin.so": "trundle.plugins.wheel_tracked_vehicle:WheelTrackedVehicle",
     "libWindPlugin.so": "trundle.plugins.wind:Wind",
+    "libgazebo_ros_control.so": "trundle.plugins.ros_control:GazeboRosControl",
 }
 """File name → "module:Class", imported only when a model asks."""
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, cast
 
 from trundle.diagnostics import TrundleError
 
@@ -43,7 +43,7 @@ class Settings:
                 raise SettingError(f"parameter {self._where}/{name}: {self._tree.get(name)!r} is not a number")
         return float(value)
 
-    def rate_hz(self, name: str, default: float) -> float:
+    def rate_hz(self, name: str, default: float | None = None) -> float:
         """A number greater than zero."""
         value = self.number(name, default)
         if value <= 0.0:
@@ -70,6 +70,13 @@ class Settings:
         if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
             raise SettingError(f"parameter {self._where}/{name}: {value!r} is not a list of texts")
         return value
+
+    def items(self, name: str) -> list[Any]:
+        """A list of anything; absent is empty."""
+        value = self._tree.get(name, [])
+        if not isinstance(value, list):
+            raise SettingError(f"parameter {self._where}/{name}: {value!r} is not a list")
+        return cast("list[Any]", value)
 
     def _get(self, name: str, default: Any) -> Any:
         value = self._tree.get(name, default)

@@ -1,0 +1,223 @@
+"""controller_manager's programs: they load, start, stop and unload the controllers of a simulated robot."""
+
+import argparse
+import asyncio
+import contextlib
+import sys
+from collections.abc import Sequence
+from typing import Any, NoReturn
+
+from trundle.diagnostics import UsageError
+from trundle.ros import Message, Node, RosError
+
+from .host import Host
+
+_PACKAGE = "controller_manager_msgs"
+_WAIT_S = 30.0
+_FAREWELL_S = 1.0
+_BEST_EFFORT, _STRICT = 1, 2
+
+
+class _Words(argparse.ArgumentParser):
+    """Says what is wrong with the words instead of ending the program."""
+
+    def error(self, message: str) -> NoReturn:
+        raise UsageError(f"{message}; {self.format_usage().strip()}")
+
+
+class _Manager:
+    """The services of one robot's controller_manager."""
+
+    def __init__(self, node: Node, namespace: str = "") -> None:
+        self._node = node
+        self._prefix = f"{namespace.rstrip('/')}/controller_manager" if namespace else "controller_manager"
+
+    async def wait(self, timeout_s: float | None) -> None:
+        """Wait until it is there.
+
+        Raises:
+            RosError: it did not come in time.
+        """
+        for name in ("load_controller", "switch_controller", "unload_controller"):
+            await self._node.wait_for_service(f"{self._prefix}/{name}", timeout_s)
+
+    async def load(self, name: str) -> bool:
+        """Load one by its parameters."""
+        return (await self._call("load_controller", "LoadController", name=name)).ok
+
+    async def unload(self, name: str) -> bool:
+        """Forget one."""
+        return (await self._call("unload_controller", "UnloadController", name=name)).ok
+
+    async def switch(self, *, start: Sequence[str] = (), stop: Sequence[str] = (), strictness: int = _STRICT) -> bool:
+        """Stop some and start others."""
+        fields = {"start_controllers": list(start), "stop_controllers": list(stop), "strictness": strictness}
+        return (await self._call("switch_controller", "SwitchController", **fields)).ok
+
+    async def loaded(self) -> list[Message]:
+        """What is loaded."""
+        return list((await self._call("list_controllers", "ListControllers")).controller)
+
+    async def types(self) -> list[str]:
+        """What could be."""
+        return list((await self._call("list_controller_types", "ListControllerTypes")).types)
+
+    async def _call(self, service: str, kind: str, **fields: Any) -> Message:
+        return await self._node.call_service(
+            f"{self._prefix}/{service}", f"{_PACKAGE}/{kind}", fields, timeout_s=_WAIT_S
+        )
+
+
+class Spawner:
+    """Loads controllers and starts them; when it is ended by itself, stops and unloads them again."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del host
+        self._node = node
+        self._arguments = arguments
+        self._loaded: list[str] = []
+
+    async def run(self) -> int:
+        """Stay until cancelled."""
+        node = self._node
+        words = _Words(prog="spawner", add_help=False)
+        words.add_argument("--stopped", action="store_true")
+        words.add_argument("--wait-for", metavar="topic")
+        words.add_argument("--namespace", default="")
+        words.add_argument("--timeout", type=float, default=_WAIT_S)
+        words.add_argument("--no-timeout", action="store_true")
+        words.add_argument("controllers", nargs="+")
+        try:
+            given = words.parse_args(self._arguments)
+            manager = _Manager(node, given.namespace)
+            node.log_info("Controller Spawner: Waiting for service controller_manager/load_controller")
+            await manager.wait(None if given.no_timeout else given.timeout)
+            if given.wait_for:
+                await self._wait_for(given.wait_for)
+            await self._spawn(manager, given.controllers, stopped=given.stopped)
+        except (UsageError, RosError) as error:
+            node.log_error(f"Controller Spawner: {error}")
+            return 1
+        await node.closed.wait()
+        with contextlib.suppress(RosError, OSError):
+            async with asyncio.timeout(_FAREWELL_S):
+                await manager.switch(stop=self._loaded, strictness=_BEST_EFFORT)
+                for name in reversed(self._loaded):
+                    await manager.unload(name)
+        return 0
+
+    async def _spawn(self, manager: _Manager, names: list[str], *, stopped: bool) -> None:
+        node = self._node
+        for name in names:
+            node.log_info(f"Loading controller: {name}")
+            if await manager.load(name):
+                self._loaded.append(name)
+            else:
+                node.log_error(f"Failed to load {name}")
+        node.log_info(f"Controller Spawner: Loaded controllers: {', '.join(self._loaded)}")
+        if stopped or not self._loaded:
+            return
+        if await manager.switch(start=self._loaded):
+            node.log_info(f"Started controllers: {', '.join(self._loaded)}")
+        else:
+            node.log_error(f"Failed to start controllers: {', '.join(self._loaded)}")
+
+    async def _wait_for(self, topic: str) -> None:
+        """Wait until a std_msgs/Bool on a topic says so."""
+        said = asyncio.Event()
+
+        def look(message: Message) -> None:
+            if message.data:
+                said.set()
+
+        self._node.log_info(f"Controller Spawner: Waiting for {topic}")
+        listening = self._node.subscribe(topic, "std_msgs/Bool", look, on_loop=True)
+        await said.wait()
+        listening.unregister()
+
+
+class Unspawner:
+    """Stops controllers; when it is ended by itself, starts them again."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del host
+        self._node = node
+        self._arguments = arguments
+
+    async def run(self) -> int:
+        """Stay until cancelled."""
+        node = self._node
+        words = _Words(prog="unspawner", add_help=False)
+        words.add_argument("--namespace", default="")
+        words.add_argument("controllers", nargs="+")
+        try:
+            given = words.parse_args(self._arguments)
+            manager = _Manager(node, given.namespace)
+            await manager.wait(_WAIT_S)
+            if not await manager.switch(stop=given.controllers):
+                raise UsageError(f"could not stop {', '.join(given.controllers)}")
+        except (UsageError, RosError) as error:
+            node.log_error(f"unspawner: {error}")
+            return 1
+        node.log_info(f"Stopped controllers: {', '.join(given.controllers)}")
+        await node.closed.wait()
+        with contextlib.suppress(RosError, OSError):
+            async with asyncio.timeout(_FAREWELL_S):
+                await manager.switch(start=given.controllers, strictness=_BEST_EFFORT)
+        return 0
+
+
+class ControllerManagerTool:
+    """The command line of that name: list, list-types, load, unload, start, stop, spawn, kill, reload-libraries."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del host
+        self._node = node
+        self._arguments = arguments
+
+    async def run(self) -> int:
+        """Do one thing and end."""
+        words = _Words(prog="controller_manager", add_help=False)
+        commands = ("list", "list-types", "load", "unload", "start", "stop", "spawn", "kill", "reload-libraries")
+        words.add_argument("command", choices=commands)
+        words.add_argument("controllers", nargs="*")
+        try:
+            given = words.parse_args(self._arguments)
+            manager = _Manager(self._node)
+            await manager.wait(_WAIT_S)
+            return 0 if await self._do(manager, given.command, given.controllers) else 1
+        except (UsageError, RosError) as error:
+            self._node.log_error(f"controller_manager: {error}")
+            return 1
+
+    async def _do(self, manager: _Manager, command: str, names: list[str]) -> bool:
+        match command:
+            case "list":
+                for each in await manager.loaded():
+                    claims = [f"{c.hardware_interface}: {', '.join(c.resources)}" for c in each.claimed_resources]
+                    print(f"'{each.name}' - '{each.type}' ( {each.state} ) {'; '.join(claims)}".rstrip())
+                return True
+            case "list-types":
+                print("\n".join(await manager.types()))
+                return True
+            case "reload-libraries":
+                return True
+            case _:
+                return all([await self._one(manager, command, name) for name in names])
+
+    async def _one(self, manager: _Manager, command: str, name: str) -> bool:
+        done = True
+        if command in ("load", "spawn"):
+            done = await manager.load(name)
+        if command in ("start", "spawn"):
+            done = done and await manager.switch(start=[name])
+        if command in ("stop", "kill"):
+            done = await manager.switch(stop=[name])
+        if command in ("unload", "kill"):
+            done = done and await manager.unload(name)
+        if not done:
+            print(f"could not {command} {name!r}; the log of the robot's controller_manager says why", file=sys.stderr)
+            return False
+        past = {"load": "Loaded", "unload": "Unloaded", "start": "Started", "stop": "Stopped", "spawn": "Spawned"}
+        print(f"{past.get(command, 'Killed')} {name!r} successfully")
+        return True

@@ -1,0 +1,36 @@
+"""Which controllers of ros_control there are, by type."""
+
+import importlib
+
+from trundle.ros import SettingError
+
+from .controller import Controller
+
+_HERE = "trundle.plugins.ros_control"
+CONTROLLERS: dict[str, str] = {
+    "diff_drive_controller/DiffDriveController": f"{_HERE}.diff_drive:DiffDriveController",
+    "effort_controllers/JointEffortController": f"{_HERE}.forward:EffortForward",
+    "effort_controllers/JointGroupEffortController": f"{_HERE}.forward:EffortGroup",
+    "effort_controllers/JointGroupPositionController": f"{_HERE}.pid_loops:EffortGroupPosition",
+    "effort_controllers/JointPositionController": f"{_HERE}.pid_loops:EffortPosition",
+    "effort_controllers/JointVelocityController": f"{_HERE}.pid_loops:EffortVelocity",
+    "joint_state_controller/JointStateController": f"{_HERE}.joint_state:JointStateController",
+    "position_controllers/JointGroupPositionController": f"{_HERE}.forward:PositionGroup",
+    "position_controllers/JointPositionController": f"{_HERE}.forward:PositionForward",
+    "velocity_controllers/JointGroupVelocityController": f"{_HERE}.forward:VelocityGroup",
+    "velocity_controllers/JointPositionController": f"{_HERE}.pid_loops:VelocityPosition",
+    "velocity_controllers/JointVelocityController": f"{_HERE}.forward:VelocityForward",
+}
+"""Type → "module:Class", imported when one is loaded."""
+
+
+def find_controller(kind: str) -> type[Controller]:
+    """The class of a controller's type.
+
+    Raises:
+        SettingError: there is none, with those there are.
+    """
+    if kind not in CONTROLLERS:
+        raise SettingError(f"no controller of type {kind!r}; there are: {', '.join(sorted(CONTROLLERS))}")
+    module, _, name = CONTROLLERS[kind].partition(":")
+    return getattr(importlib.import_module(module), name)

@@ -1,0 +1,102 @@
+"""Joints as controllers see them: something to read, and one command to write."""
+
+import math
+from collections.abc import Mapping
+
+from trundle.control import ToolboxPid
+from trundle.model import JointType
+from trundle.simulation import JointHandle
+
+from .transmissions import Interface
+
+
+class JointHardware:
+    """One joint behind its transmission."""
+
+    def __init__(self, handle: JointHandle, interface: Interface, pid: ToolboxPid | None, *, lag_s: float) -> None:
+        """Wrap a joint.
+
+        Args:
+            handle: of the simulation; it moves.
+            interface: what commands mean.
+            pid: turns position or speed errors into efforts; None: the joint just goes there.
+            lag_s: time constant with which it then goes to a position; gazebo_ros_control puts it there at once,
+                whatever is in the way.
+        """
+        self.handle = handle
+        self.name = handle.name
+        self.interface = interface
+        self.command = 0.0
+        """[N·m or N], [rad or m], [rad/s or m/s], by the interface."""
+        self.position = self.velocity = self.effort = 0.0
+        """As of the last `read`."""
+        self._pid = pid
+        self._lag_s = lag_s
+        self._is_at_rest = True
+        axis = handle.joint.axis
+        assert axis is not None, f"{self.name} has no axis"
+        self.lower, self.upper = axis.lower, axis.upper
+        self._most_effort, self._most_speed = axis.effort, axis.velocity
+
+    @property
+    def is_endless(self) -> bool:
+        """Whether it turns on and on, so that angles a whole turn apart are one."""
+        return self.handle.joint.type is JointType.REVOLUTE and math.isinf(self.upper) and math.isinf(self.lower)
+
+    def read(self) -> None:
+        """Look where it is."""
+        handle = self.handle
+        self.position, self.velocity, self.effort = handle.position, handle.velocity, handle.effort
+
+    def error(self, wanted: float) -> float:
+        """From the joint to a position [rad or m], the short way round where it has no stops."""
+        way = wanted - self.position
+        return math.remainder(way, math.tau) if self.is_endless else way
+
+    def rest(self) -> None:
+        """Have nobody drive it: no effort, no speed, or held where it is."""
+        self._is_at_rest = True
+        if self.interface != "PositionJointInterface":
+            self.command = 0.0
+        if self._pid is not None:
+            self._pid.reset()
+
+    def engage(self) -> None:
+        """Have a controller drive it; until it does, the joint stays."""
+        self._is_at_rest = False
+        self.command = self.position if self.interface == "PositionJointInterface" else 0.0
+
+    def write(self, dt: float) -> None:
+        """Carry the command out for a control period [s]."""
+        match self.interface:
+            case "EffortJointInterface":
+                self.handle.set_effort(self._within_effort(self.command))
+            case "VelocityJointInterface":
+                self._write_velocity(dt)
+            case _:
+                self._write_position(dt)
+
+    def _write_velocity(self, dt: float) -> None:
+        wanted = min(max(self.command, -self._most_speed), self._most_speed)
+        if self._pid is not None:
+            self.handle.set_effort(self._within_effort(self._pid.command(wanted - self.velocity, dt)))
+        else:
+            self.handle.set_velocity(wanted, max_effort=self._most_effort)
+
+    def _write_position(self, dt: float) -> None:
+        if self._is_at_rest and self.velocity == 0.0 and self.error(self.command) != 0.0:
+            self.command = self.position  # it was put elsewhere while nobody drove it
+        wanted = min(max(self.command, self.lower), self.upper)
+        error = self.error(wanted)
+        if self._pid is not None:
+            self.handle.set_effort(self._within_effort(self._pid.command(error, dt)))
+            return
+        speed = error / self._lag_s
+        self.handle.set_velocity(min(max(speed, -self._most_speed), self._most_speed))
+
+    def _within_effort(self, effort: float) -> float:
+        return min(max(effort, -self._most_effort), self._most_effort)
+
+
+Hardware = Mapping[str, JointHardware]
+"""By the joint's name."""

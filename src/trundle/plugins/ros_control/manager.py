@@ -1,0 +1,180 @@
+"""Loads, starts, stops and unloads controllers, by the services of a controller_manager."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from trundle.ros import Message, Node, SettingError, Settings
+from trundle.simulation import ModelHandle
+
+from .catalog import CONTROLLERS, find_controller
+from .controller import Controller, Site
+from .hardware import Hardware
+
+_STRICT = 2
+_PACKAGE = "controller_manager_msgs"
+
+
+@dataclass(slots=True, kw_only=True)
+class _Loaded:
+    name: str
+    type: str
+    controller: Controller
+    state: Literal["initialized", "running", "stopped"] = "initialized"
+
+
+class ControllerManager:
+    """`<robot>/controller_manager/…`; all of it runs on the simulation's thread."""
+
+    def __init__(self, node: Node, namespace: str, hardware: Hardware, model: ModelHandle) -> None:
+        """Advertise.
+
+        Args:
+            node: on the graph.
+            namespace: of the robot: '/' or '/rrbot'.
+            hardware: what there is to drive.
+            model: whose joints they are.
+        """
+        self._node = node
+        self._namespace = namespace.rstrip("/")
+        self._hardware = hardware
+        self._model = model
+        self._loaded: dict[str, _Loaded] = {}
+        self._time_ns = 0
+        services: tuple[tuple[str, str, Callable[[Message], dict[str, Any]]], ...] = (
+            ("list_controllers", "ListControllers", self._list),
+            ("list_controller_types", "ListControllerTypes", self._types),
+            ("load_controller", "LoadController", lambda request: {"ok": self._load(request.name)}),
+            ("unload_controller", "UnloadController", lambda request: {"ok": self._unload(request.name)}),
+            ("switch_controller", "SwitchController", lambda request: {"ok": self._switch(request)}),
+            ("reload_controller_libraries", "ReloadControllerLibraries", lambda _: {"ok": True}),
+        )
+        for name, kind, handler in services:
+            node.advertise_service(f"{self._namespace}/controller_manager/{name}", f"{_PACKAGE}/{kind}", handler)
+
+    def update(self, time_ns: int, dt: float) -> None:
+        """Have every running controller read and command."""
+        self._time_ns = time_ns
+        for loaded in self._loaded.values():
+            if loaded.state == "running":
+                loaded.controller.update(time_ns, dt)
+
+    def restart(self, time_ns: int) -> None:
+        """Begin anew what runs, after a reset."""
+        for loaded in self._loaded.values():
+            if loaded.state == "running":
+                loaded.controller.start(time_ns)
+
+    def _types(self, _request: Message) -> dict[str, Any]:
+        names = sorted(CONTROLLERS)
+        return {"types": names, "base_classes": ["controller_interface::ControllerBase"] * len(names)}
+
+    def _list(self, _request: Message) -> dict[str, Any]:
+        return {
+            "controller": [
+                {
+                    "name": loaded.name,
+                    "state": loaded.state,
+                    "type": loaded.type,
+                    "claimed_resources": [
+                        {"hardware_interface": f"hardware_interface::{interface}", "resources": joints}
+                        for interface, joints in loaded.controller.claims.items()
+                    ],
+                }
+                for loaded in self._loaded.values()
+            ]
+        }
+
+    def _load(self, name: str) -> bool:
+        if name in self._loaded:
+            self._node.log_error(f"A controller named '{name}' was already loaded inside the controller manager")
+            return False
+        full = f"{self._namespace}/{name}"
+        tree = self._node.loop.run(self._node.get_param(full, {}))
+        settings = Settings(tree, full)
+        try:
+            kind = settings.text("type")
+        except SettingError:
+            self._node.log_error(
+                f"Could not load controller '{name}' because the type was not specified. Did you load the controller "
+                f"configuration on the parameter server (namespace: '{self._namespace or '/'}')?"
+            )
+            return False
+        site = Site(
+            name=full,
+            namespace=self._namespace,
+            node=self._node,
+            settings=settings,
+            hardware=self._hardware,
+            model=self._model,
+        )
+        try:
+            controller = find_controller(kind).make(site)
+        except SettingError as error:
+            self._node.log_error(f"Could not load controller '{name}': {error}")
+            return False
+        self._loaded[name] = _Loaded(name=name, type=kind, controller=controller)
+        return True
+
+    def _unload(self, name: str) -> bool:
+        loaded = self._loaded.get(name)
+        if loaded is None:
+            self._node.log_error(
+                f"Could not unload controller with name '{name}' because no controller with this name exists"
+            )
+            return False
+        if loaded.state == "running":
+            self._node.log_error(f"Could not unload controller with name '{name}' because it is still running")
+            return False
+        loaded.controller.close()
+        del self._loaded[name]
+        return True
+
+    def _switch(self, request: Message) -> bool:
+        strict = request.strictness == _STRICT
+        stops, starts = (
+            [str(name) for name in names] for names in (request.stop_controllers, request.start_controllers)
+        )
+        wrong = [self._wrong(name, state) for names, state in ((stops, "running"), (starts, "")) for name in names]
+        for what in filter(None, wrong):
+            self._node.log_error(what)
+        if strict and any(wrong):
+            return False
+        stops = [n for n in stops if n in self._loaded and self._loaded[n].state == "running"]
+        starts = [n for n in starts if n in self._loaded and (n in stops or self._loaded[n].state != "running")]
+        conflict = self._conflict(stops, starts)
+        if conflict:
+            self._node.log_error(conflict)
+            return False
+        for name in stops:
+            self._loaded[name].controller.stop()
+            self._loaded[name].state = "stopped"
+        for joint in self._hardware.values():
+            joint.read()
+        for name in starts:
+            self._loaded[name].controller.start(self._time_ns)
+            self._loaded[name].state = "running"
+        return True
+
+    def _wrong(self, name: str, state: str) -> str:
+        """Why a controller cannot be stopped (where it is to be running) or started."""
+        loaded = self._loaded.get(name)
+        if loaded is None:
+            verb = "stop" if state else "start"
+            return f"Could not {verb} controller with name '{name}' because no controller with this name exists"
+        if state and loaded.state != state:
+            return f"Could not stop controller '{name}' since it is not running"
+        if not state and loaded.state == "running":
+            return f"Controller '{name}' is already running"
+        return ""
+
+    def _conflict(self, stops: list[str], starts: list[str]) -> str:
+        """Two that would command one joint."""
+        runs = [n for n, loaded in self._loaded.items() if loaded.state == "running" and n not in stops]
+        claimed: dict[str, str] = {}
+        for name in (*runs, *starts):
+            for joint in (joint for joints in self._loaded[name].controller.claims.values() for joint in joints):
+                if claimed.setdefault(joint, name) != name:
+                    both = f"'{claimed[joint]}' and '{name}'"
+                    return f"Resource conflict: joint '{joint}' would be commanded by {both}; nothing was switched"
+        return ""

@@ -1,0 +1,185 @@
+"""Controllers that close a PID loop around one joint, or around each of a group."""
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+from trundle.control import ToolboxPid
+from trundle.ros import Message, Settings
+
+from .controller import Ends, Site, read_pid
+from .hardware import JointHardware
+from .transmissions import Interface
+
+_STATE_EVERY = 10
+"""Updates between two messages on `~state`, as in the original."""
+
+
+@dataclass(slots=True)
+class _Loop:
+    joint: JointHardware
+    pid: ToolboxPid
+    of_speed: bool
+    """Whether it keeps a speed; else a position."""
+    wanted: float = 0.0
+
+    def start(self) -> None:
+        """Stay."""
+        self.joint.engage()
+        self.pid.reset()
+        self.wanted = 0.0 if self.of_speed else self.joint.position
+
+    @property
+    def value(self) -> float:
+        return self.joint.velocity if self.of_speed else self.joint.position
+
+    def error(self) -> float:
+        if self.of_speed:
+            return self.wanted - self.joint.velocity
+        self.wanted = min(max(self.wanted, self.joint.lower), self.joint.upper)
+        return self.joint.error(self.wanted)
+
+    def update(self, dt: float) -> None:
+        self.joint.command = self.pid.command(self.error(), dt)
+
+
+class PidController:
+    """`joint` by the gains `pid`: `~command` std_msgs/Float64 in, `~state` control_msgs/JointControllerState out."""
+
+    interface: ClassVar[Interface]
+    of_speed: ClassVar[bool] = False
+
+    def __init__(self, site: Site) -> None:
+        joint = site.joint(site.settings.text("joint"), self.interface)
+        self.claims: dict[Interface | str, list[str]] = {self.interface: [joint.name]}
+        self._loop = _Loop(joint, read_pid(site.settings.section("pid")), self.of_speed)
+        self._updates = 0
+        self._state = site.node.advertise(f"{site.name}/state", "control_msgs/JointControllerState", queue_size=1)
+        commands = site.node.subscribe(f"{site.name}/command", "std_msgs/Float64", self._take, queue_size=1)
+        self._ends = Ends()
+        self._ends.add(self._state, commands)
+
+    @classmethod
+    def make(cls, site: Site) -> Self:
+        """See `Controller.make`."""
+        return cls(site)
+
+    def start(self, time_ns: int) -> None:
+        """Stay, until a command comes."""
+        del time_ns
+        self._loop.start()
+
+    def update(self, time_ns: int, dt: float) -> None:
+        """Push towards what is wanted."""
+        self._loop.update(dt)
+        self._updates += 1
+        if self._updates % _STATE_EVERY == 0 and self._state.has_subscribers:
+            self._tell(time_ns, dt)
+
+    def stop(self) -> None:
+        """Let go."""
+        self._loop.joint.rest()
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self._ends.close()
+
+    def _take(self, message: Message) -> None:
+        if math.isfinite(message.data):
+            self._loop.wanted = float(message.data)
+
+    def _tell(self, time_ns: int, dt: float) -> None:
+        loop, pid = self._loop, self._loop.pid
+        self._state.publish(
+            {
+                "header": {"stamp": time_ns},
+                "set_point": loop.wanted,
+                "process_value": loop.value,
+                "process_value_dot": 0.0 if loop.of_speed else loop.joint.velocity,
+                "error": loop.error(),
+                "time_step": dt,
+                "command": loop.joint.command,
+                "p": pid.p,
+                "i": pid.i,
+                "d": pid.d,
+                "i_clamp": pid.i_clamp,
+                "antiwindup": pid.antiwindup,
+            }
+        )
+
+
+class EffortGroupPosition:
+    """effort_controllers/JointGroupPositionController: `joints`, each by the gains `<joint>/pid`."""
+
+    def __init__(self, site: Site) -> None:
+        self._node = site.node
+        self._loops = [
+            _Loop(site.joint(name, "EffortJointInterface"), read_pid(_gains(site.settings, name)), of_speed=False)
+            for name in site.joint_setting()
+        ]
+        self.claims: dict[Interface | str, list[str]] = {
+            "EffortJointInterface": [loop.joint.name for loop in self._loops]
+        }
+        kind = "std_msgs/Float64MultiArray"
+        self._ends = Ends()
+        self._ends.add(site.node.subscribe(f"{site.name}/command", kind, self._take, queue_size=1))
+
+    @classmethod
+    def make(cls, site: Site) -> Self:
+        """See `Controller.make`."""
+        return cls(site)
+
+    def start(self, time_ns: int) -> None:
+        """Stay, until a command comes."""
+        del time_ns
+        for loop in self._loops:
+            loop.start()
+
+    def update(self, time_ns: int, dt: float) -> None:
+        """Push towards what is wanted."""
+        del time_ns
+        for loop in self._loops:
+            loop.update(dt)
+
+    def stop(self) -> None:
+        """Let go."""
+        for loop in self._loops:
+            loop.joint.rest()
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self._ends.close()
+
+    def _take(self, message: Message) -> None:
+        values = [float(value) for value in message.data]
+        if len(values) != len(self._loops):
+            self._node.log_error(
+                f"Dimension of command ({len(values)}) does not match number of joints ({len(self._loops)})! "
+                "Not executing!"
+            )
+        elif all(map(math.isfinite, values)):
+            for loop, value in zip(self._loops, values, strict=True):
+                loop.wanted = value
+
+
+def _gains(settings: Settings, joint: str) -> Settings:
+    return settings.section(joint).section("pid")
+
+
+class EffortPosition(PidController):
+    """effort_controllers/JointPositionController."""
+
+    interface = "EffortJointInterface"
+
+
+class EffortVelocity(PidController):
+    """effort_controllers/JointVelocityController."""
+
+    interface = "EffortJointInterface"
+    of_speed = True
+
+
+class VelocityPosition(PidController):
+    """velocity_controllers/JointPositionController."""
+
+    interface = "VelocityJointInterface"

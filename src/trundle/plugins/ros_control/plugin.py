@@ -1,0 +1,137 @@
+"""libgazebo_ros_control.so: a robot's joints behind the interfaces of ros_control."""
+
+import asyncio
+from typing import Self
+
+from trundle.diagnostics import TrundleError
+from trundle.model import PluginTag
+from trundle.ros import Node, Settings
+from trundle.simulation import ModelHandle, Simulation
+from trundle.xmlnode import XmlNode
+
+from ..plugin import Plugin
+from .controller import read_pid
+from .hardware import JointHardware
+from .manager import ControllerManager
+from .transmissions import read_transmissions
+
+_DEFAULT_SIM = "gazebo_ros_control/DefaultRobotHWSim"
+_LOOK_S = 0.5
+_LAG_STEPS = 5
+_OLD_INDIGO = "legacyModeNS"
+
+
+class GazeboRosControl(Plugin):
+    """Reads the transmissions of `robotParam`, and runs a controller_manager in `robotNamespace`.
+
+    Parameters: <robotNamespace> (the model's name), <robotParam> (robot_description), <robotSimType> (only
+    gazebo_ros_control/DefaultRobotHWSim), <controlPeriod> [s] (the step), <eStopTopic>. A joint with gains on
+    `gazebo_ros_control/pid_gains/<joint>` is pushed by them; without, a position or speed is kept by a stiff motor.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        self._sim = sim
+        self._model = model
+        self._node = node
+        self._namespace = "/" + parameters.string("robotNamespace", default=model.name).strip("/")
+        self._param = parameters.string("robotParam", default="robot_description")
+        kind = parameters.string("robotSimType", default=_DEFAULT_SIM)
+        if kind != _DEFAULT_SIM:
+            report.warn(tag.at, f"robotSimType {kind!r} is compiled code; {_DEFAULT_SIM} takes its place")
+        self.period_ns = _period_ns(parameters, sim)
+        self._stops = False
+        stop_topic = parameters.string("eStopTopic")
+        if stop_topic:
+            node.subscribe(f"{self._namespace}/{stop_topic}", "std_msgs/Bool", lambda m: self._stop(m.data))
+        parameters.find(_OLD_INDIGO)
+        parameters.report_unread(report)
+        self._hardware: dict[str, JointHardware] = {}
+        self._manager: ControllerManager | None = None
+        self._last_ns = sim.time_ns
+        node.loop.spawn(self._find_robot())
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        if node is None:
+            raise TrundleError("ros_control needs the ROS graph, which --no-ros leaves out")
+        return cls(sim, model, node, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Read, control and write."""
+        if self._manager is None:
+            return
+        dt = (sim.time_ns - self._last_ns) / 1e9
+        self._last_ns = sim.time_ns
+        if dt <= 0.0:  # the first step after a reset
+            return
+        joints = self._hardware.values()
+        for joint in joints:
+            joint.read()
+        self._manager.update(sim.time_ns, dt)
+        for joint in joints:
+            if self._stops and joint.interface != "PositionJointInterface":
+                joint.command = 0.0
+            joint.write(dt)
+
+    def reset(self) -> None:
+        """Begin anew from where the joints are now."""
+        self._last_ns = self._sim.time_ns
+        for joint in self._hardware.values():
+            joint.read()
+            joint.rest()
+            joint.command = joint.position if joint.interface == "PositionJointInterface" else 0.0
+        if self._manager is not None:
+            self._manager.restart(self._sim.time_ns)
+
+    def _stop(self, stops: bool) -> None:
+        self._stops = stops
+
+    async def _find_robot(self) -> None:
+        """Wait for the robot's description, on the loop; then go on on the simulation's thread."""
+        node, said = self._node, False
+        name = f"{self._namespace}/{self._param}"
+        while not node.closed.is_set():
+            for candidate in (name, f"/{self._param}"):  # as searchParam goes up from the robot's namespace
+                text = await node.get_param(candidate, None)
+                if isinstance(text, str) and text.strip():
+                    gains = await node.get_param(f"{self._namespace}/gazebo_ros_control/pid_gains", {})
+                    assert node.deliver is not None, "plugins' nodes deliver to the simulation's thread"
+                    node.deliver(lambda text=text, name=candidate, gains=gains: self._begin(text, name, gains))
+                    return
+            if not said:
+                node.log_info(f"gazebo_ros_control plugin is waiting for model URDF in parameter [{name}]")
+                said = True
+            await asyncio.sleep(_LOOK_S)
+
+    def _begin(self, urdf: str, name: str, gains: object) -> None:
+        report = self._sim.report
+        settings = Settings(gains, f"{self._namespace}/gazebo_ros_control/pid_gains")
+        lag_s = max(_LAG_STEPS * self._sim.step_ns, 1.5 * self.period_ns) / 1e9
+        try:
+            for driven in read_transmissions(urdf, name, report):
+                handle = self._model.joint(driven.name)
+                if not handle.is_driven:
+                    self._node.log_warn(f"joint {driven.name!r} cannot move; its transmission is left out")
+                    continue
+                own = settings.section(driven.name)
+                pid = read_pid(own) if "p" in own.names() and driven.interface != "EffortJointInterface" else None
+                joint = JointHardware(handle, driven.interface, pid, lag_s=lag_s)
+                joint.read()
+                joint.command = joint.position if driven.interface == "PositionJointInterface" else 0.0
+                self._hardware[driven.name] = joint
+        except TrundleError as error:
+            self._node.log_fatal(f"gazebo_ros_control: {error}; nothing is controlled")
+            return
+        self._last_ns = self._sim.time_ns
+        self._manager = ControllerManager(self._node, self._namespace, self._hardware, self._model)
+        self._node.log_info(f"Loaded gazebo_ros_control: {len(self._hardware)} joints of {self._namespace}")
+
+
+def _period_ns(parameters: XmlNode, sim: Simulation) -> int:
+    """<controlPeriod>, which cannot be less than a step."""
+    period_ns = round(parameters.number("controlPeriod", default=0.0, report=sim.report) * 1e9)
+    if 0 < period_ns < sim.step_ns:
+        sim.report.warn(parameters.at, f"controlPeriod {period_ns / 1e9:g} s is less than a step; it is one step")
+    return max(period_ns, sim.step_ns)

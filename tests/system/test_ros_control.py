@@ -1,0 +1,65 @@
+"""A robot package as ros_control's tutorial has it: xacro, transmissions, YAML, spawners, one launch file."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+XACRO = """<?xml version="1.0"?>
+<robot name="rr" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:macro name="body" params="name">
+<link name="${name}">
+<inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>
+</link></xacro:macro>
+<link name="world"/><xacro:body name="base"/><xacro:body name="arm"/>
+<joint name="fix" type="fixed"><parent link="world"/><child link="base"/><origin xyz="0 0 1"/></joint>
+<joint name="shoulder" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 1 0"/>
+<dynamics damping="0.7"/></joint>
+<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+<joint name="shoulder"><hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface></joint>
+<actuator name="m"><mechanicalReduction>1</mechanicalReduction></actuator></transmission>
+<gazebo><plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so">
+<robotNamespace>/rr</robotNamespace></plugin></gazebo>
+</robot>
+"""
+YAML = """rr:
+  joint_state_controller: {type: joint_state_controller/JointStateController, publish_rate: 50}
+  shoulder_position_controller:
+    type: effort_controllers/JointPositionController
+    joint: shoulder
+    pid: {p: 100.0, i: 0.01, d: 10.0}
+"""
+LAUNCH = """<launch>
+<include file="$(find gazebo_ros)/launch/empty_world.launch"><arg name="gui" value="false"/></include>
+<param name="robot_description" command="$(find xacro)/xacro $(dirname)/rr.xacro"/>
+<node name="urdf_spawner" pkg="gazebo_ros" type="spawn_model" args="-urdf -model rr -param robot_description"/>
+<rosparam file="$(dirname)/rr.yaml" command="load"/>
+<node name="controller_spawner" pkg="controller_manager" type="spawner" ns="/rr" output="screen"
+ args="joint_state_controller shoulder_position_controller"/>
+<node name="robot_state_publisher" pkg="robot_state_publisher" type="robot_state_publisher">
+<remap from="/joint_states" to="/rr/joint_states"/></node>
+</launch>
+"""
+
+
+@pytest.mark.slow
+def test_a_command_turns_the_arm_and_its_frame(
+    start: Callable[..., Any], trundle: Callable[..., Any], until: Callable[..., None], tmp_path: Path
+) -> None:
+    for name, text in (("rr.xacro", XACRO), ("rr.yaml", YAML), ("rr.launch", LAUNCH)):
+        (tmp_path / name).write_text(text)
+    running = start("launch", str(tmp_path / "rr.launch"), "--headless")
+    started = "Started controllers: joint_state_controller, shoulder_position_controller"
+    until("the controllers", lambda: started in running.output())
+    trundle("topic", "pub", "-1", "/rr/shoulder_position_controller/command", "std_msgs/Float64", "data: 1.5")
+
+    def arm() -> str:
+        return trundle("tf", "echo", "-n", "1", "base", "arm").stdout
+
+    until("the arm at 1.5 rad", lambda: "in RPY (radian) [0.000, 1.50" in arm() or "[0.000, 1.49" in arm())
+    state = trundle("topic", "echo", "-n", "1", "/rr/shoulder_position_controller/state/set_point").stdout
+    assert state == "1.5\n---\n"
+    assert running.interrupt() == 130
+    assert "Traceback" not in running.output()
+    assert "error" not in running.output().lower()
