@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import mujoco
+import numpy as np
 import pytest
 import trimesh
 from PIL import Image
@@ -16,7 +17,7 @@ from trundle.description import load
 from trundle.diagnostics import Diagnostics
 from trundle.model import MeshFile
 from trundle.packages import Packages
-from trundle.physics import compile_world
+from trundle.physics import compile_mjcf, compile_world
 
 MESH = "<visual name='v'><geometry><mesh><uri>{uri}</uri></mesh></geometry></visual>"
 MODEL = """<sdf version='1.6'><model name='cart'><link name='base'>{visuals}
@@ -126,9 +127,67 @@ def test_mjcf_is_the_engine_s_own_model(cart: Path, tmp_path: Path) -> None:
 
     theirs = mujoco.MjModel.from_xml_path(str(out))
     ours = compile_world(load(str(cart), Diagnostics(), packages=Packages({}, start=cart)).world, Diagnostics()).model
-    assert (theirs.nq, theirs.nv, theirs.ngeom) == (ours.nq, ours.nv, ours.ngeom)
+    assert (theirs.nq, theirs.nv, theirs.ngeom) == (ours.nq, ours.nv, ours.ngeom + 2)
     assert theirs.body_mass == pytest.approx(ours.body_mass)
     assert theirs.qpos0 == pytest.approx(ours.qpos0)
+
+
+SEEN = """<visual name='v'><pose>0.1234567890123 0 0 0 0 0.3</pose><geometry><sphere><radius>0.3</radius></sphere>
+</geometry><material><diffuse>1 0.5 0 1</diffuse><specular>0.2 0.2 0.2 1</specular></material><transparency>0.5
+</transparency></visual><visual name='flat'><geometry><mesh><uri>a/part.obj</uri></mesh></geometry></visual>
+<visual name='v'><geometry><cone><radius>1</radius><length>2</length></cone></geometry></visual>
+<light name='lamp' type='spot'><pose>0 0 1 0 0 0</pose><spot><outer_angle>1</outer_angle></spot></light>"""
+
+
+def test_mjcf_shows_what_is_seen_and_leaves_physics_as_it_is(cart: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    cart.write_text(MODEL.format(visuals=SEEN))
+
+    code, text = run("convert", str(cart), "--to", "mjcf")
+
+    model = mujoco.MjModel.from_xml_string(text)
+    seen = np.flatnonzero(model.geom_group == 2)
+    assert code == 0
+    assert len(seen) == 3
+    ball, flat, cone = seen
+    assert model.geom_rgba[ball] == pytest.approx([0.5, 0.5, 0.5, 1.0])  # a material's, which this stands for
+    assert model.mat_rgba[model.geom_matid[ball]] == pytest.approx([1.0, 0.5, 0.0, 0.5])
+    assert model.mat_specular[model.geom_matid[ball]] == pytest.approx(0.2)
+    assert model.geom_type[flat] == model.geom_type[cone] == mujoco.mjtGeom.mjGEOM_MESH
+    assert model.geom_pos[ball][0] == 0.1234567890123
+    assert not model.geom_contype[seen].any()
+    assert model.light_cutoff[0] == pytest.approx(np.degrees(0.5))
+    assert "textures are not written to MJCF; each shape has its mean colour" in capsys.readouterr().err
+
+
+def test_mjcf_has_every_digit(cart: Path) -> None:
+    """MuJoCo's own writer keeps six."""
+    mass = "<inertial><mass>0.1234567890123</mass><pose>0.3333333333333 0 0 0 0 0</pose></inertial>"
+    turned = MODEL.replace("0 1 0 0 0 0", "0.7777777777777 0 0 0.1 0.2 0.3").replace("<xyz>0 1 0", "<xyz>1 2 3")
+    limits = "<limit><lower>-1.1111111111111</lower></limit><dynamics><damping>0.123456789</damping></dynamics></axis>"
+    cart.write_text(turned.format(visuals=mass).replace("</axis>", limits))
+
+    ours = compile_world(load(str(cart), Diagnostics(), packages=Packages({}, start=cart)).world, Diagnostics()).model
+    theirs = mujoco.MjModel.from_xml_string(run("convert", str(cart), "--to", "mjcf")[1])
+
+    for name in ("body_mass", "body_ipos", "body_pos", "body_quat", "jnt_axis", "jnt_range", "dof_damping"):
+        assert getattr(theirs, name) == pytest.approx(getattr(ours, name), rel=1e-14, abs=1e-15), name
+
+
+@pytest.mark.slow
+def test_every_published_model_is_mjcf_that_loads_as_it_was(shared: Path) -> None:
+    """Models of the database that move: the same bodies, joints and masses to 1e-9."""
+    count = 0
+    for path in sorted((shared / "corpus/repos/osrf+gazebo_models").glob("*/model.sdf")):
+        packages = Packages({"GAZEBO_MODEL_PATH": str(path.parents[1])}, start=path)
+        world = load(str(path), Diagnostics(), packages=packages).world
+        ours = compile_world(world, Diagnostics()).model
+        if not ours.nv:
+            continue
+        theirs = mujoco.MjModel.from_xml_string(compile_mjcf(world, Diagnostics()))
+        for name in ("body_mass", "body_inertia", "body_pos", "body_quat", "jnt_axis", "jnt_range", "dof_damping"):
+            assert getattr(theirs, name) == pytest.approx(getattr(ours, name), rel=1e-9, abs=1e-11), (path, name)
+        count += 1
+    assert count > 100
 
 
 def test_two_robots_are_no_urdf(cart: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -149,7 +208,7 @@ def test_an_output_that_cannot_be_written_is_one_sentence_and_no_file(cart: Path
     [
         ("", "<stdin>:1: error: the file is empty"),
         ("<sdf", "<stdin>:1: error: not well-formed XML"),
-        ("<robot name='r' xmlns:xacro='x'/>", "read from a file only, by its name"),
+        ("<robot name='r' xmlns:xacro='x'><xacro:arm/></robot>", "read from a file only, by its name"),
     ],
 )
 def test_standard_input_that_makes_no_sense(text: str, said: str) -> None:

@@ -197,7 +197,8 @@ def test_a_urdf_can_be_included(tmp_path: Path) -> None:
 
 
 def test_a_xacro_file_cannot_be_included(tmp_path: Path) -> None:
-    (tmp_path / "cart.urdf").write_text(ROBOT.replace("<robot", "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'"))
+    declared = ROBOT.replace("<robot", "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'")
+    (tmp_path / "cart.urdf").write_text(declared.replace("</robot>", "<xacro:arm/></robot>"))
     report = Diagnostics()
 
     world = read(tmp_path, '<world name="w"><include><uri>cart.urdf</uri></include></world>', report)

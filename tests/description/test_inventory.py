@@ -1,17 +1,16 @@
 """Every element and attribute that any SDF version has is in the model, or named at file and line."""
 
-import dataclasses
 import re
 from pathlib import Path
 from typing import Any, NamedTuple
 from xml.etree import ElementTree as Xml
 
 import pytest
+from tests.description.plain import plain
 
 from trundle.description import load
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
-from trundle.xmlnode import XmlNode
 
 _HERE = "here"
 _NOISE = "<noise here=''><stddev>1</stddev></noise>"
@@ -318,16 +317,6 @@ def understood(folder: Path, text: str) -> tuple[Any, set[str]]:
     loaded = load(str(folder / "x.sdf"), report, packages=Packages({}, start=folder))
     assert all(finding.at.line is not None for finding in report.findings)
     return plain(loaded.world), {finding.what for finding in report.findings}
-
-
-def plain(value: Any) -> Any:
-    """A dataclass as plain values, without where it was read; a plugin as it was written."""
-    if isinstance(value, XmlNode):
-        return value.xml()
-    if dataclasses.is_dataclass(value):
-        names = [field.name for field in dataclasses.fields(value) if field.name not in ("at", "sdf_version")]
-        return {name: plain(getattr(value, name)) for name in names}
-    return [plain(each) for each in value] if isinstance(value, tuple) else value
 
 
 @pytest.mark.parametrize("entry", inventory(), ids=lambda entry: entry.path + entry.type * entry.type.startswith("@"))

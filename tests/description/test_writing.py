@@ -1,6 +1,5 @@
 """What is written reads back as what it was: the model through SDF, places and axes through URDF."""
 
-import json
 import math
 from pathlib import Path
 from typing import Any
@@ -10,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from trundle.bringup.check_json import described
-from trundle.description import Loaded, load, load_text, write_sdf, write_urdf, written_uri
+from trundle.description import Loaded, load_text, write_sdf, write_urdf, written_uri
 from trundle.description.writing.tag import Tag
-from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
-from trundle.model import Joint, Link, Model, flattened, model_from_joint
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.model import Joint, Link, Model, model_from_joint
 from trundle.packages import Packages
 from trundle.spatial import Pose, quaternion_from_rpy
 from trundle.xmlnode import parse_xml
@@ -230,46 +229,6 @@ def test_a_shape_that_urdf_has_not_is_named() -> None:
     urdf_of(read(CART.replace("<sphere><radius>0.5</radius></sphere>", "<capsule/>")).world.models[0], report)
     (warning,) = report.warnings
     assert warning.endswith("visual 'v': URDF has no capsule; it is left out")
-
-
-@pytest.mark.slow
-def test_every_published_sdf_reads_back_as_it_was(shared: Path) -> None:
-    """846 files of SDF 1.0 to 1.9: the same model to 1e-9, and the same text the second time."""
-    environment = {"HOME": "/nobody", "GAZEBO_MODEL_PATH": str(shared / "corpus/repos/osrf+gazebo_models")}
-    count = 0
-    for row in json.loads((shared / "corpus/manifest.json").read_text())["sdf"]:
-        path = shared / "corpus" / row["file"]
-        packages = Packages(environment, start=path)
-        try:
-            first = load(str(path), Diagnostics(), packages=packages)
-        except TrundleError:
-            continue
-        text = sdf_of(first)
-        again = load_text(text, name="<stdin>", folder=path.parent, packages=packages, report=Diagnostics())
-        assert same(comparable(first), comparable(again)), path
-        count += 1
-    assert count > 800
-
-
-@pytest.mark.slow
-def test_published_models_that_a_urdf_can_hold_keep_their_places(shared: Path) -> None:
-    environment = {"HOME": "/nobody", "GAZEBO_MODEL_PATH": str(shared / "corpus/repos/osrf+gazebo_models")}
-    count = 0
-    for path in sorted((shared / "corpus/repos/osrf+gazebo_models").glob("*/model.sdf")):
-        packages = Packages(environment, start=path)
-        for before in flattened(load(str(path), Diagnostics(), packages=packages).world).models:
-            try:
-                text = urdf_of(before)
-            except DescriptionError:
-                continue
-            loaded = load_text(text, name="<stdin>", folder=path.parent, packages=packages, report=Diagnostics())
-            after = loaded.world.models[0]
-            assert [link.name for link in after.links] == [link.name for link in before.links], path
-            for link in before.links:
-                ours, theirs = com(after, after.link(link.name)).position, com(before, link).position
-                assert ours == pytest.approx(theirs, abs=1e-9), path
-            count += 1
-    assert count > 200
 
 
 def test_imus_and_ray_sensors_are_written_with_their_settings() -> None:

@@ -13,6 +13,9 @@ from .sdf import Context, read_root, read_version, rewrite_old_style
 from .urdf import lower_robot, read_urdf_text
 from .xacro import expand_xacro, is_xacro
 
+_XACRO = "<xacro:"
+"""What is not expanded yet; the name space alone stays in many files that are."""
+
 
 def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -> Loaded:
     """Read a description: SDF, URDF or xacro.
@@ -60,7 +63,7 @@ def load_text(text: str, *, name: str, folder: Path, packages: Packages, report:
     root = parse_xml(text, name=name)
     if root.tag != "robot":
         return load_sdf(root, folder / name, packages, report)
-    if "xmlns:xacro" in text:
+    if _XACRO in text:
         raise DescriptionError(root.at, "a xacro file; it is read from a file only, by its name")
     return load_urdf(text, name, folder / name, packages, report)
 
@@ -80,7 +83,7 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics,
 
     def read_urdf(file: Path, robot: XmlNode) -> Model:
         text = file.read_text(encoding="utf-8", errors="replace")
-        if "xmlns:xacro" in text:
+        if _XACRO in text:
             raise DescriptionError(robot.at, "a xacro file cannot be included; `trundle xacro` expands it")
         (model,) = load_urdf(text, str(file), file, packages, report).world.models
         return model

@@ -6,6 +6,7 @@ from .mesh import Mesh, MeshPart, Texture
 from .polygons import triangles_of
 from .raw import MeshError
 from .solids import cone_mesh, prism_mesh, terrain_mesh
+from .texture import mean_colour
 
 __all__ = [
     "Mesh",
@@ -14,6 +15,7 @@ __all__ = [
     "Texture",
     "cone_mesh",
     "load_mesh",
+    "mean_colour",
     "prism_mesh",
     "read_heights",
     "terrain_mesh",

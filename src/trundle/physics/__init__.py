@@ -1,10 +1,11 @@
 """model → MuJoCo: the compile, and the engine that steps."""
 
-from .compile import compile_mjcf, compile_world
+from .compile import compile_world
 from .engine import Engine, EngineState, SimulationUnstableError
 from .grip import ContactPoint, Grip, GripLaw
 from .index import CompiledWorld
 from .instant import Instant
+from .mjcf import compile_mjcf
 from .postmortem import Runaway
 from .touching import Contact
 

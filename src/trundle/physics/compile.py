@@ -19,6 +19,7 @@ from .inertia import principal_inertia
 from .joints import JointMaker, soften_stops
 from .settings import apply_settings
 from .shapes import ShapeEntry, add_shape
+from .surfaces import Touch
 from .tree import WORLD, Hold, Place, Tree
 from .wheels import add_tread, is_wheel, without_tread
 
@@ -32,21 +33,12 @@ def compile_world(world: World, report: Diagnostics) -> CompiledWorld:
     Raises:
         DescriptionError: the engine refuses what is left.
     """
-    return _Compiler(flattened(world), report).compile()
+    return Compiler(flattened(world), report).compile()
 
 
-def compile_mjcf(world: World, report: Diagnostics) -> str:
-    """The world as MuJoCo's own XML, shapes of meshes inside.
+class Compiler:
+    """A specification that grows from a world without nested models."""
 
-    Raises:
-        DescriptionError: as `compile_world`.
-    """
-    compiler = _Compiler(flattened(world), report)
-    compiler.compile()
-    return compiler.spec.to_xml()
-
-
-class _Compiler:
     def __init__(self, world: World, report: Diagnostics) -> None:
         self.world = world
         self.report = report
@@ -65,6 +57,20 @@ class _Compiler:
         self.shape_names: set[str] = set()
 
     def compile(self) -> CompiledWorld:
+        """Fill the specification, and compile it.
+
+        Raises:
+            DescriptionError: the engine refuses it.
+        """
+        touches = self.fill()
+        collisions = {shape.name: shape.collision for shape in self.shapes}
+        compiled = self.compile_spec()
+        soften(compiled, touches)
+        soften_stops(compiled, (axis for axes in self.joints.axes.values() for axis in axes))
+        return index_world(self.world, self.tree, self.joints.axes, touches, collisions, compiled)
+
+    def fill(self) -> dict[tuple[str, str], Touch]:
+        """Put the world into the specification; return how its shapes touch."""
         for place in self.tree.places.values():
             self._place(place)
         for hold in self.tree.loops:
@@ -78,13 +84,9 @@ class _Compiler:
             for axis in axes:
                 if axis.axis is not None:
                     self._add_motor(axis.engine_joint)
-        collisions = {shape.name: shape.collision for shape in self.shapes}
-        compiled = self._compile_spec()
-        soften(compiled, touches)
-        soften_stops(compiled, (axis for axes in self.joints.axes.values() for axis in axes))
-        return index_world(self.world, self.tree, self.joints.axes, touches, collisions, compiled)
+        return touches
 
-    def _compile_spec(self) -> mujoco.MjModel:
+    def compile_spec(self) -> mujoco.MjModel:
         """Hand the world to MuJoCo; its own checks speak in its own words."""
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")

@@ -114,7 +114,7 @@ class _Writer:
         for visual in link.visuals:
             add_visual(tag, visual, self.uri_of)
             if visual.material.texture_scale != (1.0, 1.0):
-                self.report.info(visual.at, f"visual {visual.name!r}: SDF has no word for a texture's scale")
+                self.report.warn(visual.at, f"visual {visual.name!r}: SDF has no word for a texture's scale")
         for collision in link.collisions:
             add_collision(tag, collision, self.uri_of)
         for sensor in link.sensors:

@@ -22,7 +22,7 @@ def add_light(home: Tag, light: Light) -> None:
     attenuation.add("constant", light.constant)
     attenuation.add("linear", light.linear)
     attenuation.add("quadratic", light.quadratic)
-    if light.type == "spot":
+    if light.type == "spot" or light.outer_angle_rad:
         spot = tag.add("spot")
         spot.add("inner_angle", light.inner_angle_rad)
         spot.add("outer_angle", light.outer_angle_rad)

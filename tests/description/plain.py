@@ -1,0 +1,43 @@
+"""Models as plain values, so that two of them can be held against one another field by field."""
+
+import dataclasses
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from trundle.spatial import Pose
+from trundle.xmlnode import XmlNode
+
+_WHERE = ("at", "sdf_version")
+_CLOSE = 1e-9
+
+
+def plain(value: Any) -> Any:
+    """A dataclass as plain values, without where it was read; a plugin as it was written."""
+    if isinstance(value, XmlNode):
+        return value.xml()
+    if isinstance(value, Pose):
+        return value
+    if dataclasses.is_dataclass(value):
+        names = [field.name for field in dataclasses.fields(value) if field.name not in _WHERE]
+        return {name: plain(getattr(value, name)) for name in names}
+    return [plain(each) for each in value] if isinstance(value, tuple) else value
+
+
+def unlike(a: Any, b: Any, path: str = "") -> Iterator[str]:
+    """The fields in which two models differ by more than 1e-9, as `models/links/name`."""
+    if isinstance(a, Pose) and isinstance(b, Pose):
+        turned = min(math.dist(a.quaternion, [sign * value for value in b.quaternion]) for sign in (1, -1))
+        if turned > _CLOSE or math.dist(a.position, b.position) > _CLOSE * max(1.0, *map(abs, a.position)):
+            yield path
+    elif isinstance(a, dict) and isinstance(b, dict) and a.keys() == b.keys():
+        for key in a:
+            yield from unlike(a[key], b[key], f"{path}/{key}".lstrip("/"))
+    elif isinstance(a, list) and isinstance(b, list) and len(a) == len(b):
+        for x, y in zip(a, b, strict=True):
+            yield from unlike(x, y, path)
+    elif isinstance(a, float) and isinstance(b, float):
+        if not math.isclose(a, b, rel_tol=_CLOSE, abs_tol=_CLOSE):
+            yield path
+    elif a != b:
+        yield path
