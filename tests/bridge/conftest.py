@@ -11,7 +11,7 @@ import pytest
 import trundle
 from trundle.bridge import camera_topics, sensor_topics
 from trundle.render import NativeRenderer
-from trundle.ros import Core, GraphLoop, Node, StaticTransformBroadcaster
+from trundle.ros import Core, GraphLoop, Node, StaticTransformBroadcaster, Transform
 from trundle.sensors import mount_cameras, mount_sensors
 from trundle.simulation import Simulation
 
@@ -73,6 +73,7 @@ def hear(graph: SimpleNamespace, described: Described) -> Hear:
         still = StaticTransformBroadcaster(graph.node)
         camera_topics(graph.node, still, cameras, sim.world)
         sensor_topics(graph.node, still, sensors, sim.world)
+        still.send(Transform(parent="world", child="the last"))
         heard: dict[str, Any] = {}
         frames: set[str] = set()
         graph.ear.subscribe(
@@ -82,7 +83,7 @@ def hear(graph: SimpleNamespace, described: Described) -> Hear:
             graph.ear.subscribe(topic, type_, lambda message, topic=topic: heard.setdefault(topic, message))
             until(lambda topic=topic, type_=type_: graph.node.advertise(topic, type_).has_subscribers)
         sim.run(seconds)
-        until(lambda: heard.keys() == topics.keys() and frames)
+        until(lambda: heard.keys() == topics.keys() and "the last" in frames)
         return heard, frames
 
     return hear

@@ -140,10 +140,10 @@ def test_any_name_reads_back_as_it_was(name: str) -> None:
 
 def test_settings_that_the_model_does_not_hold_are_named() -> None:
     report = Diagnostics()
-    sensor = "<sensor name='s' type='sonar'><sonar><radius>1</radius></sonar></sensor>"
+    sensor = "<sensor name='s' type='smell'><smell><radius>1</radius></smell></sensor>"
     sdf_of(read(f"<sdf version='1.6'><model name='m'><link name='l'>{sensor}</link></model></sdf>"), report)
 
-    assert report.warnings == ["<stdin>:1: warning: sensor 's': the settings of a sonar sensor are not written yet"]
+    assert report.warnings == ["<stdin>:1: warning: sensor 's': the settings of a smell sensor are not written yet"]
 
 
 def test_names_that_sdf_1_8_refuses_are_written_as_1_7() -> None:

@@ -6,8 +6,11 @@ from collections.abc import Iterable
 import numpy as np
 
 from trundle.model import World
-from trundle.ros import Node, StaticTransformBroadcaster, Transform
+from trundle.ros import Node, StaticTransformBroadcaster
 from trundle.sensors import (
+    AirPressureSensor,
+    AirSpeedSensor,
+    AltimeterSensor,
     ContactReading,
     ContactSensor,
     ForceTorqueReading,
@@ -16,14 +19,28 @@ from trundle.sensors import (
     GpsSensor,
     ImuReading,
     ImuSensor,
+    LogicalCameraSensor,
+    MagnetometerSensor,
     MeasuringSensor,
     RangeReading,
     RangeSensor,
+    RfidSensor,
+    SonarSensor,
+    WirelessSensor,
     directions_of,
 )
 from trundle.spatial import Vector3, Wrench
 
-from .naming import WORLD_FRAME, has_plain_frames, link_frame_name, sensor_topic
+from .instruments import (
+    AltimeterTopics,
+    MagnetometerTopic,
+    ModelsTopic,
+    PressureTopic,
+    RadioTopic,
+    SonarTopic,
+)
+from .naming import WORLD_FRAME, has_plain_frames, link_frame_name
+from .placing import place_sensor, topic_of
 
 _FLOAT32 = 7
 """sensor_msgs/PointField's number for it."""
@@ -45,23 +62,18 @@ def sensor_topics(
                 WrenchTopic(node, still, sensor, world)
             case ContactSensor():
                 ContactsTopic(node, sensor)
-
-
-def _place(sensor: MeasuringSensor, still: StaticTransformBroadcaster, world: World) -> str:
-    """Put the sensor's own frame on its link; return its name."""
-    plain = has_plain_frames(world)
-    frame = link_frame_name(sensor.model, sensor.name, plain=plain)
-    carrier = link_frame_name(sensor.model, sensor.link.name, plain=plain)
-    if frame == carrier:
-        frame = f"{frame}_sensor"
-    on_joint = isinstance(sensor, ForceTorqueSensor)
-    pose = sensor.link_from_sensor if on_joint else sensor.sensor.link_from_sensor
-    still.send(Transform(parent=carrier, child=frame, translation=pose.position, rotation=pose.quaternion))
-    return frame
-
-
-def _topic(sensor: MeasuringSensor, output: str) -> str:
-    return sensor_topic(sensor.model, sensor.place, sensor.sensor, output, main=output)
+            case AirPressureSensor() | AirSpeedSensor():
+                PressureTopic(node, still, sensor, world)
+            case AltimeterSensor():
+                AltimeterTopics(node, sensor)
+            case LogicalCameraSensor():
+                ModelsTopic(node, still, sensor, world)
+            case MagnetometerSensor():
+                MagnetometerTopic(node, still, sensor, world)
+            case SonarSensor():
+                SonarTopic(node, still, sensor, world)
+            case WirelessSensor() | RfidSensor():
+                RadioTopic(node, still, sensor, world)
 
 
 class ImuTopic:
@@ -69,8 +81,8 @@ class ImuTopic:
 
     def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: ImuSensor, world: World) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = _place(sensor, still, world)
-        self._imu = node.advertise(_topic(sensor, "imu"), "sensor_msgs/Imu", queue_size=10)
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
+        self._imu = node.advertise(topic_of(sensor, "imu"), "sensor_msgs/Imu", queue_size=10)
         sensor.listen(self._publish, wanted=lambda: self._imu.has_subscribers)
 
     def _publish(self, reading: ImuReading) -> None:
@@ -90,14 +102,14 @@ class ScanTopic:
 
     def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: RangeSensor, world: World) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = _place(sensor, still, world)
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
         self._period_s = sensor.period_ns / 1e9
         self._directions = directions_of(sensor.scan)
         if sensor.scan.vertical.samples == 1:
-            self._topic = node.advertise(_topic(sensor, "scan"), "sensor_msgs/LaserScan", queue_size=5)
+            self._topic = node.advertise(topic_of(sensor, "scan"), "sensor_msgs/LaserScan", queue_size=5)
             sensor.listen(self._publish_scan, wanted=lambda: self._topic.has_subscribers)
         else:
-            self._topic = node.advertise(_topic(sensor, "points"), "sensor_msgs/PointCloud2", queue_size=2)
+            self._topic = node.advertise(topic_of(sensor, "points"), "sensor_msgs/PointCloud2", queue_size=2)
             sensor.listen(self._publish_points, wanted=lambda: self._topic.has_subscribers)
 
     def _publish_scan(self, reading: RangeReading) -> None:
@@ -112,24 +124,27 @@ class ScanTopic:
                 "range_min": reading.scan.min_m,
                 "range_max": reading.scan.max_m,
                 "ranges": reading.ranges[0].astype(np.float32),
+                "intensities": reading.intensities[0].astype(np.float32),
             }
         )
 
     def _publish_points(self, reading: RangeReading) -> None:
-        """Points in the sensor's frame, without those that found nothing."""
+        """Points and their intensities in the sensor's frame, without those that found nothing."""
         ranges = reading.ranges.reshape(-1)
         seen = np.isfinite(ranges)
-        points = (self._directions[seen] * ranges[seen, None]).astype("<f4")
+        places = self._directions[seen] * ranges[seen, None]
+        points = np.column_stack([places, reading.intensities.reshape(-1)[seen]]).astype("<f4")
         self._topic.publish(
             {
                 "header": {"stamp": reading.time_ns, "frame_id": self._frame},
                 "height": 1,
                 "width": len(points),
                 "fields": [
-                    {"name": name, "offset": 4 * i, "datatype": _FLOAT32, "count": 1} for i, name in enumerate("xyz")
+                    {"name": name, "offset": 4 * i, "datatype": _FLOAT32, "count": 1}
+                    for i, name in enumerate(("x", "y", "z", "intensity"))
                 ],
-                "point_step": 12,
-                "row_step": 12 * len(points),
+                "point_step": 16,
+                "row_step": 16 * len(points),
                 "data": np.frombuffer(points.tobytes(), dtype=np.uint8),
                 "is_dense": True,
             }
@@ -141,10 +156,10 @@ class FixTopic:
 
     def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: GpsSensor, world: World) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = _place(sensor, still, world)
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
         across, up = sensor.variances
         self._covariance = [across, 0.0, 0.0, 0.0, across, 0.0, 0.0, 0.0, up]
-        self._fix = node.advertise(_topic(sensor, "fix"), "sensor_msgs/NavSatFix", queue_size=5)
+        self._fix = node.advertise(topic_of(sensor, "fix"), "sensor_msgs/NavSatFix", queue_size=5)
         sensor.listen(self._publish, wanted=lambda: self._fix.has_subscribers)
 
     def _publish(self, reading: GpsReading) -> None:
@@ -166,14 +181,14 @@ class WrenchTopic:
 
     def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: ForceTorqueSensor, world: World) -> None:
         """Advertise, and place the sensor's frame."""
-        own = _place(sensor, still, world)
+        own = place_sensor(sensor, sensor.link_from_sensor, still, world)
         plain = has_plain_frames(world)
         parent = sensor.joint.parent
         self._frame = {
             "child": link_frame_name(sensor.model, sensor.link.name, plain=plain),
             "parent": WORLD_FRAME if parent == "world" else link_frame_name(sensor.model, parent, plain=plain),
         }.get(sensor.settings.frame, own)
-        self._topic = node.advertise(_topic(sensor, "wrench"), "geometry_msgs/WrenchStamped", queue_size=10)
+        self._topic = node.advertise(topic_of(sensor, "wrench"), "geometry_msgs/WrenchStamped", queue_size=10)
         sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
 
     def _publish(self, reading: ForceTorqueReading) -> None:
@@ -186,7 +201,7 @@ class ContactsTopic:
 
     def __init__(self, node: Node, sensor: ContactSensor) -> None:
         """Advertise."""
-        self._contacts = node.advertise(_topic(sensor, "contacts"), "gazebo_msgs/ContactsState", queue_size=5)
+        self._contacts = node.advertise(topic_of(sensor, "contacts"), "gazebo_msgs/ContactsState", queue_size=5)
         sensor.listen(self._publish, wanted=lambda: self._contacts.has_subscribers)
 
     def _publish(self, reading: ContactReading) -> None:

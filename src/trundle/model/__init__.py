@@ -21,6 +21,7 @@ from .geometry import (
     TerrainLayer,
 )
 from .inertial import Inertial
+from .instrument import AirPressure, AirSpeed, Altimeter, Instrument, LogicalCamera, Magnetometer, Sonar, Transceiver
 from .joint import UNLIMITED, Joint, JointAxis, JointType, Mimic
 from .kinematics import model_from_joint, model_from_links
 from .link import Collision, Link, Visual
@@ -29,7 +30,7 @@ from .model import Frame, Model
 from .noise import Noise
 from .plugin import PluginTag
 from .road import Road
-from .sensor import ForceTorque, GpsNoise, ImuNoise, RangeScan, ScanAxis, Sensor
+from .sensor import ForceTorque, GpsNoise, ImuNoise, OrientationReference, RangeScan, ScanAxis, Sensor
 from .surface import Surface
 from .world import World
 
@@ -37,6 +38,9 @@ __all__ = [
     "GREY",
     "UNLIMITED",
     "Actor",
+    "AirPressure",
+    "AirSpeed",
+    "Altimeter",
     "Animation",
     "Atmosphere",
     "Box",
@@ -56,6 +60,7 @@ __all__ = [
     "Heightmap",
     "ImuNoise",
     "Inertial",
+    "Instrument",
     "Joint",
     "JointAxis",
     "JointType",
@@ -63,11 +68,14 @@ __all__ = [
     "Light",
     "LightType",
     "Link",
+    "LogicalCamera",
+    "Magnetometer",
     "Material",
     "MeshFile",
     "Mimic",
     "Model",
     "Noise",
+    "OrientationReference",
     "PhysicsSettings",
     "PixelIntrinsics",
     "Plane",
@@ -82,11 +90,13 @@ __all__ = [
     "Sensor",
     "Skin",
     "Solid",
+    "Sonar",
     "Sphere",
     "SphericalCoordinates",
     "Surface",
     "TerrainLayer",
     "Trajectory",
+    "Transceiver",
     "Visual",
     "Waypoint",
     "World",

@@ -3,9 +3,10 @@
 from dataclasses import dataclass
 
 from trundle.diagnostics import Source
-from trundle.spatial import Pose
+from trundle.spatial import Pose, Vector3
 
 from .camera import CameraOptics
+from .instrument import Instrument
 from .noise import Noise
 from .plugin import PluginTag
 
@@ -35,13 +36,30 @@ class RangeScan:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class OrientationReference:
+    """The frame that an imu tells its orientation in."""
+
+    localization: str = "CUSTOM"
+    """ENU, NED, NWU, GRAV_UP or CUSTOM."""
+    custom_rpy: Vector3 = (0.0, 0.0, 0.0)
+    """Of a custom frame in its parent [rad]."""
+    parent_frame: str = ""
+    """world, or empty: the sensor's own frame at the start."""
+    gravity_x: Vector3 = (1.0, 0.0, 0.0)
+    """The x axis of GRAV_UP, whose z points against gravity."""
+    gravity_parent_frame: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ImuNoise:
-    """Noise about each axis of the sensor, x y z."""
+    """Noise about each axis of the sensor, x y z, and the frame of its orientation."""
 
     angular_velocity: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
     """[rad/s]"""
     linear_acceleration: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
     """[m/s²]"""
+    reference: OrientationReference | None = None
+    """None: the world."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,6 +78,10 @@ class ForceTorque:
     """Whose axes: child, parent or sensor."""
     parent_to_child: bool = False
     """What the parent does to the child; else what the child does to the parent."""
+    force: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
+    """Along the axes that are told [N]."""
+    torque: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
+    """[N·m]"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,4 +110,6 @@ class Sensor:
     """Set for force_torque sensors, which sit on joints."""
     touching: tuple[str, ...] | None = None
     """Set for contact sensors: the collisions of the link that feel; none named stands for all."""
+    instrument: Instrument | None = None
+    """Set for sensors of other types that have settings."""
     plugins: tuple[PluginTag, ...] = ()

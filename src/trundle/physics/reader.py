@@ -89,10 +89,10 @@ class StateReader:
         x, y, z = self._data.xipos[self._compiled.link_bodies[link]].tolist()
         return (x, y, z)
 
-    def distances(
+    def cast(
         self, origin: Vector3, directions: NDArray[np.float64], *, reach: float, exclude: int
-    ) -> NDArray[np.float64]:
-        """(rays,) how far each ray goes before it meets a collision shape [m]; inf where it meets none.
+    ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """(rays,) how far each ray goes before it meets a collision shape [m], inf where it meets none; which geom.
 
         Args:
             origin: of all rays, in the world [m].
@@ -117,4 +117,4 @@ class StateReader:
             count,
             reach,
         )
-        return np.where(far < 0.0, np.inf, far)
+        return np.where(far < 0.0, np.inf, far), geoms

@@ -1,5 +1,7 @@
 """Snapshots become readings."""
 
+from .air import AirPressureSensor, AirSpeedSensor, PressureReading
+from .altimeter import AltimeterReading, AltimeterSensor
 from .bounding_box_camera import BoundingBoxCameraSensor
 from .camera import CameraReading, CameraSensor, SeenBox
 from .contact import ContactReading, ContactSensor
@@ -9,16 +11,24 @@ from .formats import pixels_in
 from .gps import GpsReading, GpsSensor
 from .imu import ImuReading, ImuSensor
 from .lens import radius_of
+from .logical_camera import LogicalCameraReading, LogicalCameraSensor
+from .magnetometer import MagnetometerReading, MagnetometerSensor
 from .mount import SIMULATED, mount_cameras
 from .mount_measuring import MeasuringSensor, mount_sensors
 from .noise import NoiseSource
 from .range import RangeReading, RangeSensor, angles_of, directions_of
 from .scenery import Scenery
 from .segmentation_camera import SegmentationCameraSensor
+from .sonar import SonarReading, SonarSensor
 from .thermal_camera import ThermalCameraSensor
+from .wireless import RfidReading, RfidSensor, WirelessReading, WirelessSensor
 
 __all__ = [
     "SIMULATED",
+    "AirPressureSensor",
+    "AirSpeedSensor",
+    "AltimeterReading",
+    "AltimeterSensor",
     "BoundingBoxCameraSensor",
     "CameraReading",
     "CameraSensor",
@@ -31,14 +41,25 @@ __all__ = [
     "GpsSensor",
     "ImuReading",
     "ImuSensor",
+    "LogicalCameraReading",
+    "LogicalCameraSensor",
+    "MagnetometerReading",
+    "MagnetometerSensor",
     "MeasuringSensor",
     "NoiseSource",
+    "PressureReading",
     "RangeReading",
     "RangeSensor",
+    "RfidReading",
+    "RfidSensor",
     "Scenery",
     "SeenBox",
     "SegmentationCameraSensor",
+    "SonarReading",
+    "SonarSensor",
     "ThermalCameraSensor",
+    "WirelessReading",
+    "WirelessSensor",
     "angles_of",
     "directions_of",
     "mount_cameras",

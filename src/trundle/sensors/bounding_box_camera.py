@@ -9,6 +9,7 @@ from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
 from .camera import CameraReading, CameraSensor, SeenBox
+from .placing import moved, pose_of
 from .scenery import Scenery
 from .segmentation_camera import INSTANCES, instances_of
 
@@ -61,8 +62,8 @@ class BoundingBoxCameraSensor(CameraSensor):
 
     def _in_space(self, shapes: list[int], snapshot: Snapshot) -> tuple[Pose, tuple[float, float, float]]:
         """The box along the axes of the thing's first body."""
-        world_from_body = _pose(snapshot.poses[self.scenery.scene.shapes[shapes[0]].body])
-        points = _moved(world_from_body.inverse(), self._corners(shapes, snapshot))
+        world_from_body = pose_of(snapshot.poses[self.scenery.scene.shapes[shapes[0]].body])
+        points = moved(world_from_body.inverse(), self._corners(shapes, snapshot))
         low, high = points.min(axis=0), points.max(axis=0)
         x, y, z = ((low + high) / 2).tolist()
         dx, dy, dz = (high - low).tolist()
@@ -72,7 +73,7 @@ class BoundingBoxCameraSensor(CameraSensor):
         self, shapes: list[int], snapshot: Snapshot, low: tuple[int, int], high: tuple[int, int]
     ) -> tuple[tuple[float, float], tuple[float, float]]:
         """What is visible, and beyond it what other things hide, up to the picture's rim."""
-        points = _moved(self.world_from_camera(snapshot).inverse(), self._corners(shapes, snapshot))
+        points = moved(self.world_from_camera(snapshot).inverse(), self._corners(shapes, snapshot))
         points = points[points[:, 0] > self.optics.near_m]
         if not len(points):
             return low, high
@@ -88,16 +89,5 @@ class BoundingBoxCameraSensor(CameraSensor):
         for number in shapes:
             shape = self.scenery.scene.shapes[number]
             corners = np.array(corners_of(shape.geometry) or [(0.0, 0.0, 0.0)])
-            found.append(_moved(_pose(snapshot.poses[shape.body]) @ shape.body_from_shape, corners))
+            found.append(moved(pose_of(snapshot.poses[shape.body]) @ shape.body_from_shape, corners))
         return np.concatenate(found)
-
-
-def _pose(row: _Points) -> Pose:
-    x, y, z, qw, qx, qy, qz = row.tolist()
-    return Pose((x, y, z), (qw, qx, qy, qz))
-
-
-def _moved(a_from_b: Pose, points: _Points) -> _Points:
-    """(n, 3) points of frame b in frame a."""
-    axes = np.array([a_from_b.direction(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))])
-    return points @ axes + np.array(a_from_b.position)

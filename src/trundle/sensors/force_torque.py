@@ -3,11 +3,14 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
 from trundle.model import ForceTorque, Joint, Link, Model, Sensor
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose, Vector3, Wrench
 
 from .mounted import MountedSensor
+from .noise import NoiseSource, disturbed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,6 +35,7 @@ class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
         link_index: int,
         parent_index: int | None,
         reaction: Callable[[], Wrench],
+        random: np.random.Generator,
     ) -> None:
         """Mount it; see `MountedSensor`.
 
@@ -43,6 +47,7 @@ class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
             link_index: of the child in `Snapshot.poses`.
             parent_index: of the parent likewise; None: the world.
             reaction: what the parent does to the child, at the joint, world axes.
+            random: for its noise.
         """
         super().__init__(model, link, sensor, link_index=link_index)
         self.settings = sensor.force_torque or ForceTorque()
@@ -51,6 +56,8 @@ class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
         self.link_from_sensor = joint.child_from_joint @ sensor.link_from_sensor
         self._parent_index = parent_index
         self._reaction = reaction
+        self._forces = [NoiseSource(each, random) for each in self.settings.force]
+        self._torques = [NoiseSource(each, random) for each in self.settings.torque]
 
     def take(self, snapshot: Snapshot) -> ForceTorqueReading:
         """What goes through the joint now."""
@@ -62,7 +69,8 @@ class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
             x, y, z = axes.direction(vector)
             return (sign * x, sign * y, sign * z)
 
-        return ForceTorqueReading(time_ns=snapshot.time_ns, wrench=Wrench(told(on_child.force), told(on_child.torque)))
+        force, torque = disturbed(told(on_child.force), self._forces), disturbed(told(on_child.torque), self._torques)
+        return ForceTorqueReading(time_ns=snapshot.time_ns, wrench=Wrench(force, torque))
 
     def _world_from_axes(self, snapshot: Snapshot) -> Pose:
         match self.settings.frame:

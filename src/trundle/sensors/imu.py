@@ -6,10 +6,10 @@ import numpy as np
 
 from trundle.model import ImuNoise, Link, Model, Sensor
 from trundle.simulation import Snapshot
-from trundle.spatial import Pose, Quaternion, Vector3, cross
+from trundle.spatial import Pose, Quaternion, Vector3
 
 from .mounted import NS, MountedSensor
-from .noise import NoiseSource
+from .noise import NoiseSource, disturbed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -18,7 +18,7 @@ class ImuReading:
 
     time_ns: int
     orientation: Quaternion
-    """world_from_sensor, wxyz."""
+    """reference_from_sensor, wxyz; the reference is the world unless the file names another."""
     angular_velocity: Vector3
     """In the sensor's frame [rad/s]."""
     linear_acceleration: Vector3
@@ -36,6 +36,7 @@ class ImuSensor(MountedSensor[ImuReading]):
         *,
         link_index: int,
         gravity: Vector3,
+        reference_from_world: Pose,
         random: np.random.Generator,
     ) -> None:
         """Mount an imu; see `MountedSensor`.
@@ -46,11 +47,13 @@ class ImuSensor(MountedSensor[ImuReading]):
             sensor: with its imu.
             link_index: of the link in `Snapshot.poses`.
             gravity: of the world [m/s²].
+            reference_from_world: turns orientations into the frame that they are told in.
             random: for its noise.
         """
         super().__init__(model, link, sensor, link_index=link_index)
         noise = sensor.imu or ImuNoise()
         self._gravity = gravity
+        self._reference_from_world = reference_from_world
         self._rates = [NoiseSource(each, random) for each in noise.angular_velocity]
         self._accelerations = [NoiseSource(each, random) for each in noise.linear_acceleration]
         self._before: tuple[int, Vector3] | None = None
@@ -58,19 +61,16 @@ class ImuSensor(MountedSensor[ImuReading]):
 
     def take(self, snapshot: Snapshot) -> ImuReading:
         """Read at this instant; the first reading knows no acceleration but gravity."""
-        world_from_link = self.world_from_link(snapshot)
-        world_from_sensor = world_from_link @ self.sensor.link_from_sensor
-        vx, vy, vz, wx, wy, wz = snapshot.twists[self.link_index].tolist()
+        world_from_sensor = self.world_from_sensor(snapshot)
+        _, _, _, wx, wy, wz = snapshot.twists[self.link_index].tolist()
         turning = (wx, wy, wz)
-        sx, sy, sz = cross(turning, world_from_link.direction(self.sensor.link_from_sensor.position))
-        velocity = (vx + sx, vy + sy, vz + sz)
-        felt = self._felt(snapshot.time_ns, velocity)
+        felt = self._felt(snapshot.time_ns, self.velocity(snapshot))
         sensor_from_world = Pose(quaternion=world_from_sensor.quaternion).inverse()
         return ImuReading(
             time_ns=snapshot.time_ns,
-            orientation=world_from_sensor.quaternion,
-            angular_velocity=_disturbed(sensor_from_world.direction(turning), self._rates),
-            linear_acceleration=_disturbed(sensor_from_world.direction(felt), self._accelerations),
+            orientation=(self._reference_from_world @ world_from_sensor).quaternion,
+            angular_velocity=disturbed(sensor_from_world.direction(turning), self._rates),
+            linear_acceleration=disturbed(sensor_from_world.direction(felt), self._accelerations),
         )
 
     def _felt(self, time_ns: int, velocity: Vector3) -> Vector3:
@@ -82,8 +82,3 @@ class ImuSensor(MountedSensor[ImuReading]):
         elapsed = (time_ns - before[0]) / NS
         ax, ay, az = ((now - then) / elapsed for now, then in zip(velocity, before[1], strict=True))
         return (ax - gx, ay - gy, az - gz)
-
-
-def _disturbed(values: Vector3, sources: list[NoiseSource]) -> Vector3:
-    x, y, z = (float(source.disturb(np.array([value]))[0]) for value, source in zip(values, sources, strict=True))
-    return (x, y, z)

@@ -1,25 +1,70 @@
 """Mounts the sensors of a running world that need no picture."""
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 
 from trundle.model import Link, Model, Sensor
 from trundle.simulation import Simulation
+from trundle.spatial import Pose
 
+from .air import AirPressureSensor, AirSpeedSensor
+from .altimeter import AltimeterSensor
 from .contact import ContactSensor
 from .force_torque import ForceTorqueSensor
 from .gps import GpsSensor
 from .imu import ImuSensor
+from .logical_camera import LogicalCameraSensor
+from .magnetometer import MagnetometerSensor
+from .orientation import reference_from_world
+from .placing import pose_of
 from .range import RangeSensor
+from .sonar import SonarSensor
+from .surroundings import Surroundings
+from .wireless import RfidSensor, WirelessSensor
 
-MeasuringSensor: TypeAlias = ContactSensor | ForceTorqueSensor | GpsSensor | ImuSensor | RangeSensor
+MeasuringSensor: TypeAlias = (
+    AirPressureSensor
+    | AirSpeedSensor
+    | AltimeterSensor
+    | ContactSensor
+    | ForceTorqueSensor
+    | GpsSensor
+    | ImuSensor
+    | LogicalCameraSensor
+    | MagnetometerSensor
+    | RangeSensor
+    | RfidSensor
+    | SonarSensor
+    | WirelessSensor
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Spot:
+    """Where a sensor is to be mounted."""
+
+    simulation: Simulation
+    around: Surroundings
+    model: Model
+    link: Link
+    sensor: Sensor
+    index: int
+    """Of the link."""
+    random: np.random.Generator
+
+    def start(self) -> Pose:
+        """Where the sensor is now."""
+        return pose_of(self.simulation.snapshot().poses[self.index]) @ self.sensor.link_from_sensor
 
 
 def mount_sensors(simulation: Simulation) -> list[MeasuringSensor]:
-    """Every imu, ray sensor, lidar, gps and contact sensor, in file order; each has random numbers of its own."""
+    """Every sensor that needs no picture, in file order; each has random numbers of its own."""
     mounted: list[MeasuringSensor] = []
+    around = Surroundings(simulation)
     index = number = 0
     for model in simulation.world.models:
         for link in model.links:
@@ -28,7 +73,7 @@ def mount_sensors(simulation: Simulation) -> list[MeasuringSensor]:
                 make = _MAKERS.get(sensor.type)
                 if make is not None:
                     random = np.random.default_rng([simulation.seed, number])
-                    mounted.append(make(simulation, model, link, sensor, index, random))
+                    mounted.append(make(_Spot(simulation, around, model, link, sensor, index, random)))
             index += 1
         mounted += _on_joints(simulation, model, first=index - len(model.links))
     return mounted
@@ -38,7 +83,7 @@ def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[Meas
     """The force-torque sensors of a model's joints; `first` is its first link's index."""
     indices = {link.name: first + i for i, link in enumerate(model.links)}
     mounted: list[MeasuringSensor] = []
-    for joint in model.joints:
+    for number, joint in enumerate(model.joints):
         for sensor in joint.sensors:
             if sensor.force_torque is None or joint.child not in indices:
                 what = f"sensor {sensor.name!r}: {sensor.type} sensors on joints are not simulated yet"
@@ -54,60 +99,111 @@ def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[Meas
                     link_index=indices[joint.child],
                     parent_index=indices.get(joint.parent),
                     reaction=lambda handle=handle: handle.reaction,
+                    random=np.random.default_rng([simulation.seed, first, number]),
                 )
             )
     return mounted
 
 
-_Maker: TypeAlias = Callable[[Simulation, Model, Link, Sensor, int, np.random.Generator], MeasuringSensor]
+def _air_pressure(at: _Spot) -> AirPressureSensor:
+    air = at.simulation.world.atmosphere
+    return AirPressureSensor(at.model, at.link, at.sensor, link_index=at.index, air=air, random=at.random)
 
 
-def _imu(
-    simulation: Simulation, model: Model, link: Link, sensor: Sensor, index: int, random: np.random.Generator
-) -> ImuSensor:
-    gravity = simulation.world.physics.gravity
-    return ImuSensor(model, link, sensor, link_index=index, gravity=gravity, random=random)
-
-
-def _range(
-    simulation: Simulation, model: Model, link: Link, sensor: Sensor, index: int, random: np.random.Generator
-) -> RangeSensor:
-    # The engine is another after models came or went: it is asked for at each scan.
-    return RangeSensor(
-        model,
-        link,
-        sensor,
-        link_index=index,
-        distances=lambda origin, directions, reach, exclude: simulation.engine.reader.distances(
-            origin, directions, reach=reach, exclude=exclude
-        ),
-        random=random,
+def _air_speed(at: _Spot) -> AirSpeedSensor:
+    world = at.simulation.world
+    return AirSpeedSensor(
+        at.model, at.link, at.sensor, link_index=at.index, air=world.atmosphere, wind=world.wind, random=at.random
     )
 
 
-def _gps(
-    simulation: Simulation, model: Model, link: Link, sensor: Sensor, index: int, random: np.random.Generator
-) -> GpsSensor:
-    origin = simulation.world.spherical_coordinates
-    return GpsSensor(model, link, sensor, link_index=index, origin=origin, random=random)
+def _altimeter(at: _Spot) -> AltimeterSensor:
+    height = at.start().position[2]
+    return AltimeterSensor(at.model, at.link, at.sensor, link_index=at.index, start_height=height, random=at.random)
 
 
-def _contact(
-    simulation: Simulation, model: Model, link: Link, sensor: Sensor, index: int, random: np.random.Generator
-) -> ContactSensor:
-    del random
-    return ContactSensor(model, link, sensor, link_index=index, contacts=simulation.contacts)
+def _contact(at: _Spot) -> ContactSensor:
+    return ContactSensor(at.model, at.link, at.sensor, link_index=at.index, contacts=at.simulation.contacts)
 
 
-_MAKERS: dict[str, _Maker] = {
-    "imu": _imu,
-    "ray": _range,
-    "gpu_ray": _range,
-    "lidar": _range,
-    "gpu_lidar": _range,
-    "gps": _gps,
-    "navsat": _gps,
+def _gps(at: _Spot) -> GpsSensor:
+    origin = at.simulation.world.spherical_coordinates
+    return GpsSensor(at.model, at.link, at.sensor, link_index=at.index, origin=origin, random=at.random)
+
+
+def _imu(at: _Spot) -> ImuSensor:
+    world = at.simulation.world
+    reference = None if at.sensor.imu is None else at.sensor.imu.reference
+    told_from_world = reference_from_world(
+        reference,
+        at_start=at.start(),
+        gravity=world.physics.gravity,
+        heading_rad=math.radians(world.spherical_coordinates.heading_deg),
+    )
+    return ImuSensor(
+        at.model,
+        at.link,
+        at.sensor,
+        link_index=at.index,
+        gravity=world.physics.gravity,
+        reference_from_world=told_from_world,
+        random=at.random,
+    )
+
+
+def _logical_camera(at: _Spot) -> LogicalCameraSensor:
+    return LogicalCameraSensor(at.model, at.link, at.sensor, link_index=at.index, bodies=at.around.bodies)
+
+
+def _magnetometer(at: _Spot) -> MagnetometerSensor:
+    field = at.simulation.world.magnetic_field
+    return MagnetometerSensor(at.model, at.link, at.sensor, link_index=at.index, world_field=field, random=at.random)
+
+
+def _range(at: _Spot) -> RangeSensor:
+    if at.sensor.type.startswith("gpu_"):
+        what = f"sensor {at.sensor.name!r}: its rays meet collision shapes, where Gazebo's GPU sees visuals"
+        at.simulation.report.info(at.sensor.at, what)
+    return RangeSensor(at.model, at.link, at.sensor, link_index=at.index, rays=at.around.rays, random=at.random)
+
+
+def _rfid(at: _Spot) -> RfidSensor:
+    return RfidSensor(at.model, at.link, at.sensor, link_index=at.index, tags=at.around.beacons("rfidtag"))
+
+
+def _sonar(at: _Spot) -> SonarSensor:
+    return SonarSensor(at.model, at.link, at.sensor, link_index=at.index, rays=at.around.rays)
+
+
+def _wireless_receiver(at: _Spot) -> WirelessSensor:
+    return WirelessSensor(
+        at.model,
+        at.link,
+        at.sensor,
+        link_index=at.index,
+        transmitters=at.around.beacons("wireless_transmitter"),
+        rays=at.around.rays,
+        random=at.random,
+    )
+
+
+_MAKERS: Mapping[str, Callable[[_Spot], MeasuringSensor]] = {
+    "air_pressure": _air_pressure,
+    "air_speed": _air_speed,
+    "altimeter": _altimeter,
     "contact": _contact,
+    "gps": _gps,
+    "gpu_lidar": _range,
+    "gpu_ray": _range,
+    "imu": _imu,
+    "lidar": _range,
+    "logical_camera": _logical_camera,
+    "magnetometer": _magnetometer,
+    "navsat": _gps,
+    "ray": _range,
+    "rfid": _rfid,
+    "sonar": _sonar,
+    "wireless_receiver": _wireless_receiver,
 }
-MEASURING = frozenset(_MAKERS) | {"force_torque"}
-"""SDF's types of them."""
+MEASURING = frozenset(_MAKERS) | {"force_torque", "rfidtag", "wireless_transmitter"}
+"""SDF's types of them; tags and transmitters are measured by others."""

@@ -6,7 +6,9 @@ from typing import Generic, TypeVar
 
 from trundle.model import Link, Model, Sensor
 from trundle.simulation import Snapshot
-from trundle.spatial import Pose
+from trundle.spatial import Pose, Vector3, cross
+
+from .placing import pose_of
 
 NS = 1_000_000_000
 Reading = TypeVar("Reading")
@@ -69,5 +71,15 @@ class MountedSensor(Generic[Reading]):
 
     def world_from_link(self, snapshot: Snapshot) -> Pose:
         """Where the link that carries it is."""
-        x, y, z, qw, qx, qy, qz = snapshot.poses[self.link_index].tolist()
-        return Pose((x, y, z), (qw, qx, qy, qz))
+        return pose_of(snapshot.poses[self.link_index])
+
+    def world_from_sensor(self, snapshot: Snapshot) -> Pose:
+        """Where the sensor itself is."""
+        return self.world_from_link(snapshot) @ self.sensor.link_from_sensor
+
+    def velocity(self, snapshot: Snapshot) -> Vector3:
+        """Of the sensor's own point of the link, world axes [m/s]."""
+        vx, vy, vz, wx, wy, wz = snapshot.twists[self.link_index].tolist()
+        arm = self.world_from_link(snapshot).direction(self.sensor.link_from_sensor.position)
+        sx, sy, sz = cross((wx, wy, wz), arm)
+        return (vx + sx, vy + sy, vz + sz)

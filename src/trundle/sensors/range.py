@@ -1,23 +1,20 @@
 """Ray sensors and lidars: how far it is, in many directions at once."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trundle.model import Link, Model, RangeScan, ScanAxis, Sensor
 from trundle.simulation import Snapshot
-from trundle.spatial import Vector3
 
 from .mounted import MountedSensor
 from .noise import NoiseSource
+from .placing import turned
+from .rays import Rays
 
 FASTEST_HZ = 40.0
 """Of a sensor whose update_rate is 0."""
-Distances: TypeAlias = Callable[[Vector3, NDArray[np.float64], float, int], NDArray[np.float64]]
-"""Origin, (rays, 3) directions, reach [m] and the link to look through, to (rays,) distances [m]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -28,6 +25,8 @@ class RangeReading:
     scan: RangeScan
     ranges: NDArray[np.float64]
     """(vertical samples, horizontal samples) [m]; inf where nothing is within reach, −inf nearer than the least."""
+    intensities: NDArray[np.float64]
+    """As `ranges`: the laser_retro of what was met; 0 where nothing was."""
 
 
 class RangeSensor(MountedSensor[RangeReading]):
@@ -40,7 +39,7 @@ class RangeSensor(MountedSensor[RangeReading]):
         sensor: Sensor,
         *,
         link_index: int,
-        distances: Distances,
+        rays: Rays,
         random: np.random.Generator,
     ) -> None:
         """Mount a ray sensor; see `MountedSensor`.
@@ -50,13 +49,13 @@ class RangeSensor(MountedSensor[RangeReading]):
             link: that carries it.
             sensor: with its scan.
             link_index: of the link in `Snapshot.poses`.
-            distances: asks the engine.
+            rays: asks the engine.
             random: for its noise.
         """
         super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
         assert sensor.scan is not None, f"{sensor.name!r} has no scan"
         self.scan = sensor.scan
-        self._distances = distances
+        self._rays = rays
         self._noise = NoiseSource(sensor.scan.noise, random)
         self._directions = directions_of(sensor.scan)
 
@@ -64,14 +63,17 @@ class RangeSensor(MountedSensor[RangeReading]):
         """Look round from where the sensor is now."""
         scan = self.scan
         pose = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
-        axes = np.array([pose.direction(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))])
-        found = self._distances(pose.position, self._directions @ axes, scan.max_m, self.link_index)
+        met = self._rays(pose.position, turned(pose, self._directions), scan.max_m, self.link_index)
+        found, retros = met.distances, met.retros
         seen = np.isfinite(found)
         found[seen] = self._noise.disturb(found[seen])
         found[found >= scan.max_m] = np.inf
         found[found < scan.min_m] = -np.inf
+        retros = np.where(np.isfinite(found), retros, 0.0)
         shape = (scan.vertical.samples, scan.horizontal.samples)
-        return RangeReading(time_ns=snapshot.time_ns, scan=scan, ranges=found.reshape(shape))
+        return RangeReading(
+            time_ns=snapshot.time_ns, scan=scan, ranges=found.reshape(shape), intensities=retros.reshape(shape)
+        )
 
 
 def directions_of(scan: RangeScan) -> NDArray[np.float64]:

@@ -6,6 +6,8 @@ from numpy.typing import NDArray
 from trundle.render import Intrinsics, Picture
 from trundle.spatial import Pose
 
+from .placing import turned
+
 _Array = NDArray[np.float64]
 _STEPS = 256
 """Places between two pixels that are told apart: the table is the same on every machine."""
@@ -22,7 +24,7 @@ class Remap:
             directions: (height, width, 3) where each pixel looks, in the camera's frame.
             seen: (height, width) whether it sees anything; else it is black, infinitely far and shows no shape.
         """
-        in_faces = np.stack([_turned(pose, directions) for pose, _ in faces])
+        in_faces = np.stack([turned(pose.inverse(), directions) for pose, _ in faces])
         nearest = np.argmax(in_faces[..., 0], axis=0)
         used = [i for i in range(len(faces)) if np.any(nearest[seen] == i)] or [0]
         self.faces = [faces[i] for i in used]
@@ -64,9 +66,3 @@ class Remap:
             segmentation = np.concatenate([each.reshape(-1) for each in shapes])[self._nearest]
             segmentation[self._blind] = -1
         return Picture(rgb, depth, segmentation)
-
-
-def _turned(camera_from_face: Pose, directions: _Array) -> _Array:
-    """Directions of the camera's frame in the face's."""
-    axes = [camera_from_face.direction(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
-    return directions @ np.array(axes).T

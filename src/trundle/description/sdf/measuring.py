@@ -1,6 +1,6 @@
 """Reads what ray sensors, lidars and imus measure, and with how much noise."""
 
-from trundle.model import ForceTorque, GpsNoise, ImuNoise, Noise, RangeScan, ScanAxis
+from trundle.model import ForceTorque, GpsNoise, ImuNoise, Noise, OrientationReference, RangeScan, ScanAxis
 from trundle.xmlnode import XmlNode
 
 from .context import Context, leave_out
@@ -67,14 +67,42 @@ def read_imu(sensor: XmlNode, context: Context) -> ImuNoise:
         old = None
     rates = _axes(node, "angular_velocity", None if old is None else old.find("rate"), context)
     accelerations = _axes(node, "linear_acceleration", None if old is None else old.find("accel"), context)
-    frame = node.find("orientation_reference_frame")
-    if frame is not None:
-        context.report.info(
-            frame.at, "<orientation_reference_frame> is not supported; orientation is in the world frame"
-        )
+    reference = _reference(node.find("orientation_reference_frame"), context)
     leave_out(node, ("topic", "enable_orientation"), "is not heeded", context)
     node.report_unread(context.report)
-    return ImuNoise(angular_velocity=rates, linear_acceleration=accelerations)
+    return ImuNoise(angular_velocity=rates, linear_acceleration=accelerations, reference=reference)
+
+
+_LOCALIZATIONS = ("CUSTOM", "ENU", "NED", "NWU", "GRAV_UP")
+
+
+def _reference(node: XmlNode | None, context: Context) -> OrientationReference | None:
+    if node is None:
+        return None
+    report, default = context.report, OrientationReference()
+    localization = node.string("localization").upper() or default.localization
+    custom, gravity = node.find("custom_rpy"), node.find("grav_dir_x")
+    reference = OrientationReference(
+        localization=localization,
+        custom_rpy=node.vector("custom_rpy", default=default.custom_rpy, report=report),
+        parent_frame=_parent(custom, context),
+        gravity_x=node.vector("grav_dir_x", default=default.gravity_x, report=report),
+        gravity_parent_frame=_parent(gravity, context),
+    )
+    node.report_unread(report)
+    if localization not in _LOCALIZATIONS:
+        known = ", ".join(_LOCALIZATIONS)
+        report.warn(node.at, f"no localization {localization!r}: {known}; orientation is told in the world")
+        return None
+    return reference
+
+
+def _parent(node: XmlNode | None, context: Context) -> str:
+    frame = "" if node is None else node.attribute("parent_frame") or ""
+    if node is not None and frame not in ("", "world"):
+        context.report.warn(node.at, f"parent_frame {frame!r} is neither 'world' nor empty; the world is used")
+        return "world"
+    return frame
 
 
 def read_gps(sensor: XmlNode, context: Context) -> GpsNoise:
@@ -115,11 +143,9 @@ def read_force_torque(sensor: XmlNode, context: Context) -> ForceTorque:
         context.report.warn(node.at, f"no frame {frame!r} for forces: child, parent or sensor; child is used")
         frame = "child"
     direction = node.string("measure_direction") or "child_to_parent"
-    for tag in ("force", "torque"):
-        if node.find(tag) is not None:
-            context.report.info(node.at, f"noise of <{tag}> is not simulated; readings are exact")
+    force, torque = (_axes(node, tag, None, context) for tag in ("force", "torque"))
     node.report_unread(context.report)
-    return ForceTorque(frame=frame, parent_to_child=direction == "parent_to_child")
+    return ForceTorque(frame=frame, parent_to_child=direction == "parent_to_child", force=force, torque=torque)
 
 
 def _axes(imu: XmlNode, tag: str, old: XmlNode | None, context: Context) -> tuple[Noise, Noise, Noise]:

@@ -6,9 +6,10 @@ from trundle.xmlnode import XmlNode
 from .camera import SEEING, read_cameras
 from .context import Context, leave_out, read_pose
 from .frames import FrameGraph
+from .instrument import INSTRUMENTS, read_instrument
 from .measuring import RANGING, read_force_torque, read_gps, read_imu, read_scan, read_touching
 
-WHOLE = RANGING | SEEING | {"imu", "gps", "navsat", "contact", "force_torque"}
+WHOLE = RANGING | SEEING | INSTRUMENTS | {"imu", "gps", "navsat", "contact", "force_torque"}
 """Types whose every setting is read."""
 
 
@@ -30,6 +31,7 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
         imu=read_imu(node, context) if type_ == "imu" else None,
         gps=read_gps(node, context) if type_ in ("gps", "navsat") else None,
         force_torque=read_force_torque(node, context) if type_ == "force_torque" else None,
+        instrument=read_instrument(node, type_, context),
         touching=read_touching(node, context) if type_ == "contact" else None,
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
     )

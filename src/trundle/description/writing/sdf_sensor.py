@@ -4,7 +4,11 @@ from trundle.diagnostics import Diagnostics
 from trundle.model import GpsNoise, ImuNoise, Noise, RangeScan, Sensor
 
 from .sdf_camera import add_camera, add_noise
+from .sdf_instrument import add_axes, add_instrument
 from .tag import Tag
+
+_WITHOUT = frozenset({"rfid", "rfidtag"})
+"""Types that have no settings."""
 
 
 def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
@@ -33,7 +37,11 @@ def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
         measured.add("frame", sensor.force_torque.frame)
         direction = "parent_to_child" if sensor.force_torque.parent_to_child else "child_to_parent"
         measured.add("measure_direction", direction)
-    else:
+        add_axes(measured.add_optional("force"), sensor.force_torque.force)
+        add_axes(measured.add_optional("torque"), sensor.force_torque.torque)
+    elif sensor.instrument is not None:
+        add_instrument(tag, sensor.instrument)
+    elif sensor.type not in _WITHOUT:
         report.warn(sensor.at, f"sensor {sensor.name!r}: the settings of a {sensor.type} sensor are not written yet")
     tag.children += [plugin.node.xml() for plugin in sensor.plugins]
 
@@ -55,11 +63,13 @@ def _add_scan(sensor: Tag, scan: RangeScan) -> None:
 
 def _add_imu(sensor: Tag, imu: ImuNoise) -> None:
     tag = sensor.add("imu")
+    if imu.reference is not None:
+        reference = tag.add("orientation_reference_frame")
+        reference.add("localization", imu.reference.localization)
+        reference.add("custom_rpy", imu.reference.custom_rpy, parent_frame=imu.reference.parent_frame)
+        reference.add("grav_dir_x", imu.reference.gravity_x, parent_frame=imu.reference.gravity_parent_frame)
     for name, noises in (("angular_velocity", imu.angular_velocity), ("linear_acceleration", imu.linear_acceleration)):
-        if any(noise != Noise() for noise in noises):
-            quantity = tag.add(name)
-            for axis, noise in zip("xyz", noises, strict=True):
-                add_noise(quantity.add(axis), noise)
+        add_axes(tag.add_optional(name), noises)
 
 
 def _add_gps(sensor: Tag, gps: GpsNoise) -> None:

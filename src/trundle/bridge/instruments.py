@@ -1,0 +1,158 @@
+"""Readings of instruments as messages: barometers, compasses, sonars, radios."""
+
+from trundle.model import World
+from trundle.ros import Node, StaticTransformBroadcaster
+from trundle.sensors import (
+    AirPressureSensor,
+    AirSpeedSensor,
+    AltimeterReading,
+    AltimeterSensor,
+    LogicalCameraReading,
+    LogicalCameraSensor,
+    MagnetometerReading,
+    MagnetometerSensor,
+    PressureReading,
+    RfidReading,
+    RfidSensor,
+    SonarReading,
+    SonarSensor,
+    WirelessReading,
+    WirelessSensor,
+)
+
+from .naming import WORLD_FRAME
+from .placing import place_sensor, topic_of
+
+_ULTRASOUND = 0
+"""sensor_msgs/Range's number for it."""
+
+
+class PressureTopic:
+    """sensor_msgs/FluidPressure on `…/air_pressure`, and what moving adds on `…/air_speed`."""
+
+    def __init__(
+        self, node: Node, still: StaticTransformBroadcaster, sensor: AirPressureSensor | AirSpeedSensor, world: World
+    ) -> None:
+        """Advertise, and place the sensor's frame."""
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
+        self._topic = node.advertise(topic_of(sensor, sensor.sensor.type), "sensor_msgs/FluidPressure", queue_size=10)
+        sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
+
+    def _publish(self, reading: PressureReading) -> None:
+        header = {"stamp": reading.time_ns, "frame_id": self._frame}
+        self._topic.publish({"header": header, "fluid_pressure": reading.pressure, "variance": reading.variance})
+
+
+class AltimeterTopics:
+    """geometry_msgs/Vector3Stamped, world axes: the height above the start on `…/altitude`, its change on
+    `…/vertical_velocity`."""
+
+    def __init__(self, node: Node, sensor: AltimeterSensor) -> None:
+        """Advertise."""
+        self._height = node.advertise(topic_of(sensor, "altitude"), "geometry_msgs/Vector3Stamped", queue_size=10)
+        speed = topic_of(sensor, "vertical_velocity", main="altitude")
+        self._speed = node.advertise(speed, "geometry_msgs/Vector3Stamped", queue_size=10)
+        sensor.listen(self._publish, wanted=lambda: self._height.has_subscribers or self._speed.has_subscribers)
+
+    def _publish(self, reading: AltimeterReading) -> None:
+        header = {"stamp": reading.time_ns, "frame_id": WORLD_FRAME}
+        for topic, value in ((self._height, reading.height), (self._speed, reading.velocity)):
+            if topic.has_subscribers:
+                topic.publish({"header": header, "vector": {"z": value}})
+
+
+class MagnetometerTopic:
+    """sensor_msgs/MagneticField on `…/magnetic_field`."""
+
+    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: MagnetometerSensor, world: World) -> None:
+        """Advertise, and place the sensor's frame."""
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
+        self._topic = node.advertise(topic_of(sensor, "magnetic_field"), "sensor_msgs/MagneticField", queue_size=10)
+        sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
+
+    def _publish(self, reading: MagnetometerReading) -> None:
+        header = {"stamp": reading.time_ns, "frame_id": self._frame}
+        field = dict(zip("xyz", reading.field, strict=True))
+        self._topic.publish({"header": header, "magnetic_field": field})
+
+
+class SonarTopic:
+    """sensor_msgs/Range on `…/range`, in a frame whose x axis is the sonar's."""
+
+    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: SonarSensor, world: World) -> None:
+        """Advertise, and place the beam's frame."""
+        self._frame = place_sensor(sensor, sensor.link_from_beam, still, world)
+        self._topic = node.advertise(topic_of(sensor, "range"), "sensor_msgs/Range", queue_size=5)
+        self._sensor = sensor
+        sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
+
+    def _publish(self, reading: SonarReading) -> None:
+        self._topic.publish(
+            {
+                "header": {"stamp": reading.time_ns, "frame_id": self._frame},
+                "radiation_type": _ULTRASOUND,
+                "field_of_view": self._sensor.fov_rad,
+                "min_range": self._sensor.settings.min_m,
+                "max_range": self._sensor.settings.max_m,
+                "range": reading.range_m,
+            }
+        )
+
+
+class ModelsTopic:
+    """tf2_msgs/TFMessage on `…/models`: each model in view by its name, placed in the logical camera's frame."""
+
+    def __init__(
+        self, node: Node, still: StaticTransformBroadcaster, sensor: LogicalCameraSensor, world: World
+    ) -> None:
+        """Advertise, and place the sensor's frame."""
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
+        self._topic = node.advertise(topic_of(sensor, "models"), "tf2_msgs/TFMessage", queue_size=5)
+        sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
+
+    def _publish(self, reading: LogicalCameraReading) -> None:
+        transforms: list[dict[str, object]] = []
+        for seen in reading.models:
+            qw, qx, qy, qz = seen.camera_from_model.quaternion
+            placed = {
+                "translation": dict(zip("xyz", seen.camera_from_model.position, strict=True)),
+                "rotation": {"x": qx, "y": qy, "z": qz, "w": qw},
+            }
+            header = {"stamp": reading.time_ns, "frame_id": self._frame}
+            transforms.append({"header": header, "child_frame_id": seen.name, "transform": placed})
+        self._topic.publish({"transforms": transforms})
+
+
+class RadioTopic:
+    """diagnostic_msgs/DiagnosticArray: the transmitters heard on `…/nodes`, the tags that are near on `…/tags`."""
+
+    def __init__(
+        self, node: Node, still: StaticTransformBroadcaster, sensor: WirelessSensor | RfidSensor, world: World
+    ) -> None:
+        """Advertise, and place the sensor's frame."""
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
+        type_ = "diagnostic_msgs/DiagnosticArray"
+        match sensor:
+            case WirelessSensor():
+                topic = self._topic = node.advertise(topic_of(sensor, "nodes"), type_, queue_size=5)
+                sensor.listen(self._publish_nodes, wanted=lambda: topic.has_subscribers)
+            case RfidSensor():
+                topic = self._topic = node.advertise(topic_of(sensor, "tags"), type_, queue_size=5)
+                sensor.listen(self._publish_tags, wanted=lambda: topic.has_subscribers)
+
+    def _publish_nodes(self, reading: WirelessReading) -> None:
+        status = [
+            {
+                "name": heard.name,
+                "values": [
+                    {"key": "frequency_mhz", "value": f"{heard.frequency_mhz:g}"},
+                    {"key": "signal_level_dbm", "value": f"{heard.level_dbm:.3f}"},
+                ],
+            }
+            for heard in reading.heard
+        ]
+        self._topic.publish({"header": {"stamp": reading.time_ns, "frame_id": self._frame}, "status": status})
+
+    def _publish_tags(self, reading: RfidReading) -> None:
+        status = [{"name": tag} for tag in reading.tags]
+        self._topic.publish({"header": {"stamp": reading.time_ns, "frame_id": self._frame}, "status": status})

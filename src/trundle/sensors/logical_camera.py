@@ -1,0 +1,105 @@
+"""Logical cameras: which models are in view, and where."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import Link, LogicalCamera, Model, Sensor
+from trundle.simulation import Snapshot
+from trundle.spatial import Pose
+
+from .mounted import MountedSensor
+from .placing import moved, pose_of
+
+FASTEST_HZ = 30.0
+"""Of a camera whose update_rate is 0."""
+_Points = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Body:
+    """A model that can be seen."""
+
+    name: str
+    base_index: int
+    """Of its canonical link."""
+    base_from_model: Pose
+    corners: Mapping[int, _Points]
+    """Link index → (n, 3) corners of the link's collision shapes in its frame [m]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SeenModel:
+    """A model in view."""
+
+    name: str
+    camera_from_model: Pose
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LogicalCameraReading:
+    """What is in view."""
+
+    time_ns: int
+    models: tuple[SeenModel, ...]
+
+
+class LogicalCameraSensor(MountedSensor[LogicalCameraReading]):
+    """Tells the models, but for its own, whose upright box around all collision shapes reaches into a pyramid.
+
+    As in Gazebo a model that others hide is in view, too; endless planes never are.
+    """
+
+    def __init__(self, model: Model, link: Link, sensor: Sensor, *, link_index: int, bodies: Sequence[Body]) -> None:
+        """Mount it; see `MountedSensor`.
+
+        Args:
+            model: whose it is.
+            link: that carries it.
+            sensor: with its logical_camera.
+            link_index: of the link in `Snapshot.poses`.
+            bodies: there are.
+        """
+        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
+        assert isinstance(sensor.instrument, LogicalCamera), f"{sensor.name!r} is no logical camera"
+        self._bodies = [body for body in bodies if body.name != model.name and body.corners]
+        self._planes = _planes(sensor.instrument)
+
+    def take(self, snapshot: Snapshot) -> LogicalCameraReading:
+        """What is in view at this instant."""
+        camera_from_world = self.world_from_sensor(snapshot).inverse()
+        seen: list[SeenModel] = []
+        for body in self._bodies:
+            points = np.concatenate([moved(pose_of(snapshot.poses[i]), at) for i, at in body.corners.items()])
+            if not self._holds(moved(camera_from_world, _box(points))):
+                continue
+            pose = camera_from_world @ pose_of(snapshot.poses[body.base_index]) @ body.base_from_model
+            seen.append(SeenModel(name=body.name, camera_from_model=pose))
+        return LogicalCameraReading(time_ns=snapshot.time_ns, models=tuple(seen))
+
+    def _holds(self, corners: _Points) -> bool:
+        """Whether no side of the pyramid has all corners of a box outside."""
+        outside = corners @ self._planes[:, :3].T < self._planes[:, 3]
+        return not outside.all(axis=0).any()
+
+
+def _planes(settings: LogicalCamera) -> _Points:
+    """(6, 4) n x, n y, n z and the least n · p of points inside: near and far, then left, right, top and bottom."""
+    across = settings.horizontal_fov_rad / 2
+    along = math.atan(math.tan(across) / settings.aspect_ratio)
+    sides = [
+        (math.sin(across), -math.cos(across), 0.0, 0.0),
+        (math.sin(across), math.cos(across), 0.0, 0.0),
+        (math.sin(along), 0.0, -math.cos(along), 0.0),
+        (math.sin(along), 0.0, math.cos(along), 0.0),
+    ]
+    return np.array([(1.0, 0.0, 0.0, settings.near_m), (-1.0, 0.0, 0.0, -settings.far_m), *sides])
+
+
+def _box(points: _Points) -> _Points:
+    """(8, 3) corners of the upright box around points."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    return np.array([np.where(mask, high, low) for mask in np.ndindex(2, 2, 2)])

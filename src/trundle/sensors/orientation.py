@@ -1,0 +1,49 @@
+"""The frames that imus tell their orientation in."""
+
+import math
+
+from trundle.model import OrientationReference
+from trundle.spatial import Pose, Quaternion, Vector3, cross, normalized, quaternion_from_rpy
+
+_QUARTER = math.pi / 2
+
+
+def reference_from_world(
+    reference: OrientationReference | None, *, at_start: Pose, gravity: Vector3, heading_rad: float
+) -> Pose:
+    """What turns orientations in the world into those that are told.
+
+    Args:
+        reference: as described; None: the world itself (REP 145).
+        at_start: world_from_sensor when time began.
+        gravity: of the world [m/s²].
+        heading_rad: from east to the world's x axis.
+    """
+    if reference is None:
+        return Pose()
+    east_north_up = Pose(quaternion=quaternion_from_rpy(0.0, 0.0, heading_rad))
+    start = Pose(quaternion=at_start.quaternion)
+    match reference.localization:
+        case "ENU":
+            return east_north_up
+        case "NED":
+            return Pose(quaternion=quaternion_from_rpy(math.pi, 0.0, _QUARTER)) @ east_north_up
+        case "NWU":
+            return Pose(quaternion=quaternion_from_rpy(0.0, 0.0, -_QUARTER)) @ east_north_up
+        case "GRAV_UP":
+            parent = Pose() if reference.gravity_parent_frame == "world" else start
+            return Pose(quaternion=_against(gravity, parent.direction(reference.gravity_x))).inverse()
+        case _:
+            parent = Pose() if reference.parent_frame == "world" else start
+            return (parent @ Pose(quaternion=quaternion_from_rpy(*reference.custom_rpy))).inverse()
+
+
+def _against(gravity: Vector3, ahead: Vector3) -> Quaternion:
+    """World from axes whose z points against gravity and whose x is as near to a direction as that lets it."""
+    up = normalized((-gravity[0], -gravity[1], -gravity[2])) or (0.0, 0.0, 1.0)
+    left = normalized(cross(up, ahead)) or normalized(cross(up, (0.0, 1.0, 0.0))) or (0.0, 1.0, 0.0)
+    x = cross(left, up)
+    yaw = math.atan2(x[1], x[0])
+    pitch = math.atan2(-x[2], math.hypot(x[0], x[1]))
+    roll = math.atan2(left[2], up[2])
+    return quaternion_from_rpy(roll, pitch, yaw)

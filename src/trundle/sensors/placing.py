@@ -1,0 +1,25 @@
+"""Places points and directions by arrays."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.spatial import Pose
+
+_Array = NDArray[np.float64]
+_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+def pose_of(row: _Array) -> Pose:
+    """A row of `Snapshot.poses`."""
+    x, y, z, qw, qx, qy, qz = row.tolist()
+    return Pose((x, y, z), (qw, qx, qy, qz))
+
+
+def turned(a_from_b: Pose, directions: _Array) -> _Array:
+    """(…, 3) directions of frame b in frame a."""
+    return directions @ np.array([a_from_b.direction(axis) for axis in _AXES])
+
+
+def moved(a_from_b: Pose, points: _Array) -> _Array:
+    """(…, 3) points of frame b in frame a."""
+    return turned(a_from_b, points) + np.array(a_from_b.position)

@@ -1,0 +1,77 @@
+"""Sonars: how near the nearest thing in a cone is."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import Link, Model, Sensor, Sonar
+from trundle.simulation import Snapshot
+from trundle.spatial import Pose, quaternion_from_rpy
+
+from .mounted import MountedSensor
+from .placing import turned
+from .rays import Rays
+
+FASTEST_HZ = 40.0
+"""Of a sonar whose update_rate is 0."""
+_RINGS = 8
+_ALL_ROUND = math.pi
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SonarReading:
+    """What came back."""
+
+    time_ns: int
+    range_m: float
+    """Never less than the least nor more than the largest, which also stands for nothing, as in Gazebo."""
+
+
+class SonarSensor(MountedSensor[SonarReading]):
+    """Looks through a cone by 217 rays; Gazebo lays a cone of triangles over the shapes, with the same answer."""
+
+    def __init__(self, model: Model, link: Link, sensor: Sensor, *, link_index: int, rays: Rays) -> None:
+        """Mount a sonar; see `MountedSensor`.
+
+        Args:
+            model: whose it is.
+            link: that carries it.
+            sensor: with its sonar.
+            link_index: of the link in `Snapshot.poses`.
+            rays: asks the engine.
+        """
+        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
+        assert isinstance(sensor.instrument, Sonar), f"{sensor.name!r} is no sonar"
+        self.settings = sensor.instrument
+        is_cone = self.settings.geometry == "cone"
+        half = math.atan2(self.settings.radius, self.settings.max_m) if is_cone else _ALL_ROUND
+        self.fov_rad = 2.0 * half
+        self.link_from_beam = sensor.link_from_sensor @ Pose(quaternion=quaternion_from_rpy(0.0, math.pi / 2, 0.0))
+        """Whose x axis is the sonar's: −z of the sensor's own frame."""
+        self._directions = _cone(half)
+        self._reach = self.settings.max_m / self._directions[:, 0] if is_cone else np.inf
+        """How far the cone goes along each ray [m]."""
+        self._farthest = math.hypot(self.settings.max_m, self.settings.radius) if is_cone else self.settings.radius
+        self._rays = rays
+
+    def take(self, snapshot: Snapshot) -> SonarReading:
+        """Listen at this instant."""
+        beam = self.world_from_link(snapshot) @ self.link_from_beam
+        directions = turned(beam, self._directions)
+        found = self._rays(beam.position, directions, self._farthest, self.link_index).distances
+        nearest = float(np.min(np.where(found <= self._reach, found, np.inf)))
+        low, high = self.settings.min_m, self.settings.max_m
+        return SonarReading(time_ns=snapshot.time_ns, range_m=min(max(nearest, low), high))
+
+
+def _cone(half_rad: float) -> NDArray[np.float64]:
+    """(rays, 3) unit vectors around +x, in rings of six, twelve, eighteen, … about the middle one."""
+    rays = [(1.0, 0.0, 0.0)]
+    for ring in range(1, _RINGS + 1):
+        angle = half_rad * ring / _RINGS
+        for i in range(6 * ring):
+            turn = math.tau * i / (6 * ring)
+            rays.append((math.cos(angle), math.sin(angle) * math.cos(turn), math.sin(angle) * math.sin(turn)))
+    return np.array(rays)

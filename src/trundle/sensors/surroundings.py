@@ -1,0 +1,95 @@
+"""What sensors that need no picture find around them."""
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import Model, Transceiver
+from trundle.physics import CompiledWorld
+from trundle.render import corners_of, scene_of
+from trundle.simulation import Simulation
+from trundle.spatial import Pose, Vector3
+
+from .logical_camera import Body
+from .placing import moved
+from .rays import Found
+from .wireless import Beacon
+
+_Array = NDArray[np.float64]
+
+
+class Surroundings:
+    """The world around the sensors of one simulation; what is dear is made when the first of them asks."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._compiled: CompiledWorld | None = None
+        self._retros = np.zeros(1)
+
+    def rays(self, origin: Vector3, directions: _Array, reach: float, exclude: int) -> Found:
+        """See `Rays`. The engine is another after models came or went: it is asked for at each scan."""
+        engine = self._simulation.engine
+        if self._compiled is not engine.compiled:
+            self._compiled = engine.compiled
+            self._retros = np.array([*self._retros_of(engine.compiled), 0.0])
+        distances, geoms = engine.reader.cast(origin, directions, reach=reach, exclude=exclude)
+        return Found(distances, self._retros[geoms])
+
+    def _retros_of(self, compiled: CompiledWorld) -> list[float]:
+        known = {
+            f"{model.name}::{link.name}::{collision.name}": collision.laser_retro
+            for model in compiled.world.models
+            for link in model.links
+            for collision in link.collisions
+        }
+        return [known.get(name, 0.0) for name in compiled.geom_collisions]
+
+    def beacons(self, type_: str) -> list[Beacon]:
+        """Every sensor of a type that others look for."""
+        found: list[Beacon] = []
+        index = 0
+        for model in self._simulation.world.models:
+            for link in model.links:
+                for sensor in link.sensors:
+                    if sensor.type == type_:
+                        settings = sensor.instrument if isinstance(sensor.instrument, Transceiver) else Transceiver()
+                        name = f"{model.name}::{link.name}::{sensor.name}"
+                        found.append(
+                            Beacon(
+                                name=name,
+                                link_index=index,
+                                link_from_beacon=sensor.link_from_sensor,
+                                settings=settings,
+                            )
+                        )
+                index += 1
+        return found
+
+    @cached_property
+    def bodies(self) -> list[Body]:
+        """Every model, with the corners of its collision shapes."""
+        world = self._simulation.world
+        corners: dict[int, list[_Array]] = {}
+        for shape in scene_of(world, self._simulation.report, collisions=True).shapes:
+            box = corners_of(shape.geometry)
+            if box:
+                corners.setdefault(shape.body, []).append(moved(shape.body_from_shape, np.array(box)))
+        bodies: list[Body] = []
+        first = 0
+        for model in world.models:
+            span = range(first, first + len(model.links))
+            first += len(model.links)
+            if not model.links:
+                continue
+            base, base_from_model = _base(model)
+            own = {index: np.concatenate(corners[index]) for index in span if index in corners}
+            bodies.append(Body(name=model.name, base_index=span[base], base_from_model=base_from_model, corners=own))
+        return bodies
+
+
+def _base(model: Model) -> tuple[int, Pose]:
+    """The number of the link that the model's frame rides on, and the frame in it."""
+    names = [link.name for link in model.links]
+    number = names.index(model.canonical_link) if model.canonical_link in names else 0
+    return number, model.links[number].model_from_link.inverse()

@@ -1,0 +1,157 @@
+"""Radio: who is heard where, and which tags are near."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from trundle.model import Link, Model, Sensor, Transceiver
+from trundle.simulation import Snapshot
+from trundle.spatial import Pose, Vector3, normalized
+
+from .mounted import MountedSensor
+from .rays import Rays
+
+FASTEST_HZ = 10.0
+"""Of a receiver whose update_rate is 0."""
+_LIGHT = 299_792_458.0
+"""[m/s]"""
+_THROUGH_AIR, _THROUGH_THINGS = 6.0, 12.0
+"""Gazebo's exponents of attenuation."""
+_SHADOWING = 6.0
+"""[dB] Deviation of what Gazebo takes off at random."""
+_NEAREST = 1.0
+"""[m] Nothing is nearer than that."""
+_TAG_REACH = 5.0
+"""[m] Gazebo's."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Beacon:
+    """A transmitter or a tag, and where it is."""
+
+    name: str
+    link_index: int
+    link_from_beacon: Pose
+    settings: Transceiver
+
+    def place(self, snapshot: Snapshot) -> Vector3:
+        """Where it is in the world [m]."""
+        x, y, z, qw, qx, qy, qz = snapshot.poses[self.link_index].tolist()
+        return Pose((x, y, z), (qw, qx, qy, qz)).point(self.link_from_beacon.position)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Heard:
+    """A transmitter that a receiver hears."""
+
+    name: str
+    """Its essid."""
+    frequency_mhz: float
+    level_dbm: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WirelessReading:
+    """Who is heard."""
+
+    time_ns: int
+    heard: tuple[Heard, ...]
+
+
+class WirelessSensor(MountedSensor[WirelessReading]):
+    """Hears transmitters by Gazebo's Hata-Okumura model: things between attenuate."""
+
+    def __init__(
+        self,
+        model: Model,
+        link: Link,
+        sensor: Sensor,
+        *,
+        link_index: int,
+        transmitters: Sequence[Beacon],
+        rays: Rays,
+        random: np.random.Generator,
+    ) -> None:
+        """Mount a receiver; see `MountedSensor`.
+
+        Args:
+            model: whose it is.
+            link: that carries it.
+            sensor: with its transceiver.
+            link_index: of the link in `Snapshot.poses`.
+            transmitters: there are.
+            rays: asks the engine what is between.
+            random: for what is lost by chance.
+        """
+        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
+        assert isinstance(sensor.instrument, Transceiver), f"{sensor.name!r} is no receiver"
+        self._settings = sensor.instrument
+        self._transmitters = transmitters
+        self._rays = rays
+        self._random = random
+
+    def take(self, snapshot: Snapshot) -> WirelessReading:
+        """Who is heard at this instant."""
+        own = self._settings
+        heard: list[Heard] = []
+        for transmitter in self._transmitters:
+            sent = transmitter.settings
+            if not own.lowest_mhz <= sent.frequency_mhz <= own.highest_mhz:
+                continue
+            level = self._level(transmitter, snapshot)
+            if level >= own.sensitivity_dbm:
+                heard.append(Heard(name=sent.essid, frequency_mhz=sent.frequency_mhz, level_dbm=level))
+        return WirelessReading(time_ns=snapshot.time_ns, heard=tuple(heard))
+
+    def _level(self, transmitter: Beacon, snapshot: Snapshot) -> float:
+        here, there = self.world_from_sensor(snapshot).position, transmitter.place(snapshot)
+        sent = transmitter.settings
+        exponent = _THROUGH_THINGS if self._is_hidden(here, there, transmitter.link_index) else _THROUGH_AIR
+        lost = abs(float(self._random.normal(0.0, _SHADOWING)))
+        wave = 20.0 * math.log10(_LIGHT / (sent.frequency_mhz * 1e6) / (4.0 * math.pi))
+        far = 10.0 * exponent * math.log10(max(_NEAREST, math.dist(here, there)))
+        return sent.power_dbm + sent.gain_dbi + self._settings.gain_dbi - lost + wave - far
+
+    def _is_hidden(self, here: Vector3, there: Vector3, other: int) -> bool:
+        """Whether a thing is between that belongs to neither link: rays from both ends stop before they meet."""
+        across = normalized((there[0] - here[0], there[1] - here[1], there[2] - here[2]))
+        if across is None:
+            return False
+        distance = math.dist(here, there)
+        one = self._rays(here, np.array([across]), distance, self.link_index).distances[0]
+        back = self._rays(there, -np.array([across]), distance, other).distances[0]
+        return bool(one + back <= distance)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RfidReading:
+    """Which tags are near."""
+
+    time_ns: int
+    tags: tuple[str, ...]
+    """`model::link::sensor`"""
+
+
+class RfidSensor(MountedSensor[RfidReading]):
+    """Tells the tags within five metres, whatever is between, as Gazebo does."""
+
+    def __init__(self, model: Model, link: Link, sensor: Sensor, *, link_index: int, tags: Sequence[Beacon]) -> None:
+        """Mount a reader; see `MountedSensor`.
+
+        Args:
+            model: whose it is.
+            link: that carries it.
+            sensor: as described.
+            link_index: of the link in `Snapshot.poses`.
+            tags: there are.
+        """
+        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
+        self._tags = tags
+
+    def take(self, snapshot: Snapshot) -> RfidReading:
+        """Which tags are near at this instant."""
+        here = self.world_from_sensor(snapshot).position
+        near = [tag.name for tag in self._tags if math.dist(here, tag.place(snapshot)) <= _TAG_REACH]
+        return RfidReading(time_ns=snapshot.time_ns, tags=tuple(near))
