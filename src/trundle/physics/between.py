@@ -1,7 +1,7 @@
 """What a world needs in every step between finding contacts and solving them, and MuJoCo does not have.
 
-Bounces, friction with a direction of its own, moving and slipping surfaces, and velocities that decay: a world without
-them steps in C alone.
+Bounces, friction with a direction of its own, moving and slipping surfaces, velocities that decay, and what has to be
+parted: a world without them steps in C alone.
 """
 
 from collections.abc import Mapping
@@ -15,6 +15,7 @@ from trundle.spatial import ZERO
 from .bounce import Bounce
 from .grip import Grips
 from .index import CompiledWorld, GeomPair
+from .parting import Parting
 from .surfaces import Touch
 
 _SLOWEST = 0.01
@@ -30,11 +31,12 @@ class Between:
         self._bounce = Bounce(compiled.model, data, compiled.touches)
         self._grain = _Grain(data, compiled.touches)
         self.grips = Grips(compiled.model, data)
+        self.parting = Parting(compiled)
         self._decay = _Decay(compiled, data)
 
     def __bool__(self) -> bool:
         """Whether there is anything to do at all."""
-        return bool(self._bounce or self._grain or self.grips or self._decay)
+        return bool(self._bounce or self._grain or self.grips or self._decay or self.parting)
 
     def step(self) -> None:
         """Take one time step."""
@@ -44,6 +46,8 @@ class Between:
         mujoco.mj_step1(model, data)
         turned = bool(self._grain) and self._grain.turn()
         if self.grips and self.grips.turn():
+            turned = True
+        if self.parting and self.parting.hold_back(data):
             turned = True
         if turned:
             mujoco.mj_makeConstraint(model, data)

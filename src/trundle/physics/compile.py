@@ -78,7 +78,7 @@ class Compiler:
         for place in self.tree.places.values():
             for collision in place.link.collisions:
                 self._add_collision(place, collision)
-        touches = add_contacts(self.spec, self.shapes, self.world.models, self.tree)
+        touches = add_contacts(self.spec, self.shapes, self.world.models, self.tree, self.report)
         self.joints.tie_followers(self.tree)
         for axes in self.joints.axes.values():
             for axis in axes:

@@ -4,7 +4,7 @@ In Gazebo the smaller friction of two surfaces wins; MuJoCo takes the larger, so
 joined by a joint never touch, links of one model only where they say so.
 
 ODE and MuJoCo cannot agree on everything: ODE's friction pyramid becomes an elliptic cone, and max_vel, which limits
-how fast ODE pushes bodies out of one another, has no counterpart here.
+how fast ODE pushes bodies out of one another, holds for what begins so (see `parting`), not for what hits hard.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -12,22 +12,25 @@ from itertools import combinations, product
 
 import mujoco
 
+from trundle.diagnostics import Diagnostics
 from trundle.model import Model
 
-from .settings import SOFT, SOLIMP, contact_solref, sliding_solref, soft_spring
+from .settings import SOFT, SOLIMP, contact_solref, is_soft, sliding_solref, soft_spring
 from .shapes import ShapeEntry
 from .surfaces import Touch, category_of, friction_of, is_plain, may_meet, touch_of
 from .tree import Tree
 
 MOST_PAIRS = 2000
 """Beyond these, shapes meet by MuJoCo's own search: a pair costs about 10 ns a step whether it meets or not."""
+MOST_GIVING_PAIRS = 20_000
+"""Of shapes that give: beyond, they are as hard as all others that meet by search."""
 _BITS = 0x7FFFFFFF
 _NEVER_FELT = 1e3
 """[m] Deeper than any shape is in another: the two meet and feel nothing before."""
 
 
 def add_contacts(
-    spec: mujoco.MjSpec, shapes: Sequence[ShapeEntry], models: Sequence[Model], tree: Tree
+    spec: mujoco.MjSpec, shapes: Sequence[ShapeEntry], models: Sequence[Model], tree: Tree, report: Diagnostics
 ) -> dict[tuple[str, str], Touch]:
     """Write a pair for every two shapes that may touch; return how they do."""
     touches: dict[tuple[str, str], Touch] = {}
@@ -38,10 +41,11 @@ def add_contacts(
     fixed = [shape for shape in shapes if shape.fixed]
     moving = [shape for shape in shapes if not shape.fixed]
     solid = [shape for shape in moving if not shape.is_tread]
+    special = _special(shapes, models, tree, h=spec.option.timestep, report=report)
     if len(fixed) * len(moving) > MOST_PAIRS:
         # Planes, which most things stand on, keep their pairs: only a pair can keep what slides from hopping.
-        found = [shape for shape in fixed if is_plain(shape.surface) and not _is_plane(shape)]
-        finding = [shape for shape in moving if is_plain(shape.surface)]
+        found = [shape for shape in fixed if shape.name not in special and not _is_plane(shape)]
+        finding = [shape for shape in moving if shape.name not in special]
         _let_find(found, finding, h=spec.option.timestep, ranks=ranks)
         _keep_apart(spec, product(finding, found), rules)
         met = {(a.name, b.name) for a, b in product(finding, found)}
@@ -51,16 +55,36 @@ def add_contacts(
     if len(solid) * (len(solid) - 1) <= 2 * MOST_PAIRS:
         _add_pairs(spec, combinations(solid, 2), rules, touches)
         return touches
-    plain = [shape for shape in solid if is_plain(shape.surface)]
-    special = [shape for shape in solid if not is_plain(shape.surface)]
-    _add_pairs(spec, product(special, plain), rules, touches)
-    _add_pairs(spec, combinations(special, 2), rules, touches)
+    plain = [shape for shape in solid if shape.name not in special]
+    others = [shape for shape in solid if shape.name in special]
+    _add_pairs(spec, product(others, plain), rules, touches)
+    _add_pairs(spec, combinations(others, 2), rules, touches)
     _let_search(plain, h=spec.option.timestep, ranks=ranks)
     by_model: dict[int, list[ShapeEntry]] = {}
     for shape in plain:
         by_model.setdefault(shape.model, []).append(shape)
     _keep_apart(spec, (pair for own in by_model.values() for pair in combinations(own, 2)), rules)
     return touches
+
+
+def _special(
+    shapes: Sequence[ShapeEntry], models: Sequence[Model], tree: Tree, *, h: float, report: Diagnostics
+) -> frozenset[str]:
+    """Names of the shapes that touch in a way of their own, and so need pairs however many there are."""
+    odd = {shape.name for shape in shapes if not is_plain(shape.surface)}
+    heaviest = max((tree.places[shape.link].link.inertial.mass for shape in shapes if not shape.fixed), default=0.0)
+
+    def gives(shape: ShapeEntry) -> bool:
+        mass = heaviest if shape.fixed else tree.places[shape.link].link.inertial.mass
+        return shape.surface.min_depth > 0 or (mass > 0 and is_soft(shape.surface.kp, 1 / mass, h))
+
+    giving = [shape for shape in shapes if shape.name not in odd and gives(shape)]
+    if len(giving) * len(shapes) <= MOST_GIVING_PAIRS:
+        return frozenset(odd | {shape.name for shape in giving})
+    first = giving[0]
+    what = f"{len(giving)} of {len(shapes)} shapes give (kp, min_depth), from {first.collision!r} on"
+    report.warn(models[first.model].at, f"{what}; so many are simulated hard")
+    return frozenset(odd)
 
 
 class _Rules:

@@ -16,7 +16,7 @@ from trundle.spatial import Pose, Twist, Wrench
 
 from .between import Between
 from .grip import GripLaw
-from .index import CompiledWorld
+from .index import CompiledWorld, GeomPair
 from .instant import Instant, Looker
 from .motors import Motors
 from .postmortem import Runaway, find_runaway
@@ -51,6 +51,8 @@ class EngineState:
     """A copy: who sleeps is in no vector of numbers."""
     taken: int
     sleeps: bool
+    leapt: bool
+    parting: frozenset[GeomPair]
     gains: NDArray[np.float64]
     biases: NDArray[np.float64]
     ranges: NDArray[np.float64]
@@ -72,6 +74,8 @@ class Engine:
         self._good = np.empty(mujoco.mj_stateSize(self._model, STATE))
         self._taken = 0
         """Steps, from which follows when to decide who may sleep."""
+        self._leapt = True
+        """Whether anything was put somewhere, and may be inside something else now."""
         self.reset()
 
     def reset(self) -> None:
@@ -79,6 +83,7 @@ class Engine:
         self._rest.allow(False)
         mujoco.mj_resetData(self._model, self._data)
         self._taken = 0
+        self._leapt = True
         self.motors.switch_off()
         self.reader.changed()
 
@@ -89,22 +94,25 @@ class Engine:
             SimulationUnstableError: naming the link that ran away; the state is the one before this call.
         """
         mujoco.mj_getState(self._model, self._data, self._good, STATE)
-        efforts, taken = self._data.qfrc_actuator.copy(), self._taken
+        if self._leapt:
+            self._look_for_depth()
+        efforts, taken, parting = self._data.qfrc_actuator.copy(), self._taken, self._between.parting.pairs
         self._advance(count)
         self.reader.changed()
         if self._is_unstable():
-            self._go_back(efforts, taken)
+            self._go_back(efforts, taken, parting)
             runaway = self._find_runaway(count)
-            self._go_back(efforts, taken)
+            self._go_back(efforts, taken, parting)
             raise SimulationUnstableError(runaway)
 
     def _advance(self, count: int) -> None:
         """In C, unless the world needs something that MuJoCo does not have."""
-        if self._between:
-            for _ in range(count):
-                self._between.step()
-            return
         while count > 0 and not self._is_unstable():
+            if self._between:
+                self._between.step()
+                self._taken += 1
+                count -= 1
+                continue
             some = min(count, EVERY - self._taken % EVERY)
             mujoco.mj_step(self._model, self._data, nstep=some)
             self._taken += some
@@ -119,9 +127,17 @@ class Engine:
         speeds = self._data.qvel
         return bool(speeds.size) and not max(float(speeds.max()), -float(speeds.min())) < FASTEST
 
-    def _go_back(self, efforts: NDArray[np.float64], taken: int) -> None:
+    def _look_for_depth(self) -> None:
+        self._leapt = False
+        parting = self._between.parting
+        parting.pairs = self._looker.deep_pairs(self._state(), parting)
+        if parting:
+            self._rest.forbid()
+
+    def _go_back(self, efforts: NDArray[np.float64], taken: int, parting: frozenset[GeomPair]) -> None:
         self._rest.put(self._good, efforts)
         self._taken = taken
+        self._between.parting.pairs = parting
         self.reader.changed()
 
     def _find_runaway(self, count: int) -> Runaway:
@@ -177,6 +193,7 @@ class Engine:
         self._data.qpos[first : first + 7] = (*pose.position, *turned)
         wx, wy, wz = spin.tolist()
         self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=turned).inverse().direction((wx, wy, wz))
+        self._leapt = True
         self._rest.wake(dof)
         self.reader.changed()
 
@@ -235,6 +252,7 @@ class Engine:
         """Go on from where another engine is, with what is in both by the same name."""
         carry_over((old._model, old._data), (self._model, self._data))
         self._taken = old._taken
+        self._leapt = True
         self.motors.forget()
         self.reader.changed()
 
@@ -246,6 +264,8 @@ class Engine:
             copy.copy(self._data),
             self._taken,
             self._rest.is_on,
+            self._leapt,
+            self._between.parting.pairs,
             model.actuator_gainprm.copy(),
             model.actuator_biasprm.copy(),
             model.actuator_forcerange.copy(),
@@ -262,6 +282,7 @@ class Engine:
         self._rest.allow(state.sleeps)
         mujoco.mj_copyData(self._data, self._model, state.data)
         self._taken = state.taken
+        self._leapt, self._between.parting.pairs = state.leapt, state.parting
         self._model.actuator_gainprm[:] = state.gains
         self._model.actuator_biasprm[:] = state.biases
         self._model.actuator_forcerange[:] = state.ranges

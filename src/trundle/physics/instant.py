@@ -9,7 +9,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from .index import CompiledWorld
+from .index import CompiledWorld, GeomPair
+from .parting import Parting
 from .reader import StateReader
 from .touching import Contact, contacts_of
 
@@ -44,6 +45,15 @@ class Looker:
         with self._lock:
             model, data = self._solve(state)
             return contacts_of(self._compiled, model, data)
+
+    def deep_pairs(self, state: _Array, parting: Parting) -> frozenset[GeomPair]:
+        """See `Parting.deep_pairs`; of a state, as mjSTATE_INTEGRATION has it."""
+        with self._lock:
+            model, data, reader = self._second
+            mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
+            mujoco.mj_fwdPosition(model, data)
+            reader.changed()
+            return parting.deep_pairs(data)
 
     def reactions(self, state: _Array) -> _Array:
         """(links, 6) force [N] and torque [N·m] on each link by what it hangs from, at its frame's origin, world axes.

@@ -15,6 +15,11 @@ _STIFFEST = 0.05
 """[1/h²] Stiffness over mass from which on a step cannot tell a spring from MuJoCo's own hard contact."""
 
 
+def is_soft(stiffness: float, inverse_mass: float, h: float) -> bool:
+    """Whether a step can tell such a spring from what is hard; arguments as of `soft_spring`."""
+    return 0.0 < stiffness * inverse_mass * h * h < _STIFFEST
+
+
 def soft_spring(stiffness: float, damping: float, inverse_mass: float, h: float) -> tuple[float, float] | None:
     """The solref of a contact or stop that a force f presses in by f / stiffness; None where that is not to be seen.
 
@@ -26,7 +31,7 @@ def soft_spring(stiffness: float, damping: float, inverse_mass: float, h: float)
         inverse_mass: [1/kg] or [1/(kg·m²)] of what it moves.
         h: time step [s].
     """
-    if not 0.0 < stiffness * inverse_mass * h * h < _STIFFEST:
+    if not is_soft(stiffness, inverse_mass, h):
         return None
     share = inverse_mass * (1 - SOFT) / SOFT
     # ODE's implicit step adds h · stiffness to the damping.

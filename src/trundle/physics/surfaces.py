@@ -63,10 +63,7 @@ def category_of(surface: Surface) -> int:
 
 
 def is_plain(surface: Surface) -> bool:
-    """Whether a shape can carry by itself all that its contacts need: friction and bitmasks.
-
-    kp, kd and min_depth are not counted: where shapes find each other by search, contacts are hard.
-    """
+    """Whether a shape can carry by itself all that its contacts need, as long as they are hard: friction, bitmasks."""
     default = Surface()
     return (surface.fdir1, surface.patch_radius, surface.restitution, surface.collide_without_contact) == (
         default.fdir1,
