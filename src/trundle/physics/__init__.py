@@ -1,6 +1,7 @@
 """model → MuJoCo: the compile, and the engine that steps."""
 
 from .compile import compile_world
+from .egl_renderer import EglRenderer
 from .engine import Engine, EngineState, SimulationUnstableError
 from .grip import ContactPoint, Grip, GripLaw
 from .index import CompiledWorld
@@ -13,6 +14,7 @@ __all__ = [
     "CompiledWorld",
     "Contact",
     "ContactPoint",
+    "EglRenderer",
     "Engine",
     "EngineState",
     "Grip",

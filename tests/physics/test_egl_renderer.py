@@ -1,0 +1,89 @@
+"""OpenGL's picture of a scene, and ours: the same but for what rasterising round things costs."""
+
+import math
+import sys
+
+import numpy as np
+import pytest
+import trimesh
+
+from trundle.diagnostics import UsageError
+from trundle.meshes import Mesh
+from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Rgba, Sphere
+from trundle.physics import EglRenderer
+from trundle.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
+from trundle.spatial import Pose
+
+LENS = Intrinsics(width_px=320, height_px=240, horizontal_fov_rad=1.047, near_m=0.1, far_m=50.0)
+EYE = Pose.from_rpy(-4.0, 0.4, 2.0, 0.0, 0.3, -0.1)
+SUN = SceneLight(direction=(0.48, -0.36, -0.8), diffuse=(0.6, 0.6, 0.6, 1.0), specular=(0.0, 0.0, 0.0, 1.0))
+
+
+def shape(geometry: ShapeGeometry, x: float, y: float, z: float, rgba: Rgba, turn: float = 0.0) -> Shape:
+    pose = Pose.from_rpy(x, y, z, turn, turn / 3, turn / 2)
+    return Shape(name="s", body=0, geometry=geometry, body_from_shape=pose, rgba=rgba)
+
+
+def ball() -> Mesh:
+    made = trimesh.creation.icosphere(subdivisions=5, radius=0.45)
+    return Mesh(made.vertices.astype(np.float32), made.faces.astype(np.int32))
+
+
+THINGS = (
+    shape(Plane((0.0, 0.0, 1.0), (0.0, 0.0)), 0.0, 0.0, 0.0, (0.6, 0.6, 0.5, 1.0)),
+    shape(Box((0.5, 0.6, 0.7)), 0.0, 1.2, 0.35, (0.9, 0.2, 0.2, 1.0), 0.3),
+    shape(Sphere(0.4), 0.8, 0.4, 0.4, (0.2, 0.8, 0.3, 1.0)),
+    shape(Cylinder(0.25, 0.9), 0.2, -0.4, 0.55, (0.2, 0.3, 0.9, 1.0), 0.2),
+    shape(Capsule(0.15, 0.5), -0.9, 0.4, 0.4, (0.9, 0.8, 0.2, 1.0), 1.0),
+    shape(Ellipsoid((0.5, 0.2, 0.3)), -0.8, -0.8, 0.4, (0.7, 0.2, 0.8, 1.0), 0.4),
+    shape(ball(), 0.6, -1.5, 0.5, (0.3, 0.7, 0.8, 1.0)),
+)
+
+
+def scene(light: SceneLight = SUN) -> Scene:
+    return Scene(
+        bodies=("b",), shapes=THINGS, lights=(light,), ambient=(0.3, 0.3, 0.3, 1.0), background=(0.4, 0.5, 0.6, 1.0)
+    )
+
+
+@pytest.fixture(scope="module")
+def opengl() -> EglRenderer:
+    try:
+        return EglRenderer(scene())
+    except UsageError as error:
+        pytest.skip(str(error))
+
+
+def test_colours_distances_and_shapes_are_those_of_opengl(opengl: EglRenderer) -> None:
+    ours = NativeRenderer(scene())
+    pictures = []
+    for each in (ours, opengl):
+        each.update(np.array([[0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+        pictures.append(each.render(EYE, LENS, depth=True, segmentation=True))
+    a, b = pictures
+    assert a.depth is not None
+    assert b.depth is not None
+    assert a.segmentation is not None
+    assert b.segmentation is not None
+    assert np.abs(a.rgb.astype(float) - b.rgb).mean() <= 1.0
+    other = a.segmentation != b.segmentation
+    assert other.mean() <= 0.001  # OpenGL draws round things with corners
+    both = np.isfinite(a.depth) & np.isfinite(b.depth) & ~other
+    flat = both & np.isin(a.segmentation, (0, 1))
+    assert both.mean() > 0.5
+    assert np.median(np.abs(a.depth[flat] - b.depth[flat])) <= 1e-5
+    assert set(np.unique(b.segmentation)) == {*range(len(THINGS)), -1}
+
+
+def test_a_body_that_is_nowhere_is_not_seen(opengl: EglRenderer) -> None:
+    opengl.update(np.full((1, 7), math.nan))
+    picture = opengl.render(EYE, LENS, segmentation=True)
+    assert picture.segmentation is not None
+    assert (picture.segmentation == -1).all()
+    assert (picture.rgb == [102, 128, 153]).all()
+
+
+def test_without_opengl_one_sentence_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "mujoco.egl", None)
+    with pytest.raises(UsageError, match=r"no OpenGL over EGL here .*--renderer cpu needs none"):
+        EglRenderer(scene())
