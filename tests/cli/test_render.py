@@ -202,3 +202,14 @@ def test_what_cannot_be_filmed_is_said(
 ) -> None:
     assert main(["render", str(box), *words]) != 0
     assert said in capsys.readouterr().err
+
+
+def test_opengl_draws_the_same_where_it_is_asked_for(box: Path, tmp_path: Path) -> None:
+    """Where there is none, one sentence says so, and no other renderer steps in."""
+    ours, theirs = tmp_path / "cpu.png", tmp_path / "egl.png"
+    command = ["render", str(box), "--camera", "eye"]
+    assert main([*command, "-o", str(ours)]) == 0
+    if main([*command, "-o", str(theirs), "--renderer", "egl"]) != 0:
+        assert not theirs.exists()
+        pytest.skip("no OpenGL over EGL here")
+    assert (_red(ours) != _red(theirs)).mean() < 0.01

@@ -13,12 +13,13 @@ from PIL import Image
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.packages import Packages
-from trundle.render import Intrinsics, NativeRenderer, Scene, corners_of, scene_of
+from trundle.render import Intrinsics, Scene, corners_of, scene_of
 from trundle.sensors import CameraSensor, mount_cameras
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
 
 from .outcome import pose_of
+from .renderers import RENDERERS, RendererName
 from .stage import set_stage
 
 DEFAULT_SIZE = (800, 600)
@@ -48,6 +49,7 @@ class PictureOptions:
     """Depth is in millimetres, 16 bit, 0 where nothing is; segmentation has a colour for each visual."""
     at_s: float = 0.0
     """Of simulated time."""
+    renderer: RendererName = "cpu"
 
 
 class Studio:
@@ -73,7 +75,7 @@ class Studio:
         self._content = options.content
         self.simulation = Simulation(stage.world, report)
         scene = scene_of(stage.world, report)
-        self._renderer = NativeRenderer(scene)
+        self._renderer = RENDERERS[options.renderer](scene)
         self._sensor: CameraSensor | None = None
         width, height = options.size or DEFAULT_SIZE
         self._lens = Intrinsics(width_px=width, height_px=height, horizontal_fov_rad=_FOV, near_m=0.01, far_m=1000.0)

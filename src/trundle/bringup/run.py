@@ -13,7 +13,6 @@ from typing import Literal, TypeAlias
 from trundle.description import write_sdf, written_uri
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
-from trundle.render import NativeRenderer
 from trundle.sensors import mount_cameras, mount_sensors
 from trundle.simulation import Simulation, SimulationUnstableError, StateRecorder
 
@@ -22,6 +21,7 @@ from .outcome import Outcome
 from .pace import NS, Pacer
 from .page import Page
 from .plugins import load_plugins, load_world_plugins
+from .renderers import RENDERERS, RendererName
 from .ros_side import RosSide
 from .showing import Showing
 from .signals import stop_flag
@@ -48,6 +48,8 @@ class RunOptions:
     seed: int = 0
     ros: bool = True
     sensors: bool = True
+    renderer: RendererName = "cpu"
+    """What draws the pictures of cameras: our own renderer, or OpenGL over EGL."""
     strict: bool = False
     record: Path | None = None
     """Where to write a state log."""
@@ -74,7 +76,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
     with stop_flag() as stop, ExitStack() as open_things:
         stage = set_stage(file, Packages(env, start=Path.cwd()), report, seed=options.seed)
         simulation = Simulation(stage.world, report, seed=options.seed)
-        cameras = mount_cameras(stage.world, NativeRenderer, report, seed=options.seed)
+        cameras = mount_cameras(stage.world, RENDERERS[options.renderer], report, seed=options.seed)
         sensors = mount_sensors(simulation)
         if not options.sensors:
             cameras.clear()

@@ -110,6 +110,12 @@ def add_allow_outside(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_renderer(parser: argparse.ArgumentParser) -> None:
+    """Declare the option of every command that draws."""
+    what = "what draws: Trundle's own renderer, or OpenGL over EGL (cpu)"
+    parser.add_argument("--renderer", choices=("cpu", "egl"), default="cpu", help=what)
+
+
 @contextmanager
 def quiet_imports() -> Generator[None]:
     """Let Ctrl-C end the process without a word while modules are loaded: some turn it into errors of their own."""

@@ -5,7 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside
+from .main import add_allow_outside, add_renderer
 
 EXAMPLES = """
   trundle render model://rp2w -o rp2w.png             the whole robot from a good side
@@ -33,6 +33,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--at", type=_seconds, default=0.0, metavar="S", help="after so much simulated time (0)")
     parser.add_argument("--orbit", action="store_true", help="a film once around everything")
     parser.add_argument("--duration", type=_seconds, metavar="S", help=f"how long a film lasts ({_FILM_S:g})")
+    add_renderer(parser)
     add_allow_outside(parser)
 
 
@@ -51,7 +52,7 @@ def main(args: argparse.Namespace) -> int:
         raise UsageError("depth has 16 bits, which films have not; write a .png")
     report = Diagnostics()
     content = "depth" if args.depth else "segmentation" if args.seg else "colour"
-    options = PictureOptions(camera=args.camera, size=args.size, content=content, at_s=args.at)
+    options = PictureOptions(camera=args.camera, size=args.size, content=content, at_s=args.at, renderer=args.renderer)
     studio = Studio(args.file, dict(os.environ), report, start=Path.cwd(), options=options)
     for warning in report.warnings:
         print(warning, file=sys.stderr)

@@ -5,7 +5,7 @@ import json
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, quiet_imports
+from .main import add_allow_outside, add_renderer, quiet_imports
 
 EXAMPLES = """
   trundle run model://rp2w                            a robot that Gazebo would find, or that we ship
@@ -30,6 +30,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of everything random (0)")
     parser.add_argument("--no-ros", action="store_true", help="no ROS graph; nothing is bound")
     parser.add_argument("--no-sensors", action="store_true", help="switch every sensor off")
+    add_renderer(parser)
     parser.add_argument("--strict", action="store_true", help="a warning about the file is an error")
     parser.add_argument(
         "--on-instability",
@@ -56,6 +57,7 @@ def main(args: argparse.Namespace) -> int:
         seed=args.seed,
         ros=not args.no_ros,
         sensors=not args.no_sensors,
+        renderer=args.renderer,
         strict=args.strict,
         record=args.record,
         on_instability=args.on_instability,
