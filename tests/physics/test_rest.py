@@ -142,3 +142,17 @@ def test_what_sleeps_still_touches(load: Load) -> None:
     assert sum(abs(contact.force.force[2]) for contact in contacts) == pytest.approx(9.8, rel=1e-3)
     assert sim.engine.asleep == 1
     assert sim.snapshot().poses.tobytes() == before
+
+
+def test_islands_are_looked_for_only_where_half_of_the_world_is_at_rest(load: Load) -> None:
+    """A box that slides straight moves in one of six ways, and is not at rest in the other five."""
+    sliding = [box(f"s{i}", f"0 {i} 0.1 0 0 0", mu=0.0) for i in range(3)]
+    standing = [box(f"b{i}", f"5 {i} 0.1 0 0 0") for i in range(3)]
+    rests: list[bool] = []
+    for models in (sliding, [*sliding, *standing]):
+        sim = load(*models)
+        for i in range(3):
+            sim[f"s{i}"].set_twist(Twist((1.0, 0.0, 0.0)))
+        sim.run(2.0)
+        rests.append(sim.engine.asleep > 0)
+    assert rests == [False, True]

@@ -21,7 +21,10 @@ from .surfaces import Touch, category_of, friction_of, is_plain, may_meet, touch
 from .tree import Tree
 
 MOST_PAIRS = 2000
-"""Beyond these, shapes meet by MuJoCo's own search: a pair costs about 10 ns a step whether it meets or not."""
+"""Of what stands with what moves. Beyond these, shapes meet by MuJoCo's own search: a pair costs about 10 ns a step
+whether it meets or not."""
+MOST_MOVING_PAIRS = 1000
+"""Of what moves: fewer, for that is seldom near one another."""
 MOST_GIVING_PAIRS = 20_000
 """Of shapes that give: beyond, they are as hard as all others that meet by search."""
 _BITS = 0x7FFFFFFF
@@ -52,7 +55,7 @@ def add_contacts(
         _add_pairs(spec, ((a, b) for a, b in product(moving, fixed) if (a.name, b.name) not in met), rules, touches)
     else:
         _add_pairs(spec, product(moving, fixed), rules, touches)
-    if len(solid) * (len(solid) - 1) <= 2 * MOST_PAIRS:
+    if len(solid) * (len(solid) - 1) <= 2 * MOST_MOVING_PAIRS:
         _add_pairs(spec, combinations(solid, 2), rules, touches)
         return touches
     plain = [shape for shape in solid if shape.name not in special]

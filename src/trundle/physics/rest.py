@@ -29,6 +29,7 @@ class Rest:
         self._model = compiled.model
         self._data = data
         model = compiled.model
+        self._trees = model.dof_treeid.copy()
         model.opt.sleep_tolerance = TOLERANCE
         # MuJoCo multiplies an angular speed by the size of the shapes it moves, which of a bare link is nothing at all.
         model.dof_length[:] = 1.0
@@ -52,9 +53,10 @@ class Rest:
         return int(np.count_nonzero(self._data.tree_asleep >= 0)) if self.is_on else 0
 
     def decide(self) -> None:
-        """Let trees sleep if at least half of what can move is at rest."""
-        data = self._data
-        still = np.count_nonzero(np.abs(data.qvel) < TOLERANCE)
+        """Let trees sleep if at least half of what can move hangs from what is wholly at rest."""
+        moving = np.zeros(self._model.ntree, dtype=bool)
+        moving[self._trees[np.abs(self._data.qvel) >= TOLERANCE]] = True
+        still = np.count_nonzero(~moving[self._trees])
         wanted = self._model.nv > 0 and 2 * still >= self._model.nv
         if wanted != self.is_on:
             self._switch(wanted)
