@@ -2,35 +2,22 @@
 
 import asyncio
 from collections.abc import Iterator
-from concurrent.futures import Future
 from typing import Any
 
 import pytest
 from tests.bringup.conftest import PATIENCE_S, Gazebo, until
+from tests.bringup.controlled import MANAGER, Robot, driven, standing
 
 from trundle.nodes import Host
 from trundle.nodes.controller_manager import ControllerManagerTool, Spawner
-from trundle.ros import Message, Node
-
-_MOVES = '<inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>'
-
-
-def _joint(name: str, kind: str, interface: str, *, axis: str = "1 0 0", limit: str = "") -> str:
-    return f"""<link name="{name}_link">{_MOVES}</link>
-<joint name="{name}" type="{kind}"><parent link="base"/><child link="{name}_link"/><axis xyz="{axis}"/>{limit}</joint>
-<transmission name="{name}_t"><type>transmission_interface/SimpleTransmission</type>
-<joint name="{name}"><hardwareInterface>hardware_interface/{interface}</hardwareInterface></joint>
-<actuator name="{name}_m"><mechanicalReduction>1</mechanicalReduction></actuator></transmission>"""
-
+from trundle.ros import Node
 
 _LIMIT = '<limit lower="-2" upper="2" effort="100" velocity="3"/>'
-ROBOT = f"""<robot name="r"><link name="world"/><link name="base">{_MOVES}</link>
-<joint name="fix" type="fixed"><parent link="world"/><child link="base"/><origin xyz="0 0 5"/></joint>
-{_joint("lift", "prismatic", "EffortJointInterface", axis="0 0 1", limit=_LIMIT)}
-{_joint("turn", "revolute", "PositionJointInterface", limit=_LIMIT)}
-{_joint("spin", "continuous", "VelocityJointInterface")}
-<gazebo><plugin name="control" filename="libgazebo_ros_control.so"><robotNamespace>/r</robotNamespace></plugin></gazebo>
-</robot>"""
+ROBOT = standing(
+    driven("lift", "prismatic", "EffortJointInterface", axis="0 0 1", limit=_LIMIT),
+    driven("turn", "revolute", "PositionJointInterface", limit=_LIMIT),
+    driven("spin", "continuous", "VelocityJointInterface"),
+)
 CONTROLLERS: dict[str, Any] = {
     "states": {"type": "joint_state_controller/JointStateController", "publish_rate": 100},
     "turn": {"type": "position_controllers/JointPositionController", "joint": "turn"},
@@ -44,69 +31,11 @@ CONTROLLERS: dict[str, Any] = {
     "odd": {"type": "no/Such"},
     "all": {"type": "position_controllers/JointGroupPositionController", "joints": ["turn"]},
 }
-MANAGER = "/r/controller_manager"
-PACKAGE = "controller_manager_msgs"
-
-
-class Robot:
-    """A robot in a running world, and its controller_manager."""
-
-    def __init__(self, gazebo: Gazebo) -> None:
-        self.gazebo = gazebo
-        self._spawners: list[tuple[Future[int], Node]] = []
-        for name, value in CONTROLLERS.items():
-            gazebo.loop.run(gazebo.client.set_param(f"/r/{name}", value))
-        gazebo.loop.run(gazebo.client.set_param("/r/robot_description", ROBOT))
-        answer = gazebo.call(
-            "spawn_urdf_model", "gazebo_msgs/SpawnModel", model_name="r", model_xml=ROBOT, robot_namespace="/r"
-        )
-        assert answer.success, answer.status_message
-        gazebo.call("unpause_physics")
-
-    def spawn(self, *words: str) -> None:
-        """Start controllers as a launch file does, and wait until they run."""
-        name, uri = f"/r/spawner{len(self._spawners)}", self.gazebo.client.master_uri
-        node = Node(name, loop=self.gazebo.loop, master_uri=uri)
-        self._spawners.append((self.gazebo.loop.spawn(Spawner(node, list(words), Host()).run()), node))
-        names = {word for word in words if not word.startswith("--")}
-        wanted = "initialized" if "--stopped" in words else "running"
-        until(lambda: names <= {c.name for c in self.list() if c.state == wanted})
-
-    def list(self) -> list[Message]:
-        """What is loaded."""
-        wait = self.gazebo.client.wait_for_service(f"{MANAGER}/list_controllers", PATIENCE_S)
-        self.gazebo.loop.run(wait, timeout_s=PATIENCE_S)
-        return list(self.ask("list_controllers", "ListControllers").controller)
-
-    def ask(self, service: str, kind: str, **fields: Any) -> Message:
-        """Call a service of the manager's."""
-        call = self.gazebo.client.call_service(f"{MANAGER}/{service}", f"{PACKAGE}/{kind}", fields)
-        return self.gazebo.loop.run(call, timeout_s=PATIENCE_S)
-
-    def command(self, controller: str, value: float) -> None:
-        """Give a controller its command."""
-        self.gazebo.speak(f"/r/{controller}/command", "std_msgs/Float64")({"data": value})
-
-    def joint(self, name: str) -> Message:
-        """Where a joint is."""
-        return self.gazebo.call("get_joint_properties", "gazebo_msgs/GetJointProperties", joint_name=f"r::{name}")
-
-    def stop_spawner(self, number: int) -> int:
-        """End one as `rosnode kill` does; its exit code."""
-        future, node = self._spawners[number]
-        self.gazebo.loop.run(node.shutdown(), timeout_s=PATIENCE_S)
-        return future.result(PATIENCE_S)
-
-    def close(self) -> None:
-        """End what was started."""
-        for future, node in self._spawners:
-            future.cancel()
-            self.gazebo.loop.run(node.shutdown(), timeout_s=PATIENCE_S)
 
 
 @pytest.fixture
 def robot(gazebo: Gazebo) -> Iterator[Robot]:
-    running = Robot(gazebo)
+    running = Robot(gazebo, ROBOT, CONTROLLERS)
     yield running
     running.close()
 

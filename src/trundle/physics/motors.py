@@ -49,9 +49,21 @@ class Motors:
         low, high = min(effort, 0.0), max(effort, 0.0)
         self._motor(axis, gain=gain, position=0.0, velocity=gain, low=low, high=high, command=command)
 
-    def set_velocity(self, axis: int, velocity: float, max_effort: float) -> None:
-        """Have a motor keep a speed [rad/s or m/s] with at most so much effort."""
+    def set_velocity(self, axis: int, velocity: float, max_effort: float, *, often: bool = False) -> None:
+        """Have a motor keep a speed [rad/s or m/s] with at most so much effort.
+
+        Args:
+            axis: of the engine.
+            velocity: to keep.
+            max_effort: at most.
+            often: this is told anew at every few steps. Then the motor is soft while its effort limit is all that
+                keeps it from the speed: a stiff one would go past it, and back, for ever.
+        """
         gain = self._motor_gain(axis)
+        if often:
+            missing = abs(velocity - float(self._data.qvel[self._compiled.axis_dof[axis]]))
+            if gain * missing > min(max_effort, float(self._compiled.axis_effort[axis])):
+                gain /= MOTOR_STIFFNESS
         self._motor(axis, gain=gain, position=0.0, velocity=gain, low=-max_effort, high=max_effort, command=velocity)
 
     def hold(self, axis: int, position: float, max_effort: float) -> None:

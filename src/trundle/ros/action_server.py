@@ -66,14 +66,29 @@ class ActionServer:
         self._result = node.advertise(f"{name}/result", f"{type_name}ActionResult", queue_size=50)
         self._feedback = node.advertise(f"{name}/feedback", f"{type_name}ActionFeedback", queue_size=50)
         self._status = node.advertise(f"{name}/status", "actionlib_msgs/GoalStatusArray", latch=True, queue_size=50)
-        node.subscribe(f"{name}/goal", f"{type_name}ActionGoal", self._take, queue_size=None, on_loop=True)
-        node.subscribe(f"{name}/cancel", "actionlib_msgs/GoalID", self._cancel, queue_size=None, on_loop=True)
-        node.loop.spawn(self._tell())
+        goals = node.subscribe(f"{name}/goal", f"{type_name}ActionGoal", self._take, queue_size=None, on_loop=True)
+        cancels = node.subscribe(f"{name}/cancel", "actionlib_msgs/GoalID", self._cancel, queue_size=None, on_loop=True)
+        self._ends = (self._result, self._feedback, self._status, goals, cancels)
+        self._teller = node.loop.spawn(self._tell_states())
 
     @property
     def active(self) -> bool:
         """Whether a goal is being worked on."""
         return any(goal.status == _ACTIVE for goal in self._goals.values())
+
+    def tell(self, feedback: dict[str, Any]) -> None:
+        """Say how the goals that are being worked on go; any thread."""
+        if not self._feedback.has_subscribers:
+            return
+        for goal in [goal for goal in list(self._goals.values()) if goal.status == _ACTIVE]:
+            header = {"stamp": self._node.clock.now_ns()}
+            self._feedback.publish({"header": header, "status": _status(goal), "feedback": feedback})
+
+    def close(self) -> None:
+        """Unregister; any thread."""
+        self._teller.cancel()
+        for end in self._ends:
+            end.unregister()
 
     def _take(self, message: Message) -> None:
         now = self._node.clock.now_ns()
@@ -116,7 +131,7 @@ class ActionServer:
         header = {"stamp": goal.ended_ns}
         self._result.publish({"header": header, "status": _status(goal), "result": outcome.result})
 
-    async def _tell(self) -> None:
+    async def _tell_states(self) -> None:
         while not self._node.closed.is_set():
             now = self._node.clock.now_ns()
             old = [k for k, g in self._goals.items() if g.ended_ns is not None and now - g.ended_ns > _KEPT_S * 1e9]

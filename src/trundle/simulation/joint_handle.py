@@ -97,9 +97,12 @@ class JointHandle:
         """Drive with this effort [N·m or N] until told otherwise, within the effort and speed limits."""
         self._simulation.engine.motors.set_effort(self._axis(axis), effort)
 
-    def set_velocity(self, velocity: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
-        """Keep this speed [rad/s or m/s] with at most so much effort, as Gazebo's SetVelocity with fmax."""
-        self._simulation.engine.motors.set_velocity(self._driven(axis), velocity, max_effort)
+    def set_velocity(
+        self, velocity: float, *, max_effort: float = math.inf, axis: int = 0, often: bool = False
+    ) -> None:
+        """Keep this speed [rad/s or m/s] with at most so much effort, as Gazebo's SetVelocity with fmax; `often`: see
+        `Motors.set_velocity`."""
+        self._simulation.engine.motors.set_velocity(self._driven(axis), velocity, max_effort, often=often)
 
     def hold(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
         """Go to a position [rad or m] and stay, with at most so much effort; limits are respected."""

@@ -9,16 +9,21 @@ from .controller import Controller
 _HERE = "trundle.plugins.ros_control"
 CONTROLLERS: dict[str, str] = {
     "diff_drive_controller/DiffDriveController": f"{_HERE}.diff_drive:DiffDriveController",
+    "effort_controllers/GripperActionController": f"{_HERE}.gripper:EffortGripper",
     "effort_controllers/JointEffortController": f"{_HERE}.forward:EffortForward",
     "effort_controllers/JointGroupEffortController": f"{_HERE}.forward:EffortGroup",
     "effort_controllers/JointGroupPositionController": f"{_HERE}.pid_loops:EffortGroupPosition",
     "effort_controllers/JointPositionController": f"{_HERE}.pid_loops:EffortPosition",
+    "effort_controllers/JointTrajectoryController": f"{_HERE}.trajectory:EffortTrajectory",
     "effort_controllers/JointVelocityController": f"{_HERE}.pid_loops:EffortVelocity",
     "joint_state_controller/JointStateController": f"{_HERE}.joint_state:JointStateController",
+    "position_controllers/GripperActionController": f"{_HERE}.gripper:PositionGripper",
     "position_controllers/JointGroupPositionController": f"{_HERE}.forward:PositionGroup",
     "position_controllers/JointPositionController": f"{_HERE}.forward:PositionForward",
+    "position_controllers/JointTrajectoryController": f"{_HERE}.trajectory:PositionTrajectory",
     "velocity_controllers/JointGroupVelocityController": f"{_HERE}.forward:VelocityGroup",
     "velocity_controllers/JointPositionController": f"{_HERE}.pid_loops:VelocityPosition",
+    "velocity_controllers/JointTrajectoryController": f"{_HERE}.trajectory:VelocityTrajectory",
     "velocity_controllers/JointVelocityController": f"{_HERE}.forward:VelocityForward",
 }
 """Type → "module:Class", imported when one is loaded."""

@@ -1,0 +1,130 @@
+"""GripperActionController of position_ and effort_controllers: a finger to a position, until it is there or stuck."""
+
+import asyncio
+from collections.abc import Callable
+from typing import Any, ClassVar, Self
+
+from trundle.ros import ActionOutcome, ActionServer, Message
+
+from .controller import Site, read_pid
+from .transmissions import Interface
+
+
+class GripperController:
+    """The action `~gripper_cmd` control_msgs/GripperCommand.
+
+    Parameters, with the original's defaults: joint (required), goal_tolerance 0.01, stall_velocity_threshold 0.001,
+    stall_timeout 1, action_monitor_rate 20 (unused: every update is looked at), gains/<joint> (effort only).
+    """
+
+    interface: ClassVar[Interface]
+
+    def __init__(self, site: Site) -> None:
+        settings = site.settings
+        self._node = site.node
+        self._joint = site.joint(settings.text("joint"), self.interface)
+        self.claims: dict[Interface | str, list[str]] = {self.interface: [self._joint.name]}
+        self._pid = None
+        if self.interface == "EffortJointInterface":
+            self._pid = read_pid(settings.section("gains").section(self._joint.name))
+        self._tolerance = abs(settings.number("goal_tolerance", 0.01))
+        self._slow = abs(settings.number("stall_velocity_threshold", 0.001))
+        self._stall_ns = round(settings.number("stall_timeout", 1.0) * 1e9)
+        self._wanted = 0.0
+        self._most_effort = 0.0
+        self._moved_ns = 0
+        self._is_running = False
+        self._settled: Callable[[ActionOutcome], None] | None = None
+        self._server = ActionServer(site.node, f"{site.name}/gripper_cmd", "control_msgs/GripperCommand", self._asked)
+
+    @classmethod
+    def make(cls, site: Site) -> Self:
+        """See `Controller.make`."""
+        return cls(site)
+
+    def start(self, time_ns: int) -> None:
+        """Stay."""
+        self._joint.engage()
+        self._wanted, self._moved_ns, self._is_running = self._joint.position, time_ns, True
+        self._most_effort = 0.0
+        if self._pid is not None:
+            self._pid.reset()
+
+    def update(self, time_ns: int, dt: float) -> None:
+        """Close in, and tell the action when that is over."""
+        joint = self._joint
+        error = joint.error(self._wanted)
+        if self._pid is None:
+            joint.command = self._wanted
+        else:
+            effort = self._pid.command(error, dt, slope=-joint.velocity)
+            most = self._most_effort
+            joint.command = min(max(effort, -most), most) if most > 0.0 else effort
+        if abs(joint.velocity) > self._slow or time_ns < self._moved_ns:
+            self._moved_ns = time_ns
+        if self._settled is None:
+            return
+        if abs(error) < self._tolerance:
+            self._settle("succeeded", reached=True)
+        elif time_ns - self._moved_ns > self._stall_ns:
+            self._settle("aborted", reached=False)
+
+    def stop(self) -> None:
+        """Let go."""
+        self._is_running = False
+        self._settle("aborted", reached=False)
+        self._joint.rest()
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self._settle("aborted", reached=False)
+        self._server.close()
+
+    async def _asked(self, goal: Message) -> ActionOutcome:
+        """Close or open; on the loop."""
+        ended: asyncio.Future[ActionOutcome] = asyncio.get_running_loop().create_future()
+
+        def settle(outcome: ActionOutcome) -> None:
+            self._node.loop.call_soon(lambda: None if ended.done() else ended.set_result(outcome))
+
+        def begin() -> None:
+            if not self._is_running:
+                settle(ActionOutcome(status="aborted", text="the controller is not running"))
+                return
+            self._settle("preempted", reached=False)
+            self._wanted, self._most_effort = float(goal.command.position), float(goal.command.max_effort)
+            self._moved_ns = self._node.clock.now_ns()
+            self._settled = settle
+
+        def abandon() -> None:
+            if self._settled is settle:
+                self._settled = None
+                self._wanted = self._joint.position
+
+        assert self._node.deliver is not None, "plugins' nodes deliver to the simulation's thread"
+        self._node.deliver(begin)
+        try:
+            return await ended
+        except asyncio.CancelledError:
+            self._node.deliver(abandon)
+            raise
+
+    def _settle(self, status: Any, *, reached: bool) -> None:
+        if self._settled is None:
+            return
+        settle, self._settled = self._settled, None
+        joint = self._joint
+        result = {"position": joint.position, "effort": joint.effort, "stalled": not reached, "reached_goal": reached}
+        settle(ActionOutcome(status=status, result=result))
+
+
+class EffortGripper(GripperController):
+    """effort_controllers/GripperActionController."""
+
+    interface = "EffortJointInterface"
+
+
+class PositionGripper(GripperController):
+    """position_controllers/GripperActionController."""
+
+    interface = "PositionJointInterface"

@@ -1,0 +1,251 @@
+"""JointTrajectoryController of position_, velocity_ and effort_controllers: joints through points in time."""
+
+import asyncio
+from collections.abc import Callable
+from typing import Any, ClassVar, Self
+
+from trundle.control import ToolboxPid
+from trundle.ros import ActionOutcome, ActionServer, Message, ns_of
+
+from .controller import Cadence, Ends, Site, read_pid
+from .hardware import JointHardware
+from .trajectory_goal import Course, GoalError, Tolerances, read_course, read_tolerances
+from .transmissions import Interface
+
+_GRACE_S = 0.2
+"""Beyond `goal_time`, for joints that arrive a few steps late: gazebo_ros_control's are put where they belong."""
+
+
+class TrajectoryController:
+    """`~command` trajectory_msgs/JointTrajectory and the action `~follow_joint_trajectory` in; `~state` and the service
+    `~query_state` out.
+
+    Parameters: joints (required), gains/<joint> (p, i, d, i_clamp; not of position_controllers), velocity_ff/<joint>,
+    constraints (goal_time, stopped_velocity_tolerance, <joint>/trajectory, <joint>/goal), state_publish_rate 50,
+    action_monitor_rate 20, allow_partial_joints_goal false.
+    """
+
+    interface: ClassVar[Interface]
+
+    def __init__(self, site: Site) -> None:
+        settings, node = site.settings, site.node
+        self._node = node
+        self._joints = [site.joint(name, self.interface) for name in site.joint_setting()]
+        names = [joint.name for joint in self._joints]
+        self.claims: dict[Interface | str, list[str]] = {self.interface: names}
+        self._pids: list[ToolboxPid] = []
+        if self.interface != "PositionJointInterface":
+            gains = settings.section("gains")
+            self._pids = [read_pid(gains.section(name)) for name in names]
+        forward = settings.section("velocity_ff")
+        self._forward = [forward.number(name, 0.0) for name in names]
+        self._usual = read_tolerances(settings.section("constraints"), names)
+        self._partial = settings.flag("allow_partial_joints_goal", default=False)
+        self._states = Cadence(settings.rate_hz("state_publish_rate", 50.0))
+        self._monitors = Cadence(settings.rate_hz("action_monitor_rate", 20.0))
+        self._course: Course | None = None
+        self._time_ns = 0
+        self._settled: Callable[[ActionOutcome], None] | None = None
+        """Told once how the action's goal ended."""
+        self._is_running = False
+        self._state = node.advertise(f"{site.name}/state", "control_msgs/JointTrajectoryControllerState", queue_size=1)
+        kind = "trajectory_msgs/JointTrajectory"
+        self._ends = Ends()
+        self._ends.add(
+            self._state,
+            node.subscribe(f"{site.name}/command", kind, self._take, queue_size=1),
+            node.advertise_service(f"{site.name}/query_state", "control_msgs/QueryTrajectoryState", self._query),
+        )
+        action = f"{site.name}/follow_joint_trajectory"
+        self._server = ActionServer(node, action, "control_msgs/FollowJointTrajectory", self._asked)
+
+    @classmethod
+    def make(cls, site: Site) -> Self:
+        """See `Controller.make`."""
+        return cls(site)
+
+    def start(self, time_ns: int) -> None:
+        """Stay where the joints are."""
+        self._time_ns = time_ns
+        for joint in self._joints:
+            joint.engage()
+        for pid in self._pids:
+            pid.reset()
+        self._settle("aborted", 0, "the controller was started anew")
+        self._stay()
+        self._states.restart(time_ns)
+        self._is_running = True
+
+    def update(self, time_ns: int, dt: float) -> None:
+        """Go on along the course."""
+        self._time_ns = time_ns
+        course = self._course
+        if course is None:
+            return
+        desired = course.at(time_ns)
+        for number, (joint, (position, velocity, _)) in enumerate(zip(self._joints, desired, strict=True)):
+            if not self._pids:
+                joint.command = position
+                continue
+            slope = velocity - joint.velocity
+            command = self._pids[number].command(joint.error(position), dt, slope=slope)
+            joint.command = command + self._forward[number] * velocity
+        if self._settled is not None:
+            self._watch(course, desired)
+        if self._states.due(time_ns) and self._state.has_subscribers:
+            self._state.publish({"header": {"stamp": time_ns}, **self._told(desired)})
+
+    def stop(self) -> None:
+        """Let go."""
+        self._is_running = False
+        self._settle("aborted", 0, "the controller was stopped")
+        for joint in self._joints:
+            joint.rest()
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self._settle("aborted", 0, "the controller was unloaded")
+        self._server.close()
+        self._ends.close()
+
+    # -- commands, on the simulation's thread
+
+    def _take(self, trajectory: Message) -> None:
+        """A trajectory from the topic; one without points stops the joints."""
+        if not self._is_running:
+            self._node.log_error("Can't accept new commands. Controller is not running.")
+            return
+        try:
+            self._begin(trajectory, self._usual)
+        except GoalError as error:
+            self._node.log_error(str(error))
+            return
+        self._settle("preempted", 0, "a trajectory came on the topic")
+
+    def _begin(self, trajectory: Message, tolerances: Tolerances) -> None:
+        if not trajectory.points:
+            self._stay()
+            return
+        assert self._course is not None, "start() comes first"
+        now = self._course.at(self._time_ns)
+        names = [joint.name for joint in self._joints]
+        course = read_course(trajectory, names, now, self._time_ns, tolerances, partial=self._partial)
+        for number, joint in enumerate(self._joints):
+            if joint.is_endless:  # the first point is gone to the short way round
+                course.unwind(number)
+        self._course = course
+
+    def _stay(self) -> None:
+        self._course = Course.standing([joint.position for joint in self._joints], self._time_ns, self._usual)
+
+    def _query(self, request: Message) -> dict[str, Any]:
+        course = self._course or Course.standing([joint.position for joint in self._joints], 0, self._usual)
+        position, velocity, acceleration = zip(*course.at(ns_of(request.time)), strict=True)
+        return {
+            "name": [joint.name for joint in self._joints],
+            "position": list(position),
+            "velocity": list(velocity),
+            "acceleration": list(acceleration),
+        }
+
+    # -- the action
+
+    async def _asked(self, goal: Message) -> ActionOutcome:
+        """Follow a trajectory to its end; on the loop."""
+        loop = asyncio.get_running_loop()
+        ended: asyncio.Future[ActionOutcome] = loop.create_future()
+
+        def settle(outcome: ActionOutcome) -> None:
+            self._node.loop.call_soon(lambda: None if ended.done() else ended.set_result(outcome))
+
+        def begin() -> None:
+            if not self._is_running:
+                settle(_outcome("aborted", GoalError.INVALID_GOAL, "the controller is not running"))
+                return
+            names = [joint.name for joint in self._joints]
+            try:
+                self._begin(goal.trajectory, self._usual.overridden(goal, names))
+            except GoalError as error:
+                settle(_outcome("aborted", error.code, str(error)))
+                return
+            self._settle("preempted", 0, "another goal came")
+            self._settled = settle
+
+        assert self._node.deliver is not None, "plugins' nodes deliver to the simulation's thread"
+        self._node.deliver(begin)
+        try:
+            return await ended
+        except asyncio.CancelledError:
+            self._node.deliver(lambda: self._abandon(settle))
+            raise
+
+    def _abandon(self, settle: Callable[[ActionOutcome], None]) -> None:
+        """Stop for a goal that was cancelled, unless another has taken its place."""
+        if self._settled is settle:
+            self._settled = None
+            self._stay()
+
+    def _watch(self, course: Course, desired: list[tuple[float, float, float]]) -> None:
+        """Compare with the tolerances, and tell the action how it goes."""
+        tolerances, late_s = course.tolerances, (self._time_ns - course.end_ns) / 1e9
+        for number, joint in enumerate(self._joints):
+            error = abs(joint.error(desired[number][0]))
+            if late_s < 0.0 and 0.0 < tolerances.path[number] < error:
+                text = f"{joint.name} is {error:.4g} off its path, more than {tolerances.path[number]:g}"
+                self._stay()
+                self._settle("aborted", GoalError.PATH_TOLERANCE_VIOLATED, text)
+                return
+        if late_s >= 0.0:
+            far = [j for n, j in enumerate(self._joints) if not self._has_arrived(j, desired[n][0], n, tolerances)]
+            if not far:
+                self._settle("succeeded", 0, "")
+            elif late_s > tolerances.time_s + _GRACE_S:
+                text = f"{far[0].name} is {abs(far[0].error(desired[self._joints.index(far[0])][0])):.4g} off its goal"
+                self._settle("aborted", GoalError.GOAL_TOLERANCE_VIOLATED, text)
+            return
+        if self._monitors.due(self._time_ns):
+            self._server.tell(self._told(desired))
+
+    def _has_arrived(self, joint: JointHardware, position: float, number: int, tolerances: Tolerances) -> bool:
+        at = tolerances.goal[number] <= 0.0 or abs(joint.error(position)) <= tolerances.goal[number]
+        return at and (tolerances.stopped <= 0.0 or abs(joint.velocity) <= tolerances.stopped)
+
+    def _settle(self, status: Any, code: int, text: str) -> None:
+        if self._settled is not None:
+            settle, self._settled = self._settled, None
+            settle(_outcome(status, code, text))
+
+    def _told(self, desired: list[tuple[float, float, float]]) -> dict[str, Any]:
+        joints = self._joints
+        positions, velocities, accelerations = (list(values) for values in zip(*desired, strict=True))
+        return {
+            "joint_names": [joint.name for joint in joints],
+            "desired": {"positions": positions, "velocities": velocities, "accelerations": accelerations},
+            "actual": {"positions": [j.position for j in joints], "velocities": [j.velocity for j in joints]},
+            "error": {
+                "positions": [j.error(p) for j, p in zip(joints, positions, strict=True)],
+                "velocities": [v - j.velocity for j, v in zip(joints, velocities, strict=True)],
+            },
+        }
+
+
+def _outcome(status: Any, code: int, text: str) -> ActionOutcome:
+    return ActionOutcome(status=status, result={"error_code": code, "error_string": text}, text=text)
+
+
+class EffortTrajectory(TrajectoryController):
+    """effort_controllers/JointTrajectoryController."""
+
+    interface = "EffortJointInterface"
+
+
+class PositionTrajectory(TrajectoryController):
+    """position_controllers/JointTrajectoryController."""
+
+    interface = "PositionJointInterface"
+
+
+class VelocityTrajectory(TrajectoryController):
+    """velocity_controllers/JointTrajectoryController."""
+
+    interface = "VelocityJointInterface"

@@ -1,0 +1,175 @@
+"""What a trajectory message asks for: where each joint is to be when, and how exactly."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from trundle.control import JointPoint, JointSpline
+from trundle.ros import Message, Settings, ns_of
+
+_STOPPED = 0.01
+"""[rad/s or m/s] The original's idea of a joint that stands still."""
+_MOST_POINTS = 100_000
+
+
+class GoalError(ValueError):
+    """A trajectory that cannot be followed; `code` is control_msgs' for it."""
+
+    INVALID_GOAL, INVALID_JOINTS, OLD_HEADER_TIMESTAMP = -1, -2, -3
+    PATH_TOLERANCE_VIOLATED, GOAL_TOLERANCE_VIOLATED = -4, -5
+
+    def __init__(self, code: int, text: str) -> None:
+        super().__init__(text)
+        self.code = code
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tolerances:
+    """How exactly; 0 is any."""
+
+    path: tuple[float, ...]
+    """[rad or m] of each joint, on the way."""
+    goal: tuple[float, ...]
+    """[rad or m] of each joint, at the end."""
+    stopped: float
+    """[rad/s or m/s] of every joint, at the end."""
+    time_s: float
+    """How late the end may be reached."""
+
+    def overridden(self, goal: Message, joints: Sequence[str]) -> "Tolerances":
+        """As an action's goal wants it: what it names replaces, and less than zero is any."""
+
+        def merged(usual: tuple[float, ...], asked: Sequence[Message]) -> tuple[float, ...]:
+            named = {str(item.name): float(item.position) for item in asked}
+            values = (named.get(joint, 0.0) or ours for joint, ours in zip(joints, usual, strict=True))
+            return tuple(max(value, 0.0) for value in values)
+
+        time_s = ns_of(goal.goal_time_tolerance) / 1e9
+        return replace(
+            self,
+            path=merged(self.path, goal.path_tolerance),
+            goal=merged(self.goal, goal.goal_tolerance),
+            time_s=time_s if time_s > 0.0 else self.time_s,
+        )
+
+
+def read_tolerances(constraints: Settings, joints: Sequence[str]) -> Tolerances:
+    """The parameters `constraints`."""
+    own = [constraints.section(joint) for joint in joints]
+    return Tolerances(
+        path=tuple(each.number("trajectory", 0.0) for each in own),
+        goal=tuple(each.number("goal", 0.0) for each in own),
+        stopped=constraints.number("stopped_velocity_tolerance", _STOPPED),
+        time_s=constraints.number("goal_time", 0.0),
+    )
+
+
+class Course:
+    """Where every joint is to be from a time on."""
+
+    def __init__(self, points: list[list[JointPoint]], start_ns: int, tolerances: Tolerances) -> None:
+        """Take the points of each joint; their times count from `start_ns`."""
+        self._points = points
+        self._splines = [JointSpline(each) for each in points]
+        self._start_ns = start_ns
+        self.tolerances = tolerances
+
+    @classmethod
+    def standing(cls, positions: Sequence[float], start_ns: int, tolerances: Tolerances) -> "Course":
+        """Stay at positions."""
+        return cls([[JointPoint(0.0, position)] for position in positions], start_ns, tolerances)
+
+    @property
+    def end_ns(self) -> int:
+        """When all have arrived."""
+        return self._start_ns + round(max(spline.end_s for spline in self._splines) * 1e9)
+
+    def at(self, time_ns: int) -> list[tuple[float, float, float]]:
+        """Position, velocity and acceleration of each joint."""
+        time_s = (time_ns - self._start_ns) / 1e9
+        return [spline.at(time_s) for spline in self._splines]
+
+    def unwind(self, number: int) -> None:
+        """Shift a joint that turns without end by whole turns, so that it goes to its first point the short way."""
+        start, *rest = self._points[number]
+        if not rest:
+            return
+        turns = round((start.position - rest[0].position) / math.tau) * math.tau
+        self._points[number] = [start, *(replace(point, position=point.position + turns) for point in rest)]
+        self._splines[number] = JointSpline(self._points[number])
+
+
+def read_course(
+    trajectory: Message,
+    joints: Sequence[str],
+    now: Sequence[tuple[float, float, float]],
+    now_ns: int,
+    tolerances: Tolerances,
+    *,
+    partial: bool,
+) -> Course:
+    """Read a trajectory_msgs/JointTrajectory.
+
+    Args:
+        trajectory: the message, with at least one point.
+        joints: of the controller.
+        now: where each is to be at this moment: position, velocity, acceleration.
+        now_ns: this moment.
+        tolerances: of the course.
+        partial: whether some joints may be left out, which then stay.
+
+    Raises:
+        GoalError: it is not for these joints, or no trajectory.
+    """
+    names = [str(name) for name in trajectory.joint_names]
+    missing, unknown = [j for j in joints if j not in names], [n for n in names if n not in joints]
+    if unknown or (missing and not partial) or len(set(names)) != len(names):
+        wanted, got = ", ".join(joints), ", ".join(names) or "none"
+        raise GoalError(
+            GoalError.INVALID_JOINTS, f"the joints of this controller are {wanted}; the trajectory has {got}"
+        )
+    begin_ns = ns_of(trajectory.header.stamp) or now_ns
+    times = [(begin_ns - now_ns + ns_of(point.time_from_start)) / 1e9 for point in trajectory.points]
+    if len(times) > _MOST_POINTS:
+        raise GoalError(GoalError.INVALID_GOAL, f"{len(times)} points are more than {_MOST_POINTS}")
+    if any(b <= a for a, b in pairwise(times)):
+        raise GoalError(GoalError.INVALID_GOAL, "time_from_start must grow from point to point")
+    if times[-1] < 0.0:
+        raise GoalError(GoalError.OLD_HEADER_TIMESTAMP, "the whole trajectory lies in the past")
+    columns: list[list[JointPoint]] = []
+    for joint, (position, velocity, acceleration) in zip(joints, now, strict=True):
+        start = [JointPoint(0.0, position, velocity, acceleration)]
+        if joint not in names:
+            columns.append([JointPoint(0.0, position)])
+            continue
+        if begin_ns > now_ns:  # it stays until the trajectory begins
+            start = [JointPoint(0.0, position), JointPoint((begin_ns - now_ns) / 1e9, position, 0.0, 0.0)]
+        column = names.index(joint)
+        points = [
+            _point(time_s, point, column, len(names))
+            for time_s, point in zip(times, trajectory.points, strict=True)
+            if time_s > start[-1].time_s
+        ]
+        if not points:  # all is due at once
+            start = []
+            points = [_point(0.0, trajectory.points[-1], column, len(names))]
+        columns.append([*start, *points])
+    return Course(columns, now_ns, tolerances)
+
+
+def _point(time_s: float, point: Message, column: int, width: int) -> JointPoint:
+    def value(what: str) -> float | None:
+        values = getattr(point, what)
+        if len(values) == 0:
+            return None
+        if len(values) != width or not math.isfinite(values[column]):
+            raise GoalError(GoalError.INVALID_GOAL, f"{what} of a point are not {width} finite numbers")
+        return float(values[column])
+
+    position = value("positions")
+    if position is None:
+        raise GoalError(
+            GoalError.INVALID_GOAL, "a point has no positions; trajectories of speeds alone are not followed"
+        )
+    return JointPoint(time_s, position, value("velocities"), value("accelerations"))
