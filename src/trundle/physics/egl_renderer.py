@@ -36,18 +36,7 @@ class EglRenderer:
         """
         self._context = _make_context()
         self._background = np.array([round(255 * share) for share in scene.background[:3]], dtype=np.uint8)
-        spec = mujoco.MjSpec()
-        spec.visual.quality.offsamples = 0
-        spec.visual.headlight.ambient = scene.ambient[:3]
-        spec.visual.headlight.diffuse = spec.visual.headlight.specular = (0.0, 0.0, 0.0)
-        spec.stat.extent = 1.0
-        bodies = [spec.worldbody.add_body(name=f"b{i}", mocap=True) for i in range(len(scene.bodies))]
-        meshes: dict[int, str] = {}
-        for number, shape in enumerate(scene.shapes):
-            _add_shape(spec, bodies[shape.body], shape, f"s{number}", meshes)
-        for light in scene.lights or _DEFAULT_LIGHTS:
-            _add_light(spec.worldbody if light.body is None else bodies[light.body], light)
-        self._model = spec.compile()
+        self._model = model_of(scene)
         self._data = mujoco.MjData(self._model)
         names = [self._model.geom(i).name for i in range(self._model.ngeom)]
         self._shape_of_geom = np.array([*(int(name[1:]) for name in names), -1], dtype=np.int32)
@@ -123,6 +112,22 @@ class EglRenderer:
             geoms[geom.segid + 1] = self._shape_of_geom[geom.objid]
         words = ids.astype(np.int32) @ np.array([1, 256, 65536], dtype=np.int32)
         return np.ascontiguousarray(geoms[words][::-1])
+
+
+def model_of(scene: Scene) -> mujoco.MjModel:
+    """A scene as a model that is only looked at: each body, `b0` and so on, is where its pose puts it."""
+    spec = mujoco.MjSpec()
+    spec.visual.quality.offsamples = 0
+    spec.visual.headlight.ambient = scene.ambient[:3]
+    spec.visual.headlight.diffuse = spec.visual.headlight.specular = (0.0, 0.0, 0.0)
+    spec.stat.extent = 1.0
+    bodies = [spec.worldbody.add_body(name=f"b{i}", mocap=True) for i in range(len(scene.bodies))]
+    meshes: dict[int, str] = {}
+    for number, shape in enumerate(scene.shapes):
+        _add_shape(spec, bodies[shape.body], shape, f"s{number}", meshes)
+    for light in scene.lights or _DEFAULT_LIGHTS:
+        _add_light(spec.worldbody if light.body is None else bodies[light.body], light)
+    return spec.compile()
 
 
 class _Context(Protocol):
