@@ -12,24 +12,24 @@ struct Corner {
   float u, v, nearness;  // in the picture [px, px], and as in the buffer
 };
 
-// Which side of an edge a pixel's centre is on.
+// Which side of an edge a pixel's centre is on: inside is above `least`.
 struct Edge {
-  float u0, v0, du, dv, sign;
-  bool owns;  // centres on the edge itself
+  float u0, v0, du, dv, least;
 
   Edge(const Corner& a, const Corner& b) {
     const bool ordered = a.v < b.v || (a.v == b.v && a.u < b.u);
     const Corner& from = ordered ? a : b;
     const Corner& to = ordered ? b : a;
-    u0 = from.u, v0 = from.v, du = to.u - from.u, dv = to.v - from.v;
-    sign = ordered ? 1.0f : -1.0f;
-    owns = ordered;
+    u0 = from.u, v0 = from.v;
+    du = ordered ? to.u - from.u : from.u - to.u, dv = ordered ? to.v - from.v : from.v - to.v;
+    least = ordered ? -1e-45f : 0.0f;  // centres on the edge itself belong to one side
   }
-  I holds(F u, float v) const {
-    const F side = ((u - u0) * dv - (v - v0) * du) * sign;
-    return owns ? side >= 0.0f : side > 0.0f;
-  }
+  I holds(F u, float along_row) const { return (u - u0) * dv - along_row > least; }
+  float along_row(float v) const { return (v - v0) * du; }
 };
+
+inline float least_of(float a, float b) { return a < b ? a : b; }
+inline float most_of(float a, float b) { return a > b ? a : b; }
 
 inline void project(const View& view, Corner& corner) {
   if (view.parallel) {
@@ -54,28 +54,30 @@ inline int first_past(float coordinate, int last) { return kept_inside(__builtin
 // Counter-clockwise from outside; seen from behind, nothing is drawn.
 inline void draw_triangle(const View& view, const Buffers& buffers, const Corner& a, const Corner& b, const Corner& c,
                           int32_t id) {
-  const float left = __builtin_fminf(a.u, __builtin_fminf(b.u, c.u));
-  const float right = __builtin_fmaxf(a.u, __builtin_fmaxf(b.u, c.u));
-  const float top = __builtin_fminf(a.v, __builtin_fminf(b.v, c.v));
-  const float bottom = __builtin_fmaxf(a.v, __builtin_fmaxf(b.v, c.v));
-  const int column0 = first_at(left, view.width), row0 = first_at(top, view.height);
-  const int column1 = first_past(right, view.width), row1 = first_past(bottom, view.height);
-  if (column0 >= column1 || row0 >= row1) return;
   const double bu = (double)b.u - a.u, bv = (double)b.v - a.v, cu = (double)c.u - a.u, cv = (double)c.v - a.v;
   const double area = bu * cv - bv * cu;
   if (!(area < 0.0)) return;  // v runs downwards, so that front sides turn the other way
-  const double bn = (double)b.nearness - a.nearness, cn = (double)c.nearness - a.nearness;
-  const float along_u = (float)((bn * cv - cn * bv) / area), along_v = (float)((cn * bu - bn * cu) / area);
+  const int row0 = first_at(least_of(a.v, least_of(b.v, c.v)), view.height);
+  const int row1 = first_past(most_of(a.v, most_of(b.v, c.v)), view.height);
+  const int column0 = first_at(least_of(a.u, least_of(b.u, c.u)), view.width);
+  const int column1 = first_past(most_of(a.u, most_of(b.u, c.u)), view.width);
+  if (column0 >= column1 || row0 >= row1) return;
+  const double bn = (double)b.nearness - a.nearness, cn = (double)c.nearness - a.nearness, share = 1.0 / area;
+  const float along_u = (float)((bn * cv - cn * bv) * share), along_v = (float)((cn * bu - bn * cu) * share);
   const Edge ab(a, b), bc(b, c), ca(c, a);
   const float nearest = view.parallel ? -view.near_ : 1.0f / view.near_;
+  const int start = column0 < view.stride - kLanes ? column0 : view.stride - kLanes;
   for (int row = row0; row < row1; ++row) {
     const float v = (float)row + 0.5f;
     const float row_nearness = a.nearness + along_v * (v - a.v);
-    for (int column = column0 / kLanes * kLanes; column < column1; column += kLanes) {
-      const F u = counting() + ((float)column + 0.5f);
-      const I inside = ab.holds(u, v) & bc.holds(u, v) & ca.holds(u, v);
+    const float row_ab = ab.along_row(v), row_bc = bc.along_row(v), row_ca = ca.along_row(v);
+    for (int column = start; column < column1; column += kLanes) {
+      // Not beyond the row: what is left of the last columns is looked at twice, and is the same.
+      const int from = column < view.stride - kLanes ? column : view.stride - kLanes;
+      const F u = counting() + ((float)from + 0.5f);
+      const I inside = ab.holds(u, row_ab) & bc.holds(u, row_bc) & ca.holds(u, row_ca);
       if (!any(inside)) continue;
-      const int at = row * view.stride + column;
+      const int at = row * view.stride + from;
       const F nearness = min(row_nearness + along_u * (u - a.u), splat(nearest));
       const F before = load(buffers.nearness + at);
       const I seen = inside & (nearness > before);
