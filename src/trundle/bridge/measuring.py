@@ -103,7 +103,7 @@ class ScanTopic:
     def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: RangeSensor, world: World) -> None:
         """Advertise, and place the sensor's frame."""
         self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
-        self._period_s = sensor.period_ns / 1e9
+        self._period_s = float(sensor.period_ns) / 1e9
         self._directions = directions_of(sensor.scan)
         if sensor.scan.vertical.samples == 1:
             self._topic = node.advertise(topic_of(sensor, "scan"), "sensor_msgs/LaserScan", queue_size=5)

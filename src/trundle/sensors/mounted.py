@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Generic, TypeVar
 
 from trundle.model import Link, Model, Sensor
@@ -18,6 +19,11 @@ Reading = TypeVar("Reading")
 class _Listener(Generic[Reading]):
     call: Callable[[Reading], None]
     wanted: Callable[[], bool]
+
+
+def _period_ns(rate_hz: float) -> Fraction:
+    """Exact, so that a sensor keeps step with its rate for days; 0.1 Hz is taken for a tenth, as it is meant."""
+    return NS / (Fraction(rate_hz).limit_denominator(1_000_000) or Fraction(rate_hz))
 
 
 class MountedSensor(Generic[Reading]):
@@ -42,7 +48,7 @@ class MountedSensor(Generic[Reading]):
         self.place = link.name
         """What its topics are called after: its link, or the joint it sits on."""
         rate = sensor.update_rate_hz or fastest_hz
-        self.period_ns = 0 if rate is None else round(NS / rate)
+        self.period_ns = 0 if rate is None else _period_ns(rate)
         self._listeners: list[_Listener[Reading]] = []
 
     @property

@@ -6,12 +6,16 @@ the world, then every `before_step` that is due acts on it; each in the order th
 """
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from fractions import Fraction
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from .snapshot import Snapshot
 
 if TYPE_CHECKING:
     from .simulation import Simulation
+
+Period: TypeAlias = int | Fraction
+"""[ns]"""
 
 
 class BeforeStep(Protocol):
@@ -31,28 +35,28 @@ class AfterStep(Protocol):
 
 
 class Alarm:
-    """Comes due at multiples of a period, counted from a start: never early, and late by less than a step."""
+    """Comes due at multiples of a period, counted from a start: never early, and late by less than a step.
 
-    def __init__(self, period_ns: int, step_ns: int, *, start_ns: int) -> None:
+    A period that is no whole number of nanoseconds is a fraction: nothing adds up, however long it runs.
+    """
+
+    def __init__(self, period_ns: Period, step_ns: int, *, start_ns: Period) -> None:
         self._period_ns = max(period_ns, step_ns)
         self._step_ns = step_ns
         self.restart(start_ns)
 
-    def restart(self, start_ns: int) -> None:
+    def restart(self, start_ns: Period) -> None:
         """Come due first at this time [ns]."""
         self._next_ns = start_ns
-
-    @property
-    def step(self) -> int:
+        self.step = -(-start_ns // self._step_ns)
         """The number of the step it is due at."""
-        return -(-self._next_ns // self._step_ns)
 
     def rings(self, step: int) -> bool:
         """Whether it is due; if so, it is set to its next time."""
-        late_ns = step * self._step_ns - self._next_ns
-        if late_ns < 0:
+        if step < self.step:
             return False
-        self._next_ns += (late_ns // self._period_ns + 1) * self._period_ns
+        late_ns = step * self._step_ns - self._next_ns
+        self.restart(self._next_ns + (late_ns // self._period_ns + 1) * self._period_ns)
         return True
 
 
@@ -60,7 +64,7 @@ class ScheduledHook:
     """A hook and its alarms: it acts at once and then every period, and looks after the first period."""
 
     def __init__(
-        self, hook: object, period_ns: int, step_ns: int, *, now_ns: int, wanted: Callable[[], bool] | None
+        self, hook: object, period_ns: Period, step_ns: int, *, now_ns: int, wanted: Callable[[], bool] | None
     ) -> None:
         self.wanted = wanted
         self.awake = True

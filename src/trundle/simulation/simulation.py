@@ -16,7 +16,7 @@ from trundle.spatial import Pose, Twist, Wrench
 
 from .attaching import attached
 from .handles import ModelHandle, handles_of
-from .hooks import AfterStep, BeforeStep, ScheduledHook
+from .hooks import AfterStep, BeforeStep, Period, ScheduledHook
 from .joint_handle import JointHandle
 from .line import Line
 from .snapshot import Snapshot
@@ -130,7 +130,7 @@ class Simulation:
                 after(snapshot)
 
     def add_hook(
-        self, hook: BeforeStep | AfterStep, *, period_ns: int = 0, wanted: Callable[[], bool] | None = None
+        self, hook: BeforeStep | AfterStep, *, period_ns: Period = 0, wanted: Callable[[], bool] | None = None
     ) -> None:
         """Have a hook called as time passes.
 

@@ -22,7 +22,7 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
         type=type_,
         at=node.at,
         link_from_sensor=graph.within(owner, read_pose(node, context), node.at),
-        update_rate_hz=max(0.0, node.number("update_rate", default=0.0, report=report)),
+        update_rate_hz=_rate(node, context),
         always_on=node.flag("always_on", default=False, report=report),
         visualize=node.flag("visualize", default=False, report=report),
         topic=node.string("topic"),
@@ -40,6 +40,14 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
     else:
         leave_out(node, [child.tag for child in node.unread()], f"of type {type_!r} is not read yet", context)
     return sensor
+
+
+def _rate(node: XmlNode, context: Context) -> float:
+    rate = node.number("update_rate", default=0.0, report=context.report)
+    if rate >= 0.0:
+        return rate
+    context.report.warn(node.at, f"an update_rate of {rate:g} Hz is not possible; 0, as often as it goes, is used")
+    return 0.0
 
 
 def read_plugin(node: XmlNode) -> PluginTag:

@@ -1,0 +1,181 @@
+"""When sensors measure: at their rate to the step for as long as it runs, and only if somebody wants to know."""
+
+from collections import Counter
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+
+import trundle
+from trundle.diagnostics import Diagnostics
+from trundle.render import Intrinsics, Picture, Scene
+from trundle.sensors import SIMULATED, mount_cameras, mount_sensors
+from trundle.simulation import Simulation
+from trundle.spatial import Pose
+
+MS = 1_000_000
+BODY = "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
+ON_JOINTS = ("force_torque",)
+UNHEARD = ("rfidtag", "wireless_transmitter")
+"""They measure nothing: others look for them."""
+
+
+class Blank:
+    """Draws nothing and counts how often."""
+
+    def __init__(self, scene: Scene) -> None:
+        del scene
+        self.updates = 0
+        self.renders = 0
+
+    def update(self, poses: Any) -> None:
+        del poses
+        self.updates += 1
+
+    def render(
+        self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
+    ) -> Picture:
+        del world_from_camera
+        self.renders += 1
+        size = (intrinsics.height_px, intrinsics.width_px)
+        return Picture(
+            np.zeros((*size, 3), dtype=np.uint8),
+            np.ones(size, dtype=np.float32) if depth else None,
+            np.full(size, -1, dtype=np.int32) if segmentation else None,
+        )
+
+
+def sensor(type_: str, *, rate: float, more: str = "", name: str = "s") -> str:
+    small = "<camera><image><width>8</width><height>6</height></image></camera>"
+    scan = "<ray><scan><horizontal><samples>3</samples></horizontal></scan><range><max>5</max></range></ray>"
+    inside = scan if type_ in ("ray", "gpu_ray", "lidar", "gpu_lidar") else ""
+    inside = small if "camera" in type_ or type_ in _SEEING else inside
+    inside = "" if type_ == "logical_camera" else inside
+    return f'<sensor name="{name}" type="{type_}"><update_rate>{rate}</update_rate>{more}{inside}</sensor>'
+
+
+_SEEING = ("depth", "rgbd", "segmentation", "boundingbox", "thermal")
+
+
+def robot(sensors: str, *, on_joint: str = "") -> str:
+    joint = f'<joint name="j" type="fixed"><parent>world</parent><child>l</child>{on_joint}</joint>'
+    return f'<model name="m"><link name="l">{BODY}{sensors}</link>{joint}</model>'
+
+
+@pytest.fixture
+def load(tmp_path: Any) -> Any:
+    """Read what is inside a <world> and mount its sensors."""
+
+    def load(inside: str) -> tuple[Simulation, list[Any]]:
+        file = tmp_path / "w.sdf"
+        file.write_text(f'<sdf version="1.6"><world name="w">{inside}</world></sdf>')
+        sim = trundle.load(str(file))
+        mounted = [*mount_cameras(sim.world, Blank, Diagnostics()), *mount_sensors(sim)]
+        for one in mounted:
+            sim.add_hook(one, period_ns=one.period_ns, wanted=one.wanted)
+        return sim, mounted
+
+    return load
+
+
+def of_type(type_: str, *, rate: float = 50.0, more: str = "") -> str:
+    one = sensor(type_, rate=rate, more=more)
+    return robot("", on_joint=one) if type_ in ON_JOINTS else robot(one)
+
+
+@pytest.mark.parametrize("rate", [1, 7, 30, 59.94, 60, 144])
+def test_readings_come_at_exact_multiples_of_the_period(load: Any, rate: float) -> None:
+    """Each at the first step that is not before its time; a period rounded to nanoseconds is late after a second."""
+    sim, (imu,) = load(of_type("imu", rate=rate))
+    stamps: list[int] = []
+    imu.listen(lambda reading: stamps.append(reading.time_ns))
+    sim.run(20.0)
+
+    exact = Fraction(str(rate))
+    assert stamps == [-(-1000 * k // exact) * MS for k in range(1, int(20 * exact) + 1)]
+
+
+@pytest.mark.parametrize("type_", sorted(SIMULATED - set(UNHEARD)))
+def test_a_sensor_that_nobody_wants_measures_nothing_and_costs_no_stride(load: Any, type_: str) -> None:
+    sim, (mounted,) = load(of_type(type_))
+    mounted.listen(lambda _: pytest.fail("nobody wanted it"), wanted=lambda: False)
+    mounted.take = lambda _: pytest.fail("nobody wanted it")
+    strides: list[int] = []
+    step = sim.engine.step
+    sim.engine.step = lambda count: (strides.append(count), step(count))
+    sim.run(0.5)
+
+    assert strides == [500]
+
+
+@pytest.mark.parametrize("type_", sorted(SIMULATED - set(UNHEARD)))
+def test_a_sensor_that_is_always_on_measures_for_nobody(load: Any, type_: str) -> None:
+    sim, (mounted,) = load(of_type(type_, more="<always_on>1</always_on>"))
+    taken: list[int] = []
+    take = mounted.take
+
+    def counted(snapshot: Any) -> Any:
+        taken.append(snapshot.time_ns // MS)
+        return take(snapshot)
+
+    mounted.take = counted
+    sim.run(0.1)
+
+    assert taken == [20, 40, 60, 80, 100]
+
+
+@pytest.mark.parametrize("type_", UNHEARD)
+def test_what_others_look_for_is_no_sensor_of_its_own(load: Any, type_: str) -> None:
+    _, mounted = load(of_type(type_))
+    assert mounted == []
+
+
+def test_a_reading_is_of_the_instant_that_it_is_stamped_with(load: Any) -> None:
+    """A barometer in free fall reads the pressure of where it is then."""
+    sim, (barometer,) = load(f'<model name="m"><link name="l">{BODY}{sensor("air_pressure", rate=30)}</link></model>')
+    readings: list[Any] = []
+    barometer.listen(readings.append)
+    sim.run(1.0)
+
+    for reading in readings:
+        drop = 0.5 * 9.8 * (reading.time_ns / 1e9) ** 2
+        assert reading.pressure == pytest.approx(101325.0 + 12.013 * drop, abs=0.6)
+    assert len(readings) == 30
+
+
+def test_many_cameras_cost_each_its_own_picture_and_place_the_world_once(load: Any) -> None:
+    """24 cameras on one robot: 24 pictures an instant, one update; half of them cost half."""
+    small = "<camera><image><width>160</width><height>120</height></image></camera>"
+    eyes = "".join(
+        f'<sensor name="e{i}" type="camera"><update_rate>10</update_rate>{small}</sensor>' for i in range(24)
+    )
+    work: Counter[int] = Counter()
+    for looked_at in (24, 12):
+        sim, cameras = load(robot(eyes))
+        for camera in cameras[:looked_at]:
+            camera.listen(lambda _: None)
+        renderer = cameras[0].scenery._renderer
+        sim.run(1.0)
+        assert renderer.updates == 10
+        work[looked_at] = renderer.renders
+    assert work == {24: 240, 12: 120}
+
+
+@pytest.mark.parametrize("rate", ["-5", "nan", "inf"])
+def test_a_rate_that_cannot_be_is_mended_aloud(load: Any, rate: str) -> None:
+    one = f'<sensor name="s" type="camera"><update_rate>{rate}</update_rate></sensor>'
+    sim, (camera,) = load(robot(one))
+
+    assert camera.period_ns == Fraction(10**9, 30)
+    assert any("w.sdf:1: warning: " in warning and "0" in warning for warning in sim.report.warnings)
+
+
+@pytest.mark.parametrize("rate", [1e-9, 1e300])
+def test_a_rate_beyond_all_measure_is_as_slow_or_fast_as_can_be(load: Any, rate: float) -> None:
+    sim, (imu,) = load(of_type("imu", rate=rate, more="<always_on>1</always_on>"))
+    stamps: list[int] = []
+    imu.listen(lambda reading: stamps.append(reading.time_ns))
+    sim.run(0.01)
+
+    assert len(stamps) == (0 if rate < 1 else 10)
