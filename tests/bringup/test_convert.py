@@ -15,9 +15,10 @@ from PIL import Image
 from trundle.cli import main
 from trundle.description import load
 from trundle.diagnostics import Diagnostics
-from trundle.model import MeshFile
+from trundle.model import MeshFile, flattened
 from trundle.packages import Packages
 from trundle.physics import compile_mjcf, compile_world
+from trundle.render import scene_of
 
 MESH = "<visual name='v'><geometry><mesh><uri>{uri}</uri></mesh></geometry></visual>"
 MODEL = """<sdf version='1.6'><model name='cart'><link name='base'>{visuals}
@@ -183,7 +184,9 @@ def test_every_published_model_is_mjcf_that_loads_as_it_was(shared: Path) -> Non
         ours = compile_world(world, Diagnostics()).model
         if not ours.nv:
             continue
-        theirs = mujoco.MjModel.from_xml_string(compile_mjcf(world, Diagnostics()))
+        theirs = mujoco.MjModel.from_xml_string(
+            compile_mjcf(world, scene_of(flattened(world), Diagnostics()), Diagnostics())
+        )
         for name in ("body_mass", "body_inertia", "body_pos", "body_quat", "jnt_axis", "jnt_range", "dof_damping"):
             assert getattr(theirs, name) == pytest.approx(getattr(ours, name), rel=1e-9, abs=1e-11), (path, name)
         count += 1

@@ -8,7 +8,6 @@ import math
 from collections.abc import Iterator
 
 from trundle.description import Loaded
-from trundle.launch import LaunchPlan, ParamCommand
 from trundle.model import Frame, Joint, JointAxis, JointType, Link, Mimic, Model, World, model_from_joint
 from trundle.robot import Robot, root_from_links
 
@@ -30,44 +29,6 @@ def described(loaded: Loaded) -> dict[str, object]:
     if loaded.robot is not None:
         result["urdf"] = _urdf(loaded.robot)
     return result
-
-
-def launch_described(plan: LaunchPlan) -> dict[str, object]:
-    """A launch file; commands are named, not run."""
-    return {
-        "kind": "launch",
-        "nodes": [
-            {
-                "name": node.full_name,
-                "package": node.package,
-                "type": node.type,
-                "args": node.arguments,
-                "remaps": [list(pair) for pair in node.remappings],
-                "required": node.required,
-                "respawn": node.respawn,
-            }
-            for node in plan.nodes
-        ],
-        "params": {
-            param.name: {"command": param.value.line} if isinstance(param.value, ParamCommand) else _plain(param.value)
-            for param in plan.params
-        },
-    }
-
-
-def _plain(value: object) -> object:
-    """A parameter's value as JSON has it: bytes and numbers that are none become text."""
-    match value:
-        case bytes():
-            return value.hex()
-        case float() if not math.isfinite(value):
-            return str(value)
-        case list():
-            return [_plain(each) for each in value]
-        case dict():
-            return {str(key): _plain(each) for key, each in value.items()}
-        case _:
-            return value
 
 
 def _model(model: Model) -> dict[str, object]:

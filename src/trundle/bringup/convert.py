@@ -57,9 +57,10 @@ def _written(loaded: Loaded, to: Format, uri_of: UriOf, report: Diagnostics) -> 
         case "sdf":
             return write_sdf(loaded.world, is_world=loaded.kind == "world", uri_of=uri_of, report=report)
         case "mjcf":
-            from trundle.physics import compile_mjcf  # slow to load, and no other format needs it
+            from trundle.physics import compile_mjcf  # slow to load, and no other format needs them
+            from trundle.render import scene_of
 
-            return compile_mjcf(loaded.world, report)
+            return compile_mjcf(loaded.world, scene_of(flattened(loaded.world), report), report)
         case "urdf" if loaded.urdf is not None:
             return loaded.urdf
         case "urdf":

@@ -1,6 +1,7 @@
 """A world as MuJoCo's own XML: what is simulated, and what is seen."""
 
 import hashlib
+from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
@@ -8,11 +9,13 @@ import numpy as np
 from trundle.diagnostics import Diagnostics
 from trundle.meshes import Mesh, mean_colour
 from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Rgba, Sphere, World, flattened
-from trundle.render import SceneLight, Shape, scene_of
 from trundle.spatial import Pose, upright
 
 from .compile import Compiler
 from .precise import in_full
+
+if TYPE_CHECKING:  # an engine that steps needs no renderer
+    from trundle.render import Scene, SceneLight, Shape
 
 _VISUAL = 2
 """The geom group of what is seen and never touched, as MuJoCo's own robots have it."""
@@ -22,8 +25,13 @@ _FEWEST_VERTICES = 4
 """MuJoCo takes no mesh of fewer."""
 
 
-def compile_mjcf(world: World, report: Diagnostics) -> str:
-    """The world as MuJoCo's own XML, shapes of meshes inside, every number in full.
+def compile_mjcf(world: World, scene: "Scene", report: Diagnostics) -> str:
+    """A world as MuJoCo's own XML, shapes of meshes inside, every number in full.
+
+    Args:
+        world: as read.
+        scene: how the flattened world looks.
+        report: takes what physics has to mend.
 
     Raises:
         DescriptionError: as `compile_world`.
@@ -31,7 +39,7 @@ def compile_mjcf(world: World, report: Diagnostics) -> str:
     world = flattened(world)
     compiler = Compiler(world, report)
     compiler.fill()
-    _Looks(compiler, world, report).add()
+    _Looks(compiler, scene, report).add()
     compiler.compile_spec()
     return in_full(compiler.spec.to_xml(), compiler.spec)
 
@@ -39,11 +47,11 @@ def compile_mjcf(world: World, report: Diagnostics) -> str:
 class _Looks:
     """Adds visuals and lights to what is simulated."""
 
-    def __init__(self, compiler: Compiler, world: World, report: Diagnostics) -> None:
+    def __init__(self, compiler: Compiler, scene: "Scene", report: Diagnostics) -> None:
         self._spec = compiler.spec
-        self._scene = scene_of(world, report)
+        self._scene = scene
         self._bodies = [compiler.bodies[name] for name in self._scene.bodies]
-        self._world, self._report = world, report
+        self._at, self._report = compiler.world.at, report
         self._meshes: dict[bytes, str] = {}
         """By what the mesh is made of; one may be seen many times."""
         self._materials: dict[tuple[Rgba, float, float, float], str] = {}
@@ -51,13 +59,13 @@ class _Looks:
     def add(self) -> None:
         """Add everything that is seen."""
         if any(shape.texture is not None for shape in self._scene.shapes):
-            self._report.warn(self._world.at, "textures are not written to MJCF; each shape has its mean colour")
+            self._report.warn(self._at, "textures are not written to MJCF; each shape has its mean colour")
         for shape in self._scene.shapes:
             self._add_shape(shape)
         for number, light in enumerate(self._scene.lights):
             self._add_light(light, number)
 
-    def _add_shape(self, shape: Shape) -> None:
+    def _add_shape(self, shape: "Shape") -> None:
         pose = shape.body_from_shape
         if isinstance(shape.geometry, Plane):
             pose = pose @ Pose(quaternion=upright(shape.geometry.normal))
@@ -96,7 +104,7 @@ class _Looks:
             )
         return self._meshes[key]
 
-    def _material(self, shape: Shape) -> str:
+    def _material(self, shape: "Shape") -> str:
         rgba = shape.rgba
         mean = None if shape.texture is None else mean_colour(shape.texture)
         if mean is not None:
@@ -112,7 +120,7 @@ class _Looks:
             )
         return self._materials[look]
 
-    def _add_light(self, light: SceneLight, number: int) -> None:
+    def _add_light(self, light: "SceneLight", number: int) -> None:
         body = self._spec.worldbody if light.body is None else self._bodies[light.body]
         kinds = {
             "directional": mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,

@@ -2,13 +2,11 @@
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
 from trundle.model import Box, Capsule, Collision, Cone, Cylinder, Ellipsoid, Geometry, Inertial, Link, Sphere
-from trundle.spatial import Pose, Vector3, rotate
+from trundle.spatial import Pose, Vector3
 from trundle.xmlnode import XmlNode
 
+from ..bodies import together, turned
 from .context import Context
 
 _WATER = 1000.0
@@ -37,17 +35,13 @@ def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inert
     if not total > 0.0:
         report.warn(node.at, f"link {link.name!r}: nothing to weigh automatically; 1 kg and 1 kg·m² are used")
         return Inertial()
-    centre = sum((mass * np.array(pose.position) for mass, pose, _ in bodies), start=np.zeros(3)) / total
-    tensor = sum((_about(centre, *body) for body in bodies), start=np.zeros((3, 3)))
+    tensors = [
+        (mass, pose.position, turned((*moments, 0.0, 0.0, 0.0), pose.quaternion)) for mass, pose, moments in bodies
+    ]
+    total, centre, tensor = together(tensors)
     mass = link.inertial.mass if inertial.find("mass") is not None else total
-    tensor *= mass / total
-    x, y, z = (float(c) for c in centre)
-    return Inertial(
-        mass=mass,
-        link_from_com=Pose((x, y, z)),
-        moments=(float(tensor[0, 0]), float(tensor[1, 1]), float(tensor[2, 2])),
-        products=(float(tensor[0, 1]), float(tensor[0, 2]), float(tensor[1, 2])),
-    )
+    ixx, iyy, izz, ixy, ixz, iyz = (value * mass / total for value in tensor)
+    return Inertial(mass=mass, link_from_com=Pose(centre), moments=(ixx, iyy, izz), products=(ixy, ixz, iyz))
 
 
 def _pose(collision: Collision) -> Pose:
@@ -84,11 +78,3 @@ def _capsule(r: float, h: float) -> tuple[float, Vector3]:
     along = (cylinder * r * r / 2 + ball * 0.4 * r * r) / volume
     across = cylinder * (3 * r * r + h * h) / 12 + ball * (0.4 * r * r + h * h / 4 + 3 / 8 * h * r)
     return volume, (across / volume, across / volume, along)
-
-
-def _about(centre: NDArray[np.float64], mass: float, pose: Pose, moments: Vector3) -> NDArray[np.float64]:
-    """A body's inertia about a point, in the link's axes, by the parallel axis theorem."""
-    axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    rotation = np.array([rotate(pose.quaternion, axis) for axis in axes]).T
-    arm = np.array(pose.position) - centre
-    return rotation @ np.diag(moments) @ rotation.T + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))

@@ -2,12 +2,11 @@
 
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
 from trundle.model import Inertial
 from trundle.robot import Robot, RobotInertial, RobotShape
-from trundle.spatial import Pose, Quaternion, Vector3, rotate
+from trundle.spatial import Pose, Quaternion
+
+from ..bodies import together, turned
 
 WORLD = "world"
 
@@ -65,35 +64,11 @@ def lumped_inertial(parts: list[tuple[RobotInertial, Pose]], orientation: Quater
         parts: each with lump_from_link.
         orientation: of the axes to express it in, seen from the lump's frame.
     """
-    mass = sum(part.mass for part, _ in parts)
-    coms = [(pose @ part.link_from_com) for part, pose in parts]
-    center = np.average([com.position for com in coms], axis=0, weights=[part.mass for part, _ in parts])
-    total = np.zeros((3, 3))
-    for (part, _), com in zip(parts, coms, strict=True):
-        rotation = _matrix(com)
-        arm = np.array(com.position) - center
-        total += rotation @ _tensor(part) @ rotation.T
-        total += part.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    axes = _matrix(Pose(quaternion=orientation))
-    total = axes.T @ total @ axes
-    x, y, z = (float(c) for c in center)
+    coms = [(part, pose @ part.link_from_com) for part, pose in parts]
+    bodies = [(part.mass, com.position, turned((*part.moments, *part.products), com.quaternion)) for part, com in coms]
+    mass, center, tensor = together(bodies)
+    w, x, y, z = orientation
+    ixx, iyy, izz, ixy, ixz, iyz = turned(tensor, (w, -x, -y, -z))
     return Inertial(
-        mass=mass,
-        link_from_com=Pose((x, y, z), orientation),
-        moments=_three(total[0, 0], total[1, 1], total[2, 2]),
-        products=_three(total[0, 1], total[0, 2], total[1, 2]),
+        mass=mass, link_from_com=Pose(center, orientation), moments=(ixx, iyy, izz), products=(ixy, ixz, iyz)
     )
-
-
-def _three(x: float, y: float, z: float) -> Vector3:
-    return (float(x), float(y), float(z))
-
-
-def _matrix(pose: Pose) -> NDArray[np.float64]:
-    axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    return np.array([rotate(pose.quaternion, axis) for axis in axes]).T
-
-
-def _tensor(part: RobotInertial) -> NDArray[np.float64]:
-    (ixx, iyy, izz), (ixy, ixz, iyz) = part.moments, part.products
-    return np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])

@@ -1,0 +1,84 @@
+"""`trundle check` of a robot, a model or a world."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from trundle.description import Loaded
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.diagram import TreeNode
+from trundle.model import World, flattened
+from trundle.packages import Packages
+
+from .check_json import described
+from .described_file import load_described
+from .doubts import name_doubts
+from .kinematic_tree import kinematic_trees
+from .unremarkable import is_unremarkable
+
+
+@dataclass(frozen=True, slots=True)
+class FoundDescription:
+    """What was read, and the same without nested models."""
+
+    loaded: Loaded
+    flat: World
+
+    def as_json(self) -> dict[str, object]:
+        """As `check --json` prints it."""
+        return described(self.loaded)
+
+    def trees(self) -> list[TreeNode]:
+        """Of each model."""
+        return kinematic_trees(self.loaded)
+
+    def sentence(self) -> str:
+        """How many of what."""
+        models = self.flat.models
+        links = sum(len(model.links) for model in models)
+        joints = sum(len(model.joints) for model in models)
+        sensors = sum(len(link.sensors) for model in models for link in model.links)
+        what = {"world": "a world", "model": "a model", "urdf": "a URDF"}[self.loaded.kind]
+        version = f" (SDF {self.flat.sdf_version})" if self.flat.sdf_version else ""
+        return f"{what}{version}: {len(models)} models, {links} links, {joints} joints, {sensors} sensors"
+
+
+def check_description(file: str, *, packages: Packages, start: Path, report: Diagnostics) -> FoundDescription:
+    """Read a description and put it to use as far as shows what is wrong with it.
+
+    Args:
+        file: as `trundle check` takes it.
+        packages: where URIs lead.
+        start: relative URIs in standard input start here.
+        report: takes everything worth saying.
+
+    Raises:
+        DescriptionError: of which nothing sensible can be made.
+        UsageError: no such model.
+    """
+    loaded = load_described(file, report, packages=packages, start=start)
+    flat = flattened(loaded.world)
+    name_doubts(loaded, report)
+    _name_silent_sensors(flat, report)
+    if not is_unremarkable(flat):
+        _compile(flat, report)
+    return FoundDescription(loaded, flat)
+
+
+def _compile(flat: World, report: Diagnostics) -> None:
+    from trundle.physics import compile_world  # slow to load, and most robots need none of its mending
+
+    try:
+        compile_world(flat, report)
+    except DescriptionError as error:
+        report.error(error)
+
+
+def _name_silent_sensors(flat: World, report: Diagnostics) -> None:
+    sensors = [sensor for model in flat.models for link in model.links for sensor in link.sensors]
+    if not sensors:
+        return
+    from trundle.sensors import SIMULATED  # slow to load
+
+    for sensor in sensors:
+        if sensor.type not in SIMULATED:
+            report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")
