@@ -199,10 +199,7 @@ class GazeboWorld:
     def reset(self, *, time: bool) -> None:
         """Put everything back to where it came."""
         simulation = self.simulation
-        steps = simulation.steps
-        simulation.reset()
-        if not time:
-            simulation.steps = steps
+        simulation.reset(time=time)
         self._clock.set(simulation.time_ns)
         self._pacer.restart()
 

@@ -152,6 +152,10 @@ class Engine:
 
     # -- writing
 
+    def set_time(self, time_s: float) -> None:
+        """Say what time it is; nothing but messages depends on it."""
+        self._data.time = time_s
+
     def set_wrench(self, link: int, wrench: Wrench) -> None:
         """Hold a force [N] at the link's centre of mass and a torque [N·m], world axes, until set anew."""
         self._data.xfrc_applied[self.compiled.link_bodies[link]] = [*wrench.force, *wrench.torque]
@@ -248,9 +252,14 @@ class Engine:
 
     # -- keeping
 
-    def take_over(self, old: "Engine") -> None:
-        """Go on from where another engine is, with what is in both by the same name."""
-        carry_over((old._model, old._data), (self._model, self._data))
+    def take_over(self, old: "Engine", *, renamed: Mapping[str, str] | None = None) -> None:
+        """Go on from where another engine is, with what is in both by the same name.
+
+        Args:
+            old: the other.
+            renamed: models that were called otherwise there, old name to new one.
+        """
+        carry_over((old._model, old._data), (self._model, self._data), renamed or {})
         self._taken = old._taken
         self._leapt = True
         self.motors.forget()

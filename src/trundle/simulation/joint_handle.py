@@ -35,6 +35,11 @@ class JointHandle:
             raise UsageError(f"joint {self.name!r} is gone: its model was deleted")
         return self._index
 
+    @property
+    def is_there(self) -> bool:
+        """Whether its model is, still."""
+        return self._index is not None
+
     def move_to(self, index: int | None) -> None:
         """Be at another index, or nowhere any more; for the simulation alone."""
         self._index = index
@@ -93,20 +98,29 @@ class JointHandle:
         """
         return self._simulation.joint_reaction(self.index)
 
-    def set_effort(self, effort: float, *, axis: int = 0) -> None:
-        """Drive with this effort [N·m or N] until told otherwise, within the effort and speed limits."""
+    def set_effort(self, effort: float, *, axis: int = 0, duration_s: float | None = None) -> None:
+        """Drive with this effort [N·m or N], within the effort and speed limits.
+
+        Args:
+            effort: replaces whatever drove the axis before.
+            axis: which.
+            duration_s: simulation time; None: until told otherwise.
+        """
         self._simulation.engine.motors.set_effort(self._axis(axis), effort)
+        self._simulation.end_effort(self, axis, duration_s=duration_s)
 
     def set_velocity(
         self, velocity: float, *, max_effort: float = math.inf, axis: int = 0, often: bool = False
     ) -> None:
         """Keep this speed [rad/s or m/s] with at most so much effort, as Gazebo's SetVelocity with fmax; `often`: see
         `Motors.set_velocity`."""
+        self._simulation.end_effort(self, axis, duration_s=None)
         self._simulation.engine.motors.set_velocity(self._driven(axis), velocity, max_effort, often=often)
 
     def hold(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
         """Go to a position [rad or m] and stay, with at most so much effort; limits are respected."""
         driven = self._driven(axis)
+        self._simulation.end_effort(self, axis, duration_s=None)
         self._simulation.engine.motors.hold(driven, self._within_limits(position, driven), max_effort)
 
     def set_position(self, position: float, *, axis: int = 0) -> None:

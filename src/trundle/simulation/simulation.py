@@ -5,20 +5,23 @@ are due, let the engine step in C up to the next due time, call the `after_step`
 """
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from itertools import count
 from typing import TypeAlias
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, Model, World
 from trundle.physics import Contact, Engine, EngineState, GripLaw, compile_world
-from trundle.spatial import Pose, Twist, Wrench
+from trundle.spatial import Pose, Wrench
 
 from .attaching import attached
+from .changing import keep_free, renamed, renamed_in
 from .handles import ModelHandle, handles_of
 from .hooks import AfterStep, BeforeStep, Period, ScheduledHook
 from .joint_handle import JointHandle
 from .line import Line
+from .pushes import Ends, Pushes
 from .snapshot import Snapshot
 
 NS = 1_000_000_000
@@ -33,7 +36,7 @@ class SavedSimulation:
 
     steps: int
     engine: EngineState
-    wrench_ends: dict[int, int]
+    ends: Ends
 
 
 class Simulation:
@@ -64,11 +67,7 @@ class Simulation:
         self._hooks: list[ScheduledHook] = []
         self._on_change: list[Callable[[], None]] = []
         self._on_reset: list[Callable[[], None]] = []
-        self._wrench_ends: dict[int, int] = {}
-        """Link → the step after which its wrench ends."""
-        self._added_to: dict[int, Wrench] = {}
-        """Link → its lasting wrench, below what was added for the coming step."""
-        self._grips: dict[int, GripLaw] = {}
+        self._pushes = Pushes()
 
     @property
     def _first_world_joint(self) -> int:
@@ -113,12 +112,10 @@ class Simulation:
             for hook in hooks:
                 if hook.before is not None and hook.before_alarm.rings(self.steps):
                     hook.before(self)
-            stop = min(
-                [target, self.steps + _LONGEST, *(hook.next_step for hook in hooks), *self._wrench_ends.values()]
-            )
+            stop = min([target, self.steps + _LONGEST, *(hook.next_step for hook in hooks), *self._pushes.next_ends()])
             self.engine.step(stop - self.steps)
             self.steps = stop
-            self._end_wrenches()
+            self._pushes.end(self.engine, self.steps)
             self._look(hooks)
         self._drain()
 
@@ -172,56 +169,95 @@ class Simulation:
 
     def save(self) -> SavedSimulation:
         """Keep the state, to go back to it exactly."""
-        return SavedSimulation(self.steps, self.engine.save(), dict(self._wrench_ends))
+        return SavedSimulation(self.steps, self.engine.save(), self._pushes.ends.copy())
 
     def restore(self, saved: SavedSimulation) -> None:
         """Go back to a saved state; hooks are due as if time had just got there."""
         self.steps = saved.steps
         self.engine.restore(saved.engine)
-        self._wrench_ends = dict(saved.wrench_ends)
-        self._added_to.clear()
+        self._pushes.restore(saved.ends)
         for hook in self._hooks:
             hook.restart(self.steps, self.step_ns)
 
-    def reset(self) -> None:
-        """Go back to time zero: poses as loaded, motors off, nothing applied."""
-        self.steps = 0
-        self.engine.reset()
-        self._wrench_ends.clear()
-        self._added_to.clear()
-        for hook in self._hooks:
-            hook.restart(0, self.step_ns)
-        for call in self._on_reset:
-            call()
+    def reset(self, *, time: bool = True, poses: bool = True) -> None:
+        """Go back to the start.
+
+        Args:
+            time: to zero; else it goes on.
+            poses: as loaded, at rest, motors off, nothing applied; else everything stays as it is.
+        """
+        steps = self.steps
+        if poses:
+            self.engine.reset()
+            self._pushes.clear()
+        if time:
+            self.steps = 0
+            self._pushes.shift(-steps)
+            for hook in self._hooks:
+                hook.restart(0, self.step_ns)
+        self.engine.set_time(self.time_ns / NS)
+        if poses:
+            for call in self._on_reset:
+                call()
 
     def on_reset(self, call: Callable[[], None]) -> None:
-        """Have a function called after each reset."""
+        """Have a function called after each reset of poses."""
         self._on_reset.append(call)
 
     # -- models that come and go
 
-    def spawn(self, model: Model) -> ModelHandle:
+    def spawn(self, model: Model, *, allow_renaming: bool = False) -> ModelHandle:
         """Add a model; everything else stays as it is, to the bit.
+
+        Args:
+            model: put where its pose says.
+            allow_renaming: where there is one of that name, add _0 to it, else _1, …, as Gazebo does.
 
         Raises:
             UsageError: there is one of that name.
             DescriptionError: the engine cannot simulate it; nothing has changed.
         """
-        if any(there.name == model.name for there in self.world.models):
-            raise UsageError(f"there is a model {model.name!r} already")
+        if allow_renaming:
+            model = replace(model, name=self._free_name(model.name))
+        self._refuse_taken(model.name)
         self._go_on_with(replace(self.world, models=(*self.world.models, model)))
         return self.models[-1]
 
     def delete(self, name: str) -> None:
-        """Take a model out; everything else stays as it is, to the bit, and its handles remain good.
+        """Take a model out, and what joined it with others; everything else stays as it is, to the bit.
 
         Raises:
             UsageError: with the names there are.
         """
         gone = self[name]
-        self._go_on_with(replace(self.world, models=tuple(m for m in self.world.models if m.name != name)))
+        models = tuple(model for model in self.world.models if model.name != name)
+        ends = [(joint, (joint.parent, joint.child)) for joint in self.world.joints]
+        joints = tuple(joint for joint, links in ends if not any(link.startswith(f"{name}::") for link in links))
+        self._go_on_with(replace(self.world, models=models, joints=joints))
         gone.move_to(None, None)
         self.lines = {key: line for key, line in self.lines.items() if not key.startswith(f"{name}::")}
+
+    def rename(self, name: str, new: str) -> None:
+        """Give a model another name; everything stays as it is, to the bit, and its handle remains good.
+
+        Raises:
+            UsageError: there is none of that name, or one of the new one.
+        """
+        handle = self[name]
+        if new == name:
+            return
+        self._refuse_taken(new)
+        self._go_on_with(renamed(self.world, name, new), was={new: handle})
+        self.lines = {key.replace(f"{name}::", f"{new}::", 1): line for key, line in self.lines.items()}
+
+    def _refuse_taken(self, name: str) -> None:
+        if not name or any(there.name == name for there in self.world.models):
+            raise UsageError(f"there is a model {name!r} already" if name else "a model needs a name")
+
+    def _free_name(self, name: str) -> str:
+        taken = {model.name for model in self.world.models}
+        numbered = (f"{name}_{number}" for number in count())
+        return name if name not in taken else next(each for each in numbered if each not in taken)
 
     def attach(self, joint: Joint) -> JointHandle:
         """Join two links, or one and the world, where they are now; everything keeps its place.
@@ -245,9 +281,7 @@ class Simulation:
         if not any(joint.name == name for joint in self.joints):
             there = ", ".join(repr(joint.name) for joint in self.joints) or "none"
             raise UsageError(f"no joint {name!r} between models; there are: {there}")
-        gone = next(joint for joint in self.joints if joint.name == name)
         self._go_on_with(replace(self.world, joints=tuple(j for j in self.world.joints if j.name != name)))
-        gone.move_to(None)
 
     def fix_elsewhere(self, handle: ModelHandle, world_from_model: Pose) -> None:
         """Put a model that hangs from the world elsewhere; see `ModelHandle.set_pose`."""
@@ -274,27 +308,37 @@ class Simulation:
         """Have a function called after models came, went or were edited: indices may be others."""
         self._on_change.append(call)
 
-    def _go_on_with(self, world: World) -> None:
-        old = self.engine
+    def _go_on_with(self, world: World, *, was: Mapping[str, ModelHandle] | None = None) -> None:
+        """Compile a changed world and carry everything over.
+
+        Args:
+            world: the changed one.
+            was: models that had another name, by the new one.
+        """
+        was, old = was or {}, self.engine
         engine = Engine(compile_world(world, self.report))
-        engine.take_over(old)
-        _keep_free(old, engine)
+        names = {handle.name: new for new, handle in was.items()}
+        engine.take_over(old, renamed=names)
+        there = {name: i for i, name in enumerate(engine.compiled.link_names)}
+        before = enumerate(renamed_in(old.compiled.link_names, names))
+        links = {i: there[name] for i, name in before if name in there}
+        keep_free(old, engine, links)
         self.engine, self.world = engine, engine.compiled.world
-        links = {name: index for index, name in enumerate(engine.compiled.link_names)}
-        names = old.compiled.link_names
-        self._wrench_ends = {links[names[link]]: end for link, end in self._wrench_ends.items() if names[link] in links}
-        self._added_to = {links[names[link]]: w for link, w in self._added_to.items() if names[link] in links}
-        self._grips = {links[names[link]]: law for link, law in self._grips.items() if names[link] in links}
-        if self._grips:
-            engine.set_grips(self._grips)
-        known = {handle.name: handle for handle in self.models}
-        self.models[:] = handles_of(self, self.world, known)
-        joints = {handle.name: handle for handle in self.joints}
-        self.joints[:] = [joints.get(joint.name) or JointHandle(self, joint, 0) for joint in self.world.joints]
-        for i, joint in enumerate(self.joints, self._first_world_joint):
-            joint.move_to(i)
+        self.models[:] = handles_of(self, self.world, {handle.name: handle for handle in self.models} | dict(was))
+        self._find_world_joints()
+        self._pushes.carry_over(links, engine)
         for call in self._on_change:
             call()
+
+    def _find_world_joints(self) -> None:
+        """Have a handle for each joint between models; those that are known are moved to where they belong."""
+        known = {handle.name: handle for handle in self.joints}
+        self.joints[:] = [known.pop(joint.name, None) or JointHandle(self, joint, 0) for joint in self.world.joints]
+        for i, (handle, joint) in enumerate(zip(self.joints, self.world.joints, strict=True), self._first_world_joint):
+            handle.joint = joint
+            handle.move_to(i)
+        for gone in known.values():
+            gone.move_to(None)
 
     # -- commands
 
@@ -308,46 +352,22 @@ class Simulation:
 
     def apply_wrench(self, link: int, wrench: Wrench, *, duration_s: float | None = None) -> None:
         """Push and twist a link, by its index; see `LinkHandle.apply_wrench`."""
-        self._added_to.pop(link, None)
-        self.engine.set_wrench(link, wrench)
-        self._wrench_ends.pop(link, None)
-        if duration_s is not None:
-            self._wrench_ends[link] = self.steps + max(1, round(duration_s * NS / self.step_ns))
+        self._pushes.hold_wrench(self.engine, link, wrench, until=self._until(duration_s))
 
     def add_wrench(self, link: int, wrench: Wrench) -> None:
         """Add to what pushes a link, up to the next hook; see `LinkHandle.add_wrench`."""
-        now = self.engine.wrench(link)
-        self._added_to.setdefault(link, now)
-        self.engine.set_wrench(link, now + wrench)
+        self._pushes.add_wrench(self.engine, link, wrench)
+
+    def end_effort(self, joint: JointHandle, axis: int, *, duration_s: float | None) -> None:
+        """Have an effort end after a while; see `JointHandle.set_effort`."""
+        self._pushes.hold_effort(joint, axis, until=self._until(duration_s))
 
     def set_grip(self, link: int, law: GripLaw | None) -> None:
         """Have the contacts of a link, by its index, follow a law; see `LinkHandle.set_grip`."""
-        if law is None:
-            self._grips.pop(link, None)
-        else:
-            self._grips[link] = law
-        self.engine.set_grips(self._grips)
+        self._pushes.set_grip(self.engine, link, law)
 
-    def _end_wrenches(self) -> None:
-        for link, lasting in self._added_to.items():
-            self.engine.set_wrench(link, lasting)
-        self._added_to.clear()
-        for link in [link for link, end in self._wrench_ends.items() if end <= self.steps]:
-            del self._wrench_ends[link]
-            self.engine.set_wrench(link, Wrench())
-
-
-def _keep_free(old: Engine, engine: Engine) -> None:
-    """Links that hung from something and are free now stay where they are, as fast as they were."""
-    links = {name: index for index, name in enumerate(old.compiled.link_names)}
-    poses, twists = old.reader.link_poses(), old.reader.link_twists()
-    for link, name in enumerate(engine.compiled.link_names):
-        before = links.get(name)
-        if before is not None and engine.is_free(link) and not old.is_free(before):
-            x, y, z, qw, qx, qy, qz = poses[before].tolist()
-            vx, vy, vz, wx, wy, wz = twists[before].tolist()
-            engine.set_tree_pose(link, Pose((x, y, z), (qw, qx, qy, qz)))
-            engine.set_tree_twist(link, Twist((vx, vy, vz), (wx, wy, wz)))
+    def _until(self, duration_s: float | None) -> int | None:
+        return None if duration_s is None else self.steps + max(1, round(duration_s * NS / self.step_ns))
 
 
 def _names_of(world: World) -> list[tuple[str, list[str], list[str]]]:

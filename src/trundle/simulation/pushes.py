@@ -1,0 +1,111 @@
+"""What pushes links and joints for a while, and how links grip what they touch."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from trundle.physics import Engine, GripLaw
+from trundle.spatial import Wrench
+
+from .joint_handle import JointHandle
+
+
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """When what lasts a while is over, by step."""
+
+    wrenches: dict[int, int] = field(default_factory=dict[int, int])
+    """By link."""
+    efforts: dict[tuple[JointHandle, int], int] = field(default_factory=dict[tuple[JointHandle, int], int])
+    """By joint and axis."""
+
+    def copy(self) -> "Ends":
+        """Its own from now on."""
+        return Ends(dict(self.wrenches), dict(self.efforts))
+
+
+class Pushes:
+    """Wrenches, efforts and grips of one simulation."""
+
+    def __init__(self) -> None:
+        self.ends = Ends()
+        self._added_to: dict[int, Wrench] = {}
+        """Link → its lasting wrench, below what was added for the coming step."""
+        self._grips: dict[int, GripLaw] = {}
+
+    def clear(self) -> None:
+        """Nothing pushes any more; grips stay."""
+        self.ends = Ends()
+        self._added_to.clear()
+
+    def restore(self, ends: Ends) -> None:
+        """Go on as it was when these were kept."""
+        self.ends = ends.copy()
+        self._added_to.clear()
+
+    def shift(self, steps: int) -> None:
+        """Let everything end so many steps later: time was set."""
+        self.ends = Ends(
+            {link: end + steps for link, end in self.ends.wrenches.items()},
+            {axis: end + steps for axis, end in self.ends.efforts.items()},
+        )
+
+    def hold_wrench(self, engine: Engine, link: int, wrench: Wrench, *, until: int | None) -> None:
+        """Hold a wrench up to a step, or for good."""
+        self._added_to.pop(link, None)
+        engine.set_wrench(link, wrench)
+        self.ends.wrenches.pop(link, None)
+        if until is not None:
+            self.ends.wrenches[link] = until
+
+    def add_wrench(self, engine: Engine, link: int, wrench: Wrench) -> None:
+        """Add to what pushes, for the coming step."""
+        now = engine.wrench(link)
+        self._added_to.setdefault(link, now)
+        engine.set_wrench(link, now + wrench)
+
+    def hold_effort(self, joint: JointHandle, axis: int, *, until: int | None) -> None:
+        """Have an effort that was set end at a step, or never."""
+        self.ends.efforts.pop((joint, axis), None)
+        if until is not None:
+            self.ends.efforts[joint, axis] = until
+
+    def set_grip(self, engine: Engine, link: int, law: GripLaw | None) -> None:
+        """Have a link's contacts follow a law, or none."""
+        if law is None:
+            self._grips.pop(link, None)
+        else:
+            self._grips[link] = law
+        engine.set_grips(self._grips)
+
+    def next_ends(self) -> Iterator[int]:
+        """The steps at which something ends."""
+        yield from self.ends.wrenches.values()
+        yield from self.ends.efforts.values()
+
+    def end(self, engine: Engine, step: int) -> None:
+        """Take away what is over at a step, and what was added for it."""
+        for link, lasting in self._added_to.items():
+            engine.set_wrench(link, lasting)
+        self._added_to.clear()
+        for link in [link for link, end in self.ends.wrenches.items() if end <= step]:
+            del self.ends.wrenches[link]
+            engine.set_wrench(link, Wrench())
+        for joint, axis in [key for key, end in self.ends.efforts.items() if end <= step]:
+            if joint.is_there:
+                joint.set_effort(0.0, axis=axis)
+            else:
+                del self.ends.efforts[joint, axis]
+
+    def carry_over(self, links: Mapping[int, int], engine: Engine) -> None:
+        """Go on in another engine.
+
+        Args:
+            links: where each link went; those that went nowhere are missing.
+            engine: the other.
+        """
+        wrenches = {links[link]: end for link, end in self.ends.wrenches.items() if link in links}
+        self.ends = Ends(wrenches, self.ends.efforts)
+        self._added_to = {links[link]: wrench for link, wrench in self._added_to.items() if link in links}
+        self._grips = {links[link]: law for link, law in self._grips.items() if link in links}
+        if self._grips:
+            engine.set_grips(self._grips)

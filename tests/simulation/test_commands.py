@@ -1,0 +1,166 @@
+"""What `gz` could do to a world, from Python."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import trundle
+from trundle.diagnostics import UsageError
+from trundle.simulation import Simulation
+from trundle.spatial import Pose, Twist, Wrench
+
+INERTIA = "<inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
+CART = f"""<model name="cart"><pose>0 0 1 0 0 0</pose><link name="base">{INERTIA}</link><link name="arm">{INERTIA}
+</link><joint name="hinge" type="revolute"><parent>base</parent><child>arm</child><axis><xyz>0 0 1</xyz></axis></joint>
+</model><model name="post"><link name="l">{INERTIA}
+</link><joint name="weld" type="fixed"><parent>world</parent><child>l</child>
+</joint></model><joint name="tie" type="revolute"><parent>post::l</parent><child>cart::base</child><axis><xyz>0 0 1
+</xyz></axis></joint>"""
+
+
+def load(folder: Path, *, tied: bool = False) -> Simulation:
+    file = folder / "w.sdf"
+    models = CART if tied else CART[: CART.index('<joint name="tie"')]
+    file.write_text(f'<sdf version="1.10"><world name="w"><gravity>0 0 0</gravity>{models}</world></sdf>')
+    return trundle.load(str(file))
+
+
+@pytest.fixture
+def sim(tmp_path: Path) -> Simulation:
+    """A cart that flies and turns its arm."""
+    sim = load(tmp_path)
+    sim["cart"].set_twist(Twist((1.0, 0.0, 0.0)))
+    sim["cart"].joint("hinge").start(2.0)
+    sim.run(0.5)
+    return sim
+
+
+class Clock:
+    """Notes when it is called."""
+
+    def __init__(self) -> None:
+        self.times: list[int] = []
+
+    def before_step(self, sim: Simulation) -> None:
+        self.times.append(sim.time_ns // 1_000_000)
+
+
+def test_time_alone_goes_back(sim: Simulation) -> None:
+    clock, called = Clock(), []
+    sim.on_reset(lambda: called.append(1))
+    sim.add_hook(clock, period_ns=100_000_000)
+    sim["cart"].base.apply_wrench(Wrench(force=(0.0, 2.0, 0.0)), duration_s=0.3)
+    sim.run(0.15)
+    before = sim["cart"].base.pose
+
+    sim.reset(poses=False)
+    assert sim.time_ns == 0
+    assert sim["cart"].base.pose == before
+    sim.run(0.25)
+    assert clock.times == [500, 600, 0, 100, 200]
+    assert sim["cart"].base.twist.linear[1] == pytest.approx(2.0 / 4.0 * 0.3, rel=0.2), "the push lasted 0.3 s in all"
+    assert called == []
+
+
+def test_poses_alone_go_back(sim: Simulation) -> None:
+    clock, called = Clock(), []
+    sim.on_reset(lambda: called.append(1))
+    sim.add_hook(clock, period_ns=100_000_000)
+    sim.run(0.15)
+
+    sim.reset(time=False)
+    assert sim.time_ns == 650_000_000
+    assert sim["cart"].pose == Pose((0.0, 0.0, 1.0))
+    assert sim["cart"].joint("hinge").velocity == 0.0
+    sim.run(0.1)
+    assert clock.times == [500, 600, 700]
+    assert called == [1]
+
+
+def test_an_effort_lasts_as_long_as_it_is_told_to(tmp_path: Path) -> None:
+    sim = load(tmp_path)
+    hinge = sim["cart"].joint("hinge")
+    hinge.set_effort(0.1, duration_s=0.2)
+    sim.run(1.0)
+    # Against each other two bodies of 0.1 kg·m² are 0.05.
+    assert hinge.velocity == pytest.approx(0.1 * 0.2 / 0.05, rel=1e-6)
+    assert hinge.effort == 0.0
+
+    hinge.set_effort(0.1, duration_s=0.2)
+    saved = sim.save()
+    sim.run(0.1)
+    hinge.set_effort(-0.1)
+    sim.run(0.5)
+    assert hinge.effort == pytest.approx(-0.1), "what is told later holds"
+    sim.restore(saved)
+    sim.run(0.5)
+    assert hinge.velocity == pytest.approx(2 * 0.1 * 0.2 / 0.05, rel=1e-6)
+
+
+def test_an_effort_of_what_is_deleted_ends_with_it(tmp_path: Path) -> None:
+    sim = load(tmp_path)
+    sim["cart"].joint("hinge").set_effort(0.1, duration_s=0.2)
+    sim.delete("cart")
+    sim.run(0.5)
+
+    assert [model.name for model in sim.models] == ["post"]
+
+
+def test_a_joint_is_put_where_and_as_fast_as_one_likes(sim: Simulation) -> None:
+    hinge = sim["cart"].joint("hinge")
+    hinge.set_position(0.7)
+    hinge.start(-1.0)
+
+    assert (hinge.position, hinge.velocity) == (0.7, -1.0)
+
+
+def test_spawned_models_are_numbered_where_that_is_allowed(sim: Simulation) -> None:
+    cart = sim["cart"].model
+    with pytest.raises(UsageError, match="there is a model 'cart' already"):
+        sim.spawn(cart)
+
+    names = [sim.spawn(replace(cart, name="cart"), allow_renaming=True).name for _ in range(3)]
+    assert names == ["cart_0", "cart_1", "cart_2"]
+    assert sim.spawn(replace(cart, name="other"), allow_renaming=True).name == "other"
+
+
+@pytest.mark.parametrize("tied", [False, True])
+def test_a_renamed_model_goes_on_to_the_bit(tmp_path: Path, tied: bool) -> None:
+    ends: list[tuple[object, ...]] = []
+    for rename in (False, True):
+        sim = load(tmp_path, tied=tied)
+        cart = sim["cart"]
+        hinge, arm = cart.joint("hinge"), cart.link("arm")
+        hinge.set_velocity(1.0, max_effort=0.2)
+        arm.apply_wrench(Wrench(force=(0.3, 0.1, 0.0)), duration_s=0.6)
+        hinge_end = sim.time_ns
+        sim.run(0.4)
+        if rename:
+            sim.rename("cart", "wagon")
+            assert cart.name == "wagon"
+            assert sim["wagon"] is cart
+            with pytest.raises(UsageError, match="no model 'cart'; there are: 'wagon', 'post'"):
+                sim["cart"]
+        sim.run(0.8)
+        ends.append((arm.pose, arm.twist, hinge.position, hinge.velocity, hinge_end))
+    assert ends[0] == ends[1]
+
+
+def test_a_name_that_is_taken_is_refused(sim: Simulation) -> None:
+    for new, words in (("post", "there is a model 'post' already"), ("", "a model needs a name")):
+        with pytest.raises(UsageError, match=words):
+            sim.rename("cart", new)
+    sim.rename("cart", "cart")
+    assert sim["cart"].name == "cart"
+
+
+def test_what_joined_a_deleted_model_goes_with_it(tmp_path: Path) -> None:
+    sim = load(tmp_path, tied=True)
+    (tie,) = sim.joints
+    sim.delete("post")
+    sim.run(0.1)
+
+    assert sim.joints == []
+    assert not tie.is_there
+    assert sim.report.warnings == []
