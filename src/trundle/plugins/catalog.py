@@ -37,6 +37,13 @@ BUILTIN: dict[str, str] = {
     "libWheelTrackedVehiclePlugin.so": "trundle.plugins.wheel_tracked_vehicle:WheelTrackedVehicle",
     "libWindPlugin.so": "trundle.plugins.wind:Wind",
     "libgazebo_ros_control.so": "trundle.plugins.ros_control:GazeboRosControl",
+    "libgazebo_ros_diff_drive.so": "trundle.plugins.gazebo_ros.diff_drive:DiffDrive",
+    "libgazebo_ros_force.so": "trundle.plugins.gazebo_ros.force:Force",
+    "libgazebo_ros_joint_pose_trajectory.so": "trundle.plugins.gazebo_ros.joint_pose_trajectory:JointPoseTrajectory",
+    "libgazebo_ros_joint_state_publisher.so": "trundle.plugins.gazebo_ros.joint_state_publisher:JointStatePublisher",
+    "libgazebo_ros_p3d.so": "trundle.plugins.gazebo_ros.p3d:P3D",
+    "libgazebo_ros_planar_move.so": "trundle.plugins.gazebo_ros.planar_move:PlanarMove",
+    "libgazebo_ros_skid_steer_drive.so": "trundle.plugins.gazebo_ros.skid_steer_drive:SkidSteerDrive",
 }
 """File name → "module:Class", imported only when a model asks."""
 

@@ -1,0 +1,129 @@
+"""libgazebo_ros_diff_drive.so: cmd_vel in; wheel speeds, odometry and tf out."""
+
+import math
+from typing import Self
+
+from trundle.control import DifferentialDrive, WheelOdometry, approach
+from trundle.diagnostics import TrundleError
+from trundle.model import PluginTag
+from trundle.ros import Node, Transform, TransformBroadcaster
+from trundle.simulation import JointHandle, ModelHandle, Simulation, Snapshot
+from trundle.spatial import Pose, Twist
+
+from ..plugin import Plugin
+from .odometry import WIDE, OdometryTopic, true_motion
+from .place import ignore, namespace_of, period_of, topic_in
+from .twist_command import TwistCommand
+
+_VARIANCES = (1e-5, 1e-5, WIDE, WIDE, WIDE, 1e-3)
+
+
+class DiffDrive(Plugin):
+    """Keeps two wheels at the speeds that a body speed asks for.
+
+    Parameters, with gazebo_ros' defaults: <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,
+    <robotBaseFrame> base_footprint, <leftJoint> left_joint, <rightJoint> right_joint, <wheelSeparation> 0.34,
+    <wheelDiameter> 0.15, <wheelTorque> 5, <wheelAcceleration> 0 (at once), <updateRate> 100, <odometrySource> world or
+    encoder, <publishTf> and <publishOdomTF> true, <publishWheelTF> and <publishWheelJointState> false. As since
+    Melodic, the left wheel turns with v − ω·separation/2; <legacyMode> true has it mirrored, as before.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        self._model = model
+        namespace = namespace_of(tag, model.name)
+
+        def number(name: str, default: float) -> float:
+            return parameters.number(name, default=default, report=report)
+
+        def flag(name: str, *, default: bool) -> bool:
+            return parameters.flag(name, default=default, report=report)
+
+        def topic(name: str, default: str) -> str:
+            return topic_in(namespace, parameters.string(name, default=default))
+
+        self._wheels = (
+            model.joint(parameters.string("leftJoint", default="left_joint")),
+            model.joint(parameters.string("rightJoint", default="right_joint")),
+        )
+        self._drive = DifferentialDrive(
+            separation=number("wheelSeparation", 0.34), wheel_radius=number("wheelDiameter", 0.15) / 2
+        )
+        self._torque, self._acceleration = number("wheelTorque", 5.0), number("wheelAcceleration", 0.0)
+        self._sign = -1.0 if flag("legacyMode", default=False) else 1.0
+        self.period_ns = period_of(number("updateRate", 100.0))
+        self._from_wheels = parameters.string("odometrySource", default="world") in ("encoder", "0")
+        self._command = TwistCommand(node, topic("commandTopic", "cmd_vel"))
+        self._odometry = None
+        if flag("publishTf", default=True):
+            self._odometry = OdometryTopic(
+                node,
+                topic("odometryTopic", "odom"),
+                frame=parameters.string("odometryFrame", default="odom"),
+                base=parameters.string("robotBaseFrame", default="base_footprint"),
+                variances=_VARIANCES,
+                with_tf=flag("publishOdomTF", default=True),
+            )
+        states = flag("publishWheelJointState", default=False)
+        self._states = node.advertise(topic_in(namespace, "joint_states"), "sensor_msgs/JointState") if states else None
+        self._frames = TransformBroadcaster(node) if flag("publishWheelTF", default=False) else None
+        ignore(parameters, "odometryFrame", "robotBaseFrame", "odometryTopic", "publishOdomTF")
+        parameters.report_unread(report)
+        self.reset()
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        if node is None:
+            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
+        return cls(sim, model, node, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Keep both wheels at their speeds."""
+        most = self._acceleration * (self.period_ns or sim.step_ns) / 1e9
+        wanted = self._drive.wheel_speeds(self._command.forward, self._sign * self._command.turning)
+        for number, (wheel, speed) in enumerate(zip(self._wheels, wanted, strict=True)):
+            if self._acceleration > 0.0:
+                speed = approach(self._speeds[number], speed, most / self._drive.wheel_radius)
+            self._speeds[number] = speed
+            wheel.set_velocity(speed, max_effort=self._torque, often=True)
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell where that led."""
+        if self._odometry is not None:
+            pose, twist = self._by_wheels(snapshot.time_ns) if self._from_wheels else true_motion(self._model)
+            self._odometry.publish(snapshot.time_ns, pose, twist)
+        if self._states is not None and self._states.has_subscribers:
+            header = {"stamp": snapshot.time_ns}
+            names, positions = [w.name for w in self._wheels], [w.position for w in self._wheels]
+            self._states.publish({"header": header, "name": names, "position": positions})
+        if self._frames is not None and self._frames.has_subscribers:
+            self._frames.send(*(_frame(self._model, wheel, snapshot.time_ns) for wheel in self._wheels))
+
+    def reset(self) -> None:
+        """Stand still at the origin of the odometry."""
+        self._command.stop()
+        self._speeds = [0.0, 0.0]
+        self._place = WheelOdometry(self._drive)
+        self._turned = [wheel.position for wheel in self._wheels]
+        self._last_ns = 0
+
+    def _by_wheels(self, time_ns: int) -> tuple[Pose, Twist]:
+        """Add up what the wheels turned."""
+        turned = [wheel.position for wheel in self._wheels]
+        left, right = (now - before for now, before in zip(turned, self._turned, strict=True))
+        if self._sign < 0.0:
+            left, right = right, left
+        distance, turn = self._place.roll(left, right)
+        elapsed, self._turned, self._last_ns = (time_ns - self._last_ns) / 1e9, turned, time_ns
+        place = self._place
+        pose = Pose((place.x, place.y, 0.0), (math.cos(place.yaw / 2), 0.0, 0.0, math.sin(place.yaw / 2)))
+        if elapsed <= 0.0:
+            return pose, Twist()
+        return pose, Twist((distance / elapsed, 0.0, 0.0), (0.0, 0.0, turn / elapsed))
+
+
+def _frame(model: ModelHandle, wheel: JointHandle, time_ns: int) -> Transform:
+    parent, child = wheel.joint.parent, wheel.joint.child
+    pose = model.link(parent).pose.inverse() @ model.link(child).pose
+    return Transform(parent=parent, child=child, stamp_ns=time_ns, translation=pose.position, rotation=pose.quaternion)

@@ -1,0 +1,83 @@
+"""libgazebo_ros_joint_pose_trajectory.so: joints put from pose to pose, whatever the physics says."""
+
+from collections import deque
+from typing import Any, Self
+
+from trundle.diagnostics import TrundleError, UsageError
+from trundle.model import PluginTag
+from trundle.ros import Message, Node, ns_of
+from trundle.simulation import ModelHandle, Simulation
+
+from ..plugin import Plugin
+from .place import ignore, namespace_of, period_of, topic_in
+
+_MOST_POINTS = 100_000
+
+
+class JointPoseTrajectory(Plugin):
+    """Takes trajectories of joint positions, each set when its time has come; none is set in between.
+
+    Parameters, with gazebo_ros' defaults: <topicName> set_joint_trajectory, <serviceName> set_joint_trajectory,
+    <updateRate> 0 (every step).
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        self._sim, self._model, self._node = sim, model, node
+        namespace = namespace_of(tag, model.name)
+        topic = topic_in(namespace, parameters.string("topicName", default="set_joint_trajectory"))
+        service = topic_in(namespace, parameters.string("serviceName", default="set_joint_trajectory"))
+        self.period_ns = period_of(parameters.number("updateRate", default=0.0, report=report))
+        self._due: deque[tuple[int, dict[str, float]]] = deque()
+        node.subscribe(topic, "trajectory_msgs/JointTrajectory", self._take, queue_size=100)
+        node.advertise_service(service, "gazebo_msgs/SetJointTrajectory", self._asked)
+        ignore(parameters)
+        parameters.report_unread(report)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        if node is None:
+            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
+        return cls(sim, model, node, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Put the joints where they are to be by now."""
+        while self._due and self._due[0][0] <= sim.time_ns:
+            for name, position in self._due.popleft()[1].items():
+                self._model.joint(name).set_position(position)
+
+    def reset(self) -> None:
+        """Forget what was to come."""
+        self._due.clear()
+
+    def _take(self, trajectory: Message) -> None:
+        try:
+            self._plan(trajectory)
+        except UsageError as error:
+            self._node.log_error(str(error))
+
+    def _asked(self, request: Message) -> dict[str, Any]:
+        try:
+            self._plan(request.joint_trajectory)
+        except UsageError as error:
+            return {"success": False, "status_message": str(error)}
+        return {"success": True, "status_message": "set trajectory"}
+
+    def _plan(self, trajectory: Message) -> None:
+        names = [str(name) for name in trajectory.joint_names]
+        for name in names:
+            if not self._model.joint(name).is_driven:
+                raise UsageError(f"joint {name!r} cannot be put anywhere")
+        if len(trajectory.points) > _MOST_POINTS:
+            raise UsageError(f"{len(trajectory.points)} points are more than {_MOST_POINTS}")
+        if any(len(point.positions) != len(names) for point in trajectory.points):
+            raise UsageError(f"each point needs {len(names)} positions")
+        start_ns = max(ns_of(trajectory.header.stamp), self._sim.time_ns)
+        self._due = deque(
+            (
+                start_ns + ns_of(point.time_from_start),
+                {name: float(p) for name, p in zip(names, point.positions, strict=True)},
+            )
+            for point in trajectory.points
+        )

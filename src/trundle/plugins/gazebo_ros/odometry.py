@@ -1,0 +1,72 @@
+"""nav_msgs/Odometry and its frame on /tf."""
+
+import math
+
+from trundle.ros import Node, Transform, TransformBroadcaster
+from trundle.simulation import ModelHandle
+from trundle.spatial import Pose, Twist
+
+WIDE = 1e12
+"""Variance of what odometry on a plane does not know."""
+
+
+class OdometryTopic:
+    """Tells where a robot is in its odometry frame, and how fast it moves in its own axes."""
+
+    def __init__(
+        self, node: Node, topic: str, *, frame: str, base: str, variances: tuple[float, ...], with_tf: bool
+    ) -> None:
+        """Advertise.
+
+        Args:
+            node: on the graph.
+            topic: global.
+            frame: of the odometry.
+            base: the robot's.
+            variances: of x, y, z, roll, pitch, yaw.
+            with_tf: whether /tf has it, too.
+        """
+        self._frame, self._base = frame, base
+        self._covariance = [variances[row] if row == column else 0.0 for row in range(6) for column in range(6)]
+        self._topic = node.advertise(topic, "nav_msgs/Odometry", queue_size=1)
+        self._broadcaster = TransformBroadcaster(node) if with_tf else None
+
+    def publish(self, time_ns: int, pose: Pose, twist: Twist) -> None:
+        """Say it; `twist` is in the robot's axes."""
+        (x, y, z), (qw, qx, qy, qz) = pose.position, pose.quaternion
+        if self._broadcaster is not None:
+            self._broadcaster.send(
+                Transform(
+                    parent=self._frame,
+                    child=self._base,
+                    stamp_ns=time_ns,
+                    translation=pose.position,
+                    rotation=pose.quaternion,
+                )
+            )
+        if not self._topic.has_subscribers:
+            return
+        told = {
+            "position": {"x": x, "y": y, "z": z},
+            "orientation": {"x": qx, "y": qy, "z": qz, "w": qw},
+        }
+        speeds = {
+            "linear": dict(zip("xyz", twist.linear, strict=True)),
+            "angular": dict(zip("xyz", twist.angular, strict=True)),
+        }
+        self._topic.publish(
+            {
+                "header": {"stamp": time_ns, "frame_id": self._frame},
+                "child_frame_id": self._base,
+                "pose": {"pose": told, "covariance": self._covariance},
+                "twist": {"twist": speeds, "covariance": self._covariance},
+            }
+        )
+
+
+def true_motion(model: ModelHandle) -> tuple[Pose, Twist]:
+    """Where a model is in the world, and how fast it moves along its own heading and turns."""
+    pose, twist = model.pose, model.base.twist
+    yaw = pose.rpy[2]
+    (vx, vy, vz), cos, sin = twist.linear, math.cos(yaw), math.sin(yaw)
+    return pose, Twist((cos * vx + sin * vy, cos * vy - sin * vx, vz), twist.angular)

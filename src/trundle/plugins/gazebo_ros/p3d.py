@@ -1,0 +1,96 @@
+"""libgazebo_ros_p3d.so: where a link truly is."""
+
+from typing import Any, Self
+
+import numpy as np
+
+from trundle.diagnostics import TrundleError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
+from trundle.spatial import ZERO, Pose, Twist
+from trundle.xmlnode import XmlNode
+
+from ..plugin import Plugin
+from .place import ignore, namespace_of, period_of, topic_in
+
+_WORLD = frozenset({"", "/", "world", "/world", "map", "/map", "/my_frame"})
+
+
+class P3D(Plugin):
+    """Publishes a link's pose and velocity in the frame of another link, or of the world.
+
+    Parameters: <bodyName> and <topicName> (required), <frameName> world, <xyzOffset> and <rpyOffset> 0 0 0 (also with
+    an s), <gaussianNoise> 0, <updateRate> 0 (every step).
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        self._link = model.link(_required(parameters, "bodyName"))
+        self._frame = parameters.string("frameName", default="world")
+        self._reference: LinkHandle | None = None
+        if self._frame not in _WORLD:
+            self._reference = model.link(self._frame.strip("/"))
+        offsets = [
+            parameters.vector(name, default=parameters.vector(f"{name}s", default=ZERO, report=report), report=report)
+            for name in ("xyzOffset", "rpyOffset")
+        ]
+        self._offset = Pose.from_rpy(*offsets[0], *offsets[1])
+        self._noise = parameters.number("gaussianNoise", default=0.0, report=report)
+        self._random = np.random.default_rng(sim.seed)
+        self.period_ns = period_of(parameters.number("updateRate", default=0.0, report=report))
+        topic = topic_in(namespace_of(tag, model.name), _required(parameters, "topicName"))
+        self._topic = node.advertise(topic, "nav_msgs/Odometry", queue_size=1)
+        variance = self._noise**2
+        self._covariance = [variance if number % 7 == 0 else 0.0 for number in range(36)]
+        ignore(parameters)
+        parameters.report_unread(report)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        if node is None:
+            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
+        return cls(sim, model, node, tag)
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell."""
+        if not self._topic.has_subscribers:
+            return
+        frame, carried = Pose(), Twist()
+        if self._reference is not None:
+            frame, carried = self._reference.pose, self._reference.twist
+        pose, twist = frame.inverse() @ self._link.pose @ self._offset, self._link.twist
+        back = Pose(quaternion=frame.quaternion).inverse()
+        (ax, ay, az), (bx, by, bz) = twist.linear, carried.linear
+        (ux, uy, uz), (vx, vy, vz) = twist.angular, carried.angular
+        qw, qx, qy, qz = pose.quaternion
+        told = {
+            "pose": {
+                "position": self._disturbed(pose.position),
+                "orientation": {"x": qx, "y": qy, "z": qz, "w": qw},
+            },
+            "covariance": self._covariance,
+        }
+        speeds = {
+            "twist": {
+                "linear": self._disturbed(back.direction((ax - bx, ay - by, az - bz))),
+                "angular": self._disturbed(back.direction((ux - vx, uy - vy, uz - vz))),
+            },
+            "covariance": self._covariance,
+        }
+        header = {"stamp": snapshot.time_ns, "frame_id": self._frame}
+        self._topic.publish({"header": header, "child_frame_id": self._link.name, "pose": told, "twist": speeds})
+
+    def _disturbed(self, vector: tuple[float, float, float]) -> dict[str, Any]:
+        if self._noise > 0.0:
+            x, y, z = (value + float(self._random.normal(0.0, self._noise)) for value in vector)
+            vector = (x, y, z)
+        return dict(zip("xyz", vector, strict=True))
+
+
+def _required(parameters: XmlNode, name: str) -> str:
+    text = parameters.string(name).strip()
+    if not text:
+        raise TrundleError(f"<{name}> is missing")
+    return text

@@ -1,0 +1,31 @@
+"""Where a gazebo_ros plugin's topics are, and how often it works."""
+
+from trundle.model import PluginTag
+from trundle.names import ros_name
+from trundle.xmlnode import XmlNode
+
+
+def namespace_of(tag: PluginTag, model: str) -> str:
+    """<robotNamespace> without slashes at its ends; the model's name where it is there and empty, as in gazebo_ros."""
+    found = tag.node.find("robotNamespace")
+    if found is None:
+        return ""
+    return found.text.strip().strip("/") or (ros_name(model) if not found.text.strip() else "")
+
+
+def topic_in(namespace: str, topic: str) -> str:
+    """A topic's global name."""
+    if topic.startswith("/") or not namespace:
+        return f"/{topic.lstrip('/')}"
+    return f"/{namespace}/{topic}"
+
+
+def period_of(rate_hz: float) -> int:
+    """Of an update rate [ns]; 0: every step."""
+    return round(1e9 / rate_hz) if rate_hz > 0.0 else 0
+
+
+def ignore(parameters: XmlNode, *names: str) -> None:
+    """Count parameters as read that have no meaning here: levels of debugging, ODE's own settings."""
+    for name in (*names, "rosDebugLevel", "alwaysOn", "robotNamespace", "always_on", "update_rate"):
+        parameters.find(name)

@@ -1,0 +1,77 @@
+"""libgazebo_ros_skid_steer_drive.so: cmd_vel in; the speeds of four wheels, odometry and tf out."""
+
+from typing import Self
+
+from trundle.control import DifferentialDrive
+from trundle.diagnostics import TrundleError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation, Snapshot
+
+from ..plugin import Plugin
+from .odometry import WIDE, OdometryTopic, true_motion
+from .place import ignore, namespace_of, period_of, topic_in
+from .twist_command import TwistCommand
+
+
+class SkidSteerDrive(Plugin):
+    """Keeps the wheels of each side at one speed.
+
+    Parameters, with gazebo_ros' defaults: <leftFrontJoint> left_front_joint and so on, <wheelSeparation> 0.4,
+    <wheelDiameter> 0.15, <torque> 5, <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,
+    <robotBaseFrame> base_footprint, <updateRate> 100, <broadcastTF> false, <covariance_x> and <covariance_y> 1e-4,
+    <covariance_yaw> 0.01.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        namespace = namespace_of(tag, model.name)
+
+        def number(name: str, default: float) -> float:
+            return parameters.number(name, default=default, report=report)
+
+        def wheel(side: str, row: str) -> str:
+            return parameters.string(f"{side}{row}Joint", default=f"{side}_{row.lower()}_joint")
+
+        self._model = model
+        self._sides = [[model.joint(wheel(side, row)) for row in ("Front", "Rear")] for side in ("left", "right")]
+        self._drive = DifferentialDrive(
+            separation=number("wheelSeparation", 0.4), wheel_radius=number("wheelDiameter", 0.15) / 2
+        )
+        self._torque = number("torque", 5.0)
+        self.period_ns = period_of(number("updateRate", 100.0))
+        self._command = TwistCommand(node, topic_in(namespace, parameters.string("commandTopic", default="cmd_vel")))
+        x, y, yaw = number("covariance_x", 1e-4), number("covariance_y", 1e-4), number("covariance_yaw", 0.01)
+        self._odometry = OdometryTopic(
+            node,
+            topic_in(namespace, parameters.string("odometryTopic", default="odom")),
+            frame=parameters.string("odometryFrame", default="odom"),
+            base=parameters.string("robotBaseFrame", default="base_footprint"),
+            variances=(x, y, WIDE, WIDE, WIDE, yaw),
+            with_tf=parameters.flag("broadcastTF", default=False, report=report),
+        )
+        ignore(parameters)
+        parameters.report_unread(report)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        if node is None:
+            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
+        return cls(sim, model, node, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Keep all wheels at their speeds."""
+        del sim
+        speeds = self._drive.wheel_speeds(self._command.forward, self._command.turning)
+        for side, speed in zip(self._sides, speeds, strict=True):
+            for wheel in side:
+                wheel.set_velocity(speed, max_effort=self._torque, often=True)
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell where that led."""
+        self._odometry.publish(snapshot.time_ns, *true_motion(self._model))
+
+    def reset(self) -> None:
+        """Stand still."""
+        self._command.stop()
