@@ -88,15 +88,25 @@ def ray(horizontal: str, vertical: str = "", *, noise: str = "", type_: str = "r
     )
     own = '<collision name="own"><geometry><sphere><radius>0.3</radius></sphere></geometry></collision>'
     sensor = f'<sensor name="s" type="{type_}"><update_rate>10</update_rate><ray>{scan}</ray></sensor>'
-    return f'<static>1</static><link name="a">{own}{sensor}</link>'
+    return f'<static>1</static><link name="a">{own}{own.replace("collision", "visual")}{sensor}</link>'
 
 
 def thing(name: str, pose: str, shape: str) -> str:
-    collision = f'<collision name="c"><geometry>{shape}</geometry></collision>'
-    return f'<model name="{name}"><static>1</static><pose>{pose}</pose><link name="l">{collision}</link></model>'
+    parts = "".join(f'<{part} name="c"><geometry>{shape}</geometry></{part}>' for part in ("collision", "visual"))
+    return f'<model name="{name}"><static>1</static><pose>{pose}</pose><link name="l">{parts}</link></model>'
 
 
 WALL = thing("wall", "2 0 0 0 0 0", "<box><size>0.2 20 20</size></box>")
+
+
+def test_rays_meet_what_is_touched_and_those_of_the_gpu_what_is_seen(tmp_path: Path) -> None:
+    one = "<samples>1</samples><min_angle>0</min_angle><max_angle>0</max_angle>"
+    glass = thing("glass", "1.5 0 0 0 0 0", "<sphere><radius>0.5</radius></sphere>")
+    touched = glass[: glass.index("<visual")] + "</link></model>"
+    ranges = [
+        read(load(tmp_path, ray(one, type_=t), others=touched + WALL), 0.1)[-1].ranges for t in ("ray", "gpu_ray")
+    ]
+    assert [float(r[0, 0]) for r in ranges] == pytest.approx([1.0, 1.9], abs=1e-5)
 
 
 @pytest.mark.parametrize("type_", ["ray", "gpu_ray"])

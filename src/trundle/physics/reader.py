@@ -88,33 +88,3 @@ class StateReader:
         self._refresh()
         x, y, z = self._data.xipos[self._compiled.link_bodies[link]].tolist()
         return (x, y, z)
-
-    def cast(
-        self, origin: Vector3, directions: NDArray[np.float64], *, reach: float, exclude: int
-    ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-        """(rays,) how far each ray goes before it meets a collision shape [m], inf where it meets none; which geom.
-
-        Args:
-            origin: of all rays, in the world [m].
-            directions: (rays, 3) unit, world axes.
-            reach: what is farther counts as nothing [m].
-            exclude: the link whose shapes are looked through.
-        """
-        self._refresh()
-        count = len(directions)
-        geoms, far = np.empty(count, dtype=np.int32), np.empty(count)
-        mujoco.mj_multiRay(
-            self._model,
-            self._data,
-            np.array(origin),
-            np.ascontiguousarray(directions).reshape(-1),
-            None,
-            1,
-            int(self._compiled.link_bodies[exclude]),
-            geoms,
-            far,
-            None,
-            count,
-            reach,
-        )
-        return np.where(far < 0.0, np.inf, far), geoms

@@ -83,7 +83,12 @@ def _shapes(items: tuple[Visual, ...] | tuple[Collision, ...], body: int, report
             continue
         if isinstance(item, Collision):
             yield Shape(
-                name=item.name, body=body, geometry=geometry, body_from_shape=item.link_from_collision, rgba=_COLLISION
+                name=item.name,
+                body=body,
+                geometry=geometry,
+                body_from_shape=item.link_from_collision,
+                rgba=_COLLISION,
+                laser_retro=item.laser_retro,
             )
             continue
         for shape in _painted(geometry, item, body):
@@ -107,6 +112,7 @@ def _painted(geometry: ShapeGeometry, visual: Visual, body: int) -> Iterator[Sha
         texture=material.texture,
         texture_scale=material.texture_scale,
         casts_shadow=visual.cast_shadows,
+        laser_retro=visual.laser_retro,
     )
     if not (isinstance(geometry, Mesh) and material is GREY):
         yield shape

@@ -34,6 +34,8 @@ class Shape:
     texture_scale: tuple[float, float] = (1.0, 1.0)
     """As `Material.texture_scale`."""
     casts_shadow: bool = True
+    laser_retro: float = 0.0
+    """What a laser gets back, as its intensity."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

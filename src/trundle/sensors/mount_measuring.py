@@ -171,10 +171,8 @@ def _magnetometer(at: _Spot) -> MagnetometerSensor:
 
 
 def _range(at: _Spot) -> RangeSensor:
-    if at.sensor.type.startswith("gpu_"):
-        what = f"sensor {at.sensor.name!r}: its rays meet collision shapes, where Gazebo's GPU sees visuals"
-        at.simulation.report.info(at.sensor.at, what)
-    return RangeSensor(at.model, at.link, at.sensor, link_index=at.index, rays=at.around.rays, random=at.random)
+    rays = at.around.gpu_rays if at.sensor.type.startswith("gpu_") else at.around.rays
+    return RangeSensor(at.model, at.link, at.sensor, link_index=at.index, rays=rays, random=at.random)
 
 
 def _rfid(at: _Spot) -> RfidSensor:

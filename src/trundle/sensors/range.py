@@ -30,7 +30,7 @@ class RangeReading:
 
 
 class RangeSensor(MountedSensor[RangeReading]):
-    """Casts a fan of rays against the collision shapes, but for those of its own link."""
+    """Casts a fan of rays against collision shapes, a gpu_ray against visuals; its own link is looked through."""
 
     def __init__(
         self,
@@ -49,7 +49,7 @@ class RangeSensor(MountedSensor[RangeReading]):
             link: that carries it.
             sensor: with its scan.
             link_index: of the link in `Snapshot.poses`.
-            rays: asks the engine.
+            rays: what meets them.
             random: for its noise.
         """
         super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)

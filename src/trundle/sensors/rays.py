@@ -22,7 +22,7 @@ class Found:
 
 
 class Rays(Protocol):
-    """Casts rays against the collision shapes."""
+    """Casts rays against shapes."""
 
     def __call__(self, origin: Vector3, directions: _Array, reach: float, exclude: int, /) -> Found:
         """From one place in (rays, 3) directions in the world, [m] far, looking through one link."""
