@@ -4,6 +4,7 @@ The only door to lxml. Entities are never fetched and never expanded without bou
 no more than its own size.
 """
 
+import io
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -15,16 +16,23 @@ from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.spatial import Pose, Vector3
 
 _MAX_BYTES = 64 * 1024 * 1024
+_DEEPEST = 256
+"""libxml2's own bound."""
+_TOO_MUCH = etree.ErrorTypes.ERR_RESOURCE_LIMIT
 _INTEGER = re.compile(r"[+-]?\d+")
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]{1,16}")
 _POSITION = re.compile(r", line \d+, column \d+$")
 """libxml2 repeats the place, which every message of ours starts with."""
 
 
-def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None) -> "XmlNode":
-    """Parse a document; `name` is how messages call it.
+def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None, deepest: int = _DEEPEST) -> "XmlNode":
+    """Parse a document.
 
-    With a report, slips that Gazebo's and ROS's old XML readers let pass are named there and let pass too.
+    Args:
+        text: all of it.
+        name: how messages call it.
+        report: with one, slips that Gazebo's and ROS's old XML readers let pass are named there and let pass too.
+        deepest: elements within one another that are read, for readers that do not go down all of them.
 
     Raises:
         DescriptionError: not XML, empty, or larger or deeper than any honest file.
@@ -35,13 +43,21 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
     if not data.strip():
         raise DescriptionError(Source(name, 1), "the file is empty")
     # Tutorials and xacro templates often carry blank lines before <?xml …?>, which Gazebo and ROS accept.
+    parser = _parser()
     blank_lines = data[: len(data) - len(data.lstrip())].count(b"\n")
     try:
-        root = etree.fromstring(data.lstrip(), _parser())
+        root = etree.fromstring(data.lstrip(), parser)
     except etree.XMLSyntaxError as error:
         line = (error.lineno or 1) + blank_lines
         what = _POSITION.sub("", error.msg or "no element found")
         at = Source(name, line)
+        if deepest > _DEEPEST and any(entry.type == _TOO_MUCH for entry in parser.error_log):
+            root = _deep(data.lstrip(), deepest)
+            if root is None:
+                raise DescriptionError(
+                    at, f"elements more than {deepest} deep in one another, or a huge text"
+                ) from None
+            return XmlNode(root, file=name, first_line=blank_lines)
         root = None if report is None else _recovered(data.lstrip())
         if root is None or report is None:
             raise DescriptionError(at, f"not well-formed XML: {what}") from None
@@ -83,6 +99,29 @@ def _with_quotes(tag: re.Match[bytes]) -> bytes:
     return _ATTRIBUTE.sub(mended, tag[0])
 
 
+def _deep(data: bytes, deepest: int) -> etree._Element | None:  # pyright: ignore[reportPrivateUsage]
+    """The tree of a deep document; None where it is too deep, or defines entities, whose bounds fall with depth's."""
+    if b"<!DOCTYPE" in data:
+        return None
+    walk = etree.iterparse(
+        io.BytesIO(data),
+        events=("start", "end"),
+        remove_comments=True,
+        remove_pis=True,
+        no_network=True,
+        huge_tree=True,
+    )
+    depth = 0
+    try:
+        for event, _ in walk:
+            depth += 1 if event == "start" else -1
+            if depth > deepest:
+                return None
+    except etree.XMLSyntaxError:
+        return None
+    return walk.root
+
+
 def _parser(*, recover: bool = False) -> etree.XMLParser:
     return etree.XMLParser(
         resolve_entities="internal",  # pyright: ignore[reportArgumentType]  # lxml-stubs knows only bool
@@ -105,8 +144,8 @@ def _recovered(data: bytes) -> etree._Element | None:  # pyright: ignore[reportP
     return root if all(entry.type in _SLIPS for entry in parser.error_log) else None
 
 
-def read_xml(path: Path, *, report: Diagnostics | None = None) -> "XmlNode":
-    """Parse a file; `report` as for `parse_xml`.
+def read_xml(path: Path, *, report: Diagnostics | None = None, deepest: int = _DEEPEST) -> "XmlNode":
+    """Parse a file; `report` and `deepest` as for `parse_xml`.
 
     Raises:
         DescriptionError: as `parse_xml`, or the file cannot be read.
@@ -121,7 +160,7 @@ def read_xml(path: Path, *, report: Diagnostics | None = None) -> "XmlNode":
         raise DescriptionError(Source(str(path)), "is a folder, not a file") from None
     except OSError as error:
         raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}") from None
-    return parse_xml(data, name=str(path), report=report)
+    return parse_xml(data, name=str(path), report=report, deepest=deepest)
 
 
 class XmlNode:
@@ -306,10 +345,12 @@ class XmlNode:
 
     def mark_all_read(self) -> None:
         """Count everything below as read: for what is kept verbatim, such as a plugin's parameters."""
-        self._read_tags.update(child.tag for child in self.children)
-        self.attributes()
-        for child in self.children:
-            child.mark_all_read()
+        pending = [self]
+        while pending:
+            node = pending.pop()
+            node._read_tags.update(child.tag for child in node.children)
+            node.attributes()
+            pending += node.children
 
     def unread(self) -> Iterator["XmlNode"]:
         """The children nobody asked for."""

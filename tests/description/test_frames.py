@@ -256,6 +256,31 @@ def test_models_nested_beyond_all_sense_are_refused(tmp_path: Path) -> None:
         read(tmp_path, deep)
 
 
+def test_elements_deep_in_one_another_are_passed_over_as_in_gazebo(tmp_path: Path) -> None:
+    report = Diagnostics()
+    deep = "<a>" * 1000 + "</a>" * 1000
+
+    found = model(tmp_path, f'<link name="l"/><plugin name="p" filename="libp.so">{deep}</plugin>{deep}', report)
+
+    assert [link.name for link in found.links] == ["l"]
+    assert found.plugins[0].node.xml().count("<a>") == 999
+    assert report.warnings == [f"{tmp_path}/x.sdf:1: warning: <a> in <model> is not supported; it is ignored"]
+
+
+@pytest.mark.parametrize("body", ["<a>" * 100_000, "<a>" * 3000 + "</a>" * 3000])
+def test_elements_too_deep_in_one_another_are_one_sentence(tmp_path: Path, body: str) -> None:
+    with pytest.raises(DescriptionError, match=r"x\.sdf:1: error: elements more than 2000 deep in one another"):
+        model(tmp_path, body)
+
+
+def test_a_deep_file_that_defines_entities_is_refused(tmp_path: Path) -> None:
+    bomb = "".join(f'<!ENTITY e{i} "{f"&e{i - 1};" * 10}">' for i in range(1, 12))
+    deep = "<a>" * 300 + "&e11;" + "</a>" * 300
+    (tmp_path / "x.sdf").write_text(f'<!DOCTYPE sdf [<!ENTITY e0 "x">{bomb}]><sdf version="1.6">{deep}</sdf>')
+    with pytest.raises(DescriptionError):
+        load(str(tmp_path / "x.sdf"), Diagnostics(), packages=Packages({}, start=tmp_path))
+
+
 def test_automatic_inertia_weighs_the_collisions(tmp_path: Path) -> None:
     """A 1 m cube of water beside a 2 m one: 9 t, centred 8/9 of the way."""
     cubes = "".join(

@@ -9,7 +9,7 @@ from trundle.packages import Packages, model_file, refuse_template
 from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
 from .loaded import Loaded
-from .sdf import Context, read_root, read_version, rewrite_old_style
+from .sdf import DEEPEST, Context, read_root, read_version, rewrite_old_style
 from .urdf import lower_robot, read_urdf_text
 from .xacro import expand_xacro, is_xacro
 
@@ -38,7 +38,7 @@ def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -
     if is_xacro(path):
         text = expand_xacro(path, {}, packages=packages, report=report)
         return load_urdf(text, f"{path} (expanded)", path, packages, report)
-    root = read_xml(path, report=report)
+    root = read_xml(path, report=report, deepest=DEEPEST)
     if root.tag == "robot":
         text = path.read_text(encoding="utf-8", errors="replace")
         if "xmlns:xacro" in text:
@@ -60,7 +60,7 @@ def load_text(text: str, *, name: str, folder: Path, packages: Packages, report:
     Raises:
         DescriptionError: of which nothing sensible can be made.
     """
-    root = parse_xml(text, name=name)
+    root = parse_xml(text, name=name, deepest=DEEPEST)
     if root.tag != "robot":
         return load_sdf(root, folder / name, packages, report)
     if _XACRO in text:

@@ -13,6 +13,9 @@ from trundle.xmlnode import XmlNode
 
 from .version import Version
 
+DEEPEST = 2_000
+"""Elements within one another that are read; Gazebo has no bound. Nobody here goes down all of them."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Context:

@@ -10,7 +10,7 @@ from trundle.model import Model, model_from_joint
 from trundle.packages import model_file
 from trundle.xmlnode import XmlNode, read_xml
 
-from .context import Context, RawPose, read_pose
+from .context import DEEPEST, Context, RawPose, read_pose
 from .frames import MODEL, FrameGraph
 from .part import Part
 from .sensor import read_plugin
@@ -78,7 +78,7 @@ def _overridden(part: Part, node: XmlNode, context: Context) -> Part:
 def _root(file: Path, node: XmlNode, context: Context) -> tuple[XmlNode, Context]:
     if file.resolve() in context.including or len(context.including) > _DEEPEST_INCLUDE:
         raise DescriptionError(node.at, f"{file} includes itself")
-    root = read_xml(file, report=context.report)
+    root = read_xml(file, report=context.report, deepest=DEEPEST)
     if root.tag == "robot":
         return root, context.inside(file.resolve(), context.version)
     if root.tag != "sdf":
