@@ -83,6 +83,53 @@ def test_the_same_file_is_the_same_picture(box: Path, tmp_path: Path) -> None:
     assert outs[0].read_bytes() == outs[1].read_bytes()
 
 
+def _with_lens(box: Path, type_: str, inside: str) -> None:
+    text = BOX.replace('type="camera"', f'type="{type_}"').replace("</camera>", f"{inside}</camera>")
+    assert text != BOX
+    box.write_text(text)
+
+
+def test_a_fisheye_s_picture_is_seen_through_its_lens(box: Path, tmp_path: Path) -> None:
+    """Three radians wide, it shows the whole box small; its corners see nothing."""
+    lens = "<lens><type>equidistant</type><cutoff_angle>1.5</cutoff_angle></lens>"
+    _with_lens(box, "wideanglecamera", lens)
+    box.write_text(box.read_text().replace(">1.2<", ">3<"))
+    out = tmp_path / "round.png"
+
+    assert main(["render", str(box), "-o", str(out), "--camera", "eye"]) == 0
+
+    picture = np.asarray(Image.open(out).convert("RGB"))
+    assert picture.shape == (80, 120, 3)
+    assert (picture[0, 0] == 0).all()
+    assert (picture[40, 60] > 0).any()
+
+
+@pytest.mark.parametrize(
+    ("more", "sentence"),
+    [
+        (["--size", "60x40"], "camera 'eye' looks through a lens; its picture has its own size, 120x80"),
+        (["--depth"], "camera 'eye' is a wide-angle one; only pinholes see depths"),
+    ],
+)
+def test_what_a_lens_cannot_do_is_said(
+    box: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], more: list[str], sentence: str
+) -> None:
+    _with_lens(box, "wideanglecamera", "")
+
+    assert main(["render", str(box), "-o", str(tmp_path / "no.png"), "--camera", "eye", *more]) != 0
+    assert sentence in capsys.readouterr().err
+
+
+def test_depths_come_through_distortion(box: Path, tmp_path: Path) -> None:
+    box.write_text(BOX.replace("</camera>", "<distortion><k1>-0.2</k1></distortion></camera>"))
+    out = tmp_path / "depth.png"
+
+    assert main(["render", str(box), "-o", str(out), "--camera", "eye", "--depth"]) == 0
+
+    depth = np.asarray(Image.open(out))
+    assert depth[40, int(60 - FOCAL_PX / 2.5)] == pytest.approx(2500, abs=1)
+
+
 def test_a_camera_that_is_not_there_is_answered_with_those_that_are(
     box: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

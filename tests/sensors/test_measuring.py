@@ -1,6 +1,7 @@
 """Imus and ray sensors against what geometry and mechanics say."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 import trundle
 from trundle.sensors import ImuReading, ImuSensor, RangeReading, RangeSensor, mount_sensors
 from trundle.simulation import Simulation
-from trundle.spatial import Twist
+from trundle.spatial import Pose, Twist
 
 BODY = "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
 
@@ -91,22 +92,12 @@ def ray(horizontal: str, vertical: str = "", *, noise: str = "", type_: str = "r
     return f'<static>1</static><link name="a">{own}{own.replace("collision", "visual")}{sensor}</link>'
 
 
-def thing(name: str, pose: str, shape: str) -> str:
-    parts = "".join(f'<{part} name="c"><geometry>{shape}</geometry></{part}>' for part in ("collision", "visual"))
-    return f'<model name="{name}"><static>1</static><pose>{pose}</pose><link name="l">{parts}</link></model>'
+def thing(name: str, pose: str, shape: str, *, kinds: tuple[str, ...] = ("collision", "visual")) -> str:
+    both = "".join(f'<{kind} name="c"><geometry>{shape}</geometry></{kind}>' for kind in kinds)
+    return f'<model name="{name}"><static>1</static><pose>{pose}</pose><link name="l">{both}</link></model>'
 
 
 WALL = thing("wall", "2 0 0 0 0 0", "<box><size>0.2 20 20</size></box>")
-
-
-def test_rays_meet_what_is_touched_and_those_of_the_gpu_what_is_seen(tmp_path: Path) -> None:
-    one = "<samples>1</samples><min_angle>0</min_angle><max_angle>0</max_angle>"
-    glass = thing("glass", "1.5 0 0 0 0 0", "<sphere><radius>0.5</radius></sphere>")
-    touched = glass[: glass.index("<visual")] + "</link></model>"
-    ranges = [
-        read(load(tmp_path, ray(one, type_=t), others=touched + WALL), 0.1)[-1].ranges for t in ("ray", "gpu_ray")
-    ]
-    assert [float(r[0, 0]) for r in ranges] == pytest.approx([1.0, 1.9], abs=1e-5)
 
 
 @pytest.mark.parametrize("type_", ["ray", "gpu_ray"])
@@ -121,6 +112,71 @@ def test_a_scan_measures_a_wall_exactly(tmp_path: Path, type_: str) -> None:
     assert row[wall < 5.0] == pytest.approx(wall[wall < 5.0], abs=1e-5)
     assert np.isinf(row[wall > 5.0]).all()
     assert reading.time_ns == 100_000_000
+
+
+AHEAD = "<samples>1</samples><min_angle>0</min_angle><max_angle>0</max_angle>"
+
+
+@pytest.mark.parametrize(("type_", "expected"), [("ray", 3.0), ("lidar", 3.0), ("gpu_ray", 1.5), ("gpu_lidar", 1.5)])
+def test_rays_meet_what_is_touched_and_gpu_rays_what_is_seen(tmp_path: Path, type_: str, expected: float) -> None:
+    cube = "<box><size>1 1 1</size></box>"
+    others = thing("seen", "2 0 0 0 0 0", cube, kinds=("visual",))
+    others += thing("touched", "3.5 0 0 0 0 0", cube, kinds=("collision",))
+
+    reading = read(load(tmp_path, ray(AHEAD, type_=type_), others=others), 0.1)[-1]
+
+    assert reading.ranges[0, 0] == pytest.approx(expected, abs=1e-5)
+
+
+def test_gpu_rays_begin_at_the_least_range(tmp_path: Path) -> None:
+    """A lidar in a housing of two links, both nearer than its 0.2 m; its own link where it is farther is seen."""
+    shell = thing("shell", "0.15 0 0 0 0 0", "<box><size>0.02 1 1</size></box>")
+    inner = thing("inner", "0.1 0 0 0 0 0", "<box><size>0.02 1 1</size></box>")
+    own = '<visual name="v"><pose>0 {} 0 0 0 0</pose><geometry><box><size>0.02 0.02 1</size></box></geometry></visual>'
+    mast = own.replace("{}", "0.05") + own.replace("{}", "0").replace("<pose>0", "<pose>0.05")
+    fan = f"<samples>2</samples><min_angle>0</min_angle><max_angle>{math.pi / 2}</max_angle>"
+    body = ray(fan, type_="gpu_ray").replace("</link>", mast + "</link>")
+
+    ranges = read(load(tmp_path, body, others=shell + inner + WALL), 0.1)[-1].ranges
+
+    assert ranges[0, 0] == pytest.approx(1.9, abs=1e-5)
+    assert ranges[0, 1] == np.inf
+    far = own.replace("{}", "1").replace('"v"', '"w"')
+    ranges = read(load(tmp_path, body.replace("</link>", far + "</link>"), others=WALL), 0.1)[-1].ranges
+    assert ranges[0, 1] == np.inf  # the link is near: all of it is looked through
+
+
+def test_gpu_rays_see_their_own_link(tmp_path: Path) -> None:
+    far = '<visual name="v"><pose>1 0 0 0 0 0</pose><geometry><box><size>0.2 1 1</size></box></geometry></visual>'
+    body = ray(AHEAD, type_="gpu_ray").replace("</link>", far + "</link>")
+
+    assert read(load(tmp_path, body, others=WALL), 0.1)[-1].ranges[0, 0] == pytest.approx(0.9, abs=1e-5)
+
+
+def test_a_plane_that_is_touched_has_no_rim(tmp_path: Path) -> None:
+    plane = "<plane><normal>-1 0 0</normal><size>1 1</size></plane>"
+    fan = "<samples>2</samples><min_angle>0</min_angle><max_angle>0.7</max_angle>"
+    wall = thing("wall", "2 0 0 0 0 0", plane)
+
+    touched, seen = (
+        read(load(tmp_path, ray(fan, type_=type_), others=wall), 0.1)[-1].ranges[0] for type_ in ("ray", "gpu_ray")
+    )
+    assert touched == pytest.approx([2.0, 2.0 / math.cos(0.7)], abs=1e-5)
+    assert seen.tolist() == [pytest.approx(2.0, abs=1e-5), np.inf]
+
+
+def test_rays_meet_models_that_came_while_time_went_on(tmp_path: Path) -> None:
+    sim = load(tmp_path, ray(AHEAD), others=WALL)
+    (sensor,) = mount_sensors(sim)
+    assert isinstance(sensor, RangeSensor)
+    assert sensor.take(sim.snapshot()).ranges[0, 0] == pytest.approx(1.9, abs=1e-5)
+
+    wall = sim["wall"].model
+    sim.spawn(replace(wall, name="nearer", world_from_model=Pose((1.0, 0.0, 0.0))))
+    assert sensor.take(sim.snapshot()).ranges[0, 0] == pytest.approx(0.9, abs=1e-5)
+
+    sim.delete("nearer")
+    assert sensor.take(sim.snapshot()).ranges[0, 0] == pytest.approx(1.9, abs=1e-5)
 
 
 def test_rows_of_rays_look_up_and_down(tmp_path: Path) -> None:

@@ -14,6 +14,8 @@ from trundle.simulation import Simulation
 from trundle.viewer import MOST_LINE_POINTS, CameraView, DrawnLine, FrameInfo, JointSlider, ViewerScene, ViewerState
 
 _MOST_LINES = 200
+_WIDEST = 2.8
+"""[rad] The pyramid that stands for a fisheye, whose view has no straight edges."""
 _SLIDER_RANGE = math.pi
 """Of a joint without limits [rad or m]."""
 _MOVABLE = frozenset({JointType.REVOLUTE, JointType.PRISMATIC})
@@ -44,7 +46,7 @@ def lay_out(simulation: Simulation, cameras: list[CameraSensor], *, drive: bool)
                 camera.name,
                 camera.link_index,
                 camera.link_from_camera,
-                camera.intrinsics.horizontal_fov_rad,
+                min(camera.intrinsics.horizontal_fov_rad, _WIDEST),
                 camera.intrinsics.width_px,
                 camera.intrinsics.height_px,
             )

@@ -13,7 +13,7 @@ from PIL import Image
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.packages import Packages
-from trundle.render import Intrinsics, Scene, corners_of, scene_of
+from trundle.render import Intrinsics, Picture, Scene, corners_of, scene_of
 from trundle.sensors import CameraSensor, mount_cameras
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
@@ -82,6 +82,11 @@ class Studio:
         if options.camera is not None:
             self._sensor = _camera(options.camera, mount_cameras(stage.world, lambda _: self._renderer, report))
             self._lens = self._sensor.intrinsics
+            if options.content == "depth" and self._sensor.optics.lens is not None:
+                raise UsageError(f"camera {options.camera!r} is a wide-angle one; only pinholes see depths")
+            if options.size is not None and not self._sensor.is_pinhole:
+                own = f"{self._lens.width_px}x{self._lens.height_px}"
+                raise UsageError(f"camera {options.camera!r} looks through a lens; its picture has its own size, {own}")
             if options.size is not None:
                 self._lens = replace(self._lens, width_px=width, height_px=height)
         if self._lens.width_px * self._lens.height_px > _MOST_PX:
@@ -93,21 +98,29 @@ class Studio:
 
     def picture(self, *, turned_rad: float = 0.0) -> Image.Image:
         """Draw what is there now; the view of everything may have gone around, counter-clockwise from above."""
-        poses = self.simulation.snapshot().poses
-        self._renderer.update(poses)
+        snapshot = self.simulation.snapshot()
+        self._renderer.update(snapshot.poses)
         if self._sensor is not None:
-            view = pose_of(poses[self._sensor.link_index]) @ self._sensor.link_from_camera
+            view = self._sensor.world_from_camera(snapshot)
         else:
             view = _good_side(self._cloud, self._lens, turned_rad)
+
+        def drawn(*, depth: bool = False, segmentation: bool = False) -> Picture:
+            if self._sensor is not None and not self._sensor.is_pinhole:
+                return self._sensor.look(snapshot, depth=depth, segmentation=segmentation)
+            return self._renderer.render(view, self._lens, depth=depth, segmentation=segmentation)
+
         if self._content == "depth":
-            ranges = self._renderer.render(view, self._lens, depth=True).depth
+            ranges = drawn(depth=True).depth
             assert ranges is not None
             millimetres = np.where(np.isfinite(ranges), np.minimum(ranges * 1000.0, 65535.0), 0.0)
             return Image.fromarray(millimetres.astype(np.uint16))
         if self._content == "segmentation":
-            segments = self._renderer.render(view, self._lens, segmentation=True).segmentation
+            segments = drawn(segmentation=True).segmentation
             assert segments is not None
             return Image.fromarray(_PALETTE[np.where(segments < 0, 0, segments % (len(_PALETTE) - 1) + 1)])
+        if self._sensor is not None and not self._sensor.is_pinhole:
+            return Image.fromarray(drawn().rgb)
         width, height = self._lens.width_px, self._lens.height_px
         large = replace(self._lens, width_px=width * _SAMPLES, height_px=height * _SAMPLES)
         picture = Image.fromarray(self._renderer.render(view, large).rgb)

@@ -12,7 +12,7 @@ from trundle.spatial import Pose
 
 from .mounted import MountedSensor
 from .scenery import Scenery
-from .view import view_of
+from .view import PinholeView, view_of
 
 FASTEST_HZ = 30.0
 """Of a camera whose update_rate is 0. Gazebo then draws at every step, which nobody means."""
@@ -95,6 +95,11 @@ class CameraSensor(MountedSensor[CameraReading]):
     def name(self) -> str:
         """As in the file; of a multicamera's: `<sensor>/<camera>`."""
         return f"{self.sensor.name}/{self.optics.name}" if self.optics.name else self.sensor.name
+
+    @property
+    def is_pinhole(self) -> bool:
+        """Whether its picture is what a renderer draws, without lens and distortion."""
+        return isinstance(self.view, PinholeView)
 
     def take(self, snapshot: Snapshot) -> CameraReading:
         """Take a picture of this instant."""

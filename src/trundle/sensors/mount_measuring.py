@@ -8,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import Link, Model, Sensor
+from trundle.model import Link, Model, RangeScan, Sensor
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
 
@@ -171,7 +171,8 @@ def _magnetometer(at: _Spot) -> MagnetometerSensor:
 
 
 def _range(at: _Spot) -> RangeSensor:
-    rays = at.around.gpu_rays if at.sensor.type.startswith("gpu_") else at.around.rays
+    scan = at.sensor.scan or RangeScan()
+    rays = at.around.light_rays(scan.min_m) if at.sensor.type.startswith("gpu_") else at.around.rays
     return RangeSensor(at.model, at.link, at.sensor, link_index=at.index, rays=rays, random=at.random)
 
 

@@ -30,7 +30,7 @@ class RangeReading:
 
 
 class RangeSensor(MountedSensor[RangeReading]):
-    """Casts a fan of rays against collision shapes, a gpu_ray against visuals; its own link is looked through."""
+    """Casts a fan of rays: against the collision shapes of other links, or on Gazebo's GPU against all visuals."""
 
     def __init__(
         self,
@@ -49,7 +49,7 @@ class RangeSensor(MountedSensor[RangeReading]):
             link: that carries it.
             sensor: with its scan.
             link_index: of the link in `Snapshot.poses`.
-            rays: what meets them.
+            rays: asks the engine.
             random: for its noise.
         """
         super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)

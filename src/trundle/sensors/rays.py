@@ -1,14 +1,23 @@
-"""What rays find, however they are cast."""
+"""Rays, and what they find."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.spatial import Vector3
+from trundle.diagnostics import Diagnostics
+from trundle.model import Plane, World
+from trundle.render import NativeRenderer, Scene, scene_of
+from trundle.spatial import Pose, Vector3
 
 _Array = NDArray[np.float64]
+_ENDLESS = 2e6
+"""[m] Width of a plane that is touched; only where it is seen has it a size."""
+_LAYERS = 8
+"""So many links within one another are looked through; a lidar sits inside two or three."""
+_AWAY = 1e6
+"""[m] Where links are put that are not to be met."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -19,11 +28,65 @@ class Found:
     """(rays,) [m]; inf where there is nothing."""
     retros: _Array
     """(rays,) The laser_retro of what is there; 0 where there is nothing."""
+    bodies: NDArray[np.intp]
+    """(rays,) The link that it is on; −1 where there is nothing."""
 
 
 class Rays(Protocol):
-    """Casts rays against shapes."""
+    """Casts rays against one kind of shapes."""
 
     def __call__(self, origin: Vector3, directions: _Array, reach: float, exclude: int, /) -> Found:
         """From one place in (rays, 3) directions in the world, [m] far, looking through one link."""
         ...
+
+
+class RayCaster:
+    """Casts rays against all collision shapes of a world, or all its visuals."""
+
+    def __init__(self, world: World, *, collisions: bool) -> None:
+        """Make a scene of them; what it leaves out has been said by who drew or compiled it."""
+        self.world = world
+        scene = scene_of(world, Diagnostics(), collisions=collisions)
+        scene = _endless(scene) if collisions else scene
+        self._renderer = NativeRenderer(scene)
+        self._retros = np.array([*(shape.laser_retro for shape in scene.shapes), 0.0])
+        self._poses: _Array = np.zeros((0, 7))
+        self._bodies = np.array([*(shape.body for shape in scene.shapes), -1], dtype=np.intp)
+
+    def update(self, poses: _Array) -> None:
+        """Move the links: (links, 7) x y z qw qx qy qz in the world."""
+        self._poses = poses
+        self._renderer.update(poses)
+
+    def cast(self, origin: Vector3, directions: _Array, reach: float, exclude: int | None) -> Found:
+        """See `Rays`."""
+        rays = directions.astype(np.float32)
+        distances, shapes = self._renderer.cast(Pose(origin), rays, reach_m=reach, exclude=exclude)
+        return Found(distances.astype(np.float64), self._retros[shapes], self._bodies[shapes])
+
+    def cast_beyond(self, origin: Vector3, directions: _Array, reach: float, nearest: float) -> Found:
+        """Cast rays that look through a link where it is nearer than this [m], as a GPU's begin at its near clip."""
+        found = self.cast(origin, directions, reach, None)
+        poses = self._poses.copy()
+        for _ in range(_LAYERS):
+            near = np.flatnonzero(found.distances < nearest)
+            if not len(near):
+                break
+            poses[found.bodies[near], :3] = _AWAY
+            self._renderer.update(poses)
+            behind = self.cast(origin, directions[near], reach, None)
+            found.distances[near], found.retros[near] = behind.distances, behind.retros
+            found.bodies[near] = behind.bodies
+        self._renderer.update(self._poses)
+        return found
+
+
+def _endless(scene: Scene) -> Scene:
+    """The scene with planes that have no rim."""
+    shapes = tuple(
+        replace(shape, geometry=replace(shape.geometry, size=(_ENDLESS, _ENDLESS)))
+        if isinstance(shape.geometry, Plane)
+        else shape
+        for shape in scene.shapes
+    )
+    return replace(scene, shapes=shapes)

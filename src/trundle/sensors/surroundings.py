@@ -1,21 +1,18 @@
 """What sensors that need no picture find around them."""
 
-from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.diagnostics import Diagnostics
-from trundle.model import Model, Plane, Transceiver
-from trundle.physics import CompiledWorld
-from trundle.render import NativeRenderer, Shape, corners_of, scene_of
+from trundle.model import Model, Transceiver
+from trundle.render import corners_of, scene_of
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Vector3
 
 from .logical_camera import Body
 from .placing import moved
-from .rays import Found
+from .rays import Found, RayCaster, Rays
 from .wireless import Beacon
 
 _Array = NDArray[np.float64]
@@ -26,16 +23,31 @@ class Surroundings:
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
-        self._solids = _Shapes(simulation, collisions=True)
-        self._looks = _Shapes(simulation, collisions=False)
+        self._touched: RayCaster | None = None
+        self._lit: RayCaster | None = None
 
     def rays(self, origin: Vector3, directions: _Array, reach: float, exclude: int) -> Found:
-        """See `Rays`: against collision shapes."""
-        return self._solids.cast(origin, directions, reach, exclude)
+        """Against collision shapes; see `Rays`."""
+        self._touched = self._seen_anew(self._touched, collisions=True)
+        return self._touched.cast(origin, directions, reach, exclude)
 
-    def gpu_rays(self, origin: Vector3, directions: _Array, reach: float, exclude: int) -> Found:
-        """See `Rays`: against visuals, which is what Gazebo's GPU draws for such a sensor."""
-        return self._looks.cast(origin, directions, reach, exclude)
+    def light_rays(self, nearest: float) -> Rays:
+        """Against visuals, and from this distance on [m]: Gazebo's GPU rays see their own link, too."""
+
+        def cast(origin: Vector3, directions: _Array, reach: float, exclude: int) -> Found:
+            del exclude
+            self._lit = self._seen_anew(self._lit, collisions=False)
+            return self._lit.cast_beyond(origin, directions, reach, nearest)
+
+        return cast
+
+    def _seen_anew(self, caster: RayCaster | None, *, collisions: bool) -> RayCaster:
+        """A caster with everything where it is now; another one after models came, went or were edited."""
+        simulation = self._simulation
+        if caster is None or caster.world is not simulation.world:
+            caster = RayCaster(simulation.world, collisions=collisions)
+        caster.update(simulation.engine.reader.link_poses())
+        return caster
 
     def beacons(self, type_: str) -> list[Beacon]:
         """Every sensor of a type that others look for."""
@@ -78,41 +90,6 @@ class Surroundings:
             own = {index: np.concatenate(corners[index]) for index in span if index in corners}
             bodies.append(Body(name=model.name, base_index=span[base], base_from_model=base_from_model, corners=own))
         return bodies
-
-
-class _Shapes:
-    """What rays meet."""
-
-    def __init__(self, simulation: Simulation, *, collisions: bool) -> None:
-        self._simulation = simulation
-        self._collisions = collisions
-        self._compiled: CompiledWorld | None = None
-        self._renderer: NativeRenderer | None = None
-        self._retros = np.zeros(1)
-
-    def cast(self, origin: Vector3, directions: _Array, reach: float, exclude: int) -> Found:
-        """Send rays through the world as it is now."""
-        compiled = self._simulation.engine.compiled
-        if self._renderer is None or self._compiled is not compiled:  # models came or went
-            self._compiled = compiled
-            scene = scene_of(compiled.world, Diagnostics(), collisions=self._collisions)
-            shapes = tuple(_endless(shape) if self._collisions else shape for shape in scene.shapes)
-            self._renderer = NativeRenderer(replace(scene, shapes=shapes))
-            self._retros = np.array([*(shape.laser_retro for shape in shapes), 0.0])
-        self._renderer.update(self._simulation.snapshot().poses)
-        distances, met = self._renderer.cast(
-            Pose(origin), directions.astype(np.float32), reach_m=reach, exclude=exclude
-        )
-        return Found(distances.astype(float), self._retros[met])
-
-
-def _endless(shape: Shape) -> Shape:
-    """A plane that is touched has no end."""
-    return (
-        replace(shape, geometry=Plane(shape.geometry.normal, (0.0, 0.0)))
-        if isinstance(shape.geometry, Plane)
-        else shape
-    )
 
 
 def _base(model: Model) -> tuple[int, Pose]:
