@@ -27,6 +27,18 @@ def test_what_nobody_read_is_named_once() -> None:
     ]
 
 
+def test_a_second_one_of_what_there_is_one_of_is_named() -> None:
+    """The first is taken, as in Gazebo; a second <ixx> was meant to be <iyy>."""
+    report = Diagnostics()
+    node = parse_xml("<inertia><ixx>1</ixx><link/><link/>\n<ixx>2</ixx><ixx>3</ixx></inertia>", name="x.sdf")
+
+    assert node.number("ixx", default=0.0, report=report) == 1.0
+    assert len(node.all("link")) == 2
+    node.report_unread(report)
+
+    assert report.warnings == ["x.sdf:2: warning: a second <ixx> in <inertia>; the first one is used"]
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [

@@ -19,6 +19,8 @@ _MAX_BYTES = 64 * 1024 * 1024
 _DEEPEST = 256
 """libxml2's own bound."""
 _TOO_MUCH = etree.ErrorTypes.ERR_RESOURCE_LIMIT
+_PLACEHOLDER = "__default__"
+"""What libsdformat 1 wrote where there was nothing."""
 _INTEGER = re.compile(r"[+-]?\d+")
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]{1,16}")
 _POSITION = re.compile(r", line \d+, column \d+$")
@@ -43,8 +45,8 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
     if not data.strip():
         raise DescriptionError(Source(name, 1), "the file is empty")
     # Tutorials and xacro templates often carry blank lines before <?xml …?>, which Gazebo and ROS accept.
-    parser = _parser()
     blank_lines = data[: len(data) - len(data.lstrip())].count(b"\n")
+    parser = _parser()
     try:
         root = etree.fromstring(data.lstrip(), parser)
     except etree.XMLSyntaxError as error:
@@ -54,9 +56,7 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
         if deepest > _DEEPEST and any(entry.type == _TOO_MUCH for entry in parser.error_log):
             root = _deep(data.lstrip(), deepest)
             if root is None:
-                raise DescriptionError(
-                    at, f"elements more than {deepest} deep in one another, or a huge text"
-                ) from None
+                raise DescriptionError(at, f"elements more than {deepest} deep in one another") from None
             return XmlNode(root, file=name, first_line=blank_lines)
         root = None if report is None else _recovered(data.lstrip())
         if root is None or report is None:
@@ -166,13 +166,15 @@ def read_xml(path: Path, *, report: Diagnostics | None = None, deepest: int = _D
 class XmlNode:
     """One element. Whatever is asked for counts as read; `report_unread` names the rest."""
 
-    __slots__ = ("_children", "_element", "_file", "_first_line", "_read_attributes", "_read_tags")
+    __slots__ = ("_children", "_element", "_file", "_first_line", "_read_attributes", "_read_once", "_read_tags")
 
     def __init__(self, element: etree._Element, *, file: str, first_line: int = 0) -> None:  # pyright: ignore[reportPrivateUsage]
         self._element = element
         self._file = file
         self._first_line = first_line
         self._read_tags: set[str] = set()
+        self._read_once: set[str] = set()
+        """Of which the first was asked for alone."""
         self._read_attributes: set[str] = set()
         self._children: list[XmlNode] | None = None
 
@@ -211,11 +213,14 @@ class XmlNode:
     def all(self, tag: str) -> list["XmlNode"]:
         """The children of that name."""
         self._read_tags.add(tag)
+        self._read_once.discard(tag)
         return [child for child in self.children if child.tag == tag]
 
     def find(self, tag: str) -> "XmlNode | None":
         """The first child of that name, or None."""
-        self._read_tags.add(tag)
+        if tag not in self._read_tags:
+            self._read_tags.add(tag)
+            self._read_once.add(tag)
         return next((child for child in self.children if child.tag == tag), None)
 
     def attribute(self, name: str) -> str | None:
@@ -359,6 +364,13 @@ class XmlNode:
     def report_unread(self, report: Diagnostics) -> None:
         """Name each child and attribute of this element that nobody read, once per tag."""
         named: set[str] = set()
+        met: set[str] = set()
+        for child in self.children:
+            is_second = child.tag in met and child.tag in self._read_once and child.text != _PLACEHOLDER
+            if is_second and child.tag not in named:
+                named.add(child.tag)
+                report.warn(child.at, f"a second <{child.tag}> in <{self.tag}>; the first one is used")
+            met.add(child.tag)
         for child in self.unread():
             if child.tag not in named:
                 named.add(child.tag)
