@@ -195,7 +195,6 @@ def test_an_actor_has_its_skin_its_animations_and_its_script(tmp_path: Path) -> 
     assert [link.name for link in actor.links] == ["tag"]
     assert [plugin.filename for plugin in actor.plugins] == ["libActorPlugin.so"]
     assert report.warnings[0].endswith("actor 'walker': no animation 'dancing'; animations here: 'walking'")
-    assert report.warnings[1].endswith("<actor> 'walker' does not move yet; it is left out of the world")
 
 
 def test_an_actor_and_a_road_read_back_as_they_were(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from trundle.diagnostics import Diagnostics
 from trundle.model import World, flattened
 from trundle.packages import Packages
 from trundle.robot import Robot
-from trundle.simulation import Simulation
+from trundle.simulation import Simulation, with_actors
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,7 +33,7 @@ def set_stage(file: str, packages: Packages, report: Diagnostics, *, seed: int =
     """
     loaded = load(file, report, packages=packages, seed=seed)
     world = loaded.world if loaded.kind == "world" else _on_the_ground(loaded, packages, report)
-    return Stage(world=flattened(world), written=world, robot=loaded.robot, urdf=loaded.urdf)
+    return Stage(world=with_actors(flattened(world), report), written=world, robot=loaded.robot, urdf=loaded.urdf)
 
 
 def load_simulation(file: str, *, seed: int = 0) -> Simulation:

@@ -41,7 +41,7 @@ class Waypoint:
     time_s: float
     """From the trajectory's start."""
     pose: Pose
-    """Of the actor's frame in its first place."""
+    """In the world, as Gazebo has it, wherever the actor is put."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -76,6 +76,8 @@ class Engine:
         """Steps, from which follows when to decide who may sleep."""
         self._leapt = True
         """Whether anything was put somewhere, and may be inside something else now."""
+        self._touches = np.isin(np.arange(self._model.ntree), self._model.body_treeid[self._model.geom_bodyid]).tolist()
+        """Of each tree, whether it has shapes at all."""
         self.reset()
 
     def reset(self) -> None:
@@ -197,7 +199,7 @@ class Engine:
         self._data.qpos[first : first + 7] = (*pose.position, *turned)
         wx, wy, wz = spin.tolist()
         self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=turned).inverse().direction((wx, wy, wz))
-        self._leapt = True
+        self._leapt |= self._touches[self._model.dof_treeid[dof]]
         self._rest.wake(dof)
         self.reader.changed()
 

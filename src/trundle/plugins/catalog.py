@@ -20,6 +20,7 @@ from trundle.model import PluginTag
 from .plugin import Hooks, Plugin, WorldPlugin
 
 BUILTIN: dict[str, str] = {
+    "libActorPlugin.so": "trundle.plugins.actor:WanderingActor",
     "libBuoyancyPlugin.so": "trundle.plugins.buoyancy:Buoyancy",
     "libDiffDrivePlugin.so": "trundle.plugins.diff_drive:DiffDrive",
     "libHarnessPlugin.so": "trundle.plugins.harness:Harness",

@@ -2,6 +2,7 @@
 
 from trundle.physics import SimulationUnstableError
 
+from .actors import ActorWalk, with_actors
 from .handles import JointHandle, LinkHandle, ModelHandle
 from .hooks import AfterStep, BeforeStep
 from .line import Line
@@ -10,6 +11,7 @@ from .snapshot import Snapshot
 from .state_log import StateLog, StateRecorder, read_state_log
 
 __all__ = [
+    "ActorWalk",
     "AfterStep",
     "BeforeStep",
     "JointHandle",
@@ -23,4 +25,5 @@ __all__ = [
     "StateLog",
     "StateRecorder",
     "read_state_log",
+    "with_actors",
 ]

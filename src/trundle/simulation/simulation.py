@@ -7,6 +7,7 @@ are due, let the engine step in C up to the next due time, call the `after_step`
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import count
 from typing import TypeAlias
 
@@ -15,6 +16,7 @@ from trundle.model import Joint, Model, World
 from trundle.physics import Contact, Engine, EngineState, GripLaw, compile_world
 from trundle.spatial import Pose, Wrench
 
+from .actors import ActorWalk, with_actors
 from .attaching import attached
 from .changing import keep_free, renamed, renamed_in
 from .handles import ModelHandle, handles_of
@@ -52,7 +54,7 @@ class Simulation:
         """
         self.report = report
         self.seed = seed
-        self.engine = Engine(compile_world(world, report))
+        self.engine = Engine(compile_world(with_actors(world, report), report))
         self.world = self.engine.compiled.world
         """Without nested models: their links and joints are the outer model's, called `inner::name`."""
         self.step_ns = round(world.physics.max_step_size_s * NS)
@@ -66,6 +68,15 @@ class Simulation:
         self._commands: deque[Command] = deque()
         self._hooks: list[ScheduledHook] = []
         self._on_change: list[Callable[[], None]] = []
+        self.actors = {
+            actor.name: ActorWalk(actor, self[actor.name])
+            for actor in world.actors
+            if any(model.name == actor.name for model in self.models)
+        }
+        """What moves them; each is a model as well."""
+        for walk in self.actors.values():
+            wanted = partial(walk.wanted, self.models)
+            self.add_hook(walk, period_ns=walk.period_ns, wanted=wanted)
         self._on_reset: list[Callable[[], None]] = []
         self._pushes = Pushes()
 

@@ -52,7 +52,6 @@ def read_actor(node: XmlNode, context: Context) -> Actor:
         if animations and trajectory.type not in animations:
             known = ", ".join(map(repr, sorted(animations)))
             report.warn(node.at, f"actor {name!r}: no animation {trajectory.type!r}; animations here: {known}")
-    report.warn(node.at, f"<actor> {name!r} does not move yet; it is left out of the world")
     return actor
 
 

@@ -1,0 +1,109 @@
+"""libActorPlugin.so: a person who wanders about, round what stands in the way."""
+
+import math
+from typing import Self
+
+import numpy as np
+
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation
+from trundle.spatial import Pose, Vector3, normalized
+
+from .plugin import Plugin
+
+_SPEED = 0.8
+"""[m/s]"""
+_HIPS = 1.2138
+"""[m] Height at which it is kept."""
+_HALF_TURN = 1.5707
+"""[rad] As Gazebo writes a quarter of a circle: its skins look along −y and lie on their backs."""
+_ARRIVED, _APART, _SEEN = 0.3, 2.0, 4.0
+"""[m]"""
+_TURNING = math.radians(10)
+"""Beyond it, it turns on the spot, by a thousandth of what is missing at each step."""
+_X, _Y = (-3.0, 3.5), (-10.0, 2.0)
+"""[m] Where it may be."""
+_MOST_TRIES = 1000
+
+
+class WanderingActor(Plugin):
+    """Walks an actor from target to target, drawn at random within x −3 to 3.5 and y −10 to 2 m.
+
+    Parameters: <target> [m] (0 −5 1.2138), the first; <target_weight> (1.15), <obstacle_weight> (1.5): how much models
+    nearer than 4 m repel; <ignore_obstacles> with any number of <model>. <animation_factor> moves bones, which are not
+    simulated. The actor's script is not followed.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        self._model = model
+        self._first = parameters.vector("target", default=(0.0, -5.0, _HIPS), report=report)
+        self._target_weight = parameters.number("target_weight", default=1.15, report=report)
+        self._obstacle_weight = parameters.number("obstacle_weight", default=1.5, report=report)
+        ignored = parameters.find("ignore_obstacles")
+        self._ignored = {model.name, *(child.text for child in (ignored.all("model") if ignored else ()))}
+        parameters.find("animation_factor")
+        parameters.report_unread(report)
+        self._seed = sim.seed
+        self.reset()
+        walk = sim.actors.get(model.name)
+        if walk is None:
+            report.warn(tag.at, f"plugin {tag.name!r} is for actors; {model.name!r} is a model, and moved all the same")
+        else:
+            walk.stop()
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        del node
+        return cls(sim, model, tag)
+
+    def reset(self) -> None:
+        """Begin with the first target, and draw the same ones."""
+        self._random = np.random.default_rng([self._seed, *self._model.name.encode()])
+        self._target: Vector3 = self._first
+
+    def before_step(self, sim: Simulation) -> None:
+        """Take a step, or turn."""
+        here = self._model.pose
+        if math.dist(self._target, here.position) < _ARRIVED:
+            self._target = self._draw(sim)
+        way = self._way(sim, here.position)
+        _, _, heading = here.rpy
+        missing = math.remainder(math.atan2(way[1], way[0]) + _HALF_TURN - heading, math.tau)
+        x, y, _ = here.position
+        if abs(missing) > _TURNING:
+            heading += missing * 0.001
+        else:
+            step = _SPEED * sim.step_ns / 1e9
+            x, y, heading = x + way[0] * step, y + way[1] * step, heading + missing
+        x, y = min(max(x, _X[0]), _X[1]), min(max(y, _Y[0]), _Y[1])
+        self._model.set_pose(Pose.from_rpy(x, y, _HIPS, _HALF_TURN, 0.0, heading))
+
+    def _way(self, sim: Simulation, here: Vector3) -> Vector3:
+        """Where to, as a sum of pulls and pushes."""
+        to = normalized(_minus(self._target, here)) or (0.0, 0.0, 0.0)
+        x, y, z = (self._target_weight * part for part in to)
+        for model in sim.models:
+            if model.name in self._ignored:
+                continue
+            offset = _minus(model.pose.position, here)
+            distance = math.hypot(*offset)
+            if 0.0 < distance < _SEEN:
+                push = self._obstacle_weight / distance**2
+                x, y, z = x - offset[0] * push, y - offset[1] * push, z - offset[2] * push
+        return (x, y, z)
+
+    def _draw(self, sim: Simulation) -> Vector3:
+        """A target that is near neither the last one nor a model; where there is none, the last one stays."""
+        others = [model.pose.position for model in sim.models]
+        for _ in range(_MOST_TRIES):
+            drawn = (float(self._random.uniform(*_X)), float(self._random.uniform(*_Y)), self._target[2])
+            if all(math.dist(drawn, other) >= _APART for other in (self._target, *others)):
+                return drawn
+        return self._target
+
+
+def _minus(a: Vector3, b: Vector3) -> Vector3:
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])

@@ -1,0 +1,109 @@
+"""Where an actor is, by its script: trajectories one after the other, each a spline through its waypoints."""
+
+import math
+from bisect import bisect_right
+
+from trundle.model import Actor, Trajectory
+from trundle.spatial import Pose, Quaternion, Twist, Vector3, normalized, quaternion_product
+
+
+class ActorScript:
+    """The way of one actor over time; without waypoints there is none."""
+
+    def __init__(self, actor: Actor) -> None:
+        self._delay = max(actor.delay_start_s, 0.0)
+        self._loop = actor.loop
+        self._ways: list[tuple[float, _Way]] = []
+        """The time each begins [s], and what it is."""
+        self.length_s = 0.0
+        for trajectory in actor.trajectories:
+            if trajectory.waypoints:
+                self._ways.append((self.length_s, _Way(trajectory)))
+                self.length_s += max(trajectory.waypoints[-1].time_s, 0.0)
+
+    def __bool__(self) -> bool:
+        """Whether there is anywhere to go."""
+        return bool(self._ways)
+
+    def pose_at(self, time_s: float) -> Pose:
+        """World pose at a time since the actor began; it waits before each round where it goes round."""
+        round_s = self._delay + self.length_s
+        if self._loop and round_s > 0.0:
+            time_s = math.fmod(time_s, round_s)
+        since = min(max(time_s - self._delay, 0.0), self.length_s)
+        begins, way = self._ways[max(bisect_right([start for start, _ in self._ways], since) - 1, 0)]
+        return way.pose_at(since - begins)
+
+    def twist_at(self, time_s: float, dt: float) -> Twist:
+        """What brings it to where it is dt [s] later; it leaps back to where it began without."""
+        round_s = self._delay + self.length_s
+        if self._loop and round_s > 0.0 and math.fmod(time_s, round_s) + dt >= round_s:
+            return Twist()
+        here, there = self.pose_at(time_s), self.pose_at(time_s + dt)
+        (x0, y0, z0), (x1, y1, z1) = here.position, there.position
+        w, x, y, z = quaternion_product(there.quaternion, _conjugate(here.quaternion))
+        if w < 0.0:
+            w, x, y, z = -w, -x, -y, -z
+        axis = normalized((x, y, z))
+        rate = 2 * math.atan2(math.hypot(x, y, z), w) / dt
+        spin = (0.0, 0.0, 0.0) if axis is None else (axis[0] * rate, axis[1] * rate, axis[2] * rate)
+        return Twist(((x1 - x0) / dt, (y1 - y0) / dt, (z1 - z0) / dt), spin)
+
+
+class _Way:
+    """One trajectory: positions by a cardinal spline, as Gazebo's; turns along great arcs, where Gazebo has splines."""
+
+    def __init__(self, trajectory: Trajectory) -> None:
+        points = trajectory.waypoints
+        self._times = [point.time_s for point in points]
+        self._turns = [point.pose.quaternion for point in points]
+        self._places = [point.pose.position for point in points]
+        self._slopes = _slopes(self._places, (1.0 - trajectory.tension) / 2)
+
+    def pose_at(self, time_s: float) -> Pose:
+        """Before the first waypoint it waits there, after the last one it stays there."""
+        i = bisect_right(self._times, time_s) - 1
+        if i < 0:
+            return Pose(self._places[0], self._turns[0])
+        if i >= len(self._times) - 1:
+            return Pose(self._places[-1], self._turns[-1])
+        u = (time_s - self._times[i]) / (self._times[i + 1] - self._times[i])
+        a, b = u * u * (3 - 2 * u), u * (1 - u) ** 2
+        c = u * u * (u - 1)
+
+        def along(axis: int) -> float:
+            start, end = self._places[i][axis], self._places[i + 1][axis]
+            return start + a * (end - start) + b * self._slopes[i][axis] + c * self._slopes[i + 1][axis]
+
+        return Pose((along(0), along(1), along(2)), _between(self._turns[i], self._turns[i + 1], u))
+
+
+def _slopes(places: list[Vector3], share: float) -> list[Vector3]:
+    """Of a cardinal spline at each place; one that ends where it began goes on there."""
+    last = len(places) - 1
+    closed = last > 1 and places[0] == places[last]
+
+    def slope(i: int) -> Vector3:
+        before = places[i - 1] if i > 0 else places[last - 1] if closed else places[0]
+        after = places[i + 1] if i < last else places[1] if closed else places[last]
+        x, y, z = (share * (b - a) for a, b in zip(before, after, strict=True))
+        return (x, y, z)
+
+    return [slope(i) for i in range(len(places))]
+
+
+def _between(a: Quaternion, b: Quaternion, u: float) -> Quaternion:
+    """The turn a share of the way from one to another, the short way round."""
+    cosine = sum(p * q for p, q in zip(a, b, strict=True))
+    if cosine < 0.0:
+        b, cosine = (-b[0], -b[1], -b[2], -b[3]), -cosine
+    angle = math.acos(min(cosine, 1.0))
+    if angle < 1e-6:
+        return a
+    of_a, of_b = math.sin((1 - u) * angle) / math.sin(angle), math.sin(u * angle) / math.sin(angle)
+    w, x, y, z = (of_a * p + of_b * q for p, q in zip(a, b, strict=True))
+    return (w, x, y, z)
+
+
+def _conjugate(q: Quaternion) -> Quaternion:
+    return (q[0], -q[1], -q[2], -q[3])

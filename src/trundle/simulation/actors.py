@@ -1,0 +1,101 @@
+"""Actors as bodies that nothing pushes, moved by their scripts.
+
+What a skin looks like with its bones moving is not simulated: a box as large as its mesh stands for it, on the feet.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from trundle.diagnostics import Diagnostics
+from trundle.meshes import MeshError, load_mesh
+from trundle.model import Actor, Box, Link, Model, Skin, Visual, World
+from trundle.spatial import Pose, Vector3
+
+from .actor_script import ActorScript
+from .handles import ModelHandle
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
+
+_PERSON: Vector3 = (0.3, 0.5, 1.8)
+"""[m] Of a skin that cannot be read."""
+_WANDERING = "libActorPlugin.so"
+"""It has skins lie on their backs, whose own up is y, with the hips at 1.2138 m, and takes no notice of scripts."""
+_HIPS = 1.2138
+
+
+def with_actors(world: World, report: Diagnostics) -> World:
+    """The world with a model for each actor that is seen, after all others; one that has its model already keeps it."""
+    there = {model.name for model in world.models}
+    added = [_model(actor, report) for actor in world.actors if actor.name not in there]
+    return replace(world, models=(*world.models, *(model for model in added if model.links)))
+
+
+class ActorWalk:
+    """A hook that keeps an actor where its script says; between two calls it glides."""
+
+    period_ns = 20_000_000
+
+    def __init__(self, actor: Actor, handle: ModelHandle) -> None:
+        self._script = ActorScript(actor)
+        self._handle = handle
+        self.is_on = bool(self._script) and actor.auto_start
+
+    def stop(self) -> None:
+        """Leave the actor to somebody else."""
+        self.is_on = False
+
+    def wanted(self, models: Sequence[ModelHandle]) -> bool:
+        """Whether the actor is there, and on its way."""
+        return self.is_on and any(model is self._handle for model in models)
+
+    def before_step(self, sim: "Simulation") -> None:
+        """Put it there."""
+        time_s, dt = sim.time_ns / 1e9, self.period_ns / 1e9
+        self._handle.set_pose(self._script.pose_at(time_s))
+        self._handle.set_twist(self._script.twist_at(time_s, dt))
+
+
+def _model(actor: Actor, report: Diagnostics) -> Model:
+    links = [replace(link, kinematic=True, gravity=False) for link in actor.links]
+    if actor.skin is not None:
+        links.insert(0, _body(actor, actor.skin, report))
+    script = ActorScript(actor)
+    begins = bool(script) and actor.auto_start and not _wanders(actor)
+    return Model(
+        name=actor.name,
+        at=actor.at,
+        world_from_model=script.pose_at(0.0) if begins else actor.world_from_actor,
+        links=tuple(links),
+        joints=actor.joints,
+        plugins=actor.plugins,
+        canonical_link=links[0].name if links else None,
+    )
+
+
+def _body(actor: Actor, skin: Skin, report: Diagnostics) -> Link:
+    width, depth, height = _size(skin)
+    place = Pose((0.0, 0.0, height / 2))
+    if _wanders(actor):
+        place = Pose.from_rpy(0.0, height / 2 - _HIPS, 0.0, -1.5707963)
+    name = f"{actor.name}_pose"
+    box = Visual(name=name, at=actor.at, geometry=Box((width, depth, height)), link_from_visual=place)
+    report.info(actor.at, f"actor {actor.name!r} is a box of its skin's size; its bones do not move")
+    return Link(name=name, at=actor.at, kinematic=True, gravity=False, visuals=(box,))
+
+
+def _wanders(actor: Actor) -> bool:
+    return any(tag.filename.endswith(_WANDERING) for tag in actor.plugins)
+
+
+def _size(skin: Skin) -> Vector3:
+    """Lengths of the box, the largest upwards."""
+    if skin.path is None:
+        return _PERSON
+    try:
+        vertices = load_mesh(skin.path).vertices
+    except MeshError:
+        return _PERSON
+    x, y, z = sorted(((vertices.max(axis=0) - vertices.min(axis=0)) * skin.scale).tolist())
+    return (max(x, 0.01), max(y, 0.01), max(z, 0.01))
