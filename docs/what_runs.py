@@ -5,7 +5,7 @@ from pathlib import Path
 
 from trundle.cli.main import COMMANDS
 from trundle.nodes import STAND_INS
-from trundle.plugins import BUILTIN
+from trundle.plugins import BUILTIN, OF_SENSORS
 from trundle.sensors import SIMULATED
 
 README = Path(__file__).parents[1] / "README.md"
@@ -19,7 +19,7 @@ def table() -> str:
         "commands": [f"`trundle {name}`" for name in COMMANDS],
         "nodes without ROS": [f"`{package}/{type_}`" for package, type_ in sorted(STAND_INS)],
         "sensors": [f"`{name}`" for name in sorted(SIMULATED)],
-        "Gazebo plugins": [*(f"`{name}`" for name in sorted(BUILTIN)), "your own, in Python"],
+        "Gazebo plugins": [*(f"`{name}`" for name in sorted({*BUILTIN, *OF_SENSORS})), "your own, in Python"],
     }
     lines = [f"| {kind} | {', '.join(names)} |" for kind, names in rows.items()]
     return "\n".join(["| | |", "|---|---|", *lines])

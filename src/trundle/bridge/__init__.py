@@ -1,11 +1,14 @@
 """Where the wings meet: snapshots and readings become messages on topics, /clock and tf."""
 
+from .calibration import calibration_of
 from .camera import CameraTopics, camera_topics
 from .clock import ClockTopic, clock_rate_hz
 from .frames import SimulationFrames
 from .joint_states import JointStates
 from .measuring import ImuTopic, ScanTopic, sensor_topics
 from .naming import WORLD_FRAME, has_plain_frames, link_frame_name, link_frames
+from .pictures import cloud_maker, depth_image, image_maker
+from .readings import contacts_message, fix_message, imu_message, points_message, scan_message, wrench_message
 
 __all__ = [
     "WORLD_FRAME",
@@ -15,10 +18,20 @@ __all__ = [
     "JointStates",
     "ScanTopic",
     "SimulationFrames",
+    "calibration_of",
     "camera_topics",
     "clock_rate_hz",
+    "cloud_maker",
+    "contacts_message",
+    "depth_image",
+    "fix_message",
     "has_plain_frames",
+    "image_maker",
+    "imu_message",
     "link_frame_name",
     "link_frames",
+    "points_message",
+    "scan_message",
     "sensor_topics",
+    "wrench_message",
 ]

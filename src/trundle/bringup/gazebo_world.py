@@ -23,7 +23,7 @@ from .gazebo_models import read_spawned
 from .graph import Graph
 from .pace import Pacer
 from .page import Page
-from .plugins import load_plugins, load_world_plugins
+from .plugins import attach_sensor_plugins, load_plugins, load_world_plugins
 
 _IDLE_S = 0.01
 _LOOK_S = 0.5
@@ -265,8 +265,9 @@ class GazeboWorld:
                 return self._cameras is cameras and sensor.wanted()
 
             simulation.add_hook(sensor, period_ns=sensor.period_ns, wanted=wanted)
-        camera_topics(self._node, self._still, cameras, world)
-        sensor_topics(self._node, self._still, sensors, world)
+        silent = attach_sensor_plugins(cameras, self._node, self._report)
+        camera_topics(self._node, self._still, silent, world)
+        sensor_topics(self._node, self._still, attach_sensor_plugins(sensors, self._node, self._report), world)
         if self._page is not None:
             self._page.replace(simulation, cameras)
         self._pacer.restart()

@@ -3,11 +3,12 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import TypeVar
 
-from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
 from trundle.model import PluginTag
 from trundle.names import ros_name
-from trundle.plugins import Hooks, Plugin, find_plugin, find_world_plugin
+from trundle.plugins import Hooks, Plugin, find_plugin, find_sensor_plugin, find_world_plugin
 from trundle.ros import Node
+from trundle.sensors import CameraSensor, MeasuringSensor
 from trundle.simulation import ModelHandle, Simulation
 
 _Kind = TypeVar("_Kind", bound=Hooks)
@@ -70,6 +71,30 @@ def load_world_plugins(
     if any(world.wind) and not any(tag.filename.endswith("libWindPlugin.so") for tag in world.plugins):
         report = simulation.report
         report.info(world.at, "the wind pushes nothing: as in Gazebo, that takes libWindPlugin.so in the world")
+
+
+_Sensor = TypeVar("_Sensor", CameraSensor, MeasuringSensor)
+
+
+def attach_sensor_plugins(sensors: Sequence[_Sensor], node: Node, report: Diagnostics) -> list[_Sensor]:
+    """Have sensors' plugins publish what they measure, as their files say; return those without, in order."""
+    silent: list[_Sensor] = []
+    for sensor in sensors:
+        attached = 0
+        for tag in sensor.sensor.plugins:
+            attach = find_sensor_plugin(tag)
+            who = f"sensor {sensor.name!r}: plugin {tag.filename}"
+            if attach is None:
+                report.warn(tag.at, f"{who} is not supported yet; the sensor has topics without")
+                continue
+            try:
+                attach(sensor, node, tag, report)
+                attached += 1
+            except TrundleError as error:
+                report.warn(tag.at, f"{who}: {error}; the sensor has topics without")
+        if not attached:
+            silent.append(sensor)
+    return silent
 
 
 def _loaded(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _Kind | None:

@@ -10,6 +10,7 @@ from trundle.sensors import CameraSensor, MeasuringSensor
 from trundle.simulation import Simulation
 
 from .graph import Graph
+from .plugins import attach_sensor_plugins
 from .stage import Stage
 
 NODE_NAME = "/trundle"
@@ -50,8 +51,9 @@ class RosSide:
         still = StaticTransformBroadcaster(self.node)
         frames = SimulationFrames(self.node, still, stage.world, simulation.snapshot())
         simulation.add_hook(frames, period_ns=frames.period_ns, wanted=frames.wanted)
-        camera_topics(self.node, still, cameras, stage.world)
-        sensor_topics(self.node, still, sensors, stage.world)
+        report = simulation.report
+        camera_topics(self.node, still, attach_sensor_plugins(cameras, self.node, report), stage.world)
+        sensor_topics(self.node, still, attach_sensor_plugins(sensors, self.node, report), stage.world)
         if stage.urdf is not None:
             loop.run(self.node.set_param("/robot_description", stage.urdf))
             states = JointStates(self.node, simulation.models[0])

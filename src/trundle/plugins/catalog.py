@@ -9,13 +9,14 @@ import importlib
 import importlib.util
 import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from importlib.metadata import entry_points
 from pathlib import Path, PurePosixPath
-from typing import TypeVar
+from typing import Any, TypeVar
 
-from trundle.diagnostics import DescriptionError, Source
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.model import PluginTag
+from trundle.ros import Node
 
 from .plugin import Hooks, Plugin, WorldPlugin
 
@@ -40,6 +41,7 @@ BUILTIN: dict[str, str] = {
     "libgazebo_ros_control.so": "trundle.plugins.ros_control:GazeboRosControl",
     "libgazebo_ros_diff_drive.so": "trundle.plugins.gazebo_ros.diff_drive:DiffDrive",
     "libgazebo_ros_force.so": "trundle.plugins.gazebo_ros.force:Force",
+    "libgazebo_ros_ft_sensor.so": "trundle.plugins.gazebo_ros.ft_sensor:ForceTorque",
     "libgazebo_ros_joint_pose_trajectory.so": "trundle.plugins.gazebo_ros.joint_pose_trajectory:JointPoseTrajectory",
     "libgazebo_ros_joint_state_publisher.so": "trundle.plugins.gazebo_ros.joint_state_publisher:JointStatePublisher",
     "libgazebo_ros_p3d.so": "trundle.plugins.gazebo_ros.p3d:P3D",
@@ -47,6 +49,24 @@ BUILTIN: dict[str, str] = {
     "libgazebo_ros_skid_steer_drive.so": "trundle.plugins.gazebo_ros.skid_steer_drive:SkidSteerDrive",
 }
 """File name → "module:Class", imported only when a model asks."""
+
+_SENSORS = "trundle.plugins.gazebo_ros"
+OF_SENSORS: dict[str, str] = {
+    "libgazebo_ros_block_laser.so": f"{_SENSORS}.laser:attach_points",
+    "libgazebo_ros_bumper.so": f"{_SENSORS}.bumper:attach",
+    "libgazebo_ros_camera.so": f"{_SENSORS}.camera:attach",
+    "libgazebo_ros_depth_camera.so": f"{_SENSORS}.depth_camera:attach",
+    "libgazebo_ros_gpu_laser.so": f"{_SENSORS}.laser:attach",
+    "libgazebo_ros_imu_sensor.so": f"{_SENSORS}.imu_sensor:attach",
+    "libgazebo_ros_laser.so": f"{_SENSORS}.laser:attach",
+    "libgazebo_ros_multicamera.so": f"{_SENSORS}.camera:attach",
+    "libgazebo_ros_openni_kinect.so": f"{_SENSORS}.depth_camera:attach",
+    "libgazebo_ros_range.so": f"{_SENSORS}.range:attach",
+    "libgazebo_ros_ray_sensor.so": f"{_SENSORS}.laser:attach_ray_sensor",
+    "libgazebo_ros_velodyne_gpu_laser.so": f"{_SENSORS}.laser:attach_points",
+    "libgazebo_ros_velodyne_laser.so": f"{_SENSORS}.laser:attach_points",
+}
+"""File name → "module:function", of the plugins that publish what a sensor measures."""
 
 GROUP = "trundle.plugins"
 
@@ -66,6 +86,15 @@ def find_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[Pl
 def find_world_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[WorldPlugin], str]:
     """Return the class of a world's plugin and where it came from; see `find_plugin`."""
     return _find(tag, environment, WorldPlugin)
+
+
+def find_sensor_plugin(tag: PluginTag) -> Callable[[Any, Node, PluginTag, Diagnostics], None] | None:
+    """The function that publishes a sensor's readings as a plugin does; None: there is none of this name."""
+    target = OF_SENSORS.get(PurePosixPath(tag.filename.replace("\\", "/")).name)
+    if target is None:
+        return None
+    module, _, name = target.partition(":")
+    return getattr(importlib.import_module(module), name)
 
 
 def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> tuple[type[_Kind], str]:

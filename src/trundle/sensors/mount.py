@@ -15,7 +15,7 @@ from .camera import CameraSensor
 from .depth_camera import DepthCameraSensor
 from .formats import FORMATS
 from .lens import fits
-from .mount_measuring import MEASURING, name_plugins
+from .mount_measuring import MEASURING
 from .saving import PictureSaver, folder_for
 from .scenery import Scenery
 from .segmentation_camera import SegmentationCameraSensor
@@ -120,4 +120,3 @@ def _name_unsupported(sensor: Sensor, report: Diagnostics) -> None:
             report.warn(sensor.at, f"{who}: no such lens sees {fov}; it is not scaled to the field of view")
         if optics.box_type == "full_2d" and (optics.distortion != Distortion() or optics.intrinsics is not None):
             report.warn(sensor.at, f"{who}: full_2d boxes leave distortion and <intrinsics> out of account")
-    name_plugins(sensor, report)

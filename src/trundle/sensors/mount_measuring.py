@@ -7,7 +7,6 @@ from typing import TypeAlias
 
 import numpy as np
 
-from trundle.diagnostics import Diagnostics
 from trundle.model import Link, Model, RangeScan, Sensor
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
@@ -73,19 +72,11 @@ def mount_sensors(simulation: Simulation) -> list[MeasuringSensor]:
                 number += 1
                 make = _MAKERS.get(sensor.type)
                 if make is not None:
-                    name_plugins(sensor, simulation.report)
                     random = np.random.default_rng([simulation.seed, number])
                     mounted.append(make(_Spot(simulation, around, model, link, sensor, index, random)))
             index += 1
         mounted += _on_joints(simulation, model, first=index - len(model.links))
     return mounted
-
-
-def name_plugins(sensor: Sensor, report: Diagnostics) -> None:
-    """Say which plugins a sensor goes without."""
-    for plugin in sensor.plugins:
-        what = f"plugin {plugin.filename} is not supported yet; the sensor has topics without"
-        report.warn(plugin.at, f"sensor {sensor.name!r}: {what}")
 
 
 def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[MeasuringSensor]:
@@ -98,7 +89,6 @@ def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[Meas
                 what = f"sensor {sensor.name!r}: {sensor.type} sensors on joints are not simulated yet"
                 simulation.report.warn(sensor.at, what)
                 continue
-            name_plugins(sensor, simulation.report)
             handle = simulation[model.name].joint(joint.name)
             mounted.append(
                 ForceTorqueSensor(

@@ -1,0 +1,76 @@
+"""libgazebo_ros_openni_kinect.so and libgazebo_ros_depth_camera.so: pictures, depths and points of one camera."""
+
+import numpy as np
+
+from trundle.bridge import cloud_maker, depth_image, image_maker
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.sensors import CameraReading, CameraSensor, DepthCameraSensor
+
+from .camera import camera_topic, told_calibration
+from .place import ignore
+from .sensor import Outlet, frame_of
+
+_IMAGE, _INFO, _POINTS = "sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/PointCloud2"
+
+
+def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+    """Publish what a depth camera sees.
+
+    Parameters, with gazebo_ros' defaults: those of libgazebo_ros_camera.so (<imageTopicName> is image_raw), and
+    <depthImageTopicName> depth/image_raw, <depthImageCameraInfoTopicName> depth/camera_info, <pointCloudTopicName>
+    points, <pointCloudCutoff> 0.4 and <pointCloudCutoffMax> 5 [m] (of depths and points), <useDepth16UC1Format> false
+    (millimetres).
+    """
+    if not isinstance(sensor, DepthCameraSensor):
+        raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a depth sensor is needed")
+    parameters = tag.node
+    frame, rate_hz = frame_of(tag, "world"), parameters.number("updateRate", default=0.0, report=report)
+    near = parameters.number("pointCloudCutoff", default=0.4, report=report)
+    far = parameters.number("pointCloudCutoffMax", default=5.0, report=report)
+    in_millimetres = parameters.flag("useDepth16UC1Format", default=False, report=report)
+
+    def outlet(parameter: str, default: str, kind: str) -> Outlet:
+        return Outlet(node, camera_topic(sensor, tag, parameter, default), kind, frame, rate_hz=rate_hz)
+
+    pictures, infos = outlet("imageTopicName", "image_raw", _IMAGE), outlet("cameraInfoTopicName", "camera_info", _INFO)
+    depths = outlet("depthImageTopicName", "depth/image_raw", _IMAGE)
+    depth_infos = outlet("depthImageCameraInfoTopicName", "depth/camera_info", _INFO)
+    points = outlet("pointCloudTopicName", "points", _POINTS)
+    calibration, image, cloud = (
+        told_calibration(sensor, tag, report),
+        image_maker(sensor.optics.format),
+        cloud_maker(sensor),
+    )
+    ignore(parameters, "autoDistortion", "borderCrop", "cameraName", "depthImageInfoTopicName", "reflectanceTopicName")
+    parameters.report_unread(report)
+
+    def cut(reading: CameraReading) -> CameraReading:
+        assert reading.depth is not None
+        with np.errstate(invalid="ignore"):
+            within = (reading.depth >= near) & (reading.depth <= far)
+        depth = np.where(within, reading.depth, np.float32(np.nan))
+        return CameraReading(time_ns=reading.time_ns, rgb=reading.rgb, depth=depth)
+
+    def depth_of(reading: CameraReading) -> dict[str, object]:
+        return _millimetres(cut(reading)) if in_millimetres else depth_image(cut(reading))
+
+    def publish(reading: CameraReading) -> None:
+        pictures.publish(reading, lambda: image(reading))
+        infos.publish(reading, lambda: calibration)
+        depths.publish(reading, lambda: depth_of(reading))
+        depth_infos.publish(reading, lambda: calibration)
+        points.publish(reading, lambda: cloud(cut(reading)))
+
+    outlets = (pictures, infos, depths, depth_infos, points)
+    sensor.listen(publish, wanted=lambda: any(each.wanted() for each in outlets))
+
+
+def _millimetres(reading: CameraReading) -> dict[str, object]:
+    """16UC1, where 0 is nothing."""
+    assert reading.depth is not None
+    counts = np.nan_to_num(reading.depth * 1000.0, nan=0.0).astype("<u2")
+    height, width = counts.shape
+    data = np.ascontiguousarray(counts).reshape(-1).view(np.uint8)
+    return {"height": height, "width": width, "encoding": "16UC1", "step": 2 * width, "data": data}

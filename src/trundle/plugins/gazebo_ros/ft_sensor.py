@@ -1,0 +1,58 @@
+"""libgazebo_ros_ft_sensor.so: what a joint carries."""
+
+from typing import Self
+
+import numpy as np
+
+from trundle.diagnostics import TrundleError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation, Snapshot
+from trundle.spatial import Pose, Vector3
+
+from ..plugin import Plugin
+from .place import ignore, namespace_of, period_of, topic_in
+
+
+class ForceTorque(Plugin):
+    """Publishes geometry_msgs/WrenchStamped in the axes of the joint's child: what the child does to its parent.
+
+    Parameters: <jointName> and <topicName> (required), <gaussianNoise> 0, <updateRate> 0 (every step).
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        self._joint = model.joint(parameters.string("jointName"))
+        topic = parameters.string("topicName")
+        if not topic:
+            raise TrundleError("<topicName> is missing")
+        self._child = model.link(self._joint.joint.child)
+        self._noise = parameters.number("gaussianNoise", default=0.0, report=report)
+        self._random = np.random.default_rng(sim.seed)
+        self.period_ns = period_of(parameters.number("updateRate", default=0.0, report=report))
+        self._topic = node.advertise(topic_in(namespace_of(tag, model.name), topic), "geometry_msgs/WrenchStamped")
+        ignore(parameters)
+        parameters.report_unread(report)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        if node is None:
+            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
+        return cls(sim, model, node, tag)
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell."""
+        if not self._topic.has_subscribers:
+            return
+        on_child = self._joint.reaction
+        back = Pose(quaternion=self._child.pose.quaternion).inverse()
+        wrench = {"force": self._told(back, on_child.force), "torque": self._told(back, on_child.torque)}
+        header = {"stamp": snapshot.time_ns, "frame_id": self._child.name}
+        self._topic.publish({"header": header, "wrench": wrench})
+
+    def _told(self, back: Pose, vector: Vector3) -> dict[str, float]:
+        values = [-value for value in back.direction(vector)]
+        if self._noise > 0.0:
+            values = [value + float(self._random.normal(0.0, self._noise)) for value in values]
+        return dict(zip("xyz", values, strict=True))

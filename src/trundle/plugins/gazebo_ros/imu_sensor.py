@@ -1,0 +1,48 @@
+"""libgazebo_ros_imu_sensor.so: what an imu feels, where the plugin says."""
+
+from typing import Any
+
+import numpy as np
+
+from trundle.bridge import imu_message
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.sensors import ImuReading, ImuSensor, MeasuringSensor
+
+from .place import ignore, namespace_of
+from .sensor import Outlet, frame_of, topic_of
+
+
+def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+    """Publish sensor_msgs/Imu.
+
+    Parameters, with gazebo_ros' defaults: <topicName> imu_data, <frameName> (the link), <updateRateHZ> 1,
+    <gaussianNoise> 0, of which the covariances are the square.
+    """
+    if not isinstance(sensor, ImuSensor):
+        raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; an imu is needed")
+    parameters = tag.node
+    topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "imu_data")
+    rate_hz = parameters.number("updateRateHZ", default=1.0, report=report)
+    frame = frame_of(tag, sensor.link.name)
+    outlet = Outlet(node, topic, "sensor_msgs/Imu", frame, rate_hz=rate_hz)
+    noise = parameters.number("gaussianNoise", default=0.0, report=report)
+    random = np.random.default_rng(0)
+    covariance = [noise**2 if number % 4 == 0 else 0.0 for number in range(9)]
+    names = ("orientation", "angular_velocity", "linear_acceleration")
+    covariances = {f"{name}_covariance": covariance for name in names}
+    ignore(parameters, "bodyName", "xyzOffset", "rpyOffset", "initialOrientationAsReference", "serviceName")
+    parameters.report_unread(report)
+
+    def message(reading: ImuReading) -> dict[str, Any]:
+        told: dict[str, Any] = {**imu_message(reading), **covariances}
+        if noise > 0.0:
+            for name in names:
+                told[name] = {axis: value + float(random.normal(0.0, noise)) for axis, value in told[name].items()}
+        return told
+
+    def publish(reading: ImuReading) -> None:
+        outlet.publish(reading, lambda: message(reading))
+
+    sensor.listen(publish, wanted=outlet.wanted)

@@ -1,0 +1,68 @@
+"""libgazebo_ros_laser.so, libgazebo_ros_gpu_laser.so: the scan of a ray sensor; velodyne's and hector's siblings."""
+
+import re
+
+from trundle.bridge import points_message, scan_message
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.sensors import MeasuringSensor, RangeReading, RangeSensor
+
+from .place import ignore, namespace_of, topic_in
+from .sensor import Outlet, frame_of, topic_of
+
+
+def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+    """Publish sensor_msgs/LaserScan on <topicName> (scan) in <frameName> (world)."""
+    rays = _rays(sensor)
+    topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "scan")
+    _listen(rays, Outlet(node, topic, "sensor_msgs/LaserScan", frame_of(tag, "world")), as_points=False)
+    ignore(tag.node, "gaussianNoise", "hokuyoMinIntensity", "updateRate")
+    tag.node.report_unread(report)
+
+
+def attach_points(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+    """libgazebo_ros_block_laser.so and velodyne's: sensor_msgs/PointCloud2 on <topicName> (points)."""
+    rays = _rays(sensor)
+    topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "points")
+    _listen(rays, Outlet(node, topic, "sensor_msgs/PointCloud2", frame_of(tag, "world")), as_points=True)
+    ignore(tag.node, "gaussianNoise", "hokuyoMinIntensity", "updateRate", "organize_cloud", "min_range", "max_range",
+           "min_intensity")  # fmt: skip
+    tag.node.report_unread(report)
+
+
+def attach_ray_sensor(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+    """libgazebo_ros_ray_sensor.so, as files for ROS 2 have it: <output_type>, <frame_name>, <ros> with <namespace> and
+    <remapping>~/out:=scan."""
+    rays, parameters = _rays(sensor), tag.node
+    kind = parameters.string("output_type", default="sensor_msgs/PointCloud2")
+    namespace, topic = namespace_of(tag, sensor.model.name), "out"
+    ros = parameters.find("ros")
+    if ros is not None:
+        namespace = ros.string("namespace", default=namespace).strip("/")
+        for remapping in ros.all("remapping"):
+            found = re.fullmatch(r"\s*~/out\s*:=\s*(\S+)\s*", remapping.text)
+            topic = found[1] if found else topic
+        ros.report_unread(report)
+    outlet = {"sensor_msgs/LaserScan": False, "sensor_msgs/PointCloud2": True}.get(kind)
+    if outlet is None:
+        raise UsageError(f"output_type {kind!r} is not published; sensor_msgs/LaserScan and PointCloud2 are")
+    frame = parameters.string("frame_name", default=rays.link.name)
+    _listen(rays, Outlet(node, topic_in(namespace, topic), kind, frame), as_points=outlet)
+    ignore(parameters)
+    parameters.report_unread(report)
+
+
+def _rays(sensor: MeasuringSensor) -> RangeSensor:
+    if not isinstance(sensor, RangeSensor):
+        raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a ray sensor is needed")
+    return sensor
+
+
+def _listen(sensor: RangeSensor, outlet: Outlet, *, as_points: bool) -> None:
+    period_s = float(sensor.period_ns) / 1e9
+
+    def publish(reading: RangeReading) -> None:
+        outlet.publish(reading, lambda: points_message(reading) if as_points else scan_message(reading, period_s))
+
+    sensor.listen(publish, wanted=outlet.wanted)

@@ -1,0 +1,53 @@
+"""libgazebo_ros_range.so: the nearest of a ray sensor's ranges, as a sonar or an infrared sensor tells it."""
+
+import numpy as np
+
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.sensors import MeasuringSensor, RangeReading, RangeSensor
+
+from .place import ignore, namespace_of
+from .sensor import Outlet, frame_of, topic_of
+
+_KINDS = {"ultrasound": 0, "infrared": 1}
+
+
+def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+    """Publish sensor_msgs/Range.
+
+    Parameters, with gazebo_ros' defaults: <topicName> range, <frameName> world, <radiation> ultrasound or infrared,
+    <fov> 0.05 [rad], <gaussianNoise> 0 [m], <updateRate> 0 (the sensor's).
+    """
+    if not isinstance(sensor, RangeSensor):
+        raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a ray sensor is needed")
+    parameters = tag.node
+    topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "range")
+    rate_hz = parameters.number("updateRate", default=0.0, report=report)
+    outlet = Outlet(node, topic, "sensor_msgs/Range", frame_of(tag, "world"), rate_hz=rate_hz)
+    kind = parameters.string("radiation", default="ultrasound")
+    if kind not in _KINDS:
+        report.warn(tag.at, f"radiation {kind!r} is neither of {', '.join(_KINDS)}; it is ultrasound")
+    fov = parameters.number("fov", default=0.05, report=report)
+    noise = parameters.number("gaussianNoise", default=0.0, report=report)
+    random = np.random.default_rng(0)
+    ignore(parameters)
+    parameters.report_unread(report)
+
+    def message(reading: RangeReading) -> dict[str, object]:
+        near, far = reading.scan.min_m, reading.scan.max_m
+        nearest = min(float(np.nanmin(reading.ranges)), far) if reading.ranges.size else far
+        if noise > 0.0 and nearest < far:
+            nearest = min(max(nearest + float(random.normal(0.0, noise)), near), far)
+        return {
+            "radiation_type": _KINDS.get(kind, 0),
+            "field_of_view": fov,
+            "min_range": near,
+            "max_range": far,
+            "range": max(nearest, near),
+        }
+
+    def publish(reading: RangeReading) -> None:
+        outlet.publish(reading, lambda: message(reading))
+
+    sensor.listen(publish, wanted=outlet.wanted)
