@@ -104,7 +104,8 @@ def test_a_population_that_makes_no_sense_is_named(tmp_path: Path, body: str, sa
 SAVED = """<model name='arm'><pose>1 0 0 0 0 0</pose><link name='base'><visual name='v'><geometry><box>
 <size>1 2 3</size></box></geometry></visual><collision name='c'><geometry><cylinder>
 <radius>1</radius><length>1</length></cylinder></geometry></collision></link>
-<link name='tip'><pose>0 0 1 0 0 0</pose></link></model>
+<link name='tip'><pose>0 0 1 0 0 0</pose></link>
+<joint name='j' type='ball'><parent>base</parent><child>tip</child></joint></model>
 <state world_name='w'>{}<model name='arm'><pose>5 0 0 0 0 1.5707963267948966</pose>{}
 <link name='base'><pose>5 0 0 0 0 1.5707963267948966</pose><velocity>0 0 0 0 0 1</velocity></link>
 <link name='tip'><pose>5 1 1 0 0 1.5707963267948966</pose></link></model></state>"""
@@ -133,6 +134,17 @@ def test_a_saved_link_keeps_its_place_beside_where_it_was_written(tmp_path: Path
     start = again.models[0].links[1].start
     assert start is not None
     assert start.position == pytest.approx((1, 0, 1))
+
+
+def test_a_saved_link_that_no_joint_holds_is_where_it_was_saved(tmp_path: Path) -> None:
+    report = Diagnostics()
+    loose = SAVED.replace("<joint name='j' type='ball'><parent>base</parent><child>tip</child></joint>", "")
+    for body in (loose, SAVED.replace("<model name='arm'>", "<model name='arm'><static>1</static>", 1)):
+        base, tip = read(tmp_path, body.format("", ""), report).models[0].links
+
+        assert (base.start, tip.start) == (None, None)
+        assert tip.model_from_link.position == pytest.approx((1, 0, 1))
+    assert not any("start as written" in finding.what for finding in report.findings)
 
 
 def test_a_saved_scale_stretches_what_is_on_the_links(tmp_path: Path) -> None:

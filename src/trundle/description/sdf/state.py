@@ -102,8 +102,11 @@ def _placed(model: Model, state: XmlNode, world_from_outer: Pose, context: Conte
     if scale != (1.0, 1.0, 1.0):
         model = scaled_model(model, scale, state.at, report)
     world_from_model = read_pose(state, context).pose if has_pose else world_from_outer @ model.world_from_model
+    joined = set[str]() if model.static else {end for joint in model.joints for end in (joint.parent, joint.child)}
     started = tuple(
-        _started(link, links[link.name], world_from_model, context) if link.name in links else link
+        _started(link, links[link.name], world_from_model, context, is_joined=link.name in joined)
+        if link.name in links
+        else link
         for link in model.links
     )
     moved = [link for link in started if link.start is not None]
@@ -122,7 +125,8 @@ def _placed(model: Model, state: XmlNode, world_from_outer: Pose, context: Conte
     )
 
 
-def _started(link: Link, state: XmlNode, world_from_model: Pose, context: Context) -> Link:
+def _started(link: Link, state: XmlNode, world_from_model: Pose, context: Context, *, is_joined: bool) -> Link:
+    """A link where its state has it; of one that a joint holds the joint's zero stays where it was written."""
     leave_out(state, _AT_REST + _ACCELERATED, "is not heeded: everything starts at rest", context)
     leave_out(state, ("collision", "collision_state"), "is not heeded, in Gazebo neither", context)
     has_pose = state.find("pose") is not None
@@ -132,7 +136,9 @@ def _started(link: Link, state: XmlNode, world_from_model: Pose, context: Contex
     model_from_link = world_from_model.inverse() @ read_pose(state, context).pose
     written_from_saved = link.model_from_link.inverse() @ model_from_link
     moved = max(map(abs, (*written_from_saved.position, *written_from_saved.quaternion[1:])))
-    return replace(link, start=model_from_link) if moved > _MOVED else link
+    if moved <= _MOVED:
+        return link
+    return replace(link, start=model_from_link) if is_joined else replace(link, model_from_link=model_from_link)
 
 
 def _states(node: XmlNode, kind: str) -> Iterator[XmlNode]:
