@@ -14,7 +14,7 @@ from trundle.description import write_sdf, written_uri
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
 from trundle.sensors import mount_cameras, mount_sensors
-from trundle.simulation import Simulation, SimulationUnstableError, StateRecorder
+from trundle.simulation import Simulation, SimulationUnstableError, StateRecorder, with_actors
 
 from .exposure import warn_of_exposure
 from .outcome import Outcome
@@ -102,7 +102,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         wall_s = _drive(simulation, ros, page, options, stop, show.line)
         show.findings()
         return Outcome(
-            world=stage.written,
+            world=with_actors(stage.written, report),
             snapshot=simulation.snapshot(),
             steps=simulation.steps,
             wall_s=wall_s,

@@ -3,7 +3,6 @@
 from typing import Any
 
 from trundle.ros import Message, Node, ns_of
-from trundle.simulation import JointHandle, Simulation
 from trundle.spatial import Vector3, Wrench
 
 from ..host import Simulator
@@ -39,12 +38,8 @@ class _Efforts:
 
     def turn(self, request: Message) -> dict[str, Any]:
         """Hold an effort on a joint for a time."""
-        simulation = self._simulator.simulation
-        joint = find_joint(simulation, request.joint_name)
-        joint.set_effort(request.effort)
-        duration_s = _duration_s(request)
-        if duration_s is not None:
-            simulation.add_hook(_End(joint, simulation.time_ns + round(duration_s * 1e9)), period_ns=simulation.step_ns)
+        joint = find_joint(self._simulator.simulation, request.joint_name)
+        joint.set_effort(request.effort, duration_s=_duration_s(request))
         return {}
 
     def let_go_of_link(self, request: Message) -> dict[str, Any]:
@@ -56,20 +51,6 @@ class _Efforts:
         """Drive it no more."""
         find_joint(self._simulator.simulation, request.joint_name).set_effort(0.0)
         return {}
-
-
-class _End:
-    """Takes an effort away when its time is over."""
-
-    def __init__(self, joint: JointHandle, end_ns: int) -> None:
-        self._joint = joint
-        self._end_ns = end_ns
-        self._over = False
-
-    def before_step(self, sim: Simulation) -> None:
-        if not self._over and sim.time_ns >= self._end_ns:
-            self._over = True
-            self._joint.set_effort(0.0)
 
 
 def _duration_s(request: Message) -> float | None:

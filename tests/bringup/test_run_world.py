@@ -1,0 +1,29 @@
+"""A world with weather, people and plugins, from the file to what `run` says in the end."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from trundle.cli.main import main
+
+WORLD = """<sdf version="1.6"><world name="w"><gravity>0 0 0</gravity>
+<wind><linear_velocity>3 0 0</linear_velocity></wind><plugin name="wind" filename="libWindPlugin.so">
+<force_approximation_scaling_factor>1</force_approximation_scaling_factor></plugin>
+<model name="kite"><enable_wind>1</enable_wind><link name="l"/></model>
+<actor name="bob"><link name="l"/><script><trajectory id="0" type="walk">
+<waypoint><time>0</time><pose>0 3 0 0 0 0</pose></waypoint><waypoint><time>4</time><pose>4 3 0 0 0 0</pose></waypoint>
+</trajectory></script></actor></world></sdf>"""
+
+
+def test_the_wind_blows_and_actors_are_told_of(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "w.world"
+    file.write_text(WORLD)
+
+    assert main(["run", str(file), "--headless", "--no-ros", "--speed", "max", "--duration", "2", "--json"]) == 0
+
+    out, err = capsys.readouterr()
+    kite, bob = json.loads(out)["models"]
+    assert "plugin 'wind' of the world: Trundle's own libWindPlugin.so" in err
+    assert kite["links"][0]["twist"][0] > 1.0
+    assert (bob["name"], bob["pose"][:3]) == ("bob", pytest.approx([2.0, 3.0, 0.0], abs=1e-3))
