@@ -28,7 +28,7 @@ _FOV = 0.6
 _FROM = (math.radians(-38.0), math.radians(16.0))
 """Azimuth and elevation of a three-quarter view: on the side that Gazebo's sun shines on."""
 _MARGIN = 1.08
-_STUDIO_LIGHT, _BACKDROP = (0.85, 0.85, 0.85, 1.0), (0.95, 0.95, 0.95, 1.0)
+_STUDIO_LIGHT, _BACKDROP = (0.6, 0.6, 0.6, 1.0), (0.95, 0.95, 0.95, 1.0)
 """Brighter than worlds are: a camera of the file sees those as they are."""
 _SAMPLES = 2
 """Pictures are drawn twice as large and averaged: smooth edges."""
