@@ -235,6 +235,11 @@ def test_a_force_torque_sensor_has_noise_on_each_axis(described: Any) -> None:
     ("type_", "inside", "sentence"),
     [
         ("sonar", "<sonar><min>2</min><max>1</max></sonar>", "a sonar from 2 to 1 m of radius 0.5 m is not possible"),
+        (
+            "ray",
+            "<ray><scan><horizontal><resolution>-2</resolution></horizontal></scan><range><max>1</max></range></ray>",
+            "a resolution of -2 values a ray is not possible; 1 is used",
+        ),
         ("sonar", "<sonar><geometry>cube</geometry></sonar>", "no sonar geometry 'cube': cone or sphere; cone is used"),
         ("logical_camera", "<logical_camera><near>3</near></logical_camera>", "near 3, far 1 hold nothing"),
         (

@@ -128,6 +128,15 @@ def test_rays_meet_what_is_touched_and_gpu_rays_what_is_seen(tmp_path: Path, typ
     assert reading.ranges[0, 0] == pytest.approx(expected, abs=1e-5)
 
 
+def test_resolution_tells_more_values_than_samples(tmp_path: Path) -> None:
+    """Five samples of resolution two: ten values over the same angles, exact where Gazebo interpolates."""
+    fan = "<samples>5</samples><resolution>2</resolution><min_angle>-0.5</min_angle><max_angle>0.5</max_angle>"
+
+    (row,) = read(load(tmp_path, ray(fan), others=WALL), 0.1)[-1].ranges
+
+    assert row == pytest.approx(1.9 / np.cos(np.linspace(-0.5, 0.5, 10)), abs=1e-5)
+
+
 def test_gpu_rays_begin_at_the_least_range(tmp_path: Path) -> None:
     """A lidar in a housing of two links, both nearer than its 0.2 m; its own link where it is farther is seen."""
     shell = thing("shell", "0.15 0 0 0 0 0", "<box><size>0.02 1 1</size></box>")

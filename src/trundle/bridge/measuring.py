@@ -90,7 +90,7 @@ class ScanTopic:
         """Advertise, and place the sensor's frame."""
         self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
         self._period_s = float(sensor.period_ns) / 1e9
-        if sensor.scan.vertical.samples == 1:
+        if sensor.scan.vertical.values == 1:
             self._topic = node.advertise(topic_of(sensor, "scan"), "sensor_msgs/LaserScan", queue_size=5)
             sensor.listen(self._publish_scan, wanted=lambda: self._topic.has_subscribers)
         else:

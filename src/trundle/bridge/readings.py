@@ -33,7 +33,7 @@ def scan_message(reading: RangeReading, period_s: float) -> dict[str, object]:
     return {
         "angle_min": fan.min_angle,
         "angle_max": fan.max_angle,
-        "angle_increment": (fan.max_angle - fan.min_angle) / max(fan.samples - 1, 1),
+        "angle_increment": (fan.max_angle - fan.min_angle) / max(fan.values - 1, 1),
         "scan_time": period_s,
         "range_min": reading.scan.min_m,
         "range_max": reading.scan.max_m,

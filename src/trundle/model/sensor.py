@@ -17,11 +17,16 @@ class ScanAxis:
 
     samples: int = 1
     resolution: float = 1.0
-    """Values reported for each ray, interpolated between them."""
+    """Values told for each sample; Gazebo interpolates between rays."""
     min_angle: float = 0.0
     """[rad]"""
     max_angle: float = 0.0
     """[rad]"""
+
+    @property
+    def values(self) -> int:
+        """How many are told."""
+        return max(1, int(self.samples * self.resolution))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -42,7 +42,7 @@ class AltimeterSensor(MountedSensor[AltimeterReading]):
             link: that carries it.
             sensor: with its altimeter.
             link_index: of the link in `Snapshot.poses`.
-            start_height: where it is now [m].
+            start_height: where it was when its model came [m].
             random: for its noise.
         """
         super().__init__(model, link, sensor, link_index=link_index)

@@ -20,7 +20,6 @@ from .imu import ImuSensor
 from .logical_camera import LogicalCameraSensor
 from .magnetometer import MagnetometerSensor
 from .orientation import reference_from_world
-from .placing import pose_of
 from .range import RangeSensor
 from .sonar import SonarSensor
 from .surroundings import Surroundings
@@ -57,8 +56,8 @@ class _Spot:
     random: np.random.Generator
 
     def start(self) -> Pose:
-        """Where the sensor is now."""
-        return pose_of(self.simulation.snapshot().poses[self.index]) @ self.sensor.link_from_sensor
+        """Where the sensor was when its model came."""
+        return self.model.world_from_model @ self.link.model_from_link @ self.sensor.link_from_sensor
 
 
 def mount_sensors(simulation: Simulation) -> list[MeasuringSensor]:

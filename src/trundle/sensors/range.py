@@ -24,7 +24,7 @@ class RangeReading:
     time_ns: int
     scan: RangeScan
     ranges: NDArray[np.float64]
-    """(vertical samples, horizontal samples) [m]; inf where nothing is within reach, −inf nearer than the least."""
+    """(vertical values, horizontal values) [m]; inf where nothing is within reach, −inf nearer than the least."""
     intensities: NDArray[np.float64]
     """As `ranges`: the laser_retro of what was met; 0 where nothing was."""
 
@@ -70,7 +70,7 @@ class RangeSensor(MountedSensor[RangeReading]):
         found[found >= scan.max_m] = np.inf
         found[found < scan.min_m] = -np.inf
         retros = np.where(np.isfinite(found), retros, 0.0)
-        shape = (scan.vertical.samples, scan.horizontal.samples)
+        shape = (scan.vertical.values, scan.horizontal.values)
         return RangeReading(
             time_ns=snapshot.time_ns, scan=scan, ranges=found.reshape(shape), intensities=retros.reshape(shape)
         )
@@ -84,5 +84,5 @@ def directions_of(scan: RangeScan) -> NDArray[np.float64]:
 
 
 def angles_of(axis: ScanAxis) -> NDArray[np.float64]:
-    """(samples,) [rad], both ends included; one ray alone looks along the least angle."""
-    return np.linspace(axis.min_angle, axis.max_angle, axis.samples)
+    """(values,) [rad], both ends included; one ray alone looks along the least angle."""
+    return np.linspace(axis.min_angle, axis.max_angle, axis.values)

@@ -23,8 +23,8 @@ def read_scan(sensor: XmlNode, context: Context) -> RangeScan:
     high = 0.0 if limits is None else limits.number("max", default=0.0, report=report)
     if not high > low:
         report.warn(node.at, f"range min {low:g}, max {high:g} holds nothing; the sensor sees nothing")
-    if horizontal.samples * vertical.samples > _MOST_RAYS:
-        report.warn(node.at, f"{horizontal.samples} x {vertical.samples} rays are too many; one row of 640 is cast")
+    if horizontal.values * vertical.values > _MOST_RAYS:
+        report.warn(node.at, f"{horizontal.values} x {vertical.values} rays are too many; one row of 640 is cast")
         horizontal, vertical = ScanAxis(samples=640, min_angle=-1.0, max_angle=1.0), ScanAxis()
     result = RangeScan(
         horizontal=horizontal,
@@ -49,12 +49,20 @@ def _axis(scan: XmlNode | None, tag: str, context: Context) -> ScanAxis:
     report = context.report
     axis = ScanAxis(
         samples=max(1, node.integer("samples", default=640 if tag == "horizontal" else 1, report=report)),
-        resolution=node.number("resolution", default=1.0, report=report),
+        resolution=_resolution(node, context),
         min_angle=node.number("min_angle", default=0.0, report=report),
         max_angle=node.number("max_angle", default=0.0, report=report),
     )
     node.report_unread(report)
     return axis
+
+
+def _resolution(node: XmlNode, context: Context) -> float:
+    resolution = node.number("resolution", default=1.0, report=context.report)
+    if resolution > 0.0:
+        return resolution
+    context.report.warn(node.at, f"a resolution of {resolution:g} values a ray is not possible; 1 is used")
+    return 1.0
 
 
 def read_imu(sensor: XmlNode, context: Context) -> ImuNoise:
