@@ -79,12 +79,11 @@ class _Grain:
         """Lay the first tangent of each contact along its direction; return whether any was laid."""
         turned = False
         data = self._data
-        for contact in data.contact:
-            a, b = int(contact.geom[0]), int(contact.geom[1])
+        for i, (a, b) in enumerate(data.contact.geom.tolist()):
             found = self._directions.get((min(a, b), max(a, b)))
             if found is None:
                 continue
-            geom, direction = found
+            contact, (geom, direction) = data.contact[i], found
             normal = contact.frame[:3]
             along = data.geom_xmat[geom].reshape(3, 3) @ direction
             along = along - (along @ normal) * normal

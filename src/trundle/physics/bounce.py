@@ -7,6 +7,7 @@ Newton's law, friction within Coulomb's cone, over all contacts at once by proje
 
 import math
 from collections.abc import Mapping
+from typing import TypeVar
 
 import mujoco
 import numpy as np
@@ -19,6 +20,7 @@ from .surfaces import Touch
 _SWEEPS = 50
 _SLOWEST = 3.0
 """Steps' worth of falling: what comes slower than that is at rest."""
+_Number = TypeVar("_Number", int, NDArray[np.int64])
 
 
 class Bounce:
@@ -29,6 +31,11 @@ class Bounce:
         self._data = data
         self._touches = {pair: touch for pair, touch in touches.items() if touch.restitution > 0 and touch.is_felt}
         self._approach = Approach(model, data)
+        self._slowest = _SLOWEST * float(np.linalg.norm(model.opt.gravity)) * model.opt.timestep
+        pairs = sorted(self._touches)
+        self._keys = np.array([self._key(*pair) for pair in pairs], dtype=np.int64)
+        self._least = np.array([max(self._touches[pair].threshold, self._slowest) for pair in pairs])
+        """[m/s] Of each pair: what approaches slower, does not bounce."""
 
     def __bool__(self) -> bool:
         """Whether anything bounces at all."""
@@ -42,11 +49,10 @@ class Bounce:
         rows: list[NDArray[np.float64]] = []
         targets: list[float] = []
         frictions: list[tuple[float, float]] = []
-        for contact in data.contact:
-            g1, g2 = int(contact.geom[0]), int(contact.geom[1])
-            touch = self._touches.get((min(g1, g2), max(g1, g2)))
-            if touch is None or contact.dist > 0:
-                continue
+        for i in self._approaching().tolist():
+            contact = data.contact[i]
+            g1, g2 = contact.geom.tolist()
+            touch = self._touches[min(g1, g2), max(g1, g2)]
             jacobian = self._approach.of(contact)
             speed = float(jacobian[0] @ data.qvel)
             target = self._target(touch, -speed, depth=-float(contact.dist), pull=self._pull(contact, g1, g2))
@@ -60,6 +66,18 @@ class Bounce:
         self._push(np.concatenate(rows), targets, frictions)
         return True
 
+    def _approaching(self) -> NDArray[np.intp]:
+        """Contacts that may bounce: most do not, and those cost nothing more."""
+        contacts = self._data.contact
+        keys = self._key(contacts.geom.min(axis=1).astype(np.int64), contacts.geom.max(axis=1))
+        places = np.minimum(np.searchsorted(self._keys, keys), len(self._keys) - 1)
+        fast = self._approach.speeds() > self._least[places] * (1 - 1e-6)
+        return np.flatnonzero(fast & (self._keys[places] == keys) & (contacts.dist <= 0))
+
+    def _key(self, low: _Number, high: _Number) -> _Number:
+        """One number for two geoms."""
+        return low * self._model.ngeom + high
+
     def _pull(self, contact: mujoco.MjContact, g1: int, g2: int) -> float:
         """How gravity speeds the approach up [m/s²]; two bodies that both fall, not at all."""
         moving = [self._model.body_weldid[self._model.geom_bodyid[geom]] != 0 for geom in (g1, g2)]
@@ -67,8 +85,7 @@ class Bounce:
 
     def _target(self, touch: Touch, approach: float, *, depth: float, pull: float) -> float | None:
         """The speed to leave at [m/s]: e times what it was at the surface, and what the way back to it takes."""
-        slowest = _SLOWEST * float(np.linalg.norm(self._model.opt.gravity)) * self._model.opt.timestep
-        if approach <= max(touch.threshold, slowest):
+        if approach <= max(touch.threshold, self._slowest):
             return None
         at_surface = max(approach**2 - 2 * pull * depth, 0.0)
         return math.sqrt(max(touch.restitution**2 * at_surface + 2 * pull * depth, 0.0))
