@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from threading import Event
 
-from trundle.description import expand_xacro
 from trundle.diagnostics import Diagnostics
 from trundle.launch import LaunchParam, LaunchPlan, read_arguments, read_launch, resolve_params
 from trundle.packages import Packages
@@ -15,7 +14,7 @@ from trundle.ros import MasterProxy, MasterUnreachableError, master_uri_from_env
 from . import launch_print
 from .exposure import warn_of_exposure
 from .launch_options import LaunchOptions
-from .launch_session import LaunchSession, ReadLaunch, SilentClock
+from .launch_read import ReadLaunch
 from .launch_words import LaunchRequest, read_words
 from .showing import Showing
 from .signals import stop_flag
@@ -77,6 +76,8 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
         return None
 
     def expand(file: Path, arguments: Mapping[str, str]) -> str:
+        from trundle.description import expand_xacro
+
         return expand_xacro(file, arguments, packages=packages, report=report)
 
     params = resolve_params(plan, report, expand_xacro=expand, env=env)
@@ -88,6 +89,8 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
 
 
 def _run(read: ReadLaunch, options: LaunchOptions, stop: Event) -> int:
+    from .launch_session import LaunchSession, SilentClock
+
     with LaunchSession(read, options) as session:
         running, clock = session.start(read.plan.nodes), session.clock
         end_ns = None if options.duration_s is None else clock.now_ns() + round(options.duration_s * NS)

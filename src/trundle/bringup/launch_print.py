@@ -8,7 +8,6 @@ import yaml
 
 from trundle.diagnostics import UsageError
 from trundle.launch import LaunchArgument, LaunchNode, LaunchParam, LaunchPlan
-from trundle.nodes import Executable, Missing, Replacement, find_node
 from trundle.packages import Packages
 
 _LONGEST_VALUE = 20
@@ -43,6 +42,8 @@ def node_command(plan: LaunchPlan, name: str, packages: Packages, env: Mapping[s
     node = _named(plan, name)
     variables = [] if node.namespace == "/" else [("ROS_NAMESPACE", node.namespace)]
     variables += [(key, value) for key, value in node.env if env.get(key) != value]
+    from trundle.nodes import Executable, Missing, Replacement, find_node
+
     match find_node(node.package, node.type, packages.find_package, env=env):
         case Executable(path):
             program = str(path)

@@ -1,17 +1,14 @@
 """One launch from its graph to its nodes: opened, started, watched, closed."""
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from trundle.diagnostics import Diagnostics
-from trundle.launch import LaunchNode, LaunchParam, LaunchPlan
+from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import Host, Simulator
-from trundle.packages import Packages
 from trundle.ros import Clock, Node, follow_time
 from trundle.viewer import GraphPage
 
@@ -21,28 +18,14 @@ from .launch_logs import log_folder
 from .launch_nodes import NodeStarter
 from .launch_options import LaunchOptions
 from .launch_params import set_params
+from .launch_read import ReadLaunch
 from .launch_running import RunningNodes, what_runs
-from .showing import Showing
 
 _START_S = 60.0
 """Starting programs takes its time on a busy machine."""
 _SILENCE_S = 5.0
 _LAST_S = 13.0
 """What stopping may take beyond the patience with each program."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ReadLaunch:
-    """A launch that was read: its commands have run, nothing of it is started."""
-
-    plan: LaunchPlan
-    params: Sequence[LaunchParam]
-    packages: Packages
-    start: Path
-    """What packages are searched around."""
-    env: Mapping[str, str]
-    report: Diagnostics
-    show: Showing
 
 
 class LaunchSession:

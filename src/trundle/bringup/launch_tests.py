@@ -14,8 +14,9 @@ from trundle.supervisor import Job, JobError, Patience
 from .launch import read_files
 from .launch_logs import ros_home
 from .launch_options import LaunchOptions
+from .launch_read import ReadLaunch
 from .launch_results import CaseResult, SuiteResult, read_result, write_junit
-from .launch_session import LaunchSession, ReadLaunch
+from .launch_session import LaunchSession
 
 
 def run_tests(

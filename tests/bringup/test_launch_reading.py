@@ -1,0 +1,16 @@
+"""Whoever only asks what a launch file holds waits for nothing that would run it."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+
+def test_listing_nodes_loads_nothing_heavy(tmp_path: Path) -> None:
+    file = tmp_path / "a.launch"
+    file.write_text('<launch><node pkg="p" type="t" name="one"/><param name="x" value="1"/></launch>')
+    code = (
+        f"import sys; from trundle.cli import main; assert main(['launch', '--nodes', {str(file)!r}]) == 0;"
+        "print([name for name in ('numpy', 'mujoco', 'rosbags', 'viser') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == ["/one", "[]"]
