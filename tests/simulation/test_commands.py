@@ -115,6 +115,21 @@ def test_a_joint_is_put_where_and_as_fast_as_one_likes(sim: Simulation) -> None:
     assert (hinge.position, hinge.velocity) == (0.7, -1.0)
 
 
+def test_a_model_tells_how_its_frame_moves(tmp_path: Path) -> None:
+    """A link 2 m from the model's frame that spins about itself takes the frame round."""
+    file = tmp_path / "w.sdf"
+    link = f'<link name="l"><pose>2 0 0 0 0 0</pose>{INERTIA}</link>'
+    model = f'<model name="m">{link}</model>'
+    file.write_text(f'<sdf version="1.6"><world name="w"><gravity>0 0 0</gravity>{model}</world></sdf>')
+    sim = trundle.load(str(file))
+    sim["m"].link("l").set_twist(Twist((0.0, 1.0, 0.0), (0.0, 0.0, 3.0)))
+
+    assert sim["m"].twist.linear == pytest.approx((0.0, 1.0 - 3.0 * 2.0, 0.0))
+    assert sim["m"].twist.angular == pytest.approx((0.0, 0.0, 3.0))
+    sim["m"].set_twist(Twist((0.5, 0.0, 0.0), (0.0, 0.0, 1.0)))
+    assert sim["m"].twist.linear == pytest.approx((0.5, 0.0, 0.0))
+
+
 def test_spawned_models_are_numbered_where_that_is_allowed(sim: Simulation) -> None:
     cart = sim["cart"].model
     with pytest.raises(UsageError, match="there is a model 'cart' already"):

@@ -137,6 +137,16 @@ class ModelHandle:
         return base.pose @ base.link.model_from_link.inverse()
 
     @property
+    def twist(self) -> Twist:
+        """Velocity of the model frame's origin and angular velocity, world axes; zero without a link."""
+        if not self.links:
+            return Twist()
+        (vx, vy, vz), spin = self.base.twist.linear, self.base.twist.angular
+        x, y, z = (p - b for p, b in zip(self.pose.position, self.base.pose.position, strict=True))
+        cx, cy, cz = cross(spin, (x, y, z))
+        return Twist((vx + cx, vy + cy, vz + cz), spin)
+
+    @property
     def base(self) -> LinkHandle:
         """The canonical link; the first one where the file names none.
 
