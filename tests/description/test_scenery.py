@@ -10,6 +10,7 @@ from trundle.description.sdf.cluster import cluster_middles
 from trundle.diagnostics import Diagnostics
 from trundle.model import Box, Cylinder, World
 from trundle.packages import Packages
+from trundle.render import scene_of
 from trundle.spatial import Pose
 
 CAN = "<model name='can'><pose>7 7 7 0 0 0</pose><link name='l'/></model>"
@@ -178,7 +179,7 @@ def test_a_road_is_a_line_with_a_width_and_a_material(tmp_path: Path) -> None:
     (road,) = world.roads
     assert (road.width, road.points) == (4.0, ((0.0, 0.0, 0.1), (5.0, 0.0, 0.1), (5.0, 5.0, 0.1)))
     assert road.material.diffuse == (0.0, 0.0, 1.0, 1.0)
-    assert "<road> 'dot' wants two points and a width > 0 m; it is left out" in report.warnings[1]
+    assert "<road> 'dot' wants two points and a width > 0 m; it is left out" in report.warnings[0]
 
 
 ACTOR = """<actor name='walker'><pose>1 0 0 0 0 0</pose><skin><filename>walk.dae</filename><scale>2</scale></skin>
@@ -229,3 +230,21 @@ def test_an_actor_and_a_road_read_back_as_they_were(tmp_path: Path) -> None:
     assert b.skin.path == tmp_path / "walk.dae"
     assert second.roads[0].points == first.roads[0].points
     assert second.roads[0].material == first.roads[0].material
+
+
+def test_a_road_is_drawn_where_it_is_on_whatever_stands_still(tmp_path: Path) -> None:
+    ground = "<model name='g'><static>1</static><pose>5 0 1 0 0 1</pose><link name='l'/></model>"
+    way = "<road name='way'><point>0 0 0</point><point>1 0 0</point></road>"
+    report = Diagnostics()
+    world = read(tmp_path, f"<model name='car'><link name='l'/></model>{ground}{way}")
+
+    (shape,) = scene_of(world, report).shapes
+
+    assert shape.name == "way"
+    model = world.models[shape.body]
+    assert model.name == "g"
+    assert (model.world_from_model @ shape.body_from_shape).as_list() == pytest.approx([0.0] * 6, abs=1e-12)
+    assert scene_of(world, report, collisions=True).shapes == ()
+    assert report.findings == []
+    assert scene_of(read(tmp_path, way), report).shapes == ()
+    assert "nothing in this world is static to lay it on; it is not drawn" in report.warnings[0]

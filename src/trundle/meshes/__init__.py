@@ -6,6 +6,7 @@ from .mesh import Mesh, MeshPart, Texture
 from .polygons import triangles_of
 from .raw import MeshError
 from .solids import cone_mesh, prism_mesh, terrain_mesh
+from .strip import strip_mesh
 from .texture import mean_colour
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "mean_colour",
     "prism_mesh",
     "read_heights",
+    "strip_mesh",
     "terrain_mesh",
     "triangles_of",
 ]

@@ -22,6 +22,7 @@ from trundle.model import (
     World,
 )
 
+from .roads import road_shapes
 from .scene import Scene, SceneLight, Shape, ShapeGeometry
 
 _COLLISION: Rgba = (1.0, 0.55, 0.1, 0.45)
@@ -45,6 +46,8 @@ def scene_of(world: World, report: Diagnostics, *, collisions: bool = False) -> 
             shapes += _shapes(items, len(bodies), report)
             lights += [_light(light, len(bodies), world) for light in link.lights]
             bodies.append(f"{model.name}::{link.name}")
+    if not collisions:
+        shapes += road_shapes(world, report)
     return Scene(
         bodies=tuple(bodies),
         shapes=tuple(shapes),

@@ -26,5 +26,4 @@ def read_road(node: XmlNode, context: Context) -> Road | None:
     if len(points) < 2 or not width > 0.0:
         report.warn(node.at, f"<road> {name!r} wants two points and a width > 0 m; it is left out")
         return None
-    report.warn(node.at, f"<road> {name!r} is not drawn yet; it is left out")
     return Road(name=name, at=node.at, points=tuple(points), width=width, material=material)

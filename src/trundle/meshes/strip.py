@@ -1,0 +1,40 @@
+"""A strip of triangles along a line, as roads are drawn."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from trundle.spatial import Vector3
+
+from .mesh import Mesh
+
+_BEND = 0.97
+"""Cosine between two segments beyond which a corner is as good as straight, or turns back, and is not widened."""
+
+
+def strip_mesh(points: Sequence[Vector3], width: float) -> Mesh:
+    """A level strip, wider in its corners so that it is as wide between them, as Gazebo has its roads.
+
+    Its uv repeat an image as wide as the strip: u from 0 on the left to 1 on the right, v up along the way.
+
+    Args:
+        points: of the middle line, at least two [m].
+        width: [m]
+    """
+    line = np.array(points, dtype=np.float64)
+    segments = np.diff(line, axis=0)
+    lengths = np.linalg.norm(segments, axis=1)
+    ways = segments / np.maximum(lengths, 1e-9)[:, None]
+    before, after = np.vstack([ways[:1], ways]), np.vstack([ways, ways[-1:]])
+    straight = np.einsum("ij,ij->i", before, after)
+    half = np.where(np.abs(straight) < _BEND, 1.0 / np.sqrt(np.maximum((1.0 + straight) / 2, 1e-3)), 1.0) * width / 2
+    along = before + after
+    across = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(line))])
+    across /= np.maximum(np.linalg.norm(across, axis=1), 1e-9)[:, None]
+    sides = across * half[:, None]
+    vertices = np.stack([line + sides, line - sides], axis=1).reshape(-1, 3)
+    covered = np.concatenate([[0.0], np.cumsum(lengths)]) / width
+    places = np.column_stack([np.tile([0.0, 1.0], len(line)), np.repeat(covered, 2)])
+    quad = np.array([[0, 1, 3], [0, 3, 2]])  # left and right, here and at the next point
+    faces = (2 * np.arange(len(segments))[:, None, None] + quad).reshape(-1, 3)
+    return Mesh(vertices.astype(np.float32), faces.astype(np.int32), uv=places[faces].astype(np.float32))

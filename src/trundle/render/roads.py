@@ -1,0 +1,35 @@
+"""Roads as shapes."""
+
+from collections.abc import Iterator
+
+from trundle.diagnostics import Diagnostics
+from trundle.meshes import strip_mesh
+from trundle.model import World
+from trundle.spatial import Pose
+
+from .scene import Shape
+
+
+def road_shapes(world: World, report: Diagnostics) -> Iterator[Shape]:
+    """Each road, lying on what stands still: shapes ride on bodies, and a road is on none."""
+    links = [(model, link) for model in world.models for link in model.links]
+    still = next((body for body, (model, link) in enumerate(links) if model.static or link.fixed), None)
+    for road in world.roads:
+        if still is None:
+            report.warn(road.at, f"<road> {road.name!r}: nothing in this world is static to lay it on; it is not drawn")
+            continue
+        model, link = links[still]
+        world_from_body: Pose = model.world_from_model @ link.model_from_link
+        yield Shape(
+            name=road.name,
+            body=still,
+            geometry=strip_mesh(road.points, road.width),
+            body_from_shape=world_from_body.inverse(),
+            rgba=road.material.diffuse,
+            ambient=road.material.ambient,
+            specular=road.material.specular,
+            emissive=road.material.emissive,
+            texture=road.material.texture,
+            texture_scale=road.material.texture_scale,
+            casts_shadow=False,
+        )
