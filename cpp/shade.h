@@ -72,7 +72,12 @@ inline void add_light(const Light& lamp, const Look& look, const F3& point, cons
   }
   strength = select(lit_side, strength, F{});
   lit.diffuse = lit.diffuse + splat(lamp.diffuse) * (facing * strength);
-  if (look.specular[0] + look.specular[1] + look.specular[2] <= 0.0f) return;
+  float most = 0.0f;
+  for (int i = 0; i < 3; ++i) {
+    const float shine = look.specular[i] * lamp.specular[i];
+    if (shine > most) most = shine;
+  }
+  if (most < 0.5f / 255.0f) return;  // nobody would see it
   const F3 half = towards + back;
   const F gloss = pow(max(dot(n, half), F{}) / sqrt(max(dot(half, half), splat(1e-12f))), look.shininess) * strength;
   lit.specular = lit.specular + splat(lamp.specular) * gloss;
