@@ -16,7 +16,7 @@ _ROUNDS = 20
 def run() -> list[Row]:
     """Measure the sensors by themselves: no stepping, no topics."""
     sim = trundle.load(str(ROBOT))
-    cameras = mount_cameras(sim.world, NativeRenderer, sim.report)
+    cameras = mount_cameras(sim, NativeRenderer)
     rates: list[float] = []
     for _ in range(_ROUNDS):
         sim.step(33)

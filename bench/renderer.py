@@ -98,7 +98,7 @@ def _scans(name: str, scene: Scene, beams: int, height: int) -> Row:
 def _rp2w() -> Row:
     """Simulated seconds a second, both cameras at 30 Hz."""
     sim = trundle.load(str(ROBOT))
-    cameras = mount_cameras(sim.world, NativeRenderer, sim.report)
+    cameras = mount_cameras(sim, NativeRenderer)
     for camera in cameras:
         sim.add_hook(camera, period_ns=camera.period_ns, wanted=lambda: True)
     sim.run(1.0)

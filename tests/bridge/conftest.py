@@ -66,7 +66,7 @@ def hear(graph: SimpleNamespace, described: Described) -> Hear:
         world: str, topics: Mapping[str, str], *, seconds: float = 0.1, seed: int = 0, version: str = "1.6"
     ) -> tuple[dict[str, Any], set[str]]:
         sim = described(world, seed=seed, version=version)
-        cameras = mount_cameras(sim.world, NativeRenderer, sim.report, seed=seed)
+        cameras = mount_cameras(sim, NativeRenderer)
         sensors = mount_sensors(sim)
         for sensor in (*cameras, *sensors):
             sim.add_hook(sensor, period_ns=sensor.period_ns, wanted=sensor.wanted)

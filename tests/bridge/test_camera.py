@@ -16,7 +16,7 @@ from trundle.model import CameraOptics, Link, Model, Sensor, World
 from trundle.render import Intrinsics, Picture
 from trundle.ros import Core, GraphLoop, Node, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, Scenery
-from trundle.simulation import Snapshot
+from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
 AT = Source("robot.sdf", 1)
@@ -64,7 +64,7 @@ def stage(monkeypatch: pytest.MonkeyPatch) -> Iterator[SimpleNamespace]:
     link = Link(name="head", at=AT, sensors=(sensor,))
     model = Model(name="bot", at=AT, links=(link,))
     world = World(name="w", at=AT, models=(model,))
-    scenery = Scenery(world, lambda _: Ramp(), Diagnostics())
+    scenery = Scenery(Simulation(world, Diagnostics()), lambda _: Ramp())
     camera = CameraSensor(model, link, sensor, optics, link_index=0, scenery=scenery, random=np.random.default_rng(0))
     with GraphLoop() as loop:
         core = Core(loop, port=0)

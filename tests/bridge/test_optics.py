@@ -107,7 +107,7 @@ def test_noise_is_gaussian_and_grey(described: Any) -> None:
     pictures: list[Any] = []
     for inside in ("", NOISE):
         sim = described(eye("camera", inside=inside))
-        (camera,) = mount_cameras(sim.world, NativeRenderer, sim.report, seed=3)
+        (camera,) = mount_cameras(sim, NativeRenderer)
         pictures.append(camera.take(sim.snapshot()).rgb.astype(int))
     grain = pictures[1] - pictures[0]
 
@@ -118,8 +118,8 @@ def test_noise_is_gaussian_and_grey(described: Any) -> None:
 
 def test_the_same_seed_makes_the_same_noise(described: Any) -> None:
     def taken(seed: int) -> bytes:
-        sim = described(eye("camera", inside=NOISE))
-        (camera,) = mount_cameras(sim.world, NativeRenderer, sim.report, seed=seed)
+        sim = described(eye("camera", inside=NOISE), seed=seed)
+        (camera,) = mount_cameras(sim, NativeRenderer)
         return b"".join(camera.take(sim.snapshot()).rgb.tobytes() for _ in range(2))
 
     assert taken(1) == taken(1)
@@ -129,7 +129,7 @@ def test_the_same_seed_makes_the_same_noise(described: Any) -> None:
 def test_pictures_are_saved_under_gazebo_s_names(described: Any) -> None:
     with tempfile.TemporaryDirectory() as folder:
         sim = described(eye("camera", inside=f'<save enabled="true"><path>{folder}/shots</path></save>') + WALL)
-        (camera,) = mount_cameras(sim.world, NativeRenderer, sim.report)
+        (camera,) = mount_cameras(sim, NativeRenderer)
         sim.add_hook(camera, period_ns=camera.period_ns, wanted=camera.wanted)
         sim.run(0.1)
 
@@ -142,7 +142,7 @@ def test_pictures_are_saved_under_gazebo_s_names(described: Any) -> None:
 
 def test_a_file_does_not_choose_where_in_the_system_pictures_are_saved(described: Any) -> None:
     sim = described(eye("camera", inside='<save enabled="true"><path>/etc/shots</path></save>'))
-    (camera,) = mount_cameras(sim.world, NativeRenderer, sim.report)
+    (camera,) = mount_cameras(sim, NativeRenderer)
 
     assert not camera.wanted()
     (warning,) = sim.report.warnings
@@ -152,7 +152,7 @@ def test_a_file_does_not_choose_where_in_the_system_pictures_are_saved(described
 def test_a_folder_that_cannot_be_made_ends_the_saving_with_one_warning(described: Any) -> None:
     with tempfile.NamedTemporaryFile() as file:
         sim = described(eye("camera", inside=f'<save enabled="true"><path>{file.name}/shots</path></save>'))
-        (camera,) = mount_cameras(sim.world, NativeRenderer, sim.report)
+        (camera,) = mount_cameras(sim, NativeRenderer)
         sim.add_hook(camera, period_ns=camera.period_ns, wanted=camera.wanted)
         sim.run(0.2)
 
@@ -184,7 +184,7 @@ BROKEN = [
 @pytest.mark.parametrize(("inside", "sentence"), BROKEN)
 def test_a_camera_that_can_make_no_picture_is_mended_aloud(described: Any, inside: str, sentence: str) -> None:
     sim = described(eye("camera", cameras=f"<camera>{inside}</camera>"))
-    (camera,) = mount_cameras(sim.world, NativeRenderer, sim.report)
+    (camera,) = mount_cameras(sim, NativeRenderer)
 
     picture = camera.take(sim.snapshot()).rgb
     assert picture.shape == (240, 320, 3)
@@ -194,7 +194,7 @@ def test_a_camera_that_can_make_no_picture_is_mended_aloud(described: Any, insid
 def test_a_lens_that_cannot_be_is_mended_aloud(described: Any) -> None:
     fov = "<horizontal_fov>3.3</horizontal_fov><lens><type>gnomonical</type></lens>"
     sim = described(eye("wideanglecamera", cameras=f"<camera>{fov}</camera>"))
-    (camera,) = mount_cameras(sim.world, NativeRenderer, sim.report)
+    (camera,) = mount_cameras(sim, NativeRenderer)
 
     assert camera.take(sim.snapshot()).rgb.shape == (240, 320, 3)
     (warning,) = sim.report.warnings

@@ -57,7 +57,7 @@ def mounted(*sensors_: Sensor) -> tuple[Simulation, list[CameraSensor], Counting
     made, renderer = world(*sensors_), CountingRenderer()
     report = Diagnostics(strict=True)
     sim = Simulation(made, report)
-    cameras = mount_cameras(made, lambda _: renderer, report)
+    cameras = mount_cameras(sim, lambda _: renderer)
     for one in cameras:
         sim.add_hook(one, period_ns=one.period_ns, wanted=one.wanted)
     return sim, cameras, renderer
@@ -166,14 +166,17 @@ def test_all_cameras_share_one_renderer_and_a_world_without_makes_none() -> None
         made.append(CountingRenderer())
         return made[-1]
 
-    assert [eye.name for eye in mount_cameras(world(camera("a"), camera("b")), make, Diagnostics())] == ["a", "b"]
+    assert [eye.name for eye in mount_cameras(Simulation(world(camera("a"), camera("b")), Diagnostics()), make)] == [
+        "a",
+        "b",
+    ]
     assert len(made) == 1
-    assert mount_cameras(world(), make, Diagnostics()) == []
+    assert mount_cameras(Simulation(world(), Diagnostics()), make) == []
     assert len(made) == 1
 
 
 def test_a_sensor_that_does_not_measure_yet_is_named() -> None:
     report = Diagnostics()
     odd = Sensor(name="nose", type="smell", at=AT)
-    assert mount_cameras(world(odd), lambda _: CountingRenderer(), report) == []
+    assert mount_cameras(Simulation(world(odd), report), lambda _: CountingRenderer()) == []
     assert report.warnings == ["robot.sdf:9: warning: sensor 'nose': smell sensors are not simulated yet"]

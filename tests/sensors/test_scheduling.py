@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import trundle
-from trundle.diagnostics import Diagnostics
 from trundle.render import Intrinsics, Picture, Scene
 from trundle.sensors import SIMULATED, mount_cameras, mount_sensors
 from trundle.simulation import Simulation
@@ -71,7 +70,7 @@ def load(tmp_path: Any) -> Any:
         file = tmp_path / "w.sdf"
         file.write_text(f'<sdf version="1.6"><world name="w">{inside}</world></sdf>')
         sim = trundle.load(str(file))
-        mounted = [*mount_cameras(sim.world, Blank, Diagnostics()), *mount_sensors(sim)]
+        mounted = [*mount_cameras(sim, Blank), *mount_sensors(sim)]
         for one in mounted:
             sim.add_hook(one, period_ns=one.period_ns, wanted=one.wanted)
         return sim, mounted

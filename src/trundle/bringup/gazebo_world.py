@@ -257,7 +257,7 @@ class GazeboWorld:
         assert self._node is not None
         assert self._still is not None
         world = simulation.world
-        cameras = self._cameras = mount_cameras(world, NativeRenderer, self._report)
+        cameras = self._cameras = mount_cameras(simulation, NativeRenderer)
         sensors = mount_sensors(simulation)
         for sensor in (*cameras, *sensors):
 

@@ -84,7 +84,7 @@ class Studio:
         width, height = options.size or DEFAULT_SIZE
         self._lens = Intrinsics(width_px=width, height_px=height, horizontal_fov_rad=_FOV, near_m=0.01, far_m=1000.0)
         if options.camera is not None:
-            self._sensor = _camera(options.camera, mount_cameras(stage.world, lambda _: self._renderer, report))
+            self._sensor = _camera(options.camera, mount_cameras(self.simulation, lambda _: self._renderer))
             self._lens = self._sensor.intrinsics
             if options.content == "depth" and self._sensor.optics.lens is not None:
                 raise UsageError(f"camera {options.camera!r} is a wide-angle one; only pinholes see depths")

@@ -76,7 +76,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
     with stop_flag() as stop, ExitStack() as open_things:
         stage = set_stage(file, Packages(env, start=Path.cwd()), report, seed=options.seed)
         simulation = Simulation(stage.world, report, seed=options.seed)
-        cameras = mount_cameras(stage.world, RENDERERS[options.renderer], report, seed=options.seed)
+        cameras = mount_cameras(simulation, RENDERERS[options.renderer])
         sensors = mount_sensors(simulation)
         if not options.sensors:
             cameras.clear()

@@ -3,14 +3,12 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.model import CameraOptics, Link, Model, Sensor
 from trundle.render import corners_of
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
 from .camera import CameraReading, CameraSensor, SeenBox
 from .placing import moved, pose_of
-from .scenery import Scenery
 from .segmentation_camera import INSTANCES, instances_of
 
 _Points = NDArray[np.float64]
@@ -19,31 +17,17 @@ _Points = NDArray[np.float64]
 class BoundingBoxCameraSensor(CameraSensor):
     """Tells a box around each labelled model of which a pixel can be seen."""
 
-    def __init__(
-        self,
-        model: Model,
-        link: Link,
-        sensor: Sensor,
-        optics: CameraOptics,
-        *,
-        link_index: int,
-        scenery: Scenery,
-        random: np.random.Generator,
-    ) -> None:
-        """Mount it; see `CameraSensor`."""
-        super().__init__(model, link, sensor, optics, link_index=link_index, scenery=scenery, random=random)
-        self._things = instances_of(scenery)
-
     def take(self, snapshot: Snapshot) -> CameraReading:
         """Look, and draw a box round each thing."""
         picture = self.look(snapshot, segmentation=True)
         assert picture.segmentation is not None
-        seen = self._things[picture.segmentation]
-        boxes = [self._box(int(thing), seen, snapshot) for thing in np.unique(seen[seen > 0])]
+        things = instances_of(self.scenery)
+        seen = things[picture.segmentation]
+        boxes = [self._box(int(thing), things, seen, snapshot) for thing in np.unique(seen[seen > 0])]
         return CameraReading(time_ns=snapshot.time_ns, rgb=picture.rgb, boxes=tuple(boxes))
 
-    def _box(self, thing: int, seen: NDArray[np.int32], snapshot: Snapshot) -> SeenBox:
-        (shapes,) = np.nonzero(self._things == thing)
+    def _box(self, thing: int, things: NDArray[np.int32], seen: NDArray[np.int32], snapshot: Snapshot) -> SeenBox:
+        (shapes,) = np.nonzero(things == thing)
         bodies = self.scenery.scene.bodies
         model = bodies[self.scenery.scene.shapes[int(shapes[0])].body].partition("::")[0]
         label = thing // INSTANCES

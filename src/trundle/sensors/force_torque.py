@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from trundle.model import ForceTorque, Joint, Link, Model, Sensor
-from trundle.simulation import Snapshot
+from trundle.simulation import LinkHandle, Snapshot
 from trundle.spatial import Pose, Vector3, Wrench
 
 from .mounted import MountedSensor
@@ -33,7 +33,7 @@ class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
         *,
         joint: Joint,
         link_index: int,
-        parent_index: int | None,
+        parent: LinkHandle | None,
         reaction: Callable[[], Wrench],
         random: np.random.Generator,
     ) -> None:
@@ -45,7 +45,7 @@ class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
             sensor: with its force_torque.
             joint: that it sits on.
             link_index: of the child in `Snapshot.poses`.
-            parent_index: of the parent likewise; None: the world.
+            parent: the joint's; None: the world.
             reaction: what the parent does to the child, at the joint, world axes.
             random: for its noise.
         """
@@ -54,7 +54,7 @@ class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
         self.joint = joint
         self.place = joint.name
         self.link_from_sensor = joint.child_from_joint @ sensor.link_from_sensor
-        self._parent_index = parent_index
+        self._parent = parent
         self._reaction = reaction
         self._forces = [NoiseSource(each, random) for each in self.settings.force]
         self._torques = [NoiseSource(each, random) for each in self.settings.torque]
@@ -75,9 +75,9 @@ class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
     def _world_from_axes(self, snapshot: Snapshot) -> Pose:
         match self.settings.frame:
             case "parent":
-                if self._parent_index is None:
+                if self._parent is None:
                     return Pose()
-                x, y, z, qw, qx, qy, qz = snapshot.poses[self._parent_index].tolist()
+                x, y, z, qw, qx, qy, qz = snapshot.poses[self._parent.index].tolist()
                 return Pose((x, y, z), (qw, qx, qy, qz))
             case "sensor":
                 return self.world_from_link(snapshot) @ self.link_from_sensor

@@ -1,7 +1,7 @@
 """Logical cameras: which models are in view, and where."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,7 +53,9 @@ class LogicalCameraSensor(MountedSensor[LogicalCameraReading]):
     As in Gazebo a model that others hide is in view, too; endless planes never are.
     """
 
-    def __init__(self, model: Model, link: Link, sensor: Sensor, *, link_index: int, bodies: Sequence[Body]) -> None:
+    def __init__(
+        self, model: Model, link: Link, sensor: Sensor, *, link_index: int, bodies: Callable[[], Sequence[Body]]
+    ) -> None:
         """Mount it; see `MountedSensor`.
 
         Args:
@@ -65,14 +67,16 @@ class LogicalCameraSensor(MountedSensor[LogicalCameraReading]):
         """
         super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
         assert isinstance(sensor.instrument, LogicalCamera), f"{sensor.name!r} is no logical camera"
-        self._bodies = [body for body in bodies if body.name != model.name and body.corners]
+        self._bodies = bodies
         self._planes = _planes(sensor.instrument)
 
     def take(self, snapshot: Snapshot) -> LogicalCameraReading:
         """What is in view at this instant."""
         camera_from_world = self.world_from_sensor(snapshot).inverse()
         seen: list[SeenModel] = []
-        for body in self._bodies:
+        for body in self._bodies():
+            if body.name == self.model.name or not body.corners:
+                continue
             points = np.concatenate([moved(pose_of(snapshot.poses[i]), at) for i, at in body.corners.items()])
             if not self._holds(moved(camera_from_world, _box(points))):
                 continue

@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import CameraOptics, Distortion, Sensor, World
+from trundle.model import CameraOptics, Distortion, Sensor
 from trundle.render import Renderer, Scene
+from trundle.simulation import Simulation
 
 from .bounding_box_camera import BoundingBoxCameraSensor
 from .camera import CameraSensor
@@ -41,17 +42,14 @@ SIMULATED = frozenset(_KINDS) | MEASURING
 """SDF's sensor types that measure."""
 
 
-def mount_cameras(
-    world: World, make: Callable[[Scene], Renderer], report: Diagnostics, *, seed: int = 0
-) -> list[CameraSensor]:
+def mount_cameras(simulation: Simulation, make: Callable[[Scene], Renderer]) -> list[CameraSensor]:
     """Every camera of a world, in file order; sensors of types that do not measure yet are named.
 
     Args:
-        world: with its sensors.
+        simulation: with its sensors; its seed is that of the noise.
         make: makes the one renderer all cameras share; called only if there is a camera.
-        report: takes what is not simulated.
-        seed: of the noise.
     """
+    world, report = simulation.world, simulation.report
     cameras: list[CameraSensor] = []
     scenery: Scenery | None = None
     index = number = 0
@@ -66,11 +64,12 @@ def mount_cameras(
                     report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")
                     continue
                 _name_unsupported(sensor, report)
-                scenery = scenery or Scenery(world, make, report)
+                scenery = scenery or Scenery(simulation, make)
                 _doubt_labels(sensor, kind, scenery, report)
                 for part, optics in enumerate(_made(sensor, report)):
-                    random = np.random.default_rng([seed, number, part])
+                    random = np.random.default_rng([simulation.seed, number, part])
                     camera = kind(model, link, sensor, optics, link_index=index, scenery=scenery, random=random)
+                    camera.follow(simulation[model.name].link(link.name))
                     _save(camera, world.name, report)
                     cameras.append(camera)
             index += 1

@@ -72,7 +72,9 @@ def mount_sensors(simulation: Simulation) -> list[MeasuringSensor]:
                 make = _MAKERS.get(sensor.type)
                 if make is not None:
                     random = np.random.default_rng([simulation.seed, number])
-                    mounted.append(make(_Spot(simulation, around, model, link, sensor, index, random)))
+                    made = make(_Spot(simulation, around, model, link, sensor, index, random))
+                    made.follow(simulation[model.name].link(link.name))
+                    mounted.append(made)
             index += 1
         mounted += _on_joints(simulation, model, first=index - len(model.links))
     return mounted
@@ -88,19 +90,20 @@ def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[Meas
                 what = f"sensor {sensor.name!r}: {sensor.type} sensors on joints are not simulated yet"
                 simulation.report.warn(sensor.at, what)
                 continue
-            handle = simulation[model.name].joint(joint.name)
-            mounted.append(
-                ForceTorqueSensor(
-                    model,
-                    model.link(joint.child),
-                    sensor,
-                    joint=joint,
-                    link_index=indices[joint.child],
-                    parent_index=indices.get(joint.parent),
-                    reaction=lambda handle=handle: handle.reaction,
-                    random=np.random.default_rng([simulation.seed, first, number]),
-                )
+            robot = simulation[model.name]
+            handle = robot.joint(joint.name)
+            made = ForceTorqueSensor(
+                model,
+                model.link(joint.child),
+                sensor,
+                joint=joint,
+                link_index=indices[joint.child],
+                parent=robot.link(joint.parent) if joint.parent in indices else None,
+                reaction=lambda handle=handle: handle.reaction,
+                random=np.random.default_rng([simulation.seed, first, number]),
             )
+            made.follow(robot.link(joint.child))
+            mounted.append(made)
     return mounted
 
 
@@ -151,7 +154,7 @@ def _imu(at: _Spot) -> ImuSensor:
 
 
 def _logical_camera(at: _Spot) -> LogicalCameraSensor:
-    return LogicalCameraSensor(at.model, at.link, at.sensor, link_index=at.index, bodies=at.around.bodies)
+    return LogicalCameraSensor(at.model, at.link, at.sensor, link_index=at.index, bodies=lambda: at.around.bodies)
 
 
 def _magnetometer(at: _Spot) -> MagnetometerSensor:
@@ -166,7 +169,7 @@ def _range(at: _Spot) -> RangeSensor:
 
 
 def _rfid(at: _Spot) -> RfidSensor:
-    return RfidSensor(at.model, at.link, at.sensor, link_index=at.index, tags=at.around.beacons("rfidtag"))
+    return RfidSensor(at.model, at.link, at.sensor, link_index=at.index, tags=lambda: at.around.beacons("rfidtag"))
 
 
 def _sonar(at: _Spot) -> SonarSensor:
@@ -179,7 +182,7 @@ def _wireless_receiver(at: _Spot) -> WirelessSensor:
         at.link,
         at.sensor,
         link_index=at.index,
-        transmitters=at.around.beacons("wireless_transmitter"),
+        transmitters=lambda: at.around.beacons("wireless_transmitter"),
         rays=at.around.rays,
         random=at.random,
     )

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Generic, TypeVar
 
+from trundle.diagnostics import UsageError
 from trundle.model import Link, Model, Sensor
-from trundle.simulation import Snapshot
+from trundle.simulation import LinkHandle, Snapshot
 from trundle.spatial import Pose, Vector3, cross
 
 from .placing import pose_of
@@ -44,7 +45,8 @@ class MountedSensor(Generic[Reading]):
         self.model = model
         self.link = link
         self.sensor = sensor
-        self.link_index = link_index
+        self._index = link_index
+        self._handle: LinkHandle | None = None
         self.place = link.name
         """What its topics are called after: its link, or the joint it sits on."""
         rate = sensor.update_rate_hz or fastest_hz
@@ -56,13 +58,30 @@ class MountedSensor(Generic[Reading]):
         """As in the file."""
         return self.sensor.name
 
+    def follow(self, handle: LinkHandle) -> None:
+        """Ride on a link wherever it is among the others, as models come and go; without it nothing is measured."""
+        self._handle = handle
+
+    @property
+    def link_index(self) -> int:
+        """Of the link that carries it, in `Snapshot.poses`."""
+        return self._index if self._handle is None else self._handle.index
+
+    @property
+    def _is_there(self) -> bool:
+        try:
+            return self.link_index >= 0
+        except UsageError:
+            return False
+
     def listen(self, call: Callable[[Reading], None], *, wanted: Callable[[], bool] = lambda: True) -> None:
         """Have a function called with each reading; while nobody wants one, none is taken."""
         self._listeners.append(_Listener(call, wanted))
 
     def wanted(self) -> bool:
         """Whether the sensor is always on, or anybody wants its readings."""
-        return self.sensor.always_on or any(listener.wanted() for listener in self._listeners)
+        asked = self.sensor.always_on or any(listener.wanted() for listener in self._listeners)
+        return asked and self._is_there
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Measure, and tell those who want to know."""

@@ -5,27 +5,31 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.diagnostics import Diagnostics
 from trundle.model import Visual, World
 from trundle.render import Intrinsics, Picture, Renderer, Scene, scene_of
-from trundle.simulation import Snapshot
+from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
 
 class Scenery:
     """The world as cameras see it. Its tables are by a shape's number; number −1, no shape, is their last entry."""
 
-    def __init__(self, world: World, make: Callable[[Scene], Renderer], report: Diagnostics) -> None:
+    def __init__(self, simulation: Simulation, make: Callable[[Scene], Renderer]) -> None:
         """Make the scene and its renderer.
 
         Args:
-            world: what there is to see.
+            simulation: what there is to see; another scene is made after models came, went or were edited.
             make: makes the one renderer that all cameras share.
-            report: takes what cannot be drawn.
         """
-        self.scene = scene_of(world, report)
-        self._renderer = make(self.scene)
+        self._simulation = simulation
+        self._make = make
         self._shown: Snapshot | None = None
+        self._build(simulation.world)
+
+    def _build(self, world: World) -> None:
+        self._world = world
+        self.scene = scene_of(world, self._simulation.report)
+        self._renderer = self._make(self.scene)
         visuals: dict[tuple[int, str], Visual] = {}
         model_of: list[int] = []
         for number, model in enumerate(world.models):
@@ -45,6 +49,9 @@ class Scenery:
         self, snapshot: Snapshot, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool, segmentation: bool
     ) -> Picture:
         """Draw an instant; the shapes are put in place once for all cameras."""
+        if self._world is not self._simulation.world:
+            self._build(self._simulation.world)
+            self._shown = None
         if self._shown is not snapshot:
             self._renderer.update(snapshot.poses)
             self._shown = snapshot

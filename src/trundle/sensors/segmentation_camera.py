@@ -5,7 +5,6 @@ import colorsys
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.model import CameraOptics, Link, Model, Sensor
 from trundle.simulation import Snapshot
 
 from .camera import CameraReading, CameraSensor
@@ -23,29 +22,14 @@ class SegmentationCameraSensor(CameraSensor):
     Semantic pictures hold labels; panoptic ones also number the models that share a label, from 1 on.
     """
 
-    def __init__(
-        self,
-        model: Model,
-        link: Link,
-        sensor: Sensor,
-        optics: CameraOptics,
-        *,
-        link_index: int,
-        scenery: Scenery,
-        random: np.random.Generator,
-    ) -> None:
-        """Mount it; see `CameraSensor`."""
-        super().__init__(model, link, sensor, optics, link_index=link_index, scenery=scenery, random=random)
-        self._values = instances_of(scenery) if optics.panoptic else scenery.labels
-        kinds, self._kind_of = np.unique(self._values, return_inverse=True)
-        self._colours = np.array([_colour(int(value)) for value in kinds], dtype=np.uint8)
-
     def take(self, snapshot: Snapshot) -> CameraReading:
         """See what is where."""
         shapes = self.look(snapshot, segmentation=True).segmentation
         assert shapes is not None
-        colours = self._colours[self._kind_of[shapes]]
-        return CameraReading(time_ns=snapshot.time_ns, rgb=colours, labels=self._values[shapes])
+        values = instances_of(self.scenery) if self.optics.panoptic else self.scenery.labels
+        kinds, kind_of = np.unique(values, return_inverse=True)
+        colours = np.array([_colour(int(value)) for value in kinds], dtype=np.uint8)
+        return CameraReading(time_ns=snapshot.time_ns, rgb=colours[kind_of[shapes]], labels=values[shapes])
 
 
 def instances_of(scenery: Scenery) -> NDArray[np.int32]:

@@ -1,11 +1,10 @@
 """What sensors that need no picture find around them."""
 
-from functools import cached_property
-
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.model import Model, Transceiver
+from trundle.diagnostics import Diagnostics
+from trundle.model import Model, Transceiver, World
 from trundle.render import corners_of, scene_of
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Vector3
@@ -25,6 +24,8 @@ class Surroundings:
         self._simulation = simulation
         self._touched: RayCaster | None = None
         self._lit: RayCaster | None = None
+        self._bodies: list[Body] | None = None
+        self._bodies_of: World | None = None
 
     def rays(self, origin: Vector3, directions: _Array, reach: float, exclude: int) -> Found:
         """Against collision shapes; see `Rays`."""
@@ -70,26 +71,32 @@ class Surroundings:
                 index += 1
         return found
 
-    @cached_property
+    @property
     def bodies(self) -> list[Body]:
         """Every model, with the corners of its collision shapes."""
         world = self._simulation.world
-        corners: dict[int, list[_Array]] = {}
-        for shape in scene_of(world, self._simulation.report, collisions=True).shapes:
-            box = corners_of(shape.geometry)
-            if box:
-                corners.setdefault(shape.body, []).append(moved(shape.body_from_shape, np.array(box)))
-        bodies: list[Body] = []
-        first = 0
-        for model in world.models:
-            span = range(first, first + len(model.links))
-            first += len(model.links)
-            if not model.links:
-                continue
-            base, base_from_model = _base(model)
-            own = {index: np.concatenate(corners[index]) for index in span if index in corners}
-            bodies.append(Body(name=model.name, base_index=span[base], base_from_model=base_from_model, corners=own))
-        return bodies
+        if self._bodies is None or self._bodies_of is not world:
+            self._bodies, self._bodies_of = _bodies(world), world
+        return self._bodies
+
+
+def _bodies(world: World) -> list[Body]:
+    corners: dict[int, list[_Array]] = {}
+    for shape in scene_of(world, Diagnostics(), collisions=True).shapes:
+        box = corners_of(shape.geometry)
+        if box:
+            corners.setdefault(shape.body, []).append(moved(shape.body_from_shape, np.array(box)))
+    bodies: list[Body] = []
+    first = 0
+    for model in world.models:
+        span = range(first, first + len(model.links))
+        first += len(model.links)
+        if not model.links:
+            continue
+        base, base_from_model = _base(model)
+        own = {index: np.concatenate(corners[index]) for index in span if index in corners}
+        bodies.append(Body(name=model.name, base_index=span[base], base_from_model=base_from_model, corners=own))
+    return bodies
 
 
 def _base(model: Model) -> tuple[int, Pose]:

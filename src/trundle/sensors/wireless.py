@@ -1,7 +1,7 @@
 """Radio: who is heard where, and which tags are near."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,7 +70,7 @@ class WirelessSensor(MountedSensor[WirelessReading]):
         sensor: Sensor,
         *,
         link_index: int,
-        transmitters: Sequence[Beacon],
+        transmitters: Callable[[], Sequence[Beacon]],
         rays: Rays,
         random: np.random.Generator,
     ) -> None:
@@ -96,7 +96,7 @@ class WirelessSensor(MountedSensor[WirelessReading]):
         """Who is heard at this instant."""
         own = self._settings
         heard: list[Heard] = []
-        for transmitter in self._transmitters:
+        for transmitter in self._transmitters():
             sent = transmitter.settings
             if not own.lowest_mhz <= sent.frequency_mhz <= own.highest_mhz:
                 continue
@@ -137,7 +137,9 @@ class RfidReading:
 class RfidSensor(MountedSensor[RfidReading]):
     """Tells the tags within five metres, whatever is between, as Gazebo does."""
 
-    def __init__(self, model: Model, link: Link, sensor: Sensor, *, link_index: int, tags: Sequence[Beacon]) -> None:
+    def __init__(
+        self, model: Model, link: Link, sensor: Sensor, *, link_index: int, tags: Callable[[], Sequence[Beacon]]
+    ) -> None:
         """Mount a reader; see `MountedSensor`.
 
         Args:
@@ -153,5 +155,5 @@ class RfidSensor(MountedSensor[RfidReading]):
     def take(self, snapshot: Snapshot) -> RfidReading:
         """Which tags are near at this instant."""
         here = self.world_from_sensor(snapshot).position
-        near = [tag.name for tag in self._tags if math.dist(here, tag.place(snapshot)) <= _TAG_REACH]
+        near = [tag.name for tag in self._tags() if math.dist(here, tag.place(snapshot)) <= _TAG_REACH]
         return RfidReading(time_ns=snapshot.time_ns, tags=tuple(near))

@@ -1,0 +1,67 @@
+"""Sensors go on as models come and go around them."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import trundle
+from trundle.render import NativeRenderer
+from trundle.sensors import SIMULATED, mount_cameras, mount_sensors
+from trundle.simulation import Simulation
+from trundle.spatial import Pose
+
+from .test_scheduling import UNHEARD, of_type
+
+BOX = """<model name="{}"><static>1</static><pose>{} 0 0 0 0 0</pose><link name="l">
+<visual name="v"><geometry><box><size>1 1 1</size></box></geometry></visual></link></model>"""
+
+
+def world(tmp_path: Path, inside: str) -> tuple[Simulation, list[Any]]:
+    file = tmp_path / "w.sdf"
+    file.write_text(f'<sdf version="1.6"><world name="w">{inside}</world></sdf>')
+    sim = trundle.load(str(file))
+    mounted = [*mount_cameras(sim, NativeRenderer), *mount_sensors(sim)]
+    for one in mounted:
+        sim.add_hook(one, period_ns=one.period_ns, wanted=one.wanted)
+    return sim, mounted
+
+
+@pytest.mark.parametrize("type_", sorted(SIMULATED - set(UNHEARD)))
+def test_every_sensor_measures_on_and_ends_with_its_model(tmp_path: Path, type_: str) -> None:
+    """One model before its own goes, another comes, then its own goes."""
+    sim, (sensor,) = world(tmp_path, BOX.format("first", 9) + of_type(type_))
+    readings: list[Any] = []
+    sensor.listen(readings.append)
+
+    sim.run(0.02)
+    sim.delete("first")
+    sim.run(0.02)
+    sim.spawn(replace(sim["m"].model, name="another", world_from_model=Pose((0.0, 5.0, 0.0))))
+    sim.run(0.02)
+    assert [reading.time_ns for reading in readings] == [20_000_000, 40_000_000, 60_000_000]
+
+    sim.delete("m")
+    sim.run(0.1)
+    assert len(readings) == 3
+
+
+def test_a_camera_sees_what_came_and_from_its_own_link(tmp_path: Path) -> None:
+    """Boxes ahead come and go; a model before the camera's own in the world goes, too."""
+    shape = "<camera><image><width>9</width><height>9</height></image></camera>"
+    own = f'<sensor name="s" type="depth">{shape}</sensor>'
+    eye = f'<model name="m"><static>1</static><link name="l">{own}</link></model>'
+    sim, (camera,) = world(tmp_path, BOX.format("far", 6) + eye)
+
+    def depth() -> float:
+        return float(camera.take(sim.snapshot()).depth[4, 4])
+
+    assert depth() == pytest.approx(5.5, abs=1e-4)
+    sim.spawn(replace(sim["far"].model, name="near", world_from_model=Pose((3.0, 0.0, 0.0))))
+    assert depth() == pytest.approx(2.5, abs=1e-4)
+    sim.delete("far")
+    assert depth() == pytest.approx(2.5, abs=1e-4)
+    sim.delete("near")
+    assert np.isnan(depth())
