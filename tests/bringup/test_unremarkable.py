@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from trundle.bringup.unremarkable import _eigenvalues, is_unremarkable
@@ -73,6 +73,8 @@ def test_what_physics_may_mend_cut_or_refuse_is_left_to_it(was: str, now: str) -
 _MOMENTS = st.floats(-10, 10)
 
 
+@example((0.0, 0.0, 0.0), (0.0, 0.0, 1.3634676056435316e-150))
+@example((1e200, 2e200, 3e200), (0.0, 0.0, 1e199))
 @given(st.tuples(_MOMENTS, _MOMENTS, _MOMENTS), st.tuples(_MOMENTS, _MOMENTS, _MOMENTS))
 def test_the_principal_moments_are_those_of_the_matrix(
     moments: tuple[float, float, float], products: tuple[float, float, float]

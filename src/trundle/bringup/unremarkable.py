@@ -91,15 +91,18 @@ def _is_plain_inertial(inertial: Inertial) -> bool:
 
 def _eigenvalues(inertial: Inertial) -> tuple[float, float, float]:
     """Of the inertia; a symmetric matrix has three real ones, which are cosines a third of a turn apart."""
-    (xx, yy, zz), (xy, xz, yz) = inertial.moments, inertial.products
+    scale = max(map(abs, (*inertial.moments, *inertial.products)))
+    if scale == 0.0:
+        return 0.0, 0.0, 0.0
+    xx, yy, zz, xy, xz, yz = (number / scale for number in (*inertial.moments, *inertial.products))
     mean = (xx + yy + zz) / 3
     a, b, c = xx - mean, yy - mean, zz - mean
     spread = math.sqrt((a * a + b * b + c * c + 2 * (xy * xy + xz * xz + yz * yz)) / 6)
-    if spread == 0.0:
-        return mean, mean, mean
+    if spread < 1e-15:
+        return mean * scale, mean * scale, mean * scale
     determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz)
     angle = math.acos(max(-1.0, min(1.0, determinant / spread**3 / 2))) / 3
-    one, two, three = (mean + 2 * spread * math.cos(angle + turn * math.tau / 3) for turn in range(3))
+    one, two, three = (scale * (mean + 2 * spread * math.cos(angle + turn * math.tau / 3)) for turn in range(3))
     return one, two, three
 
 

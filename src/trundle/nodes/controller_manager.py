@@ -13,7 +13,8 @@ from trundle.ros import Message, Node, RosError
 from .host import Host
 
 _PACKAGE = "controller_manager_msgs"
-_WAIT_S = 30.0
+_WAIT_S = 120.0
+"""The original's 30 s end many a start of several robots on a slow machine."""
 _FAREWELL_S = 1.0
 _BEST_EFFORT, _STRICT = 1, 2
 
@@ -86,6 +87,7 @@ class Spawner:
         words.add_argument("--namespace", default="")
         words.add_argument("--timeout", type=float, default=_WAIT_S)
         words.add_argument("--no-timeout", action="store_true")
+        words.add_argument("--shutdown-timeout", type=float, default=_FAREWELL_S)
         words.add_argument("controllers", nargs="+")
         try:
             given = words.parse_args(self._arguments)
@@ -100,7 +102,7 @@ class Spawner:
             return 1
         await node.closed.wait()
         with contextlib.suppress(RosError, OSError):
-            async with asyncio.timeout(_FAREWELL_S):
+            async with asyncio.timeout(given.shutdown_timeout):
                 await manager.switch(stop=self._loaded, strictness=_BEST_EFFORT)
                 for name in reversed(self._loaded):
                     await manager.unload(name)

@@ -31,7 +31,7 @@ class Bounce:
         self._data = data
         self._touches = {pair: touch for pair, touch in touches.items() if touch.restitution > 0 and touch.is_felt}
         self._approach = Approach(model, data)
-        self._slowest = _SLOWEST * float(np.linalg.norm(model.opt.gravity)) * model.opt.timestep
+        self._slowest = _SLOWEST * math.hypot(*model.opt.gravity) * model.opt.timestep
         pairs = sorted(self._touches)
         self._keys = np.array([self._key(*pair) for pair in pairs], dtype=np.int64)
         self._least = np.array([max(self._touches[pair].threshold, self._slowest) for pair in pairs])
