@@ -109,7 +109,8 @@ def test_a_kinect_sees_depths_and_points_within_its_reach(gazebo: Gazebo) -> Non
 
 def test_an_imu_feels_its_weight_at_its_plugins_rate(gazebo: Gazebo) -> None:
     parameters = "<topicName>imu</topicName><frameName>imu_link</frameName><updateRateHZ>20</updateRateHZ>"
-    _seeing(gazebo, _sensor("imu", "", "imu_sensor", f"{parameters}<gaussianNoise>0.01</gaussianNoise>"))
+    parameters += "<gaussianNoise>0.01</gaussianNoise><xyzOffset>0 0 0</xyzOffset><rpyOffset>0 0 1</rpyOffset>"
+    _seeing(gazebo, _sensor("imu", "", "imu_sensor", parameters))
     heard = gazebo.hear("/imu", "sensor_msgs/Imu")
     until(lambda: len(heard) > 5)
 
@@ -118,6 +119,7 @@ def test_an_imu_feels_its_weight_at_its_plugins_rate(gazebo: Gazebo) -> None:
     assert heard[-1].linear_acceleration.z == pytest.approx(9.8, abs=0.2)
     assert heard[-1].orientation_covariance[0] == pytest.approx(1e-4)
     assert heard[-1].header.frame_id == "imu_link"
+    assert [w.rpartition(": ")[2] for w in gazebo.report.warnings if "Offset" in w] == ["<rpyOffset> is not heeded"]
 
 
 def test_a_bumper_tells_what_it_touches(gazebo: Gazebo) -> None:

@@ -10,7 +10,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import ImuReading, ImuSensor, MeasuringSensor
 
-from .place import ignore, namespace_of
+from .place import ignore, leave_out, namespace_of
 from .sensor import Outlet, frame_of, topic_of
 
 
@@ -32,7 +32,8 @@ def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnost
     covariance = [noise**2 if number % 4 == 0 else 0.0 for number in range(9)]
     names = ("orientation", "angular_velocity", "linear_acceleration")
     covariances = {f"{name}_covariance": covariance for name in names}
-    ignore(parameters, "bodyName", "xyzOffset", "rpyOffset", "initialOrientationAsReference", "serviceName")
+    leave_out(parameters, report, "xyzOffset", "rpyOffset", "initialOrientationAsReference")
+    ignore(parameters, "bodyName", "serviceName")
     parameters.report_unread(report)
 
     def message(reading: ImuReading) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import MeasuringSensor, RangeReading, RangeSensor
 
-from .place import ignore, namespace_of, topic_in
+from .place import ignore, leave_out, namespace_of, topic_in
 from .sensor import Outlet, frame_of, topic_of
 
 
@@ -17,7 +17,7 @@ def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnost
     rays = _rays(sensor)
     topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "scan")
     _listen(rays, Outlet(node, topic, "sensor_msgs/LaserScan", frame_of(tag, "world")), as_points=False)
-    ignore(tag.node, "gaussianNoise", "hokuyoMinIntensity", "updateRate")
+    ignore(tag.node, "gaussianNoise", "hokuyoMinIntensity", "updateRate")  # gazebo_ros reads none of them
     tag.node.report_unread(report)
 
 
@@ -26,8 +26,8 @@ def attach_points(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: D
     rays = _rays(sensor)
     topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "points")
     _listen(rays, Outlet(node, topic, "sensor_msgs/PointCloud2", frame_of(tag, "world")), as_points=True)
-    ignore(tag.node, "gaussianNoise", "hokuyoMinIntensity", "updateRate", "organize_cloud", "min_range", "max_range",
-           "min_intensity")  # fmt: skip
+    leave_out(tag.node, report, "gaussianNoise", "min_range", "max_range", "min_intensity")
+    ignore(tag.node, "hokuyoMinIntensity", "updateRate", "organize_cloud")
     tag.node.report_unread(report)
 
 

@@ -1,8 +1,11 @@
 """Where a gazebo_ros plugin's topics are, and how often it works."""
 
+from trundle.diagnostics import Diagnostics
 from trundle.model import PluginTag
 from trundle.names import ros_name
 from trundle.xmlnode import XmlNode
+
+_NOTHING = {"0", "0.0", "false"}
 
 
 def namespace_of(tag: PluginTag, model: str) -> str:
@@ -29,3 +32,11 @@ def ignore(parameters: XmlNode, *names: str) -> None:
     """Count parameters as read that have no meaning here: levels of debugging, ODE's own settings."""
     for name in (*names, "rosDebugLevel", "alwaysOn", "robotNamespace", "always_on", "update_rate"):
         parameters.find(name)
+
+
+def leave_out(parameters: XmlNode, report: Diagnostics, *names: str) -> None:
+    """Count parameters as read, and name those that would do something."""
+    for name in names:
+        found = parameters.find(name)
+        if found is not None and not set(found.text.split()) <= _NOTHING:
+            report.warn(found.at, f"<{name}> is not heeded")
