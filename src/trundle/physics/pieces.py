@@ -1,16 +1,13 @@
 """Concave meshes as convex pieces, which is all that MuJoCo can touch.
 
 What hangs together in a mesh is one piece if it is convex. If it is not, and never moves, each flat face of it becomes
-a slab as thick as a wall may be: so a room can be entered, and a ramp driven up. What moves is cut into a few pieces
-that are nearly convex; where that cannot be done, it is filled.
+a slab as thick as a wall may be: so a room can be entered, and a ramp driven up. What moves is its convex hull.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-
-from .decompose import cut_up
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
@@ -33,9 +30,7 @@ class Pieces:
     corners: list[_Points]
     """(N, 3) of each; its hull is the piece."""
     is_exact: bool
-    """Whether nothing was approximated."""
-    is_filled: bool = False
-    """Whether something hollow was made solid."""
+    """Whether nothing hollow was filled."""
 
 
 def convex_pieces(vertices: _Points, faces: _Faces, *, fixed: bool) -> Pieces:
@@ -53,7 +48,7 @@ def convex_pieces(vertices: _Points, faces: _Faces, *, fixed: bool) -> Pieces:
     order = np.argsort(labels, kind="stable")
     starts = np.flatnonzero(np.diff(labels[order])) + 1
     corners: list[_Points] = []
-    exact, filled = True, False
+    exact = True
     for island in np.split(faces[order], starts):
         own = points[np.unique(island)]
         if fixed and (_is_flat(own) or not _is_convex(points, island, own)):
@@ -61,17 +56,11 @@ def convex_pieces(vertices: _Points, faces: _Faces, *, fixed: bool) -> Pieces:
         elif fixed or _is_convex(points, island, own):
             corners.append(own)
         else:
-            cut = cut_up(points[np.unique(island)], _renumbered(island))
-            corners += cut or [own]
-            exact, filled = False, filled or cut is None
+            corners.append(own)
+            exact = False
         if len(corners) > MOST_PIECES:
-            return Pieces([points], is_exact=False, is_filled=True)
-    return Pieces(corners, exact, filled)
-
-
-def _renumbered(faces: _Faces) -> _Faces:
-    """Faces of the corners that they use, in their order."""
-    return np.unique(faces, return_inverse=True)[1].reshape(faces.shape)
+            return Pieces([points], False)
+    return Pieces(corners, exact)
 
 
 def _welded(vertices: _Points, faces: _Faces) -> tuple[_Points, _Faces]:

@@ -26,7 +26,6 @@ from trundle.model import (
 )
 from trundle.spatial import Pose, Vector3, upright
 
-from .decompose import CONCAVITY
 from .pieces import convex_pieces
 from .terrain import add_terrain
 
@@ -112,10 +111,8 @@ def _add_pieces(
 ) -> list[mujoco.MjsGeom]:
     pieces = convex_pieces(mesh.vertices.astype(float), mesh.faces.astype(np.intp), fixed=fixed)
     if not pieces.is_exact:
-        how = f"takes it for {len(pieces.corners)} convex pieces, within {CONCAVITY:.0%} of its size"
-        if pieces.is_filled:
-            how = f"fills it, as it {'has too many pieces' if fixed else 'moves and cannot be cut up'}"
-        what = f"a hollow mesh of {len(mesh.faces)} triangles; physics {how}"
+        why = "it has too many pieces" if fixed else "it moves"
+        what = f"a hollow mesh of {len(mesh.faces)} triangles; physics fills it, as {why}"
         report.info(collision.at, f"collision {collision.name!r}: {what}")
     corners = [_thick_hull(piece, collision, report) for piece in pieces.corners]
     if len(corners) == 1:
