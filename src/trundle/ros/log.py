@@ -1,5 +1,6 @@
 """What nodes say: on stderr as ROS writes it, and on /rosout."""
 
+import contextlib
 import inspect
 import sys
 import threading
@@ -19,9 +20,10 @@ def print_log(level: Level, text: str, *, wall_ns: int, sim_ns: int | None, quie
     stamp = f"{wall_ns / 1e9:.6f}" if sim_ns is None else f"{wall_ns / 1e9:.6f}, {sim_ns / 1e9:.6f}"
     line = f"{_WIDTHS[level]} [{stamp}]: {text}"
     stream = sys.stderr if quiet is None or LEVELS[level] > LEVELS["info"] else quiet
-    if stream.isatty() and level in _COLOURS:
-        line = f"{_COLOURS[level]}{line}\033[0m"
-    with _lock:
+    # Whoever read this may have gone, or closed it; nothing ends for that.
+    with _lock, contextlib.suppress(OSError, ValueError):
+        if stream.isatty() and level in _COLOURS:
+            line = f"{_COLOURS[level]}{line}\033[0m"
         print(line, file=stream, flush=True)
 
 
