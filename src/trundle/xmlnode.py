@@ -8,6 +8,7 @@ import io
 import math
 import re
 from collections.abc import Iterator, Mapping
+from copy import deepcopy
 from pathlib import Path
 
 from lxml import etree
@@ -343,6 +344,31 @@ class XmlNode:
         for element in self._element.iter():
             element.tag = names.get(str(element.tag), element.tag)
         self._children = None
+
+    def append(self, other: "XmlNode") -> None:
+        """Add a copy of another file's element below this one; it still says where it stands."""
+        copied = deepcopy(other._element)
+        copied.tail = None
+        self.children.append(XmlNode(copied, file=other._file, first_line=other._first_line))
+        self._element.append(copied)
+
+    def remove(self, child: "XmlNode") -> None:
+        """Take a child away."""
+        self.children.remove(child)
+        self._element.remove(child._element)
+
+    def take_values(self, other: "XmlNode") -> None:
+        """Take over another element's text, where it has any, and its attributes."""
+        if other.text:
+            self._element.text = other.text
+        for name, value in other.attributes().items():
+            self._element.set(name, value)
+
+    def drop_attributes(self, *names: str) -> None:
+        """Take attributes away."""
+        for name in names:
+            if name in self._element.attrib:
+                del self._element.attrib[name]
 
     def xml(self) -> str:
         """The element written out again, children included."""

@@ -260,3 +260,42 @@ def test_opengl_draws_the_same_where_it_is_asked_for(box: Path, tmp_path: Path) 
         assert not theirs.exists()
         pytest.skip("no OpenGL over EGL here")
     assert (_red(ours) != _red(theirs)).mean() < 0.01
+
+
+THINGS = """<sdf version="1.6"><world name="w"><include><uri>model://sun</uri></include>
+<include><uri>model://{}</uri></include>
+<model name="red"><static>1</static><pose>-1 4 0.5 0 0 0</pose><link name="l"><visual name="v"><geometry><box>
+<size>1 1 1</size></box></geometry><material><ambient>1 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material></visual>
+</link></model>
+<model name="blue"><static>1</static><pose>1.5 4 0.75 0 0 0</pose><link name="l"><visual name="v"><geometry><cylinder>
+<radius>0.3</radius><length>1.5</length></cylinder></geometry><material><ambient>0 0 1 1</ambient><diffuse>0 0 1 1
+</diffuse></material></visual></link></model></world></sdf>"""
+
+
+@pytest.mark.parametrize("camera", ["my_sensor", "netbook_webcam"])
+def test_both_cameras_of_the_rp2w_that_saves_its_pictures_see_what_is_ahead(tmp_path: Path, camera: str) -> None:
+    """The columns are those of Gazebo's own picture of this scene, 320 pixels wide."""
+    world, out = tmp_path / "scene.world", tmp_path / "a.png"
+    world.write_text(THINGS.format("rp2w_camsave"))
+
+    assert main(["render", str(world), "--camera", camera, "-o", str(out)]) == 0
+
+    pixels = np.asarray(Image.open(out)).astype(int)
+    assert pixels.shape == (240, 320, 3)
+    red, blue = (np.nonzero((pixels[..., i] > pixels[..., 2 - i] + 60).any(axis=0))[0] for i in (0, 2))
+    assert (red.min(), red.max()) == pytest.approx((38, 128), abs=2)
+    assert (blue.min(), blue.max()) == pytest.approx((244, 289), abs=2)
+
+
+def test_a_camera_that_is_not_there_comes_with_what_was_left_out(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The model that has it may be what is missing."""
+    world = tmp_path / "scene.world"
+    world.write_text(THINGS.format("lost"))
+
+    assert main(["render", str(world), "--camera", "eye", "-o", str(tmp_path / "a.png")]) == 1
+
+    told = capsys.readouterr().err
+    assert f"{world}:2: warning: model://lost: no model 'lost'" in told
+    assert "no camera 'eye'; cameras there: none" in told

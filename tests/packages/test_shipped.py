@@ -125,3 +125,18 @@ def test_a_template_is_refused_with_how_to_expand_it(tmp_path: Path, name: str, 
         load(str(path), Diagnostics(), packages=PACKAGES)
     with pytest.raises(DescriptionError):
         refuse_template(path)
+
+
+def test_the_rp2w_that_saves_its_pictures_is_the_rp2w() -> None:
+    report = Diagnostics()
+
+    (model,) = load("model://rp2w_camsave", report, packages=PACKAGES).world.models
+    (plain,) = load("model://rp2w", Diagnostics(), packages=PACKAGES).world.models
+
+    assert [link.name for link in model.links] == [link.name for link in plain.links]
+    cameras = [camera for link in model.links for sensor in link.sensors for camera in sensor.cameras]
+    assert [camera.save_path for camera in cameras] == [
+        "/tmp/rp2w_camsave/netbook_webcam",
+        "/tmp/rp2w_camsave/my_sensor",
+    ]
+    assert report.warnings == []

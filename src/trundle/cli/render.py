@@ -53,9 +53,11 @@ def main(args: argparse.Namespace) -> int:
     report = Diagnostics()
     content = "depth" if args.depth else "segmentation" if args.seg else "colour"
     options = PictureOptions(camera=args.camera, size=args.size, content=content, at_s=args.at, renderer=args.renderer)
-    studio = Studio(args.file, dict(os.environ), report, start=Path.cwd(), options=options)
-    for warning in report.warnings:
-        print(warning, file=sys.stderr)
+    try:
+        studio = Studio(args.file, dict(os.environ), report, start=Path.cwd(), options=options)
+    finally:
+        for warning in report.warnings:
+            print(warning, file=sys.stderr)
     if moves:
         frames = turntable(studio) if args.orbit else run_of(studio, args.duration or _FILM_S)
         write_film(frames, args.output, tell=_tell)

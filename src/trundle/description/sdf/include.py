@@ -12,6 +12,7 @@ from trundle.xmlnode import XmlNode, read_xml
 
 from .context import DEEPEST, Context, RawPose, read_pose
 from .frames import MODEL, FrameGraph
+from .params import apply_params
 from .part import Part
 from .sensor import read_plugin
 from .version import read_version
@@ -55,6 +56,7 @@ def read_included_model(
         return None
     if len(models) > 1:
         inner.report.warn(models[1].at, "a second <model> in the file; an <include> takes the first")
+    apply_params(node, models[0], context.report)
     part = read_model(models[0], inner)
     return _overridden(part, node, context)
 

@@ -1,0 +1,85 @@
+"""<experimental:params>: what an <include> changes inside the model that it includes."""
+
+from pathlib import Path
+
+from trundle.description import load
+from trundle.diagnostics import Diagnostics
+from trundle.model import Model, Sphere
+from trundle.packages import Packages
+
+ARM = """<sdf version="1.9"><model name="arm">
+  <link name="upper"><inertial><mass>2</mass></inertial>
+    <visual name="skin"><geometry><sphere><radius>1</radius></sphere></geometry><transparency>0.5</transparency>
+    </visual><visual name="stripe"><geometry><sphere><radius>2</radius></sphere></geometry></visual></link>
+  <link name="lower"/>
+</model></sdf>"""
+
+
+def changed(folder: Path, params: str) -> tuple[Model, Diagnostics]:
+    (folder / "arm.sdf").write_text(ARM)
+    (folder / "x.sdf").write_text(
+        '<sdf version="1.9" xmlns:experimental="http://sdformat.org/schemas/experimental"><world name="w"><include>\n'
+        f"<uri>arm.sdf</uri><experimental:params>\n{params}</experimental:params></include></world></sdf>"
+    )
+    report = Diagnostics()
+    loaded = load(str(folder / "x.sdf"), report, packages=Packages({}, start=folder))
+    return loaded.world.models[0], report
+
+
+def test_elements_are_added_modified_replaced_and_removed(tmp_path: Path) -> None:
+    arm, report = changed(
+        tmp_path,
+        '<visual element_id="upper::skin" action="modify"><transparency>0.25</transparency></visual>'
+        '<visual element_id="upper::stripe" action="remove"/>'
+        '<link element_id="lower"><inertial action="add"><mass>3</mass></inertial></link>'
+        '<link element_id="upper"><inertial action="replace"><mass>4</mass></inertial></link>'
+        '<frame element_id="" name="tip" action="add"><pose>1 0 0 0 0 0</pose></frame>'
+        '<visual element_id="lower" name="ball" action="add"><geometry><sphere><radius>3</radius></sphere></geometry>'
+        "</visual>",
+    )
+
+    assert [visual.name for visual in arm.link("upper").visuals] == ["skin"]
+    assert arm.link("upper").visuals[0].transparency == 0.25
+    assert arm.link("upper").inertial.mass == 4
+    assert arm.link("lower").inertial.mass == 3
+    assert arm.link("lower").visuals[0].geometry == Sphere(3)
+    assert [frame.name for frame in arm.frames] == ["tip"]
+    assert report.warnings == []
+
+
+def test_a_part_of_a_part_can_be_removed(tmp_path: Path) -> None:
+    arm, report = changed(
+        tmp_path,
+        '<link element_id="upper"><inertial action="remove"><mass/></inertial>'
+        '<visual name="stripe" action="remove"/></link>',
+    )
+
+    assert arm.link("upper").inertial.mass == 1
+    assert [visual.name for visual in arm.link("upper").visuals] == ["skin"]
+    assert report.warnings == []
+
+
+def test_what_cannot_be_done_is_named_where_it_stands(tmp_path: Path) -> None:
+    _, report = changed(
+        tmp_path,
+        '<visual element_id="upper::lost" action="remove"/>\n'
+        "<visual action='remove'/>\n"
+        '<link element_id="upper" action="paint"/>\n'
+        '<visual element_id="upper::skin" action="modify"><pose>1 0 0 0 0 0</pose></visual>\n'
+        '<link element_id="upper"><sensor name="s" action="remove"/></link>',
+    )
+
+    told = [each.removeprefix(f"{tmp_path}/x.sdf:") for each in report.warnings]
+    assert told == [
+        "3: warning: <experimental:params>: no <visual> 'upper::lost' in the included model; it is left out",
+        "4: warning: <visual> without element_id in <experimental:params>; it is left out",
+        "5: warning: <link>: action 'paint' is none of add, modify, remove, replace; it is left out",
+        "6: warning: <experimental:params>: no <pose> to modify in <visual>; it is left out",
+        "7: warning: <experimental:params>: no <sensor> in <link>; it is left out",
+    ]
+
+
+def test_what_is_wrong_with_something_added_is_told_where_it_was_written(tmp_path: Path) -> None:
+    _, report = changed(tmp_path, '<link element_id="lower"><gravity action="add">maybe</gravity></link>')
+
+    assert report.warnings[0].startswith(f"{tmp_path}/x.sdf:3: warning: <gravity>: 'maybe' is neither true nor false")
