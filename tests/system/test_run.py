@@ -7,6 +7,7 @@ import signal
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 EXAMPLE = Path(__file__).parents[2] / "examples/rp2w"
 FLAT_OUT = ("--headless", "--speed", "max")
@@ -86,6 +87,19 @@ def test_the_plugin_drives_on_cmd_vel(start, trundle, master, until) -> None:
     assert running.interrupt() == 130
     y = float(running.output().partition(", y ")[2].split(",")[0])
     assert y > 0.2
+
+
+def test_the_living_room_is_seen_by_its_robot(trundle, tmp_path) -> None:
+    """What `make demo HEADLESS=1` does: every image counted, and of what there is only what can move is told."""
+    ran = trundle("run", "living_room.world", *FLAT_OUT, "--duration", "1")
+    seen = trundle("render", "living_room.world", "--camera", "my_sensor", "-o", "seen.png")
+
+    assert ran.returncode == 0, ran.stderr
+    assert "1000 steps, 60 images" in ran.stdout
+    assert [line.split()[0] for line in ran.stdout.splitlines()[1:]] == ["rp2w", "ball"]
+    assert seen.returncode == 0, seen.stderr
+    red, _, blue = Image.open(tmp_path / "seen.png").getpixel((80, 205))
+    assert blue > 2 * red, "the sofa is blue"
 
 
 def test_images_carry_their_calibration(start, trundle, master, until) -> None:

@@ -88,14 +88,14 @@ class Outcome:
         return [state.model(model, Pose())[0] for model in self.world.models]
 
     def summary(self) -> str:
-        """A few lines for a person: time, speed, images, and where each robot stands."""
+        """A few lines for a person: time, speed, images, and where each model stands that can move."""
         factor = self.real_time_factor
         speed = "" if factor is None else f", {factor:.3g} times real time"
         lines = [
             f"{self.time_s:.3f} s simulated in {self.wall_s:.2f} s{speed}; {self.steps} steps, {self.images} images"
         ]
-        for model in self._models():
-            if "added" not in model:
+        for described, model in zip(self.world.models, self._models(), strict=True):
+            if not described.static:
                 x, y, z, roll, pitch, yaw = model["pose"]
                 lines.append(
                     f"{model['name']} stands at x {x:.3f}, y {y:.3f}, z {z:.3f} m; "
