@@ -46,6 +46,11 @@ def test_a_shutdown_request_ends_it() -> None:
         assert "external shutdown request from [/me]: enough" in process.stderr.read()
 
 
+def test_a_distribution_that_is_none_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["core", "--distro", "ardent"]) == 2
+    assert "indigo" in capsys.readouterr().err
+
+
 def test_a_taken_port_is_one_sentence(graph: Any) -> None:
     code, out, error = graph.trundle("core", "-p", str(graph.core.port))
     assert (code, out) == (1, "")

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from tests.cli.conftest import PATIENCE_S
 
+from trundle.cli import main
 from trundle.cli.graph_picture import Drawing, Item, as_svg
 from trundle.ros import WallClock
 from trundle.xmlnode import parse_xml
@@ -149,6 +150,11 @@ def test_packages_are_rospkgs(graph: Any, workspace: Path) -> None:
     ).stdout.splitlines()
     assert graph.trundle("pack", "find", "my_robot")[1].strip() == path
     assert str(sorted(graph.trundle("pack", "depends1", "my_robot")[1].split())) == own
+
+
+def test_stock_nodes_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["exec", "--list"]) == 0
+    assert "tf2_ros static_transform_publisher" in capsys.readouterr().out.splitlines()
 
 
 def _exec(*arguments: str) -> "subprocess.Popen[str]":

@@ -258,14 +258,13 @@ def test_an_alias_bomb_is_refused_at_once() -> None:
 def test_what_is_not_known_is_named_and_the_reading_goes_on() -> None:
     report = Diagnostics()
     plan = plan_of(
-        f'<nodde/><param name="a" value="1" colour="red"/><machine name="m" address="a"/><master/>{NODE}',
+        f'<nodde/><param name="a" value="1" colour="red"/><master/>{NODE}',
         report=report,
     )
     assert len(plan.nodes) == 1
     assert [warning.partition("warning: ")[2] for warning in report.warnings] == [
         "<nodde> is no tag of launch files; it is ignored",
         "attribute 'colour' of <param> is not known; it is ignored",
-        "machine 'm' at 'a': nothing runs remotely; its nodes run here",
         "<master> has no effect since ROS 0.7; it is ignored",
     ]
 
@@ -330,6 +329,7 @@ def test_a_default_machine_is_that_of_the_nodes_behind_it() -> None:
         '<node pkg="p" type="t" name="after"/><node pkg="p" type="t" name="own" machine="localhost"/>'
     )
     assert {node.name: node.machine for node in plan.nodes} == {"before": "", "after": "m", "own": "localhost"}
+    assert {node.name: node.address for node in plan.nodes} == {"before": "", "after": "a", "own": ""}
 
 
 def test_a_machine_that_is_perhaps_the_default_is_refused() -> None:

@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import Callable, Coroutine
 from typing import Any
 
-from trundle.ros import Message, Messages
+from trundle.ros import PROFILES, Message, Messages
 
 MESSAGES = Messages()
 
@@ -46,8 +46,11 @@ class FakePublisher:
 class FakeNode:
     """Everything a stand-in asks of a node."""
 
-    def __init__(self, clock: FakeClock, params: dict[str, Any] | None = None, name: str = "/n") -> None:
+    def __init__(
+        self, clock: FakeClock, params: dict[str, Any] | None = None, name: str = "/n", *, distro: str = "noetic"
+    ) -> None:
         self.name = name
+        self.profile = PROFILES[distro]
         self.clock = clock
         self.messages = MESSAGES
         self.params = params or {}

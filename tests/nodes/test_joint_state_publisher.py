@@ -8,9 +8,9 @@ import pytest
 from tests.nodes.fakes import MESSAGES, FakeClock, FakeNode, run_to_end
 
 from trundle.diagnostics import Diagnostics
-from trundle.nodes import PROFILES, Host, Slider
+from trundle.nodes import Host, Slider
 from trundle.nodes.joint_state_publisher import JointSet, JointStatePublisher, JointStatePublisherGui
-from trundle.ros import Settings
+from trundle.ros import NOETIC, Settings
 from trundle.xmlnode import parse_xml
 
 S = 1_000_000_000
@@ -31,9 +31,10 @@ def publish(
     robot: str = ROBOT,
     seconds: float = 1.05,
     host: Host | None = None,
+    distro: str = "noetic",
     kind: Callable[..., JointStatePublisher] = JointStatePublisher,
 ) -> FakeNode:
-    node = FakeNode(FakeClock(end_ns=round((1 + seconds) * S)), {"/robot_description": robot, **params})
+    node = FakeNode(FakeClock(end_ns=round((1 + seconds) * S)), {"/robot_description": robot, **params}, distro=distro)
     assert run_to_end(kind(node, [], host or Host()).run()) is None
     return node
 
@@ -55,7 +56,7 @@ def test_parameters_of_the_namespace_count_where_the_node_has_none() -> None:
 
 
 def test_other_publishers_move_free_joints() -> None:
-    joints = JointSet(Settings({}, "/n"), PROFILES["noetic"])
+    joints = JointSet(Settings({}, "/n"), NOETIC)
     joints.read(parse_xml(ROBOT, name="r.urdf"), Diagnostics())
     state = {"name": ["wheel", "nobody"], "position": [0.75, 9.0]}
     joints.hear(MESSAGES.new("sensor_msgs/JointState", state))
@@ -87,7 +88,7 @@ def test_safety_limits_narrow_the_range() -> None:
 def test_a_robot_without_joints_is_silent_in_noetic_only() -> None:
     robot = '<robot name="r"/>'
     assert publish({}, robot=robot).sent("/joint_states") == []
-    assert len(publish({}, robot=robot, host=Host(profile=PROFILES["indigo"])).sent("/joint_states")) == 11
+    assert len(publish({}, robot=robot, distro="indigo").sent("/joint_states")) == 11
 
 
 def test_a_joint_without_limits_is_named_and_left_out() -> None:

@@ -194,6 +194,65 @@ def test_a_launch_can_wait_for_a_master(start, until, env: dict[str, str], packa
     assert running.interrupt() == 130
 
 
+def test_nodes_of_another_machine_are_not_started_and_those_of_this_one_are(launch: Launch, package: Path) -> None:
+    (package / "main.launch").write_text(
+        '<launch><node pkg="p" type="talk" name="there" machine="far" args="0"/>'
+        '<node pkg="p" type="talk" name="here" machine="near" args="0"/>'
+        '<machine name="far" address="robot.example"/><machine name="near" address="127.0.0.1" user="u"/></launch>'
+    )
+    done = launch("p", "main.launch", "--headless")
+
+    assert done.returncode == 0
+    assert "node /there: robot.example is another machine, and nothing is started there" in done.stderr
+    assert "process[here-2]: started" in done.stdout
+    assert "there-1" not in done.stdout
+
+
+def test_quiet_leaves_what_nodes_say_and_what_goes_wrong(launch: Launch, package: Path) -> None:
+    (package / "main.launch").write_text(
+        '<launch><node pkg="p" type="talk" name="a" args="0" output="screen"/>'
+        '<node pkg="p" type="talk" name="b" args="0 3"/></launch>'
+    )
+    done = launch("p", "main.launch", "--headless", "-q")
+
+    assert [line for line in done.stdout.splitlines() if not line.startswith(" ")] == [
+        next(line for line in done.stdout.splitlines() if line.startswith("hello 0")),
+        "[b-2] process has died [exit code 3]; its last output:",
+        next(line for line in done.stdout.splitlines() if line.startswith("log file: ")),
+    ]
+
+
+@pytest.mark.parametrize(("distro", "topic"), [("indigo", "/tf"), ("noetic", "/tf_static")])
+def test_a_launch_is_like_the_distribution_asked_for(
+    launch: Launch, trundle, package: Path, tmp_path: Path, distro: str, topic: str
+) -> None:
+    """Fixed joints were sent again and again up to Indigo; every topic goes into the bag that is asked for."""
+    (package / "main.launch").write_text(
+        """<launch><param name="robot_description" textfile="$(dirname)/r.urdf"/>
+        <node pkg="robot_state_publisher" type="robot_state_publisher" name="rsp"/></launch>"""
+    )
+    (package / "r.urdf").write_text(
+        '<robot name="r"><link name="a"/><link name="b"/>'
+        '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>'
+    )
+    bag = tmp_path / "out.bag"
+    done = launch("p", "main.launch", "--headless", "--duration", "3", "--distro", distro, "--record", str(bag))
+
+    assert done.returncode == 0
+    assert f" * /rosdistro: {distro}\n" in done.stdout
+    topics = trundle("bag", "info", str(bag)).stdout.partition("topics:")[2]
+    assert re.findall(r"/tf\w*", topics) == [topic]
+
+
+def test_a_simulation_may_run_as_fast_as_it_can(launch: Launch, package: Path) -> None:
+    (package / "main.launch").write_text(
+        '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch"/></launch>'
+    )
+    done = launch("p", "main.launch", "--headless", "--duration", "600", "--speed", "max")
+
+    assert done.returncode == 0  # within the patience of a test, a minute
+
+
 def test_remote_children_are_refused(launch: Launch) -> None:
     done = launch("-c", "name", "-u", "http://x", "--run_id", "1")
     assert done.returncode == 1

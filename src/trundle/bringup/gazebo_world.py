@@ -14,7 +14,7 @@ from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import World
 from trundle.packages import Packages
 from trundle.render import NativeRenderer
-from trundle.ros import Node, SimClock, StaticTransformBroadcaster
+from trundle.ros import NOETIC, Node, SimClock, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, MeasuringSensor, mount_cameras, mount_sensors
 from trundle.simulation import ModelHandle, Simulation, SimulationUnstableError
 from trundle.spatial import Pose
@@ -44,6 +44,7 @@ class GazeboWorld:
         folder: Path,
         say: Callable[[str], None],
         window: tuple[str, int | None] | None,
+        speed: float | None = 1.0,
     ) -> None:
         """Get ready; nothing is simulated before `open`.
 
@@ -55,6 +56,7 @@ class GazeboWorld:
             folder: takes the text of each spawned model, which messages name lines of.
             say: tells the user a thing.
             window: host and port of the page; None: headless.
+            speed: times real time; None: flat out.
         """
         self._graph = graph
         self._start = start
@@ -74,7 +76,7 @@ class GazeboWorld:
         """Model → nodes of its plugins; the world's have no name."""
         self._clock = SimClock(graph.loop)
         self._clock_hz = ClockTopic.RATE_HZ
-        self._pacer = Pacer(1.0)
+        self._pacer = Pacer(speed)
         self._page: Page | None = None
         self._node: Node | None = None
         self._still: StaticTransformBroadcaster | None = None
@@ -234,6 +236,8 @@ class GazeboWorld:
         except Exception as error:  # a plugin's code may raise anything
             self._stand_still(f"{type(error).__name__}: {error}")
         self._clock.set(simulation.time_ns)
+        if self._pacer.speed is None:
+            self._graph.loop.settle()  # who hears what when does not depend on how fast the machine is
 
     def _stand_still(self, why: str) -> None:
         self._paused = True
@@ -287,6 +291,7 @@ class GazeboWorld:
         node = Node(
             name, loop=graph.loop, master_uri=graph.master_uri, clock=self._clock, deliver=self.post, host=graph.host
         )
+        node.profile = NOETIC if self._node is None else self._node.profile
         self._plugin_nodes.append(node)
         return node
 

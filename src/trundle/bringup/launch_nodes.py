@@ -5,6 +5,7 @@ import os
 import re
 import shlex
 import shutil
+import socket
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -70,6 +71,9 @@ class NodeStarter:
         Raises:
             DescriptionError: nothing can run it, and the launch requires it.
         """
+        if not is_here(node.address, self.env):
+            why = f"{node.address} is another machine, and nothing is started there; run trundle launch on it, too"
+            return self._missing(node, f"{why}, with ROS_MASTER_URI={self.graph.master_uri}")
         env = {**self.env, **dict(node.env), "ROS_MASTER_URI": self.graph.master_uri}
         if node.namespace != "/":
             env["ROS_NAMESPACE"] = node.namespace
@@ -85,11 +89,14 @@ class NodeStarter:
                 logs = "" if log is None else str(log)
                 return Launched(node=node, kind="stand-in", what=f"{node.package}/{node.type}", job=job, log_files=logs)
             case Missing(why):
-                what = f"node {node.full_name}: {why}"
-                if self.policy(node).required:
-                    raise DescriptionError(node.at, f"{what}; the launch requires it")
-                self.report.warn(node.at, f"{what}; the launch goes on without it")
-                return Launched(node=node, kind="missing", what=why)
+                return self._missing(node, why)
+
+    def _missing(self, node: LaunchNode, why: str) -> Launched:
+        what = f"node {node.full_name}: {why}"
+        if self.policy(node).required:
+            raise DescriptionError(node.at, f"{what}; the launch requires it")
+        self.report.warn(node.at, f"{what}; the launch goes on without it")
+        return Launched(node=node, kind="missing", what=why)
 
     def policy(self, node: LaunchNode) -> Policy:
         """What the node's end means."""
@@ -133,6 +140,12 @@ class NodeStarter:
             output=self.output or node.output,
             log_file=log.with_name(f"{log.name}-stdout.log"),
         )
+
+
+def is_here(address: str, env: Mapping[str, str]) -> bool:
+    """Tell whether a machine of a launch file is this one, by any of its names."""
+    names = {"", "localhost", "::1", socket.gethostname(), env.get("ROS_HOSTNAME"), env.get("ROS_IP")}
+    return address in names or address.startswith("127.")
 
 
 def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:

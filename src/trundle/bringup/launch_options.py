@@ -27,6 +27,14 @@ class LaunchOptions:
     pid_file: Path | None = None
     patience: Patience = Patience()
     strict: bool = False
+    quiet: bool = False
+    """Say only what goes wrong."""
+    distro: str | None = None
+    """Which distribution to be; None: what the master says it is, Noetic where it is started here."""
+    speed: float | None = 1.0
+    """Of a simulation, times real time; None: flat out."""
+    record: Path | None = None
+    """A bag to write every topic into."""
     only: Literal["nodes", "files", "find-node", "args", "arguments", "params"] | None = None
     """Print these and start nothing."""
     node: str = ""

@@ -14,10 +14,12 @@ _RULE = "=" * 80
 class RunningNodes:
     """Starts, watches and stops; on the graph's loop."""
 
-    def __init__(self, starter: NodeStarter, nodes: Sequence[LaunchNode], *, patience: Patience) -> None:
+    def __init__(self, starter: NodeStarter, nodes: Sequence[LaunchNode], *, patience: Patience, quiet: bool) -> None:
+        """`quiet`: say only what goes wrong."""
         self._starter = starter
         self._nodes = nodes
         self._patience = patience
+        self._unsaid = {"started", "finished", "stopping"} if quiet else set[str]()
         self._supervisor: Supervisor | None = None
         self._waiting: asyncio.Task[str | None] | None = None
         self._logs: dict[str, str] = {}
@@ -54,6 +56,8 @@ class RunningNodes:
 
     def _tell(self, event: Event) -> None:
         name = event.name
+        if event.kind in self._unsaid:
+            return
         match event.kind:
             case "started":
                 text = f"process[{name}]: {event.text}"

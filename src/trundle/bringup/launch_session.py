@@ -9,7 +9,7 @@ from typing import Self
 
 from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import Host, Simulator
-from trundle.ros import Clock, Node, follow_time
+from trundle.ros import PROFILES, Clock, Node, Recorder, RecordOptions, follow_time
 from trundle.viewer import GraphPage
 
 from . import launch_print
@@ -54,12 +54,18 @@ class LaunchSession:
         graph = self.graph = self._open_things.enter_context(Graph.open(read.env, host=options.host, any_port=any_port))
         show.line(graph.story)
         launcher = Node("/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False)
+        if options.distro is not None:
+            profile = PROFILES[options.distro]
+            for name, value in (("/rosdistro", profile.distro), ("/rosversion", profile.version)):
+                graph.loop.run(launcher.set_param(name, f"{value}\n"))
         if options.summary and not options.core_only:
             core = {name: str(graph.loop.run(launcher.get_param(name, ""))).strip() for name in _SHOWN}
             values = {**core, **{param.name: param.value for param in read.params}}
             print(launch_print.summary(read.plan, values), flush=True)
         graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
         self.clock = graph.loop.run(follow_time(launcher))
+        if options.record is not None:
+            self._record(options.record)
         page = None
         if not options.headless:
             page = GraphPage(
@@ -78,6 +84,15 @@ class LaunchSession:
             all_required=options.all_required,
         )
 
+    def _record(self, file: Path) -> None:
+        """Write every topic into a bag."""
+        graph = self.graph
+        node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
+        graph.loop.run(follow_time(node))
+        recorder = Recorder(node, RecordOptions(all_topics=True, path=file), say=node.log_debug)
+        recorder.start()
+        self._open_things.callback(recorder.stop)
+
     def _simulator(self, logs: Path) -> Simulator:
         from .gazebo_world import GazeboWorld  # a launch without Gazebo does not wait for the physics
 
@@ -90,6 +105,7 @@ class LaunchSession:
             folder=logs / "spawned",
             say=read.show.line,
             window=None if options.headless else (options.host, options.view_port),
+            speed=options.speed,
         )
         self._open_things.callback(gazebo.close)
         return gazebo
@@ -97,10 +113,10 @@ class LaunchSession:
     def start(self, nodes: Sequence[LaunchNode]) -> RunningNodes:
         """Start nodes, and say what runs."""
         loop, patience = self.graph.loop, self._options.patience
-        running = self._running = RunningNodes(self.starter, nodes, patience=patience)
+        running = self._running = RunningNodes(self.starter, nodes, patience=patience, quiet=self._options.quiet)
         loop.run(running.start(), timeout_s=_START_S)
         self._read.show.findings()
-        if running.launched:
+        if running.launched and not self._options.quiet:
             print(what_runs(running.launched), flush=True)
         return running
 

@@ -6,7 +6,7 @@ import sys
 import threading
 
 from trundle.diagnostics import UsageError
-from trundle.ros import Core, GraphLoop
+from trundle.ros import NOETIC, PROFILES, Core, GraphLoop
 
 EXAMPLES = """
   trundle core                  the usual place: http://localhost:11311
@@ -18,7 +18,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("-p", "--port", type=int, default=11311, help="port to listen at; 0: any free one")
     parser.add_argument("--host", help="address to listen at, such as 0.0.0.0 for all; this machine only by default")
-    parser.add_argument("--distro", default="noetic", help="what /rosdistro says (default: %(default)s)")
+    parser.add_argument("--distro", choices=PROFILES, default=NOETIC.distro, help="what to be (noetic)")
     # roscore's other switches tune its worker threads, sockets and logs; there is nothing here to tune.
     parser.add_argument("-v", "--verbose", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("-w", "--numworkers", type=int, help=argparse.SUPPRESS)
@@ -39,7 +39,7 @@ def main(args: argparse.Namespace) -> int:
 
     signal.signal(signal.SIGTERM, lambda _number, _frame: stop("terminated"))
     with GraphLoop() as loop:
-        core = Core(loop, port=args.port, host=args.host, distro=args.distro, on_shutdown=stop)
+        core = Core(loop, port=args.port, host=args.host, profile=PROFILES[args.distro], on_shutdown=stop)
         loop.run(core.start())
         loop.run(core.ready())
         print(f"ROS_MASTER_URI={core.uri}", flush=True)

@@ -10,6 +10,7 @@ from pathlib import Path
 from trundle.diagnostics import UsageError
 
 EXAMPLES = """
+  trundle exec --list                                 which nodes there are without ROS
   trundle exec robot_state_publisher robot_state_publisher
   trundle exec tf static_transform_publisher 0 0 0.1 0 0 0 base_link laser 100
   trundle exec my_robot drive.py _rate:=20 cmd_vel:=/base/cmd_vel
@@ -19,6 +20,7 @@ EXAMPLES = """
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("--prefix", default="", metavar="COMMAND", help="run the program by this: 'gdb -ex run --args'")
+    parser.add_argument("--list", action=_List, help="the stock nodes that run without ROS")
     parser.add_argument("package")
     parser.add_argument("executable", help="a program anywhere in the package, or a stock node")
     parser.add_argument("arguments", nargs=argparse.REMAINDER, metavar="...", help="for the node; a:=b remaps names")
@@ -44,6 +46,19 @@ def main(args: argparse.Namespace) -> int:
             if args.prefix:
                 raise UsageError(f"--prefix is for programs; {args.package}/{args.executable} runs in this process")
             return _stand_in(args, stand_in)
+
+
+class _List(argparse.Action):
+    """Prints the stock nodes and ends, whatever else is on the command line, as --help does."""
+
+    def __init__(self, option_strings: list[str], dest: str, help: str) -> None:
+        super().__init__(option_strings, dest, nargs=0, help=help)
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from trundle.nodes import STAND_INS
+
+        print("\n".join(f"{package} {executable}" for package, executable in sorted(STAND_INS)))
+        parser.exit()
 
 
 def _stand_in(args: argparse.Namespace, stand_in: object) -> int:

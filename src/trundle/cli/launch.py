@@ -4,15 +4,17 @@ import argparse
 from pathlib import Path
 
 from trundle.diagnostics import UsageError
+from trundle.ros import PROFILES
 
 from .main import add_allow_outside, quiet_imports
+from .speed import read_speed
 
 EXAMPLES = """
   trundle launch smartcar_description smartcar_display.rviz.launch
                                                       a package on ROS_PACKAGE_PATH and a file in it
   trundle launch robot.launch gui:=false              a file, with an argument
-  trundle launch robot.launch --headless --duration 20
-                                                      no browser page, end after 20 s of ROS time
+  trundle launch robot.launch --headless --duration 20 --speed max
+                                                      no browser page, end after 20 s of ROS time, flat out
 """
 
 
@@ -22,6 +24,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("words", nargs="*", metavar="[PKG] FILE [ARG:=VALUE]", help="what to launch ('-': standard input), and how")
     add("--headless", action="store_true", help="no browser page; rviz idles")
     add("--duration", type=float, metavar="S", help="end after so many seconds of ROS time")
+    add("--speed", type=read_speed, default=1.0, metavar="X|max", help="of a simulation, times real time (1)")
+    add("--record", type=Path, metavar="FILE", help="write every topic into a bag, or into FILE.mcap")
+    add("--distro", choices=PROFILES, help="which ROS to be like (what the master says, or noetic)")
     add("-p", "--port", type=int, metavar="N", help="the master's port (that of ROS_MASTER_URI, 11311)")
     add("--view-port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
     add("--host", default="127.0.0.1", help="address that everything binds (127.0.0.1)")
@@ -34,6 +39,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("--local", action="store_true", help="no remote nodes; there never are any here")
     add("--core", action="store_true", help="master, parameter server and rosout only")
     add("--pid", type=Path, metavar="FILE", help="write the process id there")
+    add("-q", "--quiet", action="store_true", help="say only what goes wrong")
     add("-v", dest="verbose", action="store_true", help="say which files are read and what is set")
     add("--no-summary", action="store_true", help="do not show parameters and nodes at the start")
     add("--sigint-timeout", type=float, default=15.0, metavar="S", help="patience with a node after SIGINT (15)")
@@ -77,7 +83,11 @@ def main(args: argparse.Namespace) -> int:
         output="screen" if args.screen else "log" if args.log else None,
         all_required=args.required,
         wait_for_master=args.wait,
-        summary=not args.no_summary,
+        summary=not (args.no_summary or args.quiet),
+        quiet=args.quiet,
+        distro=args.distro,
+        speed=args.speed,
+        record=args.record,
         verbose=args.verbose,
         core_only=args.core,
         pid_file=args.pid,

@@ -82,14 +82,13 @@ def _main(arguments: list[str]) -> int:
     parser = _parser(name)
     try:
         parsed = parser.parse_args(arguments[1:])
+        if getattr(parsed, "allow_outside", False):
+            from trundle.packages import ALLOW_OUTSIDE
+
+            os.environ[ALLOW_OUTSIDE] = "1"
+        return _command(name).main(parsed)
     except SystemExit as stop:  # argparse's own way to end: 0 after --help, 2 for wrong usage
         return int(stop.code or 0)
-    if getattr(parsed, "allow_outside", False):
-        from trundle.packages import ALLOW_OUTSIDE
-
-        os.environ[ALLOW_OUTSIDE] = "1"
-    try:
-        return _command(name).main(parsed)
     except TrundleError as error:
         print(error if _names_a_place(str(error)) else f"trundle {name}: error: {error}", file=sys.stderr)
         return EXIT_INPUT

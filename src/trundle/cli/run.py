@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from .main import add_allow_outside, add_renderer, quiet_imports
+from .speed import read_speed
 
 EXAMPLES = """
   trundle run model://rp2w                            a robot that Gazebo would find, or that we ship
@@ -24,7 +25,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--host", default="127.0.0.1", help="address that the page and the ROS graph bind (127.0.0.1)")
     parser.add_argument("--duration", type=_positive, metavar="S", help="end after so many seconds of simulation time")
     parser.add_argument(
-        "--speed", type=_speed, default=1.0, metavar="X|max", help="times real time; max: as fast as it goes (1)"
+        "--speed", type=read_speed, default=1.0, metavar="X|max", help="times real time; max: as fast as it goes (1)"
     )
     parser.add_argument("--pause", action="store_true", help="start paused")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of everything random (0)")
@@ -75,16 +76,4 @@ def _positive(text: str) -> float:
     value = float(text)
     if not value > 0:
         raise argparse.ArgumentTypeError(f"{text} is not a duration; give seconds, such as 10")
-    return value
-
-
-def _speed(text: str) -> float | None:
-    if text == "max":
-        return None
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text!r} is neither a factor, such as 0.5, nor max")
     return value

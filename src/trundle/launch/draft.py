@@ -1,5 +1,6 @@
 """A launch plan while its files are read."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
@@ -16,7 +17,8 @@ class Draft:
     def __init__(self, report: Diagnostics) -> None:
         self._report = report
         self.arguments: list[LaunchArgument] = []
-        self.machines = {"", "localhost"}
+        self.machines = {"": "", "localhost": ""}
+        """Name → address."""
         self.default_machine = ""
         """That of the nodes that follow and name none."""
         self._nodes: dict[str, LaunchNode] = {}
@@ -37,8 +39,6 @@ class Draft:
         """
         if other := self._nodes.get(node.full_name):
             raise DescriptionError(node.at, f"two nodes are named {node.full_name!r}; the other one is at {other.at}")
-        if node.machine not in self.machines:
-            self._report.warn(node.at, f"node {node.name!r}: no machine {node.machine!r}; it runs here")
         self._nodes[node.full_name] = node
 
     def add_test(self, test: LaunchTest) -> None:
@@ -65,7 +65,7 @@ class Draft:
 
     def plan(self) -> LaunchPlan:
         return LaunchPlan(
-            nodes=tuple(self._nodes.values()),
+            nodes=tuple(map(self._placed, self._nodes.values())),
             params=tuple(self._params.values()),
             clear_params=tuple(self._clear),
             steps=tuple(self._steps),
@@ -73,3 +73,9 @@ class Draft:
             files=tuple(self._files),
             tests=tuple(self._tests),
         )
+
+    def _placed(self, node: LaunchNode) -> LaunchNode:
+        """With its machine's address, which may come after it."""
+        if node.machine not in self.machines:
+            self._report.warn(node.at, f"node {node.name!r}: no machine {node.machine!r}; it runs here")
+        return replace(node, address=self.machines.get(node.machine, ""))

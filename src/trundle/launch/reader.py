@@ -238,7 +238,7 @@ class _Reader:
         attributes = self._attributes(node, scope, *known)
         if attributes.apply:
             name, address = attributes.required("name"), attributes.required("address")
-            self.draft.machines.add(name)
+            self.draft.machines[name] = address
             match (attributes.text("default") or "false").lower():
                 case "true":
                     self.draft.default_machine = name
@@ -246,7 +246,6 @@ class _Reader:
                     pass
                 case other:
                     raise DescriptionError(node.at, f"machine {name!r}: default {other!r} is no true, false or never")
-            self._report.warn(node.at, f"machine {name!r} at {address!r}: nothing runs remotely; its nodes run here")
 
 
 def _check_root(root: XmlNode) -> None:

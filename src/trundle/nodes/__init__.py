@@ -3,17 +3,14 @@
 from .catalog import STAND_INS
 from .find import Executable, Missing, Replacement, find_node
 from .host import Display, Host, Simulator, Slider, StandIn
-from .profile import PROFILES, Profile
 from .run import run_stand_in
 
 __all__ = [
-    "PROFILES",
     "STAND_INS",
     "Display",
     "Executable",
     "Host",
     "Missing",
-    "Profile",
     "Replacement",
     "Simulator",
     "Slider",

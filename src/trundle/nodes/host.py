@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Protocol
 from trundle.ros import Node
 from trundle.spatial import Pose
 
-from .profile import PROFILES, Profile
-
 if TYPE_CHECKING:
     from trundle.model import World
     from trundle.simulation import Simulation
@@ -123,7 +121,6 @@ class Host:
     """None: nothing can be simulated here."""
     env: Mapping[str, str] = field(default_factory=dict[str, str])
     """Variables that the launch file sets for this node."""
-    profile: Profile = field(default=PROFILES["noetic"])
 
 
 class StandIn(Protocol):

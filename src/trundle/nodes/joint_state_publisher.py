@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
-from trundle.ros import Message, Node, SettingError, Settings
+from trundle.ros import Message, Node, Profile, SettingError, Settings
 from trundle.xmlnode import XmlNode, parse_numbers, parse_xml
 
 from .host import Host, Slider
-from .profile import Profile
 from .rate import Rate
 
 _OPTIONS = (
@@ -171,7 +170,6 @@ class JointStatePublisher:
         del arguments
         self._node = node
         self._display = host.display
-        self._profile = host.profile
         self._always_sliders = False
 
     async def run(self) -> int:
@@ -179,12 +177,12 @@ class JointStatePublisher:
         node = self._node
         try:
             options = Settings(await self._options(), node.name)
-            joints = JointSet(options, self._profile)
+            joints = JointSet(options, node.profile)
             report = Diagnostics()
             joints.read(self._robot(options), report)
             for warning in report.findings:
                 node.log_warn(warning.what)
-            # A name of Indigo's, which works in every profile.
+            # A name of Indigo's, which works in every distribution.
             if self._always_sliders or options.flag("use_gui", default=False):
                 self._offer_sliders(joints)
             delta = options.number("delta", 0.0)
@@ -201,7 +199,7 @@ class JointStatePublisher:
             if delta > 0.0:
                 for joint in joints.free.values():
                     joint.sweep(delta)
-            if joints.names or self._profile.publishes_empty_joint_states:
+            if joints.names or node.profile.publishes_empty_joint_states:
                 publisher.publish({"header": {"stamp": stamp_ns}, **joints.message()})
             await rate.sleep()
 

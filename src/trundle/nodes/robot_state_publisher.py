@@ -27,14 +27,13 @@ class RobotFrames:
     prefix: str = ""
 
     @staticmethod
-    def of(robot: Robot, prefix: str, *, floating_is_fixed: bool) -> "RobotFrames":
-        """Sort a robot's joints; one number cannot place a floating or planar joint, so KDL holds them fixed."""
+    def of(robot: Robot, prefix: str) -> "RobotFrames":
+        """Sort joints; one number cannot place a planar one, so KDL holds it; floating ones are others' affair."""
         joints = sorted(robot.joints, key=lambda joint: joint.name)  # std::map's order, which is the messages' too
-        held = ("fixed", "planar", "floating") if floating_is_fixed else ("fixed", "planar")
         moving = {j.name: j for j in joints if j.type not in ("fixed", "planar", "floating")}
         return RobotFrames(
             moving=moving,
-            fixed={j.name: j for j in joints if j.type in held},
+            fixed={j.name: j for j in joints if j.type in ("fixed", "planar")},
             mimics={name: j for name, j in moving.items() if j.mimic is not None},
             prefix=prefix.strip("/"),
         )
@@ -69,9 +68,8 @@ class RobotStatePublisher:
     """Publishes moving joints whenever joint_states says where they are, fixed ones by themselves."""
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
-        del arguments
+        del arguments, host
         self._node = node
-        self._profile = host.profile
         self._last_published_ns: dict[str, int] = {}
         self._last_heard_ns = 0
         self._no_position = Throttle(node, 300.0)
@@ -86,14 +84,14 @@ class RobotStatePublisher:
             # Below 1 Hz the original takes 1 Hz.
             self._interval_ns = period_ns(max(settings.number("publish_frequency", 50.0), 1.0))
             self._ignores_stamps = settings.flag("ignore_timestamp", default=False)
-            use_tf_static = settings.flag("use_tf_static", default=self._profile.use_tf_static)
+            use_tf_static = settings.flag("use_tf_static", default=node.profile.use_tf_static)
             robot, prefix = await self._robot(), await self._prefix()
-            self._frames = RobotFrames.of(robot, prefix, floating_is_fixed=self._profile.floating_is_fixed)
+            self._frames = RobotFrames.of(robot, prefix)
         except TrundleError as error:
             node.log_error(str(error))
             return 1
         for joint in robot.joints:
-            if joint.type == "floating" and joint.name not in self._frames.fixed:
+            if joint.type == "floating":
                 node.log_info(f"Floating joint. Not adding segment from {joint.parent} to {joint.child}.")
         self._broadcaster = TransformBroadcaster(node)
         node.subscribe("joint_states", "sensor_msgs/JointState", self._hear, queue_size=1)

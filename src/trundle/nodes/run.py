@@ -1,6 +1,6 @@
 """Runs a stand-in as its node."""
 
-from trundle.ros import Node, follow_time
+from trundle.ros import NOETIC, PROFILES, Node, follow_time
 
 from .find import Replacement
 from .host import Host
@@ -18,6 +18,8 @@ async def run_stand_in(replacement: Replacement, node: Node, arguments: list[str
     try:
         await node.ready()  # its `_name:=value` parameters are set
         await follow_time(node)
+        distro = str(await node.get_param("/rosdistro", "")).strip()
+        node.profile = PROFILES.get(distro, NOETIC)
         return await replacement.load()(node, arguments, host).run()
     finally:
         await node.shutdown()

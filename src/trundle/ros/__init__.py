@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from .node import Node
     from .parameters import ParameterTree, set_leaves
     from .printing import MessagePrinter, field_value
+    from .profile import NOETIC, PROFILES, Profile
     from .proxy import MasterProxy, blocking_call
     from .publisher import Publisher
     from .service import Service, probe_service
@@ -70,12 +71,15 @@ _HOMES = {
     "MessagePrinter": "printing",
     "MessageView": "views",
     "Messages": "messages",
+    "NOETIC": "profile",
     "Node": "node",
     "ParameterError": "errors",
     "ParameterTree": "parameters",
+    "PROFILES": "profile",
     "PlayOptions": "bags",
     "Player": "bags",
     "PortTakenError": "errors",
+    "Profile": "profile",
     "Publisher": "publisher",
     "RawMessage": "messages",
     "RecordOptions": "bags",
@@ -120,6 +124,8 @@ def __getattr__(name: str) -> Any:
 
 
 __all__ = [
+    "NOETIC",
+    "PROFILES",
     "ActionOutcome",
     "ActionServer",
     "BagConnection",
@@ -145,6 +151,7 @@ __all__ = [
     "PlayOptions",
     "Player",
     "PortTakenError",
+    "Profile",
     "Publisher",
     "RawMessage",
     "RecordOptions",

@@ -7,9 +7,7 @@ from .loop import GraphLoop
 from .master import Master
 from .node import Node
 from .parameters import ParameterTree
-
-DISTRO, VERSION = "noetic", "1.16.0"
-"""What /rosdistro and /rosversion say; scripts compare them with real distributions."""
+from .profile import NOETIC, Profile
 
 
 class Core:
@@ -23,7 +21,7 @@ class Core:
         host: str | None = None,
         run_id: str | None = None,
         rosout: bool = True,
-        distro: str = DISTRO,
+        profile: Profile = NOETIC,
         on_shutdown: Callable[[str], None] | None = None,
     ) -> None:
         """Prepare; `start` listens.
@@ -34,7 +32,7 @@ class Core:
             host: address to listen at; loopback by default.
             run_id: names this run; new by default.
             rosout: whether to gather logs.
-            distro: what /rosdistro says.
+            profile: which distribution it says it is.
             on_shutdown: called, on the loop and with the reason, when a client asks the master to stop.
         """
         self._loop = loop
@@ -42,7 +40,7 @@ class Core:
         self._host = host
         self._run_id = run_id or str(uuid.uuid1())
         self._wants_rosout = rosout
-        self._distro = distro
+        self._profile = profile
         self._master = Master(on_shutdown=on_shutdown)
         self._rosout: Node | None = None
 
@@ -77,7 +75,8 @@ class Core:
             PortTakenError: another program listens there.
         """
         await self._master.start(self._port, self._host)
-        for name, value in (("run_id", self._run_id), ("rosdistro", self._distro), ("rosversion", VERSION)):
+        profile = self._profile
+        for name, value in (("run_id", self._run_id), ("rosdistro", profile.distro), ("rosversion", profile.version)):
             # roslaunch writes both with a newline at the end, as `rosversion -d > file` does; clients strip it.
             self._master.set_param(f"/{name}", value if name == "run_id" else f"{value}\n")
         if self._wants_rosout:

@@ -20,6 +20,7 @@ from .messages import ANY_TYPE, Message
 from .network import master_uri_from_env, server_address
 from .node_calls import NodeCalls, ParamCallback
 from .node_log import NodeLog
+from .profile import NOETIC
 from .publisher import Publisher
 from .service import Service, ServiceCallback
 from .slave import Slave
@@ -70,6 +71,8 @@ class Node(NodeCalls, NodeLog):
         self.master_uri = master_uri or master_uri_from_env()
         self.clock: Clock = clock or WallClock()
         self.deliver = deliver
+        self.profile = NOETIC
+        """How the distribution behaves that its graph is."""
         self.log_level: Level = "info"
         """Messages below this level are not said."""
         self.quiet_log: TextIO | None = None

@@ -24,8 +24,8 @@ class DiffDrive(Plugin):
     Parameters, with gazebo_ros' defaults: <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,
     <robotBaseFrame> base_footprint, <leftJoint> left_joint, <rightJoint> right_joint, <wheelSeparation> 0.34,
     <wheelDiameter> 0.15, <wheelTorque> 5, <wheelAcceleration> 0 (at once), <updateRate> 100, <odometrySource> world or
-    encoder, <publishTf> and <publishOdomTF> true, <publishWheelTF> and <publishWheelJointState> false. As since
-    Melodic, the left wheel turns with v − ω·separation/2; <legacyMode> true has it mirrored, as before.
+    encoder, <publishTf> and <publishOdomTF> true, <publishWheelTF> and <publishWheelJointState> false. The
+    left wheel turns with v − ω·separation/2; <legacyMode> true has it mirrored, the default up to Kinetic.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -50,7 +50,7 @@ class DiffDrive(Plugin):
             separation=number("wheelSeparation", 0.34), wheel_radius=number("wheelDiameter", 0.15) / 2
         )
         self._torque, self._acceleration = number("wheelTorque", 5.0), number("wheelAcceleration", 0.0)
-        self._sign = -1.0 if flag("legacyMode", default=False) else 1.0
+        self._sign = -1.0 if flag("legacyMode", default=node.profile.mirrored_diff_drive) else 1.0
         self.period_ns = period_of(number("updateRate", 100.0))
         self._from_wheels = parameters.string("odometrySource", default="world") in ("encoder", "0")
         self._command = TwistCommand(node, topic("commandTopic", "cmd_vel"))
