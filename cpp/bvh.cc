@@ -26,6 +26,11 @@ struct Box {
   float middle(int axis) const { return 0.5f * (low[axis] + high[axis]); }
 };
 
+std::array<float, 3> corner_of(const Triangles& mesh, int32_t face, int corner) {
+  const int32_t vertex = mesh.corners[corner][face];
+  return {mesh.places[0][vertex], mesh.places[1][vertex], mesh.places[2][vertex]};
+}
+
 struct Builder {
   const Triangles& mesh;
   std::vector<Box> boxes;
@@ -36,8 +41,8 @@ struct Builder {
     for (int32_t face = 0; face < mesh.face_count; ++face) {
       order.push_back(face);
       for (int corner = 0; corner < 3; ++corner) {
-        const float* p = mesh.vertices + 3 * (int64_t)mesh.faces[3 * (int64_t)face + corner];
-        boxes[face].take({{p[0], p[1], p[2]}, {p[0], p[1], p[2]}});
+        const auto p = corner_of(mesh, face, corner);
+        boxes[face].take({p, p});
       }
     }
     divide(0, mesh.face_count, 0);
@@ -109,9 +114,8 @@ Bvh make_bvh(const Triangles& mesh) {
   Builder builder(mesh);
   Bvh bvh;
   for (const int32_t face : builder.order) {
-    const float* p[3];
-    for (int corner = 0; corner < 3; ++corner)
-      p[corner] = mesh.vertices + 3 * (int64_t)mesh.faces[3 * (int64_t)face + corner];
+    const std::array<std::array<float, 3>, 3> p = {corner_of(mesh, face, 0), corner_of(mesh, face, 1),
+                                                   corner_of(mesh, face, 2)};
     for (int i = 0; i < 3; ++i) bvh.corners.push_back(p[0][i]);
     for (int edge = 1; edge < 3; ++edge)
       for (int i = 0; i < 3; ++i) bvh.corners.push_back(p[edge][i] - p[0][i]);

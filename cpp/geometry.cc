@@ -9,6 +9,8 @@ namespace trundle {
 
 namespace {
 
+size_t padded(size_t count) { return (count + kWidest - 1) / kWidest * kWidest; }
+
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // How a number given at the corners of a triangle runs over its plane: gradient, and value at the origin.
@@ -26,28 +28,31 @@ void add_slope(std::vector<float>& layout, const Vec3& origin, const Vec3& a, co
 }  // namespace
 
 Triangles Mesh::triangles() const {
-  return {vertices.data(),
-          faces.data(),
+  return {{places[0].data(), places[1].data(), places[2].data()},
+          {corners[0].data(), corners[1].data(), corners[2].data()},
           normals.data(),
           layout.empty() ? nullptr : layout.data(),
-          (int32_t)(vertices.size() / 3),
-          (int32_t)(faces.size() / 3)};
+          vertex_count,
+          face_count};
 }
 
-Mesh make_mesh(std::vector<float> vertices, const std::vector<int32_t>& faces, const std::vector<float>& uv) {
+Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& faces, const std::vector<float>& uv) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Mesh mesh;
-  mesh.vertices = std::move(vertices);
+  mesh.vertex_count = (int32_t)(vertices.size() / 3);
+  for (int axis = 0; axis < 3; ++axis) {
+    mesh.places[axis].resize(padded((size_t)mesh.vertex_count), 0.0f);
+    for (int32_t i = 0; i < mesh.vertex_count; ++i) mesh.places[axis][i] = vertices[3 * (size_t)i + axis];
+  }
   mesh.low = {inf, inf, inf}, mesh.high = {-inf, -inf, -inf};
-  const auto count = (int32_t)(mesh.vertices.size() / 3);
   if (!uv.empty() && uv.size() != 2 * faces.size())
     throw std::invalid_argument("there must be one place in the texture for each corner of each face");
   for (size_t i = 0; i + 2 < faces.size(); i += 3) {
     double p[3][3];
     for (int corner = 0; corner < 3; ++corner) {
       const int32_t vertex = faces[i + corner];
-      if (vertex < 0 || vertex >= count) throw std::invalid_argument("a face names a vertex that does not exist");
-      for (int axis = 0; axis < 3; ++axis) p[corner][axis] = mesh.vertices[3 * (size_t)vertex + axis];
+      if (vertex < 0 || vertex >= mesh.vertex_count) throw std::invalid_argument("a face names a vertex that does not exist");
+      for (int axis = 0; axis < 3; ++axis) p[corner][axis] = mesh.places[axis][vertex];
     }
     Vec3 a, b;
     for (int axis = 0; axis < 3; ++axis) a[axis] = p[1][axis] - p[0][axis], b[axis] = p[2][axis] - p[0][axis];
@@ -55,7 +60,7 @@ Mesh make_mesh(std::vector<float> vertices, const std::vector<int32_t>& faces, c
     const double length = std::sqrt(dot(n, n));
     if (!(length > 0.0) || !std::isfinite(length)) continue;
     for (int axis = 0; axis < 3; ++axis) {
-      mesh.faces.push_back(faces[i + axis]);
+      mesh.corners[axis].push_back(faces[i + axis]);
       mesh.normals.push_back((float)(n[axis] / length));
       for (const auto& corner : p) {
         mesh.low[axis] = std::min(mesh.low[axis], corner[axis]);
@@ -67,6 +72,8 @@ Mesh make_mesh(std::vector<float> vertices, const std::vector<int32_t>& faces, c
       add_slope(mesh.layout, {p[0][0], p[0][1], p[0][2]}, a, b, uv[2 * i + axis], uv[2 * i + 2 + axis],
                 uv[2 * i + 4 + axis]);
   }
+  mesh.face_count = (int32_t)mesh.corners[0].size();
+  for (auto& corner : mesh.corners) corner.resize(padded(corner.size()), 0);
   return mesh;
 }
 

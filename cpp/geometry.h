@@ -1,6 +1,7 @@
 // Meshes and images as they are kept for drawing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -10,15 +11,17 @@
 namespace trundle {
 
 struct Mesh {
-  std::vector<float> vertices, normals, layout;
-  std::vector<int32_t> faces;
+  std::array<std::vector<float>, 3> places;
+  std::array<std::vector<int32_t>, 3> corners;
+  std::vector<float> normals, layout;
+  int32_t vertex_count = 0, face_count = 0;
   Vec3 low{}, high{};
   Triangles triangles() const;
 };
 
-// `uv`, two numbers for each corner of each face, may be empty. Faces whose corners do not exist throw std::invalid_argument; those
+// `vertices` and `faces` hold three numbers each; `uv`, two numbers for each corner of each face, may be empty. Faces whose corners do not exist throw std::invalid_argument; those
 // without area or with a corner that is no number are left out of sight.
-Mesh make_mesh(std::vector<float> vertices, const std::vector<int32_t>& faces, const std::vector<float>& uv);
+Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& faces, const std::vector<float>& uv);
 
 struct Image {
   std::vector<int32_t> texels;

@@ -22,11 +22,13 @@ struct View {
   bool parallel;
 };
 
+// Vertices and faces lie in rows of their own for each axis and corner, which are padded to kWidest: with faces that have
+// no area.
 struct Triangles {
-  const float* vertices;  // (vertex_count, 3) [m]
-  const int32_t* faces;   // (face_count, 3)
-  const float* normals;   // (face_count, 3), unit, outwards
-  const float* layout;    // (face_count, 8): u and v, each as gradient [1/m] and value at the origin; may be null
+  const float* places[3];     // x, y and z of the vertices [m]
+  const int32_t* corners[3];  // vertices of each face, counter-clockwise from outside
+  const float* normals;       // (face_count, 3), unit, outwards
+  const float* layout;        // (face_count, 8): u and v, each as gradient [1/m] and value at the origin; may be null
   int32_t vertex_count, face_count;
 };
 
@@ -118,7 +120,7 @@ struct Buffers {
   int32_t* id;        // what is seen; -1: nothing; null: of no interest
   int32_t* colour;    // red | green << 8 | blue << 16
   int32_t* segment;   // index of the shape, or -1; may be null
-  float* projected;   // room for 6 numbers for each vertex of the largest mesh
+  float* projected;   // room for 6 rows of the vertices of the largest mesh
 };
 
 struct Kernel {

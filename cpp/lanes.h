@@ -27,11 +27,24 @@ struct F3 {
 
 inline F splat(float value) { return F{} + value; }
 inline I splat(int32_t value) { return I{} + value; }
-inline F select(I mask, F yes, F no) { return (F)((mask & (I)yes) | (~mask & (I)no)); }
-inline I select(I mask, I yes, I no) { return (mask & yes) | (~mask & no); }
+inline F select(I mask, F yes, F no) { return mask ? yes : no; }
+inline I select(I mask, I yes, I no) { return mask ? yes : no; }
 inline I min_of(I a, int32_t b) { return select(a < b, a, splat(b)); }
+
+// Where one is no number, the second one.
+#if defined(__AVX512F__)
+inline F max(F a, F b) { return (F)_mm512_max_ps((__m512)a, (__m512)b); }
+inline F min(F a, F b) { return (F)_mm512_min_ps((__m512)a, (__m512)b); }
+#elif defined(__AVX2__)
+inline F max(F a, F b) { return (F)_mm256_max_ps((__m256)a, (__m256)b); }
+inline F min(F a, F b) { return (F)_mm256_min_ps((__m256)a, (__m256)b); }
+#elif defined(__SSE2__)
+inline F max(F a, F b) { return (F)_mm_max_ps((__m128)a, (__m128)b); }
+inline F min(F a, F b) { return (F)_mm_min_ps((__m128)a, (__m128)b); }
+#else
 inline F max(F a, F b) { return select(a > b, a, b); }
 inline F min(F a, F b) { return select(a < b, a, b); }
+#endif
 inline F abs(F a) { return (F)((I)a & 0x7fffffff); }
 
 inline F sqrt(F a) {
@@ -51,6 +64,21 @@ inline bool any(I mask) {
   int32_t all = 0;
   for (int i = 0; i < kLanes; ++i) all |= mask[i];
   return all != 0;
+#endif
+}
+
+// A bit for each lane, the first one lowest.
+inline uint32_t bits(I mask) {
+#if defined(__AVX512F__)
+  return _mm512_movepi32_mask((__m512i)mask);
+#elif defined(__AVX2__)
+  return (uint32_t)_mm256_movemask_ps((__m256)mask);
+#elif defined(__SSE2__)
+  return (uint32_t)_mm_movemask_ps((__m128)mask);
+#else
+  uint32_t all = 0;
+  for (int i = 0; i < kLanes; ++i) all |= (uint32_t)(mask[i] & 1) << i;
+  return all;
 #endif
 }
 

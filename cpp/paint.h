@@ -7,9 +7,9 @@
 
 namespace trundle::TRUNDLE_ISA {
 
-// Places in the texture, (0, 0) its lower left corner, (1, 1) its upper right; and how much of it a metre is.
+// Places in the texture, (0, 0) its lower left corner, (1, 1) its upper right; and how much of it a metre is, squared.
 struct Layout {
-  F u, v, per_metre;
+  F u, v, squared_scale;
 };
 
 // The angle of (x, y) from +x, as a share of a turn, to 1e-5.
@@ -23,6 +23,8 @@ inline F turn_share(F x, F y) {
   return select(y < 0.0f, 1.0f - share, share);
 }
 
+inline F squared(float value) { return splat(value * value); }
+
 // Once over each face of a box, around and over balls and cylinders, once over a plane of known size and once a metre
 // over an endless one.
 template <Kind kind>
@@ -30,7 +32,7 @@ inline Layout layout_at(const Solid& solid, const F3& p, const F3& normal) {
   const float* size = solid.size;
   if constexpr (kind == Kind::kPlane) {
     const float x = size[0] > 0.0f ? 2.0f * size[0] : 1.0f, y = size[1] > 0.0f ? 2.0f * size[1] : 1.0f;
-    return {p.x / x + 0.5f, p.y / y + 0.5f, splat(1.0f / (x < y ? x : y))};
+    return {p.x / x + 0.5f, p.y / y + 0.5f, squared(1.0f / (x < y ? x : y))};
   }
   if constexpr (kind == Kind::kBox) {
     const F x = p.x / (2.0f * size[0]), y = p.y / (2.0f * size[1]), z = p.z / (2.0f * size[2]);
@@ -39,12 +41,12 @@ inline Layout layout_at(const Solid& solid, const F3& p, const F3& normal) {
                                           : (size[1] < size[2] ? size[1] : size[2]);
     const F along = select(is_x, select(normal.x > 0.0f, y, -y), select(normal.y > 0.0f, -x, x));
     return {select(is_z, x, along) + 0.5f, select(is_z, select(normal.z > 0.0f, y, -y), z) + 0.5f,
-            splat(0.5f / least)};
+            squared(0.5f / least)};
   }
   const float height = kind == Kind::kCylinder ? size[1] : kind == Kind::kCapsule ? size[1] + size[0]
                        : kind == Kind::kEllipsoid ? size[2] : size[0];
   const F around = turn_share(p.x, p.y), up = p.z / (2.0f * height) + 0.5f;
-  const F density = splat(0.5f / (height < size[0] ? height : size[0]));
+  const F density = squared(0.5f / (height < size[0] ? height : size[0]));
   if constexpr (kind == Kind::kCylinder) {
     const I cap = normal.z != 0.0f;
     const F x = p.x / (2.0f * size[0]) + 0.5f, y = p.y / (2.0f * size[0]) + 0.5f;
@@ -58,26 +60,27 @@ inline Layout layout_of_face(const Triangles& mesh, const F3& p, I faces, I mask
   F g[8];
   for (int i = 0; i < 8; ++i) g[i] = gather(mesh.layout + i, faces * 8);
   const F du = g[0] * g[0] + g[1] * g[1] + g[2] * g[2], dv = g[4] * g[4] + g[5] * g[5] + g[6] * g[6];
-  return {g[0] * p.x + g[1] * p.y + g[2] * p.z + g[3], g[4] * p.x + g[5] * p.y + g[6] * p.z + g[7], sqrt(max(du, dv))};
+  return {g[0] * p.x + g[1] * p.y + g[2] * p.z + g[3], g[4] * p.x + g[5] * p.y + g[6] * p.z + g[7], max(du, dv)};
 }
-
-inline I remainder(I a, I count) { return a - to_int(floor(to_float(a) / to_float(count))) * count; }
 
 inline F channel(I texel, int shift) { return to_float((texel >> shift) & 255); }
 
-// The four texels around each place, on the level whose texels are about as large as `footprint` [m].
-inline F3 texel_at(const Texture& texture, const Layout& layout, F footprint) {
+// The four texels around each place, on the level whose texels are about as large as what a pixel covers: the square of
+// its length is given, in shares of the texture.
+inline F3 texel_at(const Texture& texture, const Layout& layout, F squared_footprint) {
   const float across = (float)(texture.width[0] > texture.height[0] ? texture.width[0] : texture.height[0]);
-  const F texels = max(layout.per_metre * footprint * across, splat(1.0f));
-  const I level = min_of(to_int(log2(min(texels, splat(1e9f))) + 0.5f), texture.level_count - 1);
+  const F texels = max(min(squared_footprint * (across * across), splat(1e30f)), splat(1.0f));
+  // The level is the binary logarithm of the length, rounded: half of that of twice its square, rounded down.
+  const I level = min_of((((I)(texels * 2.0f) >> 23) - 127) >> 1, texture.level_count - 1);
   const I width = gather(texture.width, level), height = gather(texture.height, level);
   // Repeated before it is multiplied, so that far places stay exact; what is no number becomes 0.
   F u = layout.u - floor(layout.u), v = layout.v - floor(layout.v);
   u = select((u >= 0.0f) & (u <= 1.0f), u, F{}) * to_float(width) - 0.5f;
   v = select((v >= 0.0f) & (v <= 1.0f), v, F{}) * to_float(height) - 0.5f;
   const F left = floor(u), low = floor(v), x = u - left, y = v - low;
-  const I column = remainder(to_int(left), width), row = remainder(to_int(low), height);
+  I column = to_int(left), row = to_int(low);  // from -1, which is the last one, on
   const I next_column = select(column + 1 < width, column + 1, I{}), next_row = select(row + 1 < height, row + 1, I{});
+  column = select(column < 0, width - 1, column), row = select(row < 0, height - 1, row);
   const I start = gather(texture.start, level);
   const I here = start + row * width, above = start + next_row * width;
   const I a = gather(texture.texels, here + column), b = gather(texture.texels, here + next_column);

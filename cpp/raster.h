@@ -95,11 +95,15 @@ inline Corner cut(const View& view, const Corner& seen, const Corner& hidden) {
   return corner;
 }
 
-inline void draw_clipped(const View& view, const Buffers& buffers, const Corner* corners[3], int32_t id) {
+struct Corners {
+  Corner at[3];
+};
+
+inline void draw_clipped(const View& view, const Buffers& buffers, const Corners& corners, int32_t id) {
   Corner kept[4];
   int count = 0;
   for (int i = 0; i < 3; ++i) {
-    const Corner &here = *corners[i], &next = *corners[(i + 1) % 3];
+    const Corner &here = corners.at[i], &next = corners.at[(i + 1) % 3];
     const bool seen = here.x >= view.near_, next_seen = next.x >= view.near_;
     if (seen) kept[count++] = here;
     if (seen && !next_seen) kept[count++] = cut(view, here, next);
@@ -108,27 +112,134 @@ inline void draw_clipped(const View& view, const Buffers& buffers, const Corner*
   for (int i = 2; i < count; ++i) draw_triangle(view, buffers, kept[0], kept[i - 1], kept[i], id);
 }
 
-inline void see_mesh(const View& view, const Solid& solid, const Buffers& buffers) {
+// The vertices of a mesh as a view sees them, in rows as a mesh has them.
+struct Projected {
+  float *x, *y, *z, *u, *v, *nearness;
+
+  Projected(float* room, int32_t count) {
+    const int64_t row = (count + kWidest - 1) / kWidest * kWidest;
+    x = room, y = x + row, z = y + row, u = z + row, v = u + row, nearness = v + row;
+  }
+  Corner corner(int32_t i) const { return {x[i], y[i], z[i], u[i], v[i], nearness[i]}; }
+
+  // False where some may be hidden by the near plane.
+  bool take(const View& view, const Solid& solid) {
+    const Triangles& mesh = *solid.mesh;
+    I hidden = I{};
+    for (int32_t i = 0; i < mesh.vertex_count; i += kLanes) {
+      const F3 p = turn_back(solid.axes, {load(mesh.places[0] + i), load(mesh.places[1] + i), load(mesh.places[2] + i)});
+      const F ahead = solid.centre[0] + p.x, left = solid.centre[1] + p.y, up = solid.centre[2] + p.z;
+      const F near = view.parallel ? -ahead : 1.0f / ahead;
+      hidden |= ahead < view.near_;
+      store(x + i, ahead), store(y + i, left), store(z + i, up), store(nearness + i, near);
+      store(u + i, view.centre_u - (view.parallel ? view.focal * left : view.focal * left * near));
+      store(v + i, view.centre_v - (view.parallel ? view.focal * up : view.focal * up * near));
+    }
+    return !any(hidden);
+  }
+};
+
+constexpr float kSmall = 32.0f;  // [px] of triangles for which single precision is enough
+
+// Edges of as many triangles, as `Edge` has them.
+struct Edges {
+  F u0, v0, du, dv, least;
+
+  Edges(F au, F av, F bu, F bv) {
+    const I ordered = (av < bv) | ((av == bv) & (au < bu));
+    u0 = select(ordered, au, bu), v0 = select(ordered, av, bv);
+    du = bu - au, dv = bv - av;
+    least = select(ordered, splat(-1e-45f), F{});
+  }
+};
+
+// As many triangles side by side, ready to be drawn one after the other.
+struct Small {
+  Edges ab, bc, ca;
+  F au, av, an, along_u, along_v, lowest, highest;
+  I row0, row1, column0, column1;
+
+  template <bool with_id>
+  void draw(const View& view, const Buffers& buffers, int i, int32_t id) const {
+    const int last = view.stride - kLanes, right = column1[i], bottom = row1[i];
+    for (int column = column0[i]; column < right; column += kLanes) {
+      const int from = column < last ? column : last;
+      const F u = counting() + ((float)from + 0.5f);
+      const I within = (u > (float)column) & (u < (float)right);
+      const F on_ab = select(within, (u - ab.u0[i]) * ab.dv[i], splat(-3e38f));
+      const F on_bc = (u - bc.u0[i]) * bc.dv[i], on_ca = (u - ca.u0[i]) * ca.dv[i];
+      const F slope = along_u[i] * (u - au[i]);
+      for (int row = row0[i]; row < bottom; ++row) {
+        const float v = (float)row + 0.5f;
+        const I inside = (on_ab - (v - ab.v0[i]) * ab.du[i] > ab.least[i]) &
+                         (on_bc - (v - bc.v0[i]) * bc.du[i] > bc.least[i]) &
+                         (on_ca - (v - ca.v0[i]) * ca.du[i] > ca.least[i]);
+        const F nearness = max(min(slope + (an[i] + along_v[i] * (v - av[i])), splat(highest[i])), splat(lowest[i]));
+        const int at = row * view.stride + from;
+        const F before = load(buffers.nearness + at);
+        const I seen = inside & (nearness > before);
+        store(buffers.nearness + at, select(seen, nearness, before));
+        if constexpr (with_id) store(buffers.id + at, select(seen, splat(id), load(buffers.id + at)));
+      }
+    }
+  }
+};
+
+inline F least_of(F a, F b, F c) { return min(min(a, b), c); }
+inline F most_of(F a, F b, F c) { return max(max(a, b), c); }
+
+// As `first_at` and `first_past`.
+inline I first_at(F coordinate, int last) {
+  return to_int(-floor(-max(min(coordinate - 0.5f, splat((float)last)), F{})));
+}
+inline I first_past(F coordinate, int last) { return to_int(max(min(coordinate + 0.5f, splat((float)last)), F{})); }
+
+template <bool with_id>
+inline void draw_faces(const View& view, const Solid& solid, const Buffers& buffers) {
   const Triangles& mesh = *solid.mesh;
-  const float *axes = solid.axes, *centre = solid.centre;
-  Corner* corners = (Corner*)buffers.projected;
-  for (int i = 0; i < mesh.vertex_count; ++i) {
-    const float *p = mesh.vertices + 3 * (int64_t)i;
-    Corner& corner = corners[i];
-    corner.x = centre[0] + (axes[0] * p[0] + axes[3] * p[1] + axes[6] * p[2]);
-    corner.y = centre[1] + (axes[1] * p[0] + axes[4] * p[1] + axes[7] * p[2]);
-    corner.z = centre[2] + (axes[2] * p[0] + axes[5] * p[1] + axes[8] * p[2]);
-    project(view, corner);
+  Projected seen(buffers.projected, mesh.vertex_count);
+  const bool whole = seen.take(view, solid);
+  for (int32_t first = 0; first < mesh.face_count; first += kLanes) {
+    const I a = load(mesh.corners[0] + first), b = load(mesh.corners[1] + first), c = load(mesh.corners[2] + first);
+    const F au = gather(seen.u, a), av = gather(seen.v, a), bu = gather(seen.u, b), bv = gather(seen.v, b);
+    const F cu = gather(seen.u, c), cv = gather(seen.v, c);
+    const F low_u = least_of(au, bu, cu), high_u = most_of(au, bu, cu);
+    const F low_v = least_of(av, bv, cv), high_v = most_of(av, bv, cv);
+    const F ab_u = bu - au, ab_v = bv - av, ac_u = cu - au, ac_v = cv - av;
+    const F area = ab_u * ac_v - ab_v * ac_u;
+    const I small = (high_u - low_u <= kSmall) & (high_v - low_v <= kSmall);
+    const I row0 = first_at(low_v, view.height), row1 = first_past(high_v, view.height);
+    const I column0 = first_at(low_u, view.width), column1 = first_past(high_u, view.width);
+    // v runs downwards, so that front sides turn the other way.
+    I drawn = (row0 < row1) & (column0 < column1) & (area < 0.0f) & small;
+    I others = ~small & (a != b);
+    if (!whole) {
+      const F ax = gather(seen.x, a), bx = gather(seen.x, b), cx = gather(seen.x, c);
+      const I all = least_of(ax, bx, cx) >= view.near_;
+      others = (a != b) & (most_of(ax, bx, cx) >= view.near_) & (~all | ~small);
+      drawn &= all;
+    }
+    if (any(drawn)) {
+      const F an = gather(seen.nearness, a), bn = gather(seen.nearness, b), cn = gather(seen.nearness, c);
+      const F share = 1.0f / area, ab_n = bn - an, ac_n = cn - an;
+      const Small batch = {Edges(au, av, bu, bv), Edges(bu, bv, cu, cv), Edges(cu, cv, au, av), au, av, an,
+                           (ab_n * ac_v - ac_n * ab_v) * share, (ac_n * ab_u - ab_n * ac_u) * share,
+                           least_of(an, bn, cn), most_of(an, bn, cn), row0, row1, column0, column1};
+      for (uint32_t left = bits(drawn); left; left &= left - 1) {
+        const int i = __builtin_ctz(left);
+        batch.draw<with_id>(view, buffers, i, solid.first_id + first + i);
+      }
+    }
+    for (uint32_t left = bits(others); left; left &= left - 1) {
+      const int i = __builtin_ctz(left);
+      draw_clipped(view, buffers, {{seen.corner(a[i]), seen.corner(b[i]), seen.corner(c[i])}}, solid.first_id + first + i);
+    }
   }
-  for (int i = 0; i < mesh.face_count; ++i) {
-    const int32_t* face = mesh.faces + 3 * (int64_t)i;
-    const Corner* at[3] = {&corners[face[0]], &corners[face[1]], &corners[face[2]]};
-    const int seen = (at[0]->x >= view.near_) + (at[1]->x >= view.near_) + (at[2]->x >= view.near_);
-    if (seen == 3)
-      draw_triangle(view, buffers, *at[0], *at[1], *at[2], solid.first_id + i);
-    else if (seen > 0)
-      draw_clipped(view, buffers, at, solid.first_id + i);
-  }
+}
+
+inline void see_mesh(const View& view, const Solid& solid, const Buffers& buffers) {
+  if (buffers.id) return draw_faces<true>(view, solid, buffers);
+  draw_faces<false>(view, solid, buffers);
 }
 
 }  // namespace trundle::TRUNDLE_ISA

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string_view>
@@ -78,7 +79,7 @@ Renderer::Renderer(SceneSpec scene)
   size_t most = 0;
   for (const Mesh& mesh : scene_.meshes) {
     triangles_.push_back(mesh.triangles());
-    most = std::max(most, mesh.vertices.size() / 3);
+    most = std::max(most, mesh.places[0].size());
   }
   projected_.resize(6 * most);
   for (Image& image : scene_.textures) image.texture.texels = image.texels.data();
@@ -287,6 +288,18 @@ void Renderer::draw_see_through(const View& view, const Solid& solid, const Ligh
   best_kernel().shade(view, solid, lighting, buffers);
 }
 
+// Words of three bytes into bytes, four at a time.
+void pack(const int32_t* words, int32_t count, uint8_t* bytes) {
+  int32_t i = 0;
+  for (; i + 4 <= count; i += 4, bytes += 12) {
+    const auto a = (uint32_t)words[i], b = (uint32_t)words[i + 1], c = (uint32_t)words[i + 2], d = (uint32_t)words[i + 3];
+    const uint32_t packed[3] = {a | b << 24, b >> 8 | c << 16, c >> 16 | d << 8};
+    std::memcpy(bytes, packed, sizeof packed);
+  }
+  for (; i < count; ++i, bytes += 3)
+    for (int channel = 0; channel < 3; ++channel) bytes[channel] = (uint8_t)(words[i] >> (8 * channel));
+}
+
 void Renderer::render(const Camera& camera, uint8_t* rgb, float* depth, int32_t* segment) {
   const int32_t stride = (camera.width + kWidest - 1) / kWidest * kWidest;
   const View view{camera.width, camera.height, stride, camera.width * 0.5f, camera.height * 0.5f,
@@ -327,11 +340,7 @@ void Renderer::render(const Camera& camera, uint8_t* rgb, float* depth, int32_t*
   }
   for (int32_t row = 0; row < camera.height; ++row) {
     const size_t from = (size_t)row * stride, to = (size_t)row * camera.width;
-    for (int32_t column = 0; column < camera.width; ++column) {
-      const int32_t word = colour_[from + column];
-      uint8_t* pixel = rgb + 3 * (to + column);
-      pixel[0] = (uint8_t)word, pixel[1] = (uint8_t)(word >> 8), pixel[2] = (uint8_t)(word >> 16);
-    }
+    pack(colour_.data() + from, camera.width, rgb + 3 * to);
     if (depth)
       for (int32_t column = 0; column < camera.width; ++column)
         depth[to + column] = id_[from + column] < 0 ? std::numeric_limits<float>::infinity()

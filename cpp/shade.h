@@ -120,15 +120,13 @@ void shade_solid(const View& view, const Solid& solid, const Lighting& lighting,
         outward = normal_at<kind>(solid, local);
       }
       F3 n = turn_back(solid.axes, outward);
-      n = n * (1.0f / sqrt(dot(n, n)));
+      if constexpr (kind != Kind::kMesh) n = n * (1.0f / sqrt(dot(n, n)));  // those of faces are of unit length
       const F3 back = point * (-1.0f / sqrt(dot(point, point)));
-      Lit lit = {splat(lighting.ambient) * splat(look.ambient), {F{}, F{}, F{}}};
-      {
-        Lit lamps = {{F{}, F{}, F{}}, {F{}, F{}, F{}}};
-        for (int i = 0; i < lighting.light_count; ++i) add_light(lighting.lights[i], look, point, n, back, lamps);
-        lit.diffuse = lit.diffuse + lamps.diffuse * splat(look.diffuse);
-        lit.specular = lamps.specular * splat(look.specular);
-      }
+      const F none = F{};
+      Lit lit = {{none, none, none}, {none, none, none}};
+      for (int i = 0; i < lighting.light_count; ++i) add_light(lighting.lights[i], look, point, n, back, lit);
+      lit.diffuse = splat(lighting.ambient) * splat(look.ambient) + lit.diffuse * splat(look.diffuse);
+      lit.specular = lit.specular * splat(look.specular);
       if (look.texture) {
         Layout layout;
         if constexpr (kind == Kind::kMesh) {
@@ -137,10 +135,10 @@ void shade_solid(const View& view, const Solid& solid, const Lighting& lighting,
           layout = layout_at<kind>(solid, local, outward);
         }
         const float *repeat = look.repeat;
-        layout = {(layout.u - 0.5f) * repeat[0] + 0.5f, (layout.v - 0.5f) * repeat[1] + 0.5f,
-                  layout.per_metre * (repeat[0] > repeat[1] ? repeat[0] : repeat[1])};
-        const F facing = max(dot(n, back), splat(0.05f));
-        lit.diffuse = lit.diffuse * texel_at(*look.texture, layout, depth * step / sqrt(facing));
+        const float most = step * (repeat[0] > repeat[1] ? repeat[0] : repeat[1]);
+        layout.u = (layout.u - 0.5f) * repeat[0] + 0.5f, layout.v = (layout.v - 0.5f) * repeat[1] + 0.5f;
+        const F across = depth * most, facing = max(dot(n, back), splat(0.05f));
+        lit.diffuse = lit.diffuse * texel_at(*look.texture, layout, layout.squared_scale * (across * across) / facing);
       }
       F3 colour = lit.diffuse + lit.specular + splat(look.emissive);
       if (lighting.fog.kind != FogKind::kNone) {
