@@ -17,7 +17,7 @@ $(READY): pyproject.toml constraints.txt CMakeLists.txt $(wildcard cpp/*)
 	@touch $@
 
 demo: $(READY)  ## the RP2W telepresence robot, in the browser (HEADLESS=1: 10 s without)
-	$(BIN)/trundle run living_room.world $(if $(HEADLESS),--headless --duration 10 --speed max)
+	$(BIN)/trundle run rp2w_at_home.world $(if $(HEADLESS),--headless --duration 10 --speed max)
 
 test: $(READY)  ## the tests of every day, with what this machine has
 	$(BIN)/python -m pytest -n 2 -m "not slow"

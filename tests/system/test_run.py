@@ -91,12 +91,12 @@ def test_the_plugin_drives_on_cmd_vel(start, trundle, master, until) -> None:
 
 def test_the_living_room_is_seen_by_its_robot(trundle, tmp_path) -> None:
     """What `make demo HEADLESS=1` does: every image counted, and of what there is only what can move is told."""
-    ran = trundle("run", "living_room.world", *FLAT_OUT, "--duration", "1")
-    seen = trundle("render", "living_room.world", "--camera", "my_sensor", "-o", "seen.png")
+    ran = trundle("run", "rp2w_at_home.world", *FLAT_OUT, "--duration", "1")
+    seen = trundle("render", "rp2w_at_home.world", "--camera", "my_sensor", "-o", "seen.png")
 
     assert ran.returncode == 0, ran.stderr
     assert "1000 steps, 60 images" in ran.stdout
-    assert [line.split()[0] for line in ran.stdout.splitlines()[1:]] == ["rp2w", "ball"]
+    assert [line.split()[0] for line in ran.stdout.splitlines()[1:]] == ["ball", "rp2w"]
     assert seen.returncode == 0, seen.stderr
     red, _, blue = Image.open(tmp_path / "seen.png").getpixel((80, 205))
     assert blue > 2 * red, "the sofa is blue"

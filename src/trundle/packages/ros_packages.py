@@ -20,7 +20,8 @@ _NOT_CRAWLED = frozenset({"build", "node_modules", "__pycache__"})
 _NAME = re.compile(r"<name>\s*([\w.-]+)\s*</name>")
 _IGNORED_BY = ("CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE", "rospack_nosubdirs")
 SHIPPED = Path(__file__).parent / "ros"
-"""Packages of our own: for the few stock ones that launch files only take a file from."""
+"""Packages of our own: for the few stock ones that launch files only take a file from, and the examples."""
+_CHECKOUT_EXAMPLES = Path(__file__).parents[3] / "examples"
 
 
 _Folder: TypeAlias = tuple[Path, str | None]
@@ -61,6 +62,8 @@ class RosPackages:
             for root in self._guessed:
                 self._crawl(root, most=_MOST_GUESSED)
             self._crawl(SHIPPED)
+            if (_CHECKOUT_EXAMPLES / "smartcar").is_dir():
+                self._crawl(_CHECKOUT_EXAMPLES)
         return self._by_name
 
     def searched(self) -> list[Path]:

@@ -1,0 +1,37 @@
+"""The example car, as `examples/smartcar` ships it: shown by the arbotix driver, and simulated among furniture."""
+
+import math
+
+
+def test_it_drives_through_a_living_room_and_sees_the_walls(start, trundle, master, until) -> None:
+    start("launch", "smartcar", "drive.launch", "--headless")
+    topics = {"/scan", "/odom", "/camera/image_raw", "/joint_states", "/gazebo/model_states"}
+    until("the car's topics", lambda: topics <= set(dict(master.call("getTopicTypes"))))
+    driving = start("topic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", "{linear: {x: 0.3}}")
+
+    def odometry() -> float:
+        echoed = trundle("topic", "echo", "-n1", "/odom/pose/pose/position/x")
+        return float(echoed.stdout.split()[0])
+
+    until("the car to have moved", lambda: odometry() > 0.2)
+    driving.interrupt()
+    ranges = trundle("topic", "echo", "-n1", "/scan/ranges").stdout.strip("[]-\n").split(", ")
+    size = trundle("topic", "echo", "-n1", "/camera/image_raw/width").stdout.split()[0]
+    tree = trundle("tf", "tree").stdout
+
+    assert min(map(float, ranges)) > 0.15, "it does not see itself"
+    assert sum(math.isfinite(float(distance)) for distance in ranges) > 90, "it sees two walls, a sofa and a table"
+    assert size == "320"
+    for frame in ("odom", "base_footprint", "base_link", "left_front_wheel", "head"):
+        assert frame in tree
+
+
+def test_arbotix_imagines_it_driving(start, trundle, master, until) -> None:
+    start("launch", "smartcar", "display.launch", "--headless")
+    until("the driver", lambda: "/odom" in dict(master.call("getTopicTypes")))
+    start("topic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", "{linear: {x: 0.5}, angular: {z: 0.5}}")
+
+    def turned() -> float:
+        return float(trundle("topic", "echo", "-n1", "/odom/pose/pose/orientation/z").stdout.split()[0])
+
+    until("the car to have turned", lambda: turned() > 0.1)
