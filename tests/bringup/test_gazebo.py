@@ -234,3 +234,28 @@ def test_a_second_server_is_refused_and_leaves_the_first_alone(gazebo: Gazebo, c
     assert "a simulation runs already" in capsys.readouterr().err
     gazebo.loop.run(second.shutdown())
     assert gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties").success
+
+
+def test_noise_goes_on_as_models_come_and_go(gazebo: Gazebo) -> None:
+    """A sensor that began anew with each spawned model would draw its first numbers again."""
+    noise = "<noise type='gaussian'><mean>0</mean><stddev>1</stddev></noise>"
+    turn = "".join(f"<{axis}>{noise}</{axis}>" for axis in "xyz")
+    imu = f"<sensor name='s' type='imu'><update_rate>100</update_rate><imu><angular_velocity>{turn}</angular_velocity>"
+    model = "<sdf version='1.6'><model name='m'><static>1</static><link name='l'>{}</link></model></sdf>"
+    gazebo.spawn(model.format(imu + "</imu></sensor>"), "still")
+    turns: list[float] = []
+
+    def hear(message: Message) -> None:
+        turns.append(message.angular_velocity.x)
+
+    gazebo.client.subscribe("/still/l/s/imu", "sensor_msgs/Imu", hear)
+    gazebo.call("unpause_physics")
+    for name in ("one", "two"):
+        enough = len(turns) + 5
+        until(lambda enough=enough: len(turns) >= enough)
+        gazebo.spawn(model.format(""), name)
+    gazebo.call("delete_model", "gazebo_msgs/DeleteModel", model_name="one")
+    enough = len(turns) + 5
+    until(lambda: len(turns) >= enough)
+
+    assert len(set(turns)) == len(turns)

@@ -13,9 +13,8 @@ from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import World
 from trundle.packages import Packages
-from trundle.render import NativeRenderer
 from trundle.ros import NOETIC, Node, SimClock, StaticTransformBroadcaster
-from trundle.sensors import CameraSensor, MeasuringSensor, mount_cameras, mount_sensors
+from trundle.sensors import CameraSensor, Surroundings, mount_cameras, mount_sensors
 from trundle.simulation import ModelHandle, Simulation, SimulationUnstableError
 from trundle.spatial import Pose
 
@@ -24,6 +23,7 @@ from .graph import Graph
 from .pace import Pacer
 from .page import Page
 from .plugins import attach_sensor_plugins, load_plugins, load_world_plugins
+from .renderers import RENDERERS, RendererName
 
 _IDLE_S = 0.01
 _LOOK_S = 0.5
@@ -45,6 +45,7 @@ class GazeboWorld:
         say: Callable[[str], None],
         window: tuple[str, int | None] | None,
         speed: float | None = 1.0,
+        renderer: RendererName = "cpu",
     ) -> None:
         """Get ready; nothing is simulated before `open`.
 
@@ -57,6 +58,7 @@ class GazeboWorld:
             say: tells the user a thing.
             window: host and port of the page; None: headless.
             speed: times real time; None: flat out.
+            renderer: draws what cameras see.
         """
         self._graph = graph
         self._start = start
@@ -69,7 +71,9 @@ class GazeboWorld:
         self._commands: deque[Callable[[], None]] = deque()
         self._ending = threading.Event()
         self._simulation: Simulation | None = None
+        self._renderer: RendererName = renderer
         self._cameras: list[CameraSensor] = []
+        self._around: Surroundings | None = None
         self._plugin_nodes: list[Node] = []
         """Of the models whose plugins are being loaded."""
         self._nodes: dict[str, list[Node]] = {}
@@ -99,7 +103,7 @@ class GazeboWorld:
         built = asyncio.get_running_loop().create_future()
 
         def build() -> None:
-            error: TrundleError | None = None
+            error = None
             try:
                 self._build(loaded.world)
             except TrundleError as failure:
@@ -175,7 +179,7 @@ class GazeboWorld:
         )
         pose = world_from_model @ model.world_from_model
         handle = simulation.spawn(replace(model, name=name, world_from_model=pose))
-        self._look_anew(simulation)
+        self._mount(simulation, name)
         self._load_plugins(simulation, [handle])
 
     def delete(self, name: str) -> None:
@@ -184,15 +188,15 @@ class GazeboWorld:
         simulation.delete(name)
         for node in self._nodes.pop(name, []):
             self._graph.loop.run(node.shutdown(), timeout_s=_CALL_S)
-        self._look_anew(simulation)
+        self._cameras = [camera for camera in self._cameras if camera.model.name != name]
+        self._show_anew()
 
     def edit(self, world: World) -> None:
         """Go on with other gravity, masses, limits or lights."""
-        simulation = self.simulation
-        lights = simulation.world.lights
-        simulation.edit(world)
+        lights = self.simulation.world.lights
+        self.simulation.edit(world)
         if world.lights != lights:
-            self._look_anew(simulation)
+            self._show_anew()
 
     def set_speed(self, speed: float | None) -> None:
         """Simulate so many seconds a second of the wall."""
@@ -200,9 +204,8 @@ class GazeboWorld:
 
     def reset(self, *, time: bool) -> None:
         """Put everything back to where it came."""
-        simulation = self.simulation
-        simulation.reset(time=time)
-        self._clock.set(simulation.time_ns)
+        self.simulation.reset(time=time)
+        self._clock.set(self.simulation.time_ns)
         self._pacer.restart()
 
     # -- inside
@@ -210,7 +213,8 @@ class GazeboWorld:
     def _work(self) -> None:
         try:
             while not self._ending.is_set():
-                self._drain()
+                for _ in range(len(self._commands)):
+                    self._commands.popleft()()
                 if self._simulation is None:
                     time.sleep(_IDLE_S)
                     continue
@@ -243,37 +247,35 @@ class GazeboWorld:
         self._paused = True
         self._say(f"{why}; the simulation is paused (/gazebo/unpause_physics tries to go on)")
 
-    def _drain(self) -> None:
-        for _ in range(len(self._commands)):
-            self._commands.popleft()()
-
     def _build(self, world: World) -> None:
         assert self._node is not None
         simulation = Simulation(world, self._report)
         clock = ClockTopic(self._node, rate_hz=self._clock_hz)
         simulation.add_hook(clock, period_ns=clock.period_ns, wanted=clock.wanted)
-        self._look_anew(simulation)
-        self._simulation = simulation
+        self._simulation, self._around = simulation, None
+        self._cameras = []
+        self._mount(simulation)
         self._load_plugins(simulation, None)
 
-    def _look_anew(self, simulation: Simulation) -> None:
-        """Have sensors and the page see the world as it is now."""
+    def _mount(self, simulation: Simulation, model: str | None = None) -> None:
+        """Have the sensors of the world, or of a model that came, measure; those that are there go on."""
         assert self._node is not None
         assert self._still is not None
-        world = simulation.world
-        cameras = self._cameras = mount_cameras(simulation, NativeRenderer)
-        sensors = mount_sensors(simulation)
+        cameras = mount_cameras(simulation, RENDERERS[self._renderer], model=model, beside=self._cameras)
+        self._around = self._around or Surroundings(simulation)
+        sensors = mount_sensors(simulation, model=model, around=self._around)
         for sensor in (*cameras, *sensors):
-
-            def wanted(sensor: CameraSensor | MeasuringSensor = sensor) -> bool:
-                return self._cameras is cameras and sensor.wanted()
-
-            simulation.add_hook(sensor, period_ns=sensor.period_ns, wanted=wanted)
+            simulation.add_hook(sensor, period_ns=sensor.period_ns, wanted=sensor.wanted)
+        world = simulation.world
         silent = attach_sensor_plugins(cameras, self._node, self._report)
         camera_topics(self._node, self._still, silent, world)
         sensor_topics(self._node, self._still, attach_sensor_plugins(sensors, self._node, self._report), world)
+        self._cameras += cameras
+        self._show_anew()
+
+    def _show_anew(self) -> None:
         if self._page is not None:
-            self._page.replace(simulation, cameras)
+            self._page.replace(self.simulation, self._cameras)
         self._pacer.restart()
 
     def _load_plugins(self, simulation: Simulation, models: list[ModelHandle] | None) -> None:

@@ -17,6 +17,8 @@ class LaunchOptions:
     master_port: int | None = None
     view_port: int | None = None
     host: str = "127.0.0.1"
+    renderer: Literal["cpu", "egl"] = "cpu"
+    """As `RunOptions.renderer`."""
     output: Literal["screen", "log"] | None = None
     """Of every node, whatever the file says."""
     all_required: bool = False

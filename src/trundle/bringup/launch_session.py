@@ -106,6 +106,7 @@ class LaunchSession:
             say=read.show.line,
             window=None if options.headless else (options.host, options.view_port),
             speed=options.speed,
+            renderer=options.renderer,
         )
         self._open_things.callback(gazebo.close)
         return gazebo

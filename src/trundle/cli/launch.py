@@ -6,7 +6,7 @@ from pathlib import Path
 from trundle.diagnostics import UsageError
 from trundle.ros import PROFILES
 
-from .main import add_allow_outside, quiet_imports
+from .main import add_allow_outside, add_renderer, quiet_imports
 from .speed import read_speed
 
 EXAMPLES = """
@@ -60,6 +60,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         add(option, dest=f"unused_{option.strip('-')}", metavar="X", help=argparse.SUPPRESS)
     for option in ("-c", "--child", "-u", "--server_uri", "--run_id"):
         add(option, dest="child", metavar="X", help=argparse.SUPPRESS)
+    add_renderer(parser)
     add_allow_outside(parser)
 
 
@@ -80,6 +81,7 @@ def main(args: argparse.Namespace) -> int:
         master_port=args.port,
         view_port=args.view_port,
         host=args.host,
+        renderer=args.renderer,
         output="screen" if args.screen else "log" if args.log else None,
         all_required=args.required,
         wait_for_master=args.wait,

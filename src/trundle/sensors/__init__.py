@@ -20,6 +20,7 @@ from .range import RangeReading, RangeSensor, angles_of, directions_of
 from .scenery import Scenery
 from .segmentation_camera import SegmentationCameraSensor
 from .sonar import SonarReading, SonarSensor
+from .surroundings import Surroundings
 from .thermal_camera import ThermalCameraSensor
 from .wireless import RfidReading, RfidSensor, WirelessReading, WirelessSensor
 
@@ -57,6 +58,7 @@ __all__ = [
     "SegmentationCameraSensor",
     "SonarReading",
     "SonarSensor",
+    "Surroundings",
     "ThermalCameraSensor",
     "WirelessReading",
     "WirelessSensor",

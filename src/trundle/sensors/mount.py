@@ -1,7 +1,7 @@
 """Mounts the cameras of a world."""
 
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -42,22 +42,30 @@ SIMULATED = frozenset(_KINDS) | MEASURING
 """SDF's sensor types that measure."""
 
 
-def mount_cameras(simulation: Simulation, make: Callable[[Scene], Renderer]) -> list[CameraSensor]:
+def mount_cameras(
+    simulation: Simulation,
+    make: Callable[[Scene], Renderer],
+    *,
+    model: str | None = None,
+    beside: Sequence[CameraSensor] = (),
+) -> list[CameraSensor]:
     """Every camera of a world, in file order; sensors of types that do not measure yet are named.
 
     Args:
         simulation: with its sensors; its seed is that of the noise.
         make: makes the one renderer all cameras share; called only if there is a camera.
+        model: of this one alone.
+        beside: cameras that are there already; their renderer is shared, too.
     """
     world, report = simulation.world, simulation.report
     cameras: list[CameraSensor] = []
-    scenery: Scenery | None = None
+    scenery = next((camera.scenery for camera in beside), None)
     index = number = 0
-    for model in world.models:
-        for link in model.links:
+    for owner in world.models:
+        for link in owner.links:
             for sensor in link.sensors:
                 number += 1
-                if sensor.type in MEASURING:
+                if sensor.type in MEASURING or model not in (None, owner.name):
                     continue
                 kind = _KINDS.get(sensor.type)
                 if kind is None:
@@ -68,8 +76,8 @@ def mount_cameras(simulation: Simulation, make: Callable[[Scene], Renderer]) -> 
                 _doubt_labels(sensor, kind, scenery, report)
                 for part, optics in enumerate(_made(sensor, report)):
                     random = np.random.default_rng([simulation.seed, number, part])
-                    camera = kind(model, link, sensor, optics, link_index=index, scenery=scenery, random=random)
-                    camera.follow(simulation[model.name].link(link.name))
+                    camera = kind(owner, link, sensor, optics, link_index=index, scenery=scenery, random=random)
+                    camera.follow(simulation[owner.name].link(link.name))
                     _save(camera, world.name, report)
                     cameras.append(camera)
             index += 1

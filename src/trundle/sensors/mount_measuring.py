@@ -60,23 +60,33 @@ class _Spot:
         return self.model.world_from_model @ self.link.model_from_link @ self.sensor.link_from_sensor
 
 
-def mount_sensors(simulation: Simulation) -> list[MeasuringSensor]:
-    """Every sensor that needs no picture, in file order; each has random numbers of its own."""
+def mount_sensors(
+    simulation: Simulation, *, model: str | None = None, around: Surroundings | None = None
+) -> list[MeasuringSensor]:
+    """Every sensor that needs no picture, in file order; each has random numbers of its own.
+
+    Args:
+        simulation: with its sensors; its seed is that of the noise.
+        model: of this one alone.
+        around: what sensors that are there already share.
+    """
     mounted: list[MeasuringSensor] = []
-    around = Surroundings(simulation)
+    around = around or Surroundings(simulation)
     index = number = 0
-    for model in simulation.world.models:
-        for link in model.links:
+    for owner in simulation.world.models:
+        wanted = model in (None, owner.name)
+        for link in owner.links:
             for sensor in link.sensors:
                 number += 1
                 make = _MAKERS.get(sensor.type)
-                if make is not None:
+                if make is not None and wanted:
                     random = np.random.default_rng([simulation.seed, number])
-                    made = make(_Spot(simulation, around, model, link, sensor, index, random))
-                    made.follow(simulation[model.name].link(link.name))
+                    made = make(_Spot(simulation, around, owner, link, sensor, index, random))
+                    made.follow(simulation[owner.name].link(link.name))
                     mounted.append(made)
             index += 1
-        mounted += _on_joints(simulation, model, first=index - len(model.links))
+        if wanted:
+            mounted += _on_joints(simulation, owner, first=index - len(owner.links))
     return mounted
 
 

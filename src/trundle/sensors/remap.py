@@ -11,6 +11,8 @@ from .placing import turned
 _Array = NDArray[np.float64]
 _STEPS = 256
 """Places between two pixels that are told apart: the table is the same on every machine."""
+_SHIFT = 16
+"""Bits of a weight, which is a product of two such places."""
 
 
 class Remap:
@@ -31,16 +33,17 @@ class Remap:
         number = np.searchsorted(used, np.where(seen, nearest, used[0]))
         ray = np.take_along_axis(in_faces, nearest[None, ..., None], axis=0)[0]
         size = self.faces[0][1]
-        self._width, count = size.width_px, size.width_px * size.height_px
+        width, count = size.width_px, size.width_px * size.height_px
         ahead = np.where(seen, ray[..., 0], 1.0)
         column = np.where(seen, size.width_px / 2 - size.focal_px * ray[..., 1] / ahead - 0.5, 0.0)
         row = np.where(seen, size.height_px / 2 - size.focal_px * ray[..., 2] / ahead - 0.5, 0.0)
         column = np.clip(np.rint(column * _STEPS).astype(np.int64), 0, (size.width_px - 1) * _STEPS - 1)
         row = np.clip(np.rint(row * _STEPS).astype(np.int64), 0, (size.height_px - 1) * _STEPS - 1)
         (i, u), (j, v) = np.divmod(column, _STEPS), np.divmod(row, _STEPS)
-        self._corner = number * count + j * self._width + i
+        corner = number * count + j * width + i
+        self._corners = [corner + step for step in (0, 1, width, width + 1)]
         right, below = (u >= _STEPS // 2).astype(np.int64), (v >= _STEPS // 2).astype(np.int64)
-        self._nearest = self._corner + below * self._width + right
+        self._nearest = corner + below * width + right
         self._weights = [
             w.astype(np.uint32)[..., None]
             for w in ((_STEPS - u) * (_STEPS - v), u * (_STEPS - v), (_STEPS - u) * v, u * v)
@@ -50,11 +53,10 @@ class Remap:
     def developed(self, pictures: list[Picture]) -> Picture:
         """Look every pixel up; depths and shapes are those of the nearest pixel, never mixed."""
         colours = np.concatenate([picture.rgb.reshape(-1, 3) for picture in pictures])
-        steps = (0, 1, self._width, self._width + 1)
-        mixed = np.full((*self._corner.shape, 3), _STEPS * _STEPS // 2, dtype=np.uint32)
-        for step, weight in zip(steps, self._weights, strict=True):
-            mixed += colours[self._corner + step] * weight
-        rgb = (mixed // (_STEPS * _STEPS)).astype(np.uint8)
+        mixed = np.full((*self._blind.shape, 3), _STEPS * _STEPS // 2, dtype=np.uint32)
+        for corner, weight in zip(self._corners, self._weights, strict=True):
+            mixed += np.take(colours, corner, axis=0, mode="clip") * weight  # "clip" looks no index over
+        rgb = (mixed >> _SHIFT).astype(np.uint8)
         rgb[self._blind] = 0
         depths = [picture.depth for picture in pictures if picture.depth is not None]
         shapes = [picture.segmentation for picture in pictures if picture.segmentation is not None]
