@@ -1,10 +1,7 @@
 """How fast descriptions are read, against the tools that people have."""
 
-import os
-import shutil
 import statistics
 import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Callable
@@ -19,18 +16,14 @@ from trundle.packages import Packages
 
 SHARED = Path(__file__).parents[2] / "shared"
 MODELS = SHARED / "corpus/repos/osrf+gazebo_models"
-SMARTCAR = SHARED / "seeds/smartcar_description/urdf/smartcar.urdf.xacro"
 _RUNS = 5
-_AMENT = f"""class PackageNotFoundError(KeyError): pass
-def get_package_share_directory(name): return {str(SHARED / "seeds")!r} + "/" + name
-"""
 
 
 def run() -> list[Row]:
     """Ours and theirs by turns in one run; a peer that is not installed is left out."""
     if not MODELS.is_dir():
         return []
-    return [_sdf(), _urdf(), _check()]
+    return [_sdf(), _urdf()]
 
 
 def _sdf() -> Row:
@@ -60,41 +53,6 @@ def _urdf() -> Row:
     packages = Packages({}, start=SHARED)
     ours, ratio = _by_turns(lambda: _read(files, packages), peer if find_spec("yourdfpy") else None)
     return Row("URDF, read and converted", len(files) / ours, "files/s", "yourdfpy", ratio)
-
-
-def _check() -> Row:
-    """`trundle check` of the smartcar, from start to exit, and xacro with check_urdf after it.
-
-    Today's xacro leaves the smartcar's bare macros, of Indigo's time, as they are: it does less.
-    """
-    tools = [shutil.which("xacro", path=str(Path(sys.executable).parent)), shutil.which("check_urdf")]
-    env = {**os.environ, "ROS_PACKAGE_PATH": str(SHARED / "seeds")}
-    if env.pop("PYTHONDONTWRITEBYTECODE", None):  # Python keeps its byte code where it is installed for use
-        env["PYTHONPYCACHEPREFIX"] = str(Path(tempfile.gettempdir()) / "trundle_bench_bytecode")
-
-    def ours() -> float:
-        return _wall([sys.executable, "-m", "trundle", "check", str(SMARTCAR)], env)
-
-    def theirs() -> float:
-        assert tools[0] is not None
-        assert tools[1] is not None
-        with tempfile.TemporaryDirectory() as folder:
-            expanded = f"{folder}/smartcar.urdf"
-            package = Path(folder) / "ament_index_python"  # what today's xacro asks for packages
-            package.mkdir()
-            (package / "__init__.py").touch()
-            (package / "packages.py").write_text(_AMENT)
-            with_ament = {**env, "PYTHONPATH": folder}
-            return _wall([tools[0], str(SMARTCAR), "-o", expanded], with_ament) + _wall([tools[1], expanded], env)
-
-    seconds, ratio = _by_turns(ours, theirs if all(tools) else None)
-    return Row("check smartcar, start to exit", seconds, "s", "xacro + check_urdf", ratio and 1 / ratio)
-
-
-def _wall(command: list[str], env: dict[str, str]) -> float:
-    start = time.perf_counter()
-    subprocess.run(command, env=env, capture_output=True, check=False)
-    return time.perf_counter() - start
 
 
 def _read(files: list[Path], packages: Packages) -> float:

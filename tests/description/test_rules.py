@@ -208,6 +208,7 @@ def test_what_xacro_refuses_is_one_sentence(tmp_path, body, words) -> None:
         expand(tmp_path, body)
 
     assert error.value.at.file.endswith("r.urdf.xacro")
+    assert str(error.value).count(": error: ") == 1
 
 
 @pytest.mark.parametrize("room", [trundle.description, trundle.packages, trundle.robot])

@@ -1,6 +1,8 @@
 """`trundle check` and `trundle xacro` on the published robots."""
 
 import json
+import subprocess
+import sys
 
 import pytest
 
@@ -20,6 +22,18 @@ def test_the_published_robot_is_understood_and_its_oddities_are_named(trundle, s
     said = " ".join(finding["message"] for finding in result["diagnostics"])
     for oddity in ("z of zero thickness", "turns like 1 kg·m²", "leaves no freedom", "read in the model frame"):
         assert oddity in said
+
+
+def test_a_plain_robot_loads_no_more_than_it_needs(shared) -> None:
+    """What slows a start down most: the engine, numpy, YAML, and the dataclasses of sensors nobody has."""
+    file = shared / "seeds/smartcar_description/urdf/smartcar.urdf.xacro"
+    code = "import sys; from trundle.cli import main; main(['check', sys.argv[1]]); print(*sorted(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code, str(file)], capture_output=True, text=True, check=True)
+
+    loaded = set(done.stdout.splitlines()[-1].split())
+    spared = {"mujoco", "numpy", "yaml", "json", "socket", "trundle.model.sensor", "trundle.description.sdf.world"}
+    assert "lxml.etree" in loaded
+    assert not spared & loaded
 
 
 def test_strict_turns_a_warning_into_exit_code_one(trundle, shared) -> None:

@@ -4,11 +4,13 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError
-from trundle.diagram import TreeNode
 from trundle.packages import Packages
+
+if TYPE_CHECKING:
+    from trundle.diagram import TreeNode
 
 _LAUNCH = (".launch", ".test")
 
@@ -24,7 +26,7 @@ class Found(Protocol):
         """How much it is."""
         ...
 
-    def trees(self) -> list[TreeNode]:
+    def trees(self) -> "list[TreeNode]":
         """The kinematic trees in it."""
         ...
 
@@ -38,7 +40,7 @@ class CheckOutcome:
     """None: the file was refused."""
     report: Diagnostics
 
-    def trees(self) -> list[TreeNode]:
+    def trees(self) -> "list[TreeNode]":
         """The kinematic trees of what was understood."""
         return [] if self.found is None else self.found.trees()
 

@@ -2,18 +2,19 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from trundle.description import Loaded
 from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.diagram import TreeNode
 from trundle.model import World, flattened
 from trundle.packages import Packages
 
-from .check_json import described
 from .described_file import load_described
 from .doubts import name_doubts
-from .kinematic_tree import kinematic_trees
 from .unremarkable import is_unremarkable
+
+if TYPE_CHECKING:
+    from trundle.diagram import TreeNode
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,10 +26,14 @@ class FoundDescription:
 
     def as_json(self) -> dict[str, object]:
         """As `check --json` prints it."""
+        from .check_json import described
+
         return described(self.loaded)
 
-    def trees(self) -> list[TreeNode]:
+    def trees(self) -> "list[TreeNode]":
         """Of each model."""
+        from .kinematic_tree import kinematic_trees
+
         return kinematic_trees(self.loaded)
 
     def sentence(self) -> str:

@@ -1,7 +1,6 @@
 """List what is wrong or not supported in a file: SDF, URDF, xacro or launch."""
 
 import argparse
-import json
 import os
 import sys
 from pathlib import Path
@@ -31,17 +30,22 @@ def main(args: argparse.Namespace) -> int:
     """Read, report, and return 1 where the file is refused."""
     with quiet_imports():
         from trundle.bringup.check import check
-        from trundle.diagram import tree_svg, tree_text
 
     outcome = check(args.file, dict(os.environ), start=Path.cwd())
     warned = any(finding.severity == "warning" for finding in outcome.report.findings)
     if args.graph is not None:
+        from trundle.diagram import tree_svg
+
         args.graph.write_text(tree_svg(outcome.trees(), title=args.file), encoding="utf-8")
     if args.json:
+        import json
+
         json.dump(outcome.as_json(), sys.stdout, allow_nan=False)
         print()
     else:
         if args.tree and not outcome.refused:
+            from trundle.diagram import tree_text
+
             print(tree_text(outcome.trees()))
         print(outcome.text())
     return 1 if outcome.report.errors or (args.strict and warned) else 0

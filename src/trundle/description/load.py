@@ -9,10 +9,9 @@ from trundle.packages import Packages, model_file, refuse_template
 from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
 from .loaded import Loaded
-from .sdf import DEEPEST, Context, read_root, read_version, rewrite_old_style
-from .urdf import lower_robot, read_urdf_text
-from .xacro import expand_xacro, is_xacro
+from .sdf import DEEPEST
 
+# Each reader is loaded by the files that want it.
 _XACRO = "<xacro:"
 """What is not expanded yet; the name space alone stays in many files that are."""
 
@@ -35,14 +34,13 @@ def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -
         path = model_file(path, report)
     refuse_template(path)
     packages = packages.around(path)
-    if is_xacro(path):
-        text = expand_xacro(path, {}, packages=packages, report=report)
-        return load_urdf(text, f"{path} (expanded)", path, packages, report)
+    if path.suffix == ".xacro":
+        return load_urdf(_expanded(path, packages, report), f"{path} (expanded)", path, packages, report)
     root = read_xml(path, report=report, deepest=DEEPEST)
     if root.tag == "robot":
         text = path.read_text(encoding="utf-8", errors="replace")
         if "xmlns:xacro" in text:
-            text = expand_xacro(path, {}, packages=packages, report=report)
+            text = _expanded(path, packages, report)
         return load_urdf(text, str(path), path, packages, report)
     return load_sdf(root, path, packages, report, seed=seed)
 
@@ -74,6 +72,8 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics,
     Raises:
         DescriptionError: it is no SDF.
     """
+    from .sdf import Context, read_root, read_version, rewrite_old_style
+
     if root.tag not in ("sdf", "gazebo"):
         raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")
     version = read_version(root, report)
@@ -107,9 +107,17 @@ def load_urdf(text: str, name: str, path: Path, packages: Packages, report: Diag
     Raises:
         DescriptionError: it is no robot that urdfdom would take.
     """
+    from .urdf import lower_robot, read_urdf_text
+
     robot = read_urdf_text(text, name=name, report=report)
     world = lower_robot(robot, parse_xml(text, name=name), folder=path.parent, packages=packages, report=report)
     return Loaded(kind="urdf", world=world, robot=robot, urdf=text)
+
+
+def _expanded(path: Path, packages: Packages, report: Diagnostics) -> str:
+    from .xacro import expand_xacro
+
+    return expand_xacro(path, {}, packages=packages, report=report)
 
 
 def _find(what: str, packages: Packages) -> Path:

@@ -6,21 +6,42 @@ the output as plain XML, without a word, and a robot has no links. The pass rewr
 
 import itertools
 import re
+import sys
 import threading
 import xml.dom.minidom
 from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import Any, TextIO
 from xml.parsers.expat import ExpatError
-
-import xacro
-from xacro import substitution_args
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.packages import Packages
 
 from .xacro_expression import bounded_eval
+
+
+class _Yaml(ModuleType):
+    """In yaml's place for the package's substitution_args, which imports it and asks it for nothing in most files."""
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(import_module("yaml"), name)
+
+
+def _import_xacro() -> tuple[Any, Any]:
+    absent = "yaml" not in sys.modules
+    if absent:
+        sys.modules["yaml"] = _Yaml("yaml")
+    try:
+        return import_module("xacro"), import_module("xacro.substitution_args")
+    finally:
+        if absent:
+            del sys.modules["yaml"]
+
+
+xacro, substitution_args = _import_xacro()
 
 _REPEATED = re.compile(r"<class '[\w.]+'>: (.*?) \1")
 """How the package words an error of $(…): its class, then what it says, twice."""
@@ -78,11 +99,6 @@ _URDF = frozenset(
 _ENTITY = re.compile(rb"<!(DOCTYPE|ENTITY)")
 
 
-def is_xacro(path: Path) -> bool:
-    """Whether a file is to be expanded, by its name."""
-    return path.suffix == ".xacro"
-
-
 def expand_xacro(path: Path, arguments: Mapping[str, str], *, packages: Packages, report: Diagnostics) -> str:
     """Expand a file; return the XML text.
 
@@ -124,7 +140,7 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
     def find(name: str) -> str:
         folder = packages.find_package(name)
         if folder is None:
-            raise DescriptionError(_where(path), f"$(find {name}): {packages.why_not_found(name)}")
+            raise LookupError(f"$(find {name}): {packages.why_not_found(name)}")
         return str(folder)
 
     def warn(*words: object) -> None:
@@ -134,8 +150,7 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
         packages.check_readable(Path(name), _where(path), told="load_yaml")
         return Path(name).open(encoding="utf-8")
 
-    modules: Any = (xacro, substitution_args)
-    package, arguments = modules
+    package, arguments = xacro, substitution_args
     names = ("parse", "handle_macro_call", "warning", "print_location", "safe_eval")
     kept = {name: getattr(package, name) for name in names}
     own_find = arguments._eval_find

@@ -1,38 +1,128 @@
-"""World, Model, Link, Joint, …: frozen dataclasses with SDF's meaning, the narrow waist of Trundle."""
+"""World, Model, Link, Joint, …: frozen dataclasses with SDF's meaning, the narrow waist of Trundle.
 
-from .actor import Actor, Animation, Skin, Trajectory, Waypoint
-from .camera import CameraOptics, Distortion, Lens, PixelIntrinsics, Projection
-from .environment import Atmosphere, Fog, Light, LightType, PhysicsSettings, SceneSettings, SphericalCoordinates
-from .flatten import flattened
-from .geometry import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    Empty,
-    Geometry,
-    Heightmap,
-    MeshFile,
-    Plane,
-    Polyline,
-    Solid,
-    Sphere,
-    TerrainLayer,
-)
-from .inertial import Inertial
-from .instrument import AirPressure, AirSpeed, Altimeter, Instrument, LogicalCamera, Magnetometer, Sonar, Transceiver
-from .joint import UNLIMITED, Joint, JointAxis, JointType, Mimic
-from .kinematics import model_from_joint, model_from_links
-from .link import Collision, Link, Visual
-from .material import GREY, Material, Rgba
-from .model import Frame, Model
-from .noise import Noise
-from .plugin import PluginTag
-from .road import Road
-from .sensor import ForceTorque, GpsNoise, ImuNoise, OrientationReference, RangeScan, ScanAxis, Sensor
-from .surface import Surface
-from .world import World
+Names are imported on first use: a robot of boxes loads no cameras, and making a dataclass takes half a millisecond.
+"""
+
+from typing import TYPE_CHECKING
+
+from trundle.doors import opened_on_use
+
+if TYPE_CHECKING:
+    from .actor import Actor, Animation, Skin, Trajectory, Waypoint
+    from .camera import CameraOptics, Distortion, Lens, PixelIntrinsics, Projection
+    from .environment import Atmosphere, Fog, PhysicsSettings, SceneSettings, SphericalCoordinates
+    from .flatten import flattened
+    from .geometry import (
+        Box,
+        Capsule,
+        Cone,
+        Cylinder,
+        Ellipsoid,
+        Empty,
+        Geometry,
+        Heightmap,
+        MeshFile,
+        Plane,
+        Polyline,
+        Solid,
+        Sphere,
+        TerrainLayer,
+    )
+    from .inertial import Inertial
+    from .instrument import (
+        AirPressure,
+        AirSpeed,
+        Altimeter,
+        Instrument,
+        LogicalCamera,
+        Magnetometer,
+        Sonar,
+        Transceiver,
+    )
+    from .joint import UNLIMITED, Joint, JointAxis, JointType, Mimic
+    from .kinematics import model_from_joint, model_from_links
+    from .light import Light, LightType
+    from .link import Collision, Link, Visual
+    from .material import GREY, Material, Rgba
+    from .model import Frame, Model
+    from .noise import Noise
+    from .plugin import PluginTag
+    from .road import Road
+    from .sensor import ForceTorque, GpsNoise, ImuNoise, OrientationReference, RangeScan, ScanAxis, Sensor
+    from .surface import Surface
+    from .world import World
+
+_HOMES = {
+    "Actor": "actor",
+    "AirPressure": "instrument",
+    "AirSpeed": "instrument",
+    "Altimeter": "instrument",
+    "Animation": "actor",
+    "Atmosphere": "environment",
+    "Box": "geometry",
+    "CameraOptics": "camera",
+    "Capsule": "geometry",
+    "Collision": "link",
+    "Cone": "geometry",
+    "Cylinder": "geometry",
+    "Distortion": "camera",
+    "Ellipsoid": "geometry",
+    "Empty": "geometry",
+    "Fog": "environment",
+    "ForceTorque": "sensor",
+    "Frame": "model",
+    "GREY": "material",
+    "Geometry": "geometry",
+    "GpsNoise": "sensor",
+    "Heightmap": "geometry",
+    "ImuNoise": "sensor",
+    "Inertial": "inertial",
+    "Instrument": "instrument",
+    "Joint": "joint",
+    "JointAxis": "joint",
+    "JointType": "joint",
+    "Lens": "camera",
+    "Light": "light",
+    "LightType": "light",
+    "Link": "link",
+    "LogicalCamera": "instrument",
+    "Magnetometer": "instrument",
+    "Material": "material",
+    "MeshFile": "geometry",
+    "Mimic": "joint",
+    "Model": "model",
+    "Noise": "noise",
+    "OrientationReference": "sensor",
+    "PhysicsSettings": "environment",
+    "PixelIntrinsics": "camera",
+    "Plane": "geometry",
+    "PluginTag": "plugin",
+    "Polyline": "geometry",
+    "Projection": "camera",
+    "RangeScan": "sensor",
+    "Rgba": "material",
+    "Road": "road",
+    "ScanAxis": "sensor",
+    "SceneSettings": "environment",
+    "Sensor": "sensor",
+    "Skin": "actor",
+    "Solid": "geometry",
+    "Sonar": "instrument",
+    "Sphere": "geometry",
+    "SphericalCoordinates": "environment",
+    "Surface": "surface",
+    "TerrainLayer": "geometry",
+    "Trajectory": "actor",
+    "Transceiver": "instrument",
+    "UNLIMITED": "joint",
+    "Visual": "link",
+    "Waypoint": "actor",
+    "World": "world",
+    "flattened": "flatten",
+    "model_from_joint": "kinematics",
+    "model_from_links": "kinematics",
+}
+__getattr__ = opened_on_use(__name__, _HOMES)
 
 __all__ = [
     "GREY",

@@ -7,7 +7,6 @@ from trundle.spatial import Pose
 from .joint import Joint, JointAxis
 from .link import Link
 from .model import Model
-from .plugin import PluginTag
 from .world import World
 
 WORLD = "world"
@@ -28,7 +27,7 @@ def flat_model(model: Model) -> Model:
         links += [_moved_link(link, inner, outer=model) for link in inner.links]
         joints += [_moved_joint(joint, inner) for joint in inner.joints]
         plugins += inner.plugins
-    return replace(model, links=tuple(links), joints=tuple(joints), models=(), plugins=tuple[PluginTag, ...](plugins))
+    return replace(model, links=tuple(links), joints=tuple(joints), models=(), plugins=tuple(plugins))
 
 
 def _moved_link(link: Link, inner: Model, *, outer: Model) -> Link:

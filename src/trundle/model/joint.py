@@ -3,11 +3,13 @@
 import math
 from dataclasses import dataclass
 from enum import Enum
+from typing import TYPE_CHECKING
 
 from trundle.diagnostics import Source
 from trundle.spatial import Pose, Vector3
 
-from .sensor import Sensor
+if TYPE_CHECKING:
+    from .sensor import Sensor
 
 
 class JointType(Enum):
@@ -99,4 +101,4 @@ class Joint:
     """Of screw joints, as Gazebo has it [rad/m], the sign opposite to a right-hand thread."""
     gearbox_ratio: float = 1.0
     gearbox_reference_body: str | None = None
-    sensors: tuple[Sensor, ...] = ()
+    sensors: tuple["Sensor", ...] = ()

@@ -1,16 +1,19 @@
 """A rigid body with what is seen, touched and mounted on it."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from trundle.diagnostics import Source
 from trundle.spatial import Pose
 
-from .environment import Light
-from .geometry import Geometry
 from .inertial import Inertial
 from .material import GREY, Material
-from .sensor import Sensor
 from .surface import Surface
+
+if TYPE_CHECKING:
+    from .geometry import Geometry
+    from .light import Light
+    from .sensor import Sensor
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -18,7 +21,7 @@ class Visual:
     """A shape that is seen."""
 
     name: str
-    geometry: Geometry
+    geometry: "Geometry"
     at: Source
     link_from_visual: Pose = Pose()
     material: Material = GREY
@@ -38,7 +41,7 @@ class Collision:
     """A shape that is touched."""
 
     name: str
-    geometry: Geometry
+    geometry: "Geometry"
     at: Source
     link_from_collision: Pose = Pose()
     surface: Surface = Surface()
@@ -59,7 +62,7 @@ class Link:
     inertial: Inertial = Inertial()
     visuals: tuple[Visual, ...] = ()
     collisions: tuple[Collision, ...] = ()
-    sensors: tuple[Sensor, ...] = ()
+    sensors: tuple["Sensor", ...] = ()
     gravity: bool = True
     self_collide: bool | None = None
     """None: as the model says."""
@@ -68,6 +71,6 @@ class Link:
     angular_decay: float = 0.0
     enable_wind: bool | None = None
     """None: as the model says."""
-    lights: tuple[Light, ...] = ()
+    lights: tuple["Light", ...] = ()
     fixed: bool = False
     """Held by the world: a link of a static model within one that is not."""

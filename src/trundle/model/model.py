@@ -1,13 +1,15 @@
 """Links joined by joints, placed as one."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from trundle.diagnostics import Source
 from trundle.spatial import Pose
 
-from .joint import Joint
-from .link import Link
-from .plugin import PluginTag
+if TYPE_CHECKING:
+    from .joint import Joint
+    from .link import Link
+    from .plugin import PluginTag
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,18 +37,18 @@ class Model:
     allow_auto_disable: bool = True
     """May come to rest for good until something touches it."""
     enable_wind: bool = False
-    links: tuple[Link, ...] = ()
-    joints: tuple[Joint, ...] = ()
+    links: tuple["Link", ...] = ()
+    joints: tuple["Joint", ...] = ()
     frames: tuple[Frame, ...] = ()
     models: tuple["Model", ...] = ()
     """Nested ones; `flattened` makes their links this model's."""
-    plugins: tuple[PluginTag, ...] = ()
+    plugins: tuple["PluginTag", ...] = ()
     canonical_link: str | None = None
     """The link the model's pose follows, `model::link` where it is nested; None: there is no link."""
     added: bool = False
     """Put there by `run`, not named by the file."""
 
-    def link(self, name: str) -> Link:
+    def link(self, name: str) -> "Link":
         """The link of that name, nested models aside.
 
         Raises:
@@ -57,7 +59,7 @@ class Model:
                 return link
         raise KeyError(f"model {self.name!r} has no link {name!r}; links here: {_quoted(self.links)}")
 
-    def joint(self, name: str) -> Joint:
+    def joint(self, name: str) -> "Joint":
         """The joint of that name.
 
         Raises:
@@ -69,5 +71,5 @@ class Model:
         raise KeyError(f"model {self.name!r} has no joint {name!r}; joints here: {_quoted(self.joints)}")
 
 
-def _quoted(named: tuple[Link, ...] | tuple[Joint, ...]) -> str:
+def _quoted(named: "tuple[Link, ...] | tuple[Joint, ...]") -> str:
     return ", ".join(repr(n.name) for n in named) or "none"

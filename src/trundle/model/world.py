@@ -1,16 +1,20 @@
 """The world that holds all models: what every reader makes and every consumer starts from."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from trundle.diagnostics import Source
 from trundle.spatial import ZERO, Vector3
 
-from .actor import Actor
-from .environment import Atmosphere, Light, PhysicsSettings, SceneSettings, SphericalCoordinates
-from .joint import Joint
-from .model import Frame, Model
-from .plugin import PluginTag
-from .road import Road
+from .environment import Atmosphere, PhysicsSettings, SceneSettings, SphericalCoordinates
+
+if TYPE_CHECKING:
+    from .actor import Actor
+    from .joint import Joint
+    from .light import Light
+    from .model import Frame, Model
+    from .plugin import PluginTag
+    from .road import Road
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -19,14 +23,14 @@ class World:
 
     name: str
     at: Source
-    models: tuple[Model, ...] = ()
-    joints: tuple[Joint, ...] = ()
+    models: tuple["Model", ...] = ()
+    joints: tuple["Joint", ...] = ()
     """Between models; links by `model::link`, poses and axes in the world."""
-    frames: tuple[Frame, ...] = ()
-    lights: tuple[Light, ...] = ()
-    roads: tuple[Road, ...] = ()
-    actors: tuple[Actor, ...] = ()
-    plugins: tuple[PluginTag, ...] = ()
+    frames: tuple["Frame", ...] = ()
+    lights: tuple["Light", ...] = ()
+    roads: tuple["Road", ...] = ()
+    actors: tuple["Actor", ...] = ()
+    plugins: tuple["PluginTag", ...] = ()
     physics: PhysicsSettings = PhysicsSettings()
     scene: SceneSettings = SceneSettings()
     spherical_coordinates: SphericalCoordinates = SphericalCoordinates()

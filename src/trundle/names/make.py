@@ -2,7 +2,6 @@
 
 import os
 import re
-import socket
 import time
 from collections.abc import Iterable
 
@@ -11,6 +10,8 @@ _ILLEGAL = re.compile(r"[^A-Za-z0-9_]")
 
 def anonymous_name(base: str) -> str:
     """Make a name nobody else has: base_host_pid_milliseconds, as rospy does."""
+    import socket  # of all that make names only this one talks to the network
+
     return _ILLEGAL.sub("_", f"{base}_{socket.gethostname()}_{os.getpid()}_{int(time.time() * 1000)}")
 
 

@@ -3,7 +3,9 @@
 Names are imported on first use: a command that only asks the master pays for neither asyncio nor numpy.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from trundle.doors import opened_on_use
 
 if TYPE_CHECKING:
     from .action_server import ActionOutcome, ActionServer
@@ -111,17 +113,7 @@ _HOMES = {
     "recovered": "bags",
     "set_leaves": "parameters",
 }
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from importlib import import_module
-
-    value = getattr(import_module(f".{_HOMES[name]}", __name__), name)
-    globals()[name] = value
-    return value
-
+__getattr__ = opened_on_use(__name__, _HOMES)
 
 __all__ = [
     "NOETIC",

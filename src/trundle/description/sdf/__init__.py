@@ -1,11 +1,27 @@
 """SDF 1.0 to 1.12, each file read by the rules of its own version."""
 
-from .context import DEEPEST, Context
-from .extra_joint import read_extra_joint
-from .gazebo_materials import GAZEBO_MATERIALS
-from .old_style import rewrite_old_style
-from .version import read_version
-from .world import read_root
+from typing import TYPE_CHECKING
+
+from trundle.doors import opened_on_use
+
+if TYPE_CHECKING:
+    from .context import DEEPEST, Context
+    from .extra_joint import read_extra_joint
+    from .gazebo_materials import GAZEBO_MATERIALS
+    from .old_style import rewrite_old_style
+    from .version import read_version
+    from .world import read_root
+
+_HOMES = {
+    "DEEPEST": "context",
+    "GAZEBO_MATERIALS": "gazebo_materials",
+    "Context": "context",
+    "read_extra_joint": "extra_joint",
+    "read_root": "world",
+    "read_version": "version",
+    "rewrite_old_style": "old_style",
+}
+__getattr__ = opened_on_use(__name__, _HOMES)
 
 __all__ = [
     "DEEPEST",

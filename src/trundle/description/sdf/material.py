@@ -7,7 +7,6 @@ from trundle.diagnostics import DescriptionError
 from trundle.model import GREY, Material, Rgba
 from trundle.xmlnode import XmlNode
 
-from ..ogre import find_material
 from .context import Context, leave_out
 from .gazebo_materials import GAZEBO_MATERIALS, TEXTURED
 
@@ -68,6 +67,8 @@ def named_material(name: str, node: XmlNode, context: Context) -> Material:
     if name in GAZEBO_MATERIALS:
         node.all("uri")
         return GAZEBO_MATERIALS[name]
+    from ..ogre import find_material  # most robots use none but Gazebo's own
+
     scripted = find_material(name, node, packages=context.packages, report=context.report)
     if scripted is not None:
         return scripted

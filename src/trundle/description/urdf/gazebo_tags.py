@@ -1,16 +1,19 @@
-"""<gazebo> blocks: what a URDF says to Gazebo alone."""
+"""<gazebo> blocks: what a URDF says to Gazebo alone.
+
+The readers of SDF are loaded by the robots that hold some.
+"""
+
+from typing import TYPE_CHECKING
 
 from trundle.diagnostics import DescriptionError
-from trundle.model import Joint, Light, Material, PluginTag, Sensor, Surface
+from trundle.model import Surface
 from trundle.xmlnode import XmlNode
 
 from ..sdf.context import Context
 from ..sdf.frames import MODEL, FrameGraph
-from ..sdf.light import read_light
-from ..sdf.material import named_material, read_material
-from ..sdf.model import WrittenJoint
-from ..sdf.sensor import read_plugin, read_sensor
-from ..sdf.surface import read_surface
+
+if TYPE_CHECKING:
+    from trundle.model import Joint, Light, Material, PluginTag, Sensor
 
 _TUNING = frozenset(
     {
@@ -47,14 +50,18 @@ class GazeboTags:
         nodes = [node for tag in tags if (node := self._last(reference, tag)) is not None]
         return nodes[0].text.lower() in _TRUE if nodes else None
 
-    def material(self, link: str) -> Material | None:
+    def material(self, link: str) -> "Material | None":
         """<material>Gazebo/Blue</material>, or a <visual> block's <material>, which goes on every visual."""
         blocks = [block for block in self._all(link, "visual") if block.find("material") is not None]
         if blocks:
+            from ..sdf.material import read_material
+
             return read_material(blocks[-1], self._context)
         node = self._last(link, "material")
         if node is None or not node.text:
             return None
+        from ..sdf.material import named_material
+
         return named_material(node.text, node, self._context)
 
     def surface(self, link: str) -> Surface:
@@ -62,6 +69,8 @@ class GazeboTags:
         default, report = Surface(), self._context.report
         blocks = [block for block in self._all(link, "collision") if block.find("surface") is not None]
         if blocks:
+            from ..sdf.surface import read_surface
+
             return read_surface(blocks[-1], self._context)
 
         fdir1 = self._last(link, "fdir1")
@@ -90,24 +99,44 @@ class GazeboTags:
         report = self._context.report
         return node.number("linear", default=both, report=report), node.number("angular", default=both, report=report)
 
-    def sensors(self, reference: str) -> tuple[Sensor, ...]:
+    def sensors(self, reference: str) -> "tuple[Sensor, ...]":
         """<sensor> elements of a link or joint, which are SDF."""
-        graph = FrameGraph(MODEL, self._context.report)
-        return tuple(read_sensor(node, reference, graph, self._context) for node in self._all(reference, "sensor"))
+        nodes = self._all(reference, "sensor")
+        if not nodes:
+            return ()
+        from ..sdf.sensor import read_sensor
 
-    def lights(self, link: str) -> tuple[Light, ...]:
+        graph = FrameGraph(MODEL, self._context.report)
+        return tuple(read_sensor(node, reference, graph, self._context) for node in nodes)
+
+    def lights(self, link: str) -> "tuple[Light, ...]":
         """<light> elements, likewise."""
+        nodes = self._all(link, "light")
+        if not nodes:
+            return ()
+        from ..sdf.light import read_light
+
         graph = FrameGraph(MODEL, self._context.report)
-        return tuple(read_light(node, link, graph, self._context) for node in self._all(link, "light"))
+        return tuple(read_light(node, link, graph, self._context) for node in nodes)
 
-    def plugins(self, reference: str) -> tuple[PluginTag, ...]:
+    def plugins(self, reference: str) -> "tuple[PluginTag, ...]":
         """<plugin> elements."""
-        return tuple(read_plugin(node) for node in self._all(reference, "plugin"))
+        nodes = self._all(reference, "plugin")
+        if not nodes:
+            return ()
+        from ..sdf.sensor import read_plugin
 
-    def joints(self, graph: FrameGraph) -> tuple[Joint, ...]:
+        return tuple(map(read_plugin, nodes))
+
+    def joints(self, graph: FrameGraph) -> "tuple[Joint, ...]":
         """<joint> elements for the whole robot, which are SDF: how a URDF closes a loop."""
+        nodes = self._all("", "joint")
+        if not nodes:
+            return ()
+        from ..sdf.model import WrittenJoint
+
         sound: list[WrittenJoint] = []
-        for node in self._all("", "joint"):
+        for node in nodes:
             try:
                 joint = WrittenJoint(node, graph, self._context)
             except DescriptionError as error:
