@@ -43,9 +43,11 @@ wheel: $(READY)  ## a wheel in dist/
 	$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir dist .
 
 # Debian's own ROS 1 and browser: what the fullest tests drive. They live in /usr, not in .venv.
-DEBIAN := chromium python3-rospy python3-rostopic python3-rosnode python3-rosparam python3-rosservice \
-          python3-rosmsg python3-rosbag python3-rosgraph python3-rosmaster python3-std-msgs python3-geometry-msgs python3-nav-msgs \
-          python3-sensor-msgs python3-tf2-msgs python3-diagnostic-msgs python3-std-srvs rviz xvfb
+MSGS   := actionlib diagnostic geometry map move-base nav pcl rosgraph sensor shape std stereo tf2 trajectory visualization
+DEBIAN := chromium graphviz imagemagick ros-image-view ros-roscpp-msg ros-std-srvs ros-topic-tools-srvs rosbash \
+          rospack-tools rviz tf-tools tf2-tools topic-tools xauth xvfb $(MSGS:%=ros-%-msgs) $(MSGS:%=python3-%-msgs) \
+          $(addprefix python3-,rosbag roscpp-msg rosgraph roslaunch rosmaster rosmsg rosnode rosparam rospy rosservice \
+          rostopic std-srvs tf tf2-ros)
 
 system:  ## what the fullest tests use, from Debian's packages
 	@if command -v apt-get >/dev/null; then \
