@@ -199,6 +199,13 @@ class XmlNode:
         """The element's own text, stripped."""
         return (self._element.text or "").strip()
 
+    def with_text_of(self, attribute: str) -> "XmlNode":
+        """This element, its text taken from an attribute where it has that one."""
+        value = self.attribute(attribute)
+        if value is not None:
+            self._element.text = value
+        return self
+
     @property
     def raw_text(self) -> str:
         """All text directly inside the element, white space and text between children included."""

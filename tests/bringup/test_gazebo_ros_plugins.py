@@ -6,6 +6,8 @@ from typing import Any
 import pytest
 from tests.bringup.conftest import Gazebo, until
 
+from trundle.ros import PROFILES
+
 _INERTIA = "<inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia>"
 TWIST, ODOMETRY = "geometry_msgs/Twist", "nav_msgs/Odometry"
 
@@ -70,8 +72,10 @@ def test_two_wheels_drive_and_tell_where_to(gazebo: Gazebo, source: str) -> None
     assert {"base_footprint", "left", "right"} <= {t.child_frame_id for m in frames for t in m.transforms}
 
 
-def test_an_old_package_has_its_sides_swapped(gazebo: Gazebo) -> None:
-    gazebo.spawn(_car(_plugin("diff_drive", f"{_DIFF}<legacyMode>true</legacyMode>"), _TWO), "car")
+@pytest.mark.parametrize(("distro", "legacy"), [("noetic", "<legacyMode>true</legacyMode>"), ("kinetic", "")])
+def test_an_old_package_has_its_sides_swapped(gazebo: Gazebo, distro: str, legacy: str) -> None:
+    gazebo.server.profile = PROFILES[distro]
+    gazebo.spawn(_car(_plugin("diff_drive", f"{_DIFF}{legacy}"), _TWO), "car")
     gazebo.call("unpause_physics")
     odometry = gazebo.hear("/r/odom", ODOMETRY)
     gazebo.speak("/r/cmd_vel", TWIST)({"angular": {"z": 0.5}})
@@ -93,6 +97,35 @@ def test_four_wheels_drive(gazebo: Gazebo) -> None:
     until(lambda: odometry and odometry[-1].pose.pose.position.x > 0.4)
     assert odometry[-1].pose.covariance[0] == 0.5
     assert frames
+
+
+_STEERED = f"""{_wheel("left", -0.2, 0.2)}{_wheel("right", -0.2, -0.2)}
+<link name="fork"><pose>0.3 0 0.1 0 0 0</pose><inertial><mass>0.5</mass>{_INERTIA}</inertial></link>
+<joint name="steer" type="revolute"><parent>chassis</parent><child>fork</child><axis><xyz>0 0 1</xyz></axis></joint>
+{_wheel("front", 0.3, 0.0).replace("<parent>chassis", "<parent>fork")}"""
+_TRICYCLE = """<steeringJoint>steer</steeringJoint><actuatedWheelJoint>front_joint</actuatedWheelJoint>
+<encoderWheelLeftJoint>left_joint</encoderWheelLeftJoint><encoderWheelRightJoint>right_joint</encoderWheelRightJoint>
+<actuatedWheelDiameter>0.2</actuatedWheelDiameter><encoderWheelDiameter>0.2</encoderWheelDiameter>
+<encoderWheelSeparation>0.4</encoderWheelSeparation><publishWheelJointState>true</publishWheelJointState>
+<wheelAcceleration>20</wheelAcceleration><steeringSpeed>2</steeringSpeed>"""
+
+
+@pytest.mark.parametrize("source", ["world", "encoder"])
+def test_a_tricycle_turns_about_the_point_its_wheels_point_at(gazebo: Gazebo, source: str) -> None:
+    """With 0.5 m between the axles, a steered wheel at 0.3 m/s and 0.4 rad turns the car at 0.3 sin(0.4)/0.5 rad/s."""
+    parameters = f"{_TRICYCLE}<odometrySource>{source}</odometrySource>"
+    feet = '<collision name="f-0.15">'
+    car = _car(_plugin("tricycle_drive", parameters), _STEERED)
+    assert gazebo.spawn(car.replace(feet, '<collision name="unused"><pose>0 0 9 0 0 0</pose>', 1), "car").success
+    gazebo.call("unpause_physics")
+    odometry = gazebo.hear("/odom", ODOMETRY)
+    states = gazebo.hear("/joint_states", "sensor_msgs/JointState")
+    gazebo.speak("/cmd_vel", TWIST)({"linear": {"x": 0.3}, "angular": {"z": 0.4}})
+    until(lambda: odometry and _yaw(odometry[-1]) > 0.5)
+
+    assert odometry[-1].twist.twist.angular.z == pytest.approx(0.3 * math.sin(0.4) / 0.5, rel=0.1)
+    assert (odometry[-1].header.frame_id, odometry[-1].child_frame_id) == ("odom", "base_link")
+    assert dict(zip(states[-1].name, states[-1].position, strict=True))["steer"] == pytest.approx(0.4, abs=0.01)
 
 
 _BOX = f"""<sdf version="1.6"><model name="box"><pose>0 0 2 0 0 0</pose><link name="body">
@@ -141,6 +174,25 @@ def test_joints_are_put_where_a_trajectory_says_and_told_of(gazebo: Gazebo) -> N
     call = gazebo.client.call_service("/set_joint_trajectory", kind, {"joint_trajectory": bad})
     answer = gazebo.loop.run(call)
     assert (answer.success, answer.status_message) == (False, "each point needs 1 positions")
+
+
+def test_a_joint_follows_another_one(gazebo: Gazebo) -> None:
+    mimic = """<plugin name="m" filename="libroboticsgroup_gazebo_mimic_joint_plugin.so"><joint>turn</joint>
+<mimicJoint>tip</mimicJoint><multiplier>-2</multiplier><offset>0.1</offset></plugin>"""
+    tip = f"""<link name="end"><pose>1 0 0 0 0 0</pose><inertial><mass>0.1</mass>{_INERTIA}</inertial></link>
+<joint name="tip" type="revolute"><parent>rod</parent><child>end</child><axis><xyz>0 0 1</xyz></axis></joint>"""
+    states = _plugin("joint_state_publisher", "<jointName>turn tip</jointName>").replace('"p"', '"q"')
+    gazebo.spawn(_ARM.format(plugin=tip + mimic + states + _plugin("joint_pose_trajectory")), "arm")
+    gazebo.call("unpause_physics")
+    heard = gazebo.hear("/joint_states", "sensor_msgs/JointState")
+    put = gazebo.speak("/set_joint_trajectory", "trajectory_msgs/JointTrajectory")
+    put({"joint_names": ["turn"], "points": [{"positions": [0.5]}]})
+
+    def follows() -> bool:
+        turn, tip = heard[-1].position
+        return abs(turn) > 0.1 and tip == pytest.approx(0.1 - 2 * turn, abs=0.02)
+
+    until(lambda: heard and follows())
 
 
 def test_the_truth_about_a_link(gazebo: Gazebo) -> None:

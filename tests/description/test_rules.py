@@ -238,3 +238,18 @@ def test_sdf_1_0_writes_values_as_attributes(tmp_path: Path) -> None:
     assert (model.link("a").collisions[0].surface.mu, model.link("a").collisions[0].surface.mu2) == (0.5, -1.0)
     assert joint.axis is not None
     assert (joint.parent, joint.axis.direction, joint.axis.lower, joint.axis.upper) == ("world", (0, 1, 0), -1, 2)
+
+
+def test_gazebo_tags_may_have_a_value_attribute_in_place_of_text(tmp_path: Path) -> None:
+    """As in the urdf tutorials; sdformat reads both."""
+    text = """<robot name="r"><link name="a"><inertial><mass value="1"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry><sphere radius="1"/></geometry>
+</collision></link><gazebo reference="a"><mu1 value="200.0"/><fdir1 value="0 1 0"/><kp>7</kp>
+<turnGravityOff value="true"/></gazebo></robot>"""
+    report = Diagnostics()
+
+    link = read(tmp_path, text, report, name="x.urdf").world.models[0].links[0]
+
+    surface = link.collisions[0].surface
+    assert (surface.mu, surface.fdir1, surface.kp, link.gravity) == (200.0, (0.0, 1.0, 0.0), 7.0, False)
+    assert report.warnings == []

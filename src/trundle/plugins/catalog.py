@@ -42,11 +42,19 @@ BUILTIN: dict[str, str] = {
     "libgazebo_ros_diff_drive.so": "trundle.plugins.gazebo_ros.diff_drive:DiffDrive",
     "libgazebo_ros_force.so": "trundle.plugins.gazebo_ros.force:Force",
     "libgazebo_ros_ft_sensor.so": "trundle.plugins.gazebo_ros.ft_sensor:ForceTorque",
+    "libgazebo_ros_imu.so": "trundle.plugins.gazebo_ros.imu:Imu",
     "libgazebo_ros_joint_pose_trajectory.so": "trundle.plugins.gazebo_ros.joint_pose_trajectory:JointPoseTrajectory",
     "libgazebo_ros_joint_state_publisher.so": "trundle.plugins.gazebo_ros.joint_state_publisher:JointStatePublisher",
     "libgazebo_ros_p3d.so": "trundle.plugins.gazebo_ros.p3d:P3D",
     "libgazebo_ros_planar_move.so": "trundle.plugins.gazebo_ros.planar_move:PlanarMove",
     "libgazebo_ros_skid_steer_drive.so": "trundle.plugins.gazebo_ros.skid_steer_drive:SkidSteerDrive",
+    "libgazebo_ros_tricycle_drive.so": "trundle.plugins.gazebo_ros.tricycle_drive:TricycleDrive",
+    "libgazebo_ros_wheel_slip.so": "trundle.plugins.wheel_slip:WheelSlip",
+    "libhector_gazebo_ros_gps.so": "trundle.plugins.hector_gazebo.gps:Gps",
+    "libhector_gazebo_ros_imu.so": "trundle.plugins.hector_gazebo.imu:Imu",
+    "libhector_gazebo_ros_magnetic.so": "trundle.plugins.hector_gazebo.magnetic:Magnetic",
+    "libroboticsgroup_gazebo_mimic_joint_plugin.so": "trundle.plugins.mimic_joint:MimicJoint",
+    "libroboticsgroup_upatras_gazebo_mimic_joint_plugin.so": "trundle.plugins.mimic_joint:MimicJoint",
 }
 """File name → "module:Class", imported only when a model asks."""
 

@@ -8,7 +8,7 @@ from .contact import ContactReading, ContactSensor
 from .depth_camera import DepthCameraSensor
 from .force_torque import ForceTorqueReading, ForceTorqueSensor
 from .formats import pixels_in
-from .gps import GpsReading, GpsSensor
+from .gps import GpsReading, GpsSensor, geodetic
 from .imu import ImuReading, ImuSensor
 from .lens import radius_of
 from .logical_camera import LogicalCameraReading, LogicalCameraSensor
@@ -64,6 +64,7 @@ __all__ = [
     "WirelessSensor",
     "angles_of",
     "directions_of",
+    "geodetic",
     "mount_cameras",
     "mount_sensors",
     "pixels_in",

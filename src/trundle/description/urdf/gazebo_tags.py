@@ -169,5 +169,6 @@ class GazeboTags:
         return self._nodes.get((reference, tag), [])
 
     def _last(self, reference: str, tag: str) -> XmlNode | None:
+        """The last block's; old files have `value="…"` where others have text (sdformat's GetKeyValueAsString)."""
         found = self._all(reference, tag)
-        return found[-1] if found else None
+        return found[-1].with_text_of("value") if found else None

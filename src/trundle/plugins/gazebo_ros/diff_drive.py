@@ -1,24 +1,22 @@
 """libgazebo_ros_diff_drive.so: cmd_vel in; wheel speeds, odometry and tf out."""
 
 import math
-from typing import Self
 
 from trundle.control import DifferentialDrive, WheelOdometry, approach
-from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
 from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import JointHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
-from ..plugin import Plugin
 from .odometry import WIDE, OdometryTopic, true_motion
+from .on_graph import GraphPlugin
 from .place import ignore, namespace_of, period_of, topic_in
 from .twist_command import TwistCommand
 
 _VARIANCES = (1e-5, 1e-5, WIDE, WIDE, WIDE, 1e-3)
 
 
-class DiffDrive(Plugin):
+class DiffDrive(GraphPlugin):
     """Keeps two wheels at the speeds that a body speed asks for.
 
     Parameters, with gazebo_ros' defaults: <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,
@@ -39,9 +37,6 @@ class DiffDrive(Plugin):
         def flag(name: str, *, default: bool) -> bool:
             return parameters.flag(name, default=default, report=report)
 
-        def topic(name: str, default: str) -> str:
-            return topic_in(namespace, parameters.string(name, default=default))
-
         self._wheels = (
             model.joint(parameters.string("leftJoint", default="left_joint")),
             model.joint(parameters.string("rightJoint", default="right_joint")),
@@ -53,30 +48,16 @@ class DiffDrive(Plugin):
         self._sign = -1.0 if flag("legacyMode", default=node.profile.mirrored_diff_drive) else 1.0
         self.period_ns = period_of(number("updateRate", 100.0))
         self._from_wheels = parameters.string("odometrySource", default="world") in ("encoder", "0")
-        self._command = TwistCommand(node, topic("commandTopic", "cmd_vel"))
+        self._command = TwistCommand.of(tag, namespace, node)
         self._odometry = None
         if flag("publishTf", default=True):
-            self._odometry = OdometryTopic(
-                node,
-                topic("odometryTopic", "odom"),
-                frame=parameters.string("odometryFrame", default="odom"),
-                base=parameters.string("robotBaseFrame", default="base_footprint"),
-                variances=_VARIANCES,
-                with_tf=flag("publishOdomTF", default=True),
-            )
+            with_tf = flag("publishOdomTF", default=True)
+            self._odometry = OdometryTopic.of(tag, namespace, node, variances=_VARIANCES, with_tf=with_tf)
         states = flag("publishWheelJointState", default=False)
         self._states = node.advertise(topic_in(namespace, "joint_states"), "sensor_msgs/JointState") if states else None
         self._frames = TransformBroadcaster(node) if flag("publishWheelTF", default=False) else None
         ignore(parameters, "odometryFrame", "robotBaseFrame", "odometryTopic", "publishOdomTF")
-        parameters.report_unread(report)
         self.reset()
-
-    @classmethod
-    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
-        """See `Plugin.load`."""
-        if node is None:
-            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
-        return cls(sim, model, node, tag)
 
     def before_step(self, sim: Simulation) -> None:
         """Keep both wheels at their speeds."""

@@ -1,37 +1,24 @@
 """libgazebo_ros_force.so: a wrench on a link, from a topic."""
 
-from typing import Self
-
-from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
 from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Wrench
 
-from ..plugin import Plugin
-from .place import ignore, namespace_of, topic_in
+from .on_graph import GraphPlugin, required
+from .place import namespace_of, topic_in
 
 
-class Force(Plugin):
+class Force(GraphPlugin):
     """Pushes <bodyName> with the last geometry_msgs/Wrench of <topicName>, in world axes, until the next comes."""
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        del sim
         parameters = tag.node
         self._link = model.link(parameters.string("bodyName"))
-        topic = parameters.string("topicName")
-        if not topic:
-            raise TrundleError("<topicName> is missing")
-        ignore(parameters)
-        parameters.report_unread(sim.report)
+        topic = required(parameters, "topicName")
         self._wrench = Wrench()
         node.subscribe(topic_in(namespace_of(tag, model.name), topic), "geometry_msgs/Wrench", self._take, queue_size=1)
-
-    @classmethod
-    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
-        """See `Plugin.load`."""
-        if node is None:
-            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
-        return cls(sim, model, node, tag)
 
     def before_step(self, sim: Simulation) -> None:
         """Push."""

@@ -1,20 +1,17 @@
 """libgazebo_ros_ft_sensor.so: what a joint carries."""
 
-from typing import Self
-
 import numpy as np
 
-from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Vector3
 
-from ..plugin import Plugin
-from .place import ignore, namespace_of, period_of, topic_in
+from .on_graph import GraphPlugin, required
+from .place import namespace_of, period_of, topic_in
 
 
-class ForceTorque(Plugin):
+class ForceTorque(GraphPlugin):
     """Publishes geometry_msgs/WrenchStamped in the axes of the joint's child: what the child does to its parent.
 
     Parameters: <jointName> and <topicName> (required), <gaussianNoise> 0, <updateRate> 0 (every step).
@@ -23,23 +20,12 @@ class ForceTorque(Plugin):
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         parameters, report = tag.node, sim.report
         self._joint = model.joint(parameters.string("jointName"))
-        topic = parameters.string("topicName")
-        if not topic:
-            raise TrundleError("<topicName> is missing")
+        topic = required(parameters, "topicName")
         self._child = model.link(self._joint.joint.child)
         self._noise = parameters.number("gaussianNoise", default=0.0, report=report)
         self._random = np.random.default_rng(sim.seed)
         self.period_ns = period_of(parameters.number("updateRate", default=0.0, report=report))
         self._topic = node.advertise(topic_in(namespace_of(tag, model.name), topic), "geometry_msgs/WrenchStamped")
-        ignore(parameters)
-        parameters.report_unread(report)
-
-    @classmethod
-    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
-        """See `Plugin.load`."""
-        if node is None:
-            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
-        return cls(sim, model, node, tag)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell."""

@@ -1,20 +1,20 @@
 """libgazebo_ros_joint_pose_trajectory.so: joints put from pose to pose, whatever the physics says."""
 
 from collections import deque
-from typing import Any, Self
+from typing import Any
 
-from trundle.diagnostics import TrundleError, UsageError
+from trundle.diagnostics import UsageError
 from trundle.model import PluginTag
 from trundle.ros import Message, Node, ns_of
 from trundle.simulation import ModelHandle, Simulation
 
-from ..plugin import Plugin
-from .place import ignore, namespace_of, period_of, topic_in
+from .on_graph import GraphPlugin
+from .place import namespace_of, period_of, topic_in
 
 _MOST_POINTS = 100_000
 
 
-class JointPoseTrajectory(Plugin):
+class JointPoseTrajectory(GraphPlugin):
     """Takes trajectories of joint positions, each set when its time has come; none is set in between.
 
     Parameters, with gazebo_ros' defaults: <topicName> set_joint_trajectory, <serviceName> set_joint_trajectory,
@@ -31,15 +31,6 @@ class JointPoseTrajectory(Plugin):
         self._due: deque[tuple[int, dict[str, float]]] = deque()
         node.subscribe(topic, "trajectory_msgs/JointTrajectory", self._take, queue_size=100)
         node.advertise_service(service, "gazebo_msgs/SetJointTrajectory", self._asked)
-        ignore(parameters)
-        parameters.report_unread(report)
-
-    @classmethod
-    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
-        """See `Plugin.load`."""
-        if node is None:
-            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
-        return cls(sim, model, node, tag)
 
     def before_step(self, sim: Simulation) -> None:
         """Put the joints where they are to be by now."""

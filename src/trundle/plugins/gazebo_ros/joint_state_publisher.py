@@ -1,18 +1,16 @@
 """libgazebo_ros_joint_state_publisher.so: where some joints are, on joint_states."""
 
 import re
-from typing import Self
 
-from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
-from ..plugin import Plugin
-from .place import ignore, namespace_of, period_of, topic_in
+from .on_graph import GraphPlugin
+from .place import namespace_of, period_of, topic_in
 
 
-class JointStatePublisher(Plugin):
+class JointStatePublisher(GraphPlugin):
     """Publishes `joint_states`.
 
     Parameters: <jointName> (a list of names between commas or spaces; all joints), <updateRate> 100.
@@ -25,15 +23,6 @@ class JointStatePublisher(Plugin):
         self.period_ns = period_of(parameters.number("updateRate", default=100.0, report=report))
         topic = topic_in(namespace_of(tag, model.name), "joint_states")
         self._states = node.advertise(topic, "sensor_msgs/JointState", queue_size=1000)
-        ignore(parameters)
-        parameters.report_unread(report)
-
-    @classmethod
-    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
-        """See `Plugin.load`."""
-        if node is None:
-            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
-        return cls(sim, model, node, tag)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell."""

@@ -1,10 +1,14 @@
 """nav_msgs/Odometry and its frame on /tf."""
 
 import math
+from typing import Self
 
+from trundle.model import PluginTag
 from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import ModelHandle
 from trundle.spatial import Pose, Twist
+
+from .place import topic_in
 
 WIDE = 1e12
 """Variance of what odometry on a plane does not know."""
@@ -30,6 +34,27 @@ class OdometryTopic:
         self._covariance = [variances[row] if row == column else 0.0 for row in range(6) for column in range(6)]
         self._topic = node.advertise(topic, "nav_msgs/Odometry", queue_size=1)
         self._broadcaster = TransformBroadcaster(node) if with_tf else None
+
+    @classmethod
+    def of(
+        cls,
+        tag: PluginTag,
+        namespace: str,
+        node: Node,
+        *,
+        variances: tuple[float, ...],
+        with_tf: bool,
+        base: str = "base_footprint",
+    ) -> Self:
+        """By <odometryTopic>, <odometryFrame> and <robotBaseFrame>, as every drive of gazebo_ros has them."""
+        return cls(
+            node,
+            topic_in(namespace, tag.node.string("odometryTopic", default="odom")),
+            frame=tag.node.string("odometryFrame", default="odom"),
+            base=tag.node.string("robotBaseFrame", default=base),
+            variances=variances,
+            with_tf=with_tf,
+        )
 
     def publish(self, time_ns: int, pose: Pose, twist: Twist) -> None:
         """Say it; `twist` is in the robot's axes."""

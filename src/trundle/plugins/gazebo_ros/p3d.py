@@ -1,23 +1,21 @@
 """libgazebo_ros_p3d.so: where a link truly is."""
 
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 
-from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose, Twist
-from trundle.xmlnode import XmlNode
 
-from ..plugin import Plugin
-from .place import ignore, namespace_of, period_of, topic_in
+from .on_graph import GraphPlugin, required
+from .place import namespace_of, period_of, topic_in
 
 _WORLD = frozenset({"", "/", "world", "/world", "map", "/map", "/my_frame"})
 
 
-class P3D(Plugin):
+class P3D(GraphPlugin):
     """Publishes a link's pose and velocity in the frame of another link, or of the world.
 
     Parameters: <bodyName> and <topicName> (required), <frameName> world, <xyzOffset> and <rpyOffset> 0 0 0 (also with
@@ -26,7 +24,7 @@ class P3D(Plugin):
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         parameters, report = tag.node, sim.report
-        self._link = model.link(_required(parameters, "bodyName"))
+        self._link = model.link(required(parameters, "bodyName"))
         self._frame = parameters.string("frameName", default="world")
         self._reference: LinkHandle | None = None
         if self._frame not in _WORLD:
@@ -39,19 +37,10 @@ class P3D(Plugin):
         self._noise = parameters.number("gaussianNoise", default=0.0, report=report)
         self._random = np.random.default_rng(sim.seed)
         self.period_ns = period_of(parameters.number("updateRate", default=0.0, report=report))
-        topic = topic_in(namespace_of(tag, model.name), _required(parameters, "topicName"))
+        topic = topic_in(namespace_of(tag, model.name), required(parameters, "topicName"))
         self._topic = node.advertise(topic, "nav_msgs/Odometry", queue_size=1)
         variance = self._noise**2
         self._covariance = [variance if number % 7 == 0 else 0.0 for number in range(36)]
-        ignore(parameters)
-        parameters.report_unread(report)
-
-    @classmethod
-    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
-        """See `Plugin.load`."""
-        if node is None:
-            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
-        return cls(sim, model, node, tag)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell."""
@@ -87,10 +76,3 @@ class P3D(Plugin):
             x, y, z = (value + float(self._random.normal(0.0, self._noise)) for value in vector)
             vector = (x, y, z)
         return dict(zip("xyz", vector, strict=True))
-
-
-def _required(parameters: XmlNode, name: str) -> str:
-    text = parameters.string(name).strip()
-    if not text:
-        raise TrundleError(f"<{name}> is missing")
-    return text

@@ -1,21 +1,19 @@
 """libgazebo_ros_planar_move.so: a model that slides over the plane as cmd_vel says."""
 
 import math
-from typing import Self
 
-from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Twist
 
-from ..plugin import Plugin
 from .odometry import WIDE, OdometryTopic, true_motion
-from .place import ignore, namespace_of, period_of, topic_in
+from .on_graph import GraphPlugin
+from .place import namespace_of, period_of
 from .twist_command import TwistCommand
 
 
-class PlanarMove(Plugin):
+class PlanarMove(GraphPlugin):
     """Gives the model its velocity at every step: it neither falls nor tilts by itself.
 
     Parameters, with gazebo_ros' defaults: <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,
@@ -26,27 +24,13 @@ class PlanarMove(Plugin):
         parameters, report = tag.node, sim.report
         namespace = namespace_of(tag, model.name)
         self._model = model
-        self._command = TwistCommand(node, topic_in(namespace, parameters.string("commandTopic", default="cmd_vel")))
+        self._command = TwistCommand.of(tag, namespace, node)
         self._timeout_s = parameters.number("cmdTimeout", default=-1.0, report=report)
         self._tell_ns = period_of(parameters.number("odometryRate", default=20.0, report=report))
         self._told_ns = sim.time_ns
-        self._odometry = OdometryTopic(
-            node,
-            topic_in(namespace, parameters.string("odometryTopic", default="odom")),
-            frame=parameters.string("odometryFrame", default="odom"),
-            base=parameters.string("robotBaseFrame", default="base_footprint"),
-            variances=(1e-5, 1e-5, WIDE, WIDE, WIDE, 1e-3),
-            with_tf=True,
+        self._odometry = OdometryTopic.of(
+            tag, namespace, node, variances=(1e-5, 1e-5, WIDE, WIDE, WIDE, 1e-3), with_tf=True
         )
-        ignore(parameters)
-        parameters.report_unread(report)
-
-    @classmethod
-    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
-        """See `Plugin.load`."""
-        if node is None:
-            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
-        return cls(sim, model, node, tag)
 
     def before_step(self, sim: Simulation) -> None:
         """Move."""

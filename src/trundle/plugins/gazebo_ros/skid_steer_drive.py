@@ -1,20 +1,17 @@
 """libgazebo_ros_skid_steer_drive.so: cmd_vel in; the speeds of four wheels, odometry and tf out."""
 
-from typing import Self
-
 from trundle.control import DifferentialDrive
-from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
-from ..plugin import Plugin
 from .odometry import WIDE, OdometryTopic, true_motion
-from .place import ignore, namespace_of, period_of, topic_in
+from .on_graph import GraphPlugin
+from .place import namespace_of, period_of
 from .twist_command import TwistCommand
 
 
-class SkidSteerDrive(Plugin):
+class SkidSteerDrive(GraphPlugin):
     """Keeps the wheels of each side at one speed.
 
     Parameters, with gazebo_ros' defaults: <leftFrontJoint> left_front_joint and so on, <wheelSeparation> 0.4,
@@ -40,25 +37,15 @@ class SkidSteerDrive(Plugin):
         )
         self._torque = number("torque", 5.0)
         self.period_ns = period_of(number("updateRate", 100.0))
-        self._command = TwistCommand(node, topic_in(namespace, parameters.string("commandTopic", default="cmd_vel")))
+        self._command = TwistCommand.of(tag, namespace, node)
         x, y, yaw = number("covariance_x", 1e-4), number("covariance_y", 1e-4), number("covariance_yaw", 0.01)
-        self._odometry = OdometryTopic(
+        self._odometry = OdometryTopic.of(
+            tag,
+            namespace,
             node,
-            topic_in(namespace, parameters.string("odometryTopic", default="odom")),
-            frame=parameters.string("odometryFrame", default="odom"),
-            base=parameters.string("robotBaseFrame", default="base_footprint"),
             variances=(x, y, WIDE, WIDE, WIDE, yaw),
             with_tf=parameters.flag("broadcastTF", default=False, report=report),
         )
-        ignore(parameters)
-        parameters.report_unread(report)
-
-    @classmethod
-    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
-        """See `Plugin.load`."""
-        if node is None:
-            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
-        return cls(sim, model, node, tag)
 
     def before_step(self, sim: Simulation) -> None:
         """Keep all wheels at their speeds."""

@@ -1,8 +1,12 @@
 """The velocity that a robot is told to have, on a topic of geometry_msgs/Twist."""
 
 import math
+from typing import Self
 
+from trundle.model import PluginTag
 from trundle.ros import Message, Node
+
+from .place import topic_in
 
 
 class TwistCommand:
@@ -16,6 +20,11 @@ class TwistCommand:
         """When it came."""
         self._node = node
         node.subscribe(topic, "geometry_msgs/Twist", self._take, queue_size=1)
+
+    @classmethod
+    def of(cls, tag: PluginTag, namespace: str, node: Node) -> Self:
+        """By <commandTopic>, as every drive of gazebo_ros has it."""
+        return cls(node, topic_in(namespace, tag.node.string("commandTopic", default="cmd_vel")))
 
     def stop(self) -> None:
         """Ask for nothing."""

@@ -1,0 +1,41 @@
+"""What every model plugin of gazebo_ros shares: it is nothing without the ROS graph."""
+
+from typing import Self
+
+from trundle.diagnostics import TrundleError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation
+from trundle.xmlnode import XmlNode
+
+from ..plugin import Plugin
+from .place import ignore
+
+
+class GraphPlugin(Plugin):
+    """Reads its parameters when it is made; those that it did not read are named then."""
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        """See `Plugin.load`."""
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        if node is None:
+            raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
+        plugin = cls(sim, model, node, tag)
+        ignore(tag.node)
+        tag.node.report_unread(sim.report)
+        return plugin
+
+
+def required(parameters: XmlNode, name: str) -> str:
+    """A parameter's text.
+
+    Raises:
+        TrundleError: it is missing, or empty.
+    """
+    text = parameters.string(name).strip()
+    if not text:
+        raise TrundleError(f"<{name}> is missing")
+    return text

@@ -1,0 +1,110 @@
+"""libgazebo_ros_tricycle_drive.so: one driven, steered wheel by cmd_vel; odometry and tf out."""
+
+import math
+
+from trundle.control import DifferentialDrive, WheelOdometry, approach
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation, Snapshot
+from trundle.spatial import Pose, Twist
+
+from .odometry import WIDE, OdometryTopic, true_motion
+from .on_graph import GraphPlugin
+from .place import leave_out, namespace_of, period_of, topic_in
+from .twist_command import TwistCommand
+
+_LAG = 2
+"""Updates in which an angle is made good for."""
+
+
+class TricycleDrive(GraphPlugin):
+    """Turns the driven wheel at linear.x over its radius, and steers it to angular.z, which is an angle here [rad].
+
+    Parameters, with gazebo_ros' defaults: <steeringJoint> front_steering_joint, <actuatedWheelJoint> front_wheel_joint,
+    <encoderWheelLeftJoint> left_wheel_joint, <encoderWheelRightJoint> right_wheel_joint, <actuatedWheelDiameter> and
+    <encoderWheelDiameter> 0.15, <encoderWheelSeparation> 0.5, <wheelAcceleration> 0 (at once) and <wheelDeceleration>
+    (the same) [rad/s²], <steeringSpeed> 0 (at once) [rad/s], <wheelTorque> 5, <odometrySource> world or encoder,
+    <updateRate> 100, <commandTopic>, <odometryTopic>, <odometryFrame>, <robotBaseFrame> and <publishWheelJointState>.
+    By its encoders the robot turns to the left as it does in truth; the original has that mirrored.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        super().__init__(sim, model, node, tag)
+        parameters, report = tag.node, sim.report
+        namespace = namespace_of(tag, model.name)
+
+        def number(name: str, default: float) -> float:
+            return parameters.number(name, default=default, report=report)
+
+        self._model = model
+        self._steering = model.joint(parameters.string("steeringJoint", default="front_steering_joint"))
+        self._wheel = model.joint(parameters.string("actuatedWheelJoint", default="front_wheel_joint"))
+        self._encoders = [
+            model.joint(parameters.string(f"encoderWheel{side}Joint", default=f"{side.lower()}_wheel_joint"))
+            for side in ("Left", "Right")
+        ]
+        self._radius = number("actuatedWheelDiameter", 0.15) / 2
+        self._drive = DifferentialDrive(
+            separation=number("encoderWheelSeparation", 0.5), wheel_radius=number("encoderWheelDiameter", 0.15) / 2
+        )
+        self._torque, self._steering_speed = number("wheelTorque", 5.0), number("steeringSpeed", 0.0)
+        self._faster = number("wheelAcceleration", 0.0)
+        self._slower = number("wheelDeceleration", self._faster)
+        self.period_ns = period_of(number("updateRate", 100.0))
+        self._from_wheels = parameters.string("odometrySource", default="world") in ("encoder", "0")
+        self._command = TwistCommand.of(tag, namespace, node)
+        variances = (1e-5, 1e-5, WIDE, WIDE, WIDE, 1e-3)
+        self._odometry = OdometryTopic.of(tag, namespace, node, variances=variances, with_tf=True, base="base_link")
+        states = parameters.flag("publishWheelJointState", default=False, report=report)
+        self._states = node.advertise(topic_in(namespace, "joint_states"), "sensor_msgs/JointState") if states else None
+        for name in ("wheelSpeedTolerance", "steeringAngleTolerance"):
+            parameters.find(name)
+        leave_out(parameters, report, "publishWheelTF")
+        self.reset()
+
+    def before_step(self, sim: Simulation) -> None:
+        """Keep speed and angle."""
+        dt_s = (self.period_ns or sim.step_ns) / 1e9
+        wanted = self._command.forward / self._radius
+        change = self._faster if abs(wanted) > abs(self._speed) else self._slower
+        self._speed = approach(self._speed, wanted, change * dt_s) if self._faster > 0.0 else wanted
+        self._wheel.set_velocity(self._speed, max_effort=self._torque, often=True)
+        angle = min(max(self._command.turning, -math.pi / 2), math.pi / 2)
+        if self._steering_speed > 0.0:
+            angle = approach(self._angle, angle, self._steering_speed * dt_s)
+        self._angle = angle
+        self._steering.set_velocity((angle - self._steering.position) / (_LAG * dt_s), often=True)
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell where that led."""
+        pose, twist = self._by_wheels(snapshot.time_ns) if self._from_wheels else true_motion(self._model)
+        self._odometry.publish(snapshot.time_ns, pose, twist)
+        if self._states is not None and self._states.has_subscribers:
+            joints = [self._steering, self._wheel, *self._encoders]
+            self._states.publish(
+                {
+                    "header": {"stamp": snapshot.time_ns},
+                    "name": [joint.name for joint in joints],
+                    "position": [joint.position for joint in joints],
+                    "velocity": [joint.velocity for joint in joints],
+                }
+            )
+
+    def reset(self) -> None:
+        """Stand still, straight, at the origin of the odometry."""
+        self._command.stop()
+        self._speed, self._angle = 0.0, self._steering.position
+        self._place = WheelOdometry(self._drive)
+        self._turned = [wheel.position for wheel in self._encoders]
+        self._last_ns = 0
+
+    def _by_wheels(self, time_ns: int) -> tuple[Pose, Twist]:
+        """Add up what the wheels turned."""
+        turned = [wheel.position for wheel in self._encoders]
+        left, right = (now - before for now, before in zip(turned, self._turned, strict=True))
+        distance, turn = self._place.roll(left, right)
+        elapsed, self._turned, self._last_ns = (time_ns - self._last_ns) / 1e9, turned, time_ns
+        pose = Pose.from_rpy(self._place.x, self._place.y, 0.0, 0.0, 0.0, self._place.yaw)
+        if elapsed <= 0.0:
+            return pose, Twist()
+        return pose, Twist((distance / elapsed, 0.0, 0.0), (0.0, 0.0, turn / elapsed))

@@ -1,0 +1,1 @@
+"""Model plugins of hector_gazebo_plugins, by file name."""

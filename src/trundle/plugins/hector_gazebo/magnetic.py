@@ -1,0 +1,52 @@
+"""libhector_gazebo_ros_magnetic.so: the direction of Earth's field, as a link has it."""
+
+import math
+
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation, Snapshot
+from trundle.spatial import Pose
+
+from .errors import ErrorModel
+from .part import LinkSensor
+
+
+class Magnetic(LinkSensor):
+    """Publishes geometry_msgs/Vector3Stamped, or sensor_msgs/MagneticField with <useMagneticFieldMsgs>.
+
+    Parameters: <bodyName> (the first link), <frameId> (the body), <topicName> magnetic, <updateRate> 0 (every step),
+    <magnitude> 1, <declination> 0, <inclination> 60 and <referenceHeading> [deg] (of the world's x axis, clockwise
+    from north; by the world's spherical coordinates); errors by <drift>, <gaussianNoise>, …
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        super().__init__(sim, model, node, tag)
+        parameters, report = tag.node, sim.report
+
+        def angle(name: str, default_deg: float) -> float:
+            return math.radians(parameters.number(name, default=default_deg, report=report))
+
+        strength = parameters.number("magnitude", default=1.0, report=report)
+        heading = angle("referenceHeading", 90.0 - sim.world.spherical_coordinates.heading_deg)
+        away, down = heading - angle("declination", 0.0), angle("inclination", 60.0)
+        level = strength * math.cos(down)
+        self._field = (level * math.cos(away), level * math.sin(away), -strength * math.sin(down))
+        self._errors = ErrorModel(parameters, report, self.random)
+        with_field = parameters.flag("useMagneticFieldMsgs", default=False, report=report)
+        kind = "sensor_msgs/MagneticField" if with_field else "geometry_msgs/Vector3Stamped"
+        self._value = "magnetic_field" if with_field else "vector"
+        topic = parameters.string("topicName", default="magnetic")
+        self._topic = node.advertise(self.topic(topic), kind, queue_size=1)
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell."""
+        if not self._topic.has_subscribers:
+            return
+        here = Pose(quaternion=self.link.pose.quaternion).inverse().direction(self._field)
+        told = dict(zip("xyz", self._errors.of(here, self.elapsed_s(snapshot.time_ns)), strict=True))
+        header = {"stamp": snapshot.time_ns, "frame_id": self.frame}
+        self._topic.publish({"header": header, self._value: told})
+
+    def reset(self) -> None:
+        """Begin a new drift."""
+        self._errors.reset()

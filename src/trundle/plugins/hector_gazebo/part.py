@@ -1,0 +1,38 @@
+"""What hector_gazebo's sensors share: a link, a frame, a rate."""
+
+import numpy as np
+
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation
+
+from ..gazebo_ros.on_graph import GraphPlugin
+from ..gazebo_ros.place import namespace_of, period_of, topic_in
+
+
+class LinkSensor(GraphPlugin):
+    """Sits on <bodyName> (the first link), tells in <frameId>, at <updateRate>."""
+
+    def __init__(
+        self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag, *, frame: str = "", rate_hz: float = 0.0
+    ) -> None:
+        super().__init__(sim, model, node, tag)
+        parameters = tag.node
+        body = parameters.string("bodyName")
+        self.link = model.link(body) if body else model.base
+        self.frame = parameters.string("frameId", default=frame or self.link.name)
+        self.period_ns = period_of(parameters.number("updateRate", default=rate_hz, report=sim.report))
+        self.random = np.random.default_rng(sim.seed)
+        self._namespace = namespace_of(tag, model.name)
+        self._last_ns = sim.time_ns
+        for name in ("updatePeriod", "randomEngineSeed"):
+            parameters.find(name)
+
+    def topic(self, name: str) -> str:
+        """A topic's global name."""
+        return topic_in(self._namespace, name)
+
+    def elapsed_s(self, time_ns: int) -> float:
+        """Time since this was last asked."""
+        elapsed, self._last_ns = max(time_ns - self._last_ns, 0) / 1e9, time_ns
+        return elapsed

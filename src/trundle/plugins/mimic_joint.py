@@ -1,0 +1,54 @@
+"""libroboticsgroup_gazebo_mimic_joint_plugin.so: a joint that follows another one."""
+
+import math
+from typing import Self
+
+from trundle.diagnostics import TrundleError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation
+
+from .plugin import Plugin
+
+_LAG_STEPS = 5
+"""A motor that made good for everything within one step would ring."""
+
+
+class MimicJoint(Plugin):
+    """Holds <mimicJoint> at <multiplier> (1) times the position of <joint>, plus <offset> (0).
+
+    With <hasPID> it does so with at most <maxEffort> (1) [N·m or N], else with whatever it takes, as the original puts
+    it there. <sensitiveness> (0) [rad or m] is how far it may be off before that.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        self._leader = model.joint(parameters.string("joint"))
+        self._follower = model.joint(parameters.string("mimicJoint"))
+        if not self._follower.is_driven:
+            raise TrundleError(f"joint {self._follower.name!r} cannot be put anywhere")
+
+        def number(name: str, default: float) -> float:
+            return parameters.number(name, default=default, report=report)
+
+        self._multiplier, self._offset = number("multiplier", 1.0), number("offset", 0.0)
+        self._sensitiveness, max_effort = number("sensitiveness", 0.0), number("maxEffort", 1.0)
+        self._lag_s = _LAG_STEPS * sim.step_ns / 1e9
+        self._max_effort = math.inf if parameters.find("hasPID") is None else max_effort
+        for name in ("robotNamespace", "namespace"):
+            parameters.find(name)
+        parameters.report_unread(report)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        del node
+        return cls(sim, model, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Follow."""
+        del sim
+        target = self._leader.position * self._multiplier + self._offset
+        if abs(target - self._follower.position) >= self._sensitiveness:
+            speed = (target - self._follower.position) / self._lag_s
+            self._follower.set_velocity(speed, max_effort=self._max_effort, often=True)
