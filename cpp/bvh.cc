@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kBins = 16;
 constexpr int32_t kLeaf = 4;      // triangles that are not worth a division
-constexpr int kDeepest = kDeepestBvh - 2;
+constexpr int kDeepest = kMostWaiting / kWidest - 2;
 
 struct Box {
   std::array<float, 3> low{3e38f, 3e38f, 3e38f}, high{-3e38f, -3e38f, -3e38f};
@@ -31,11 +31,18 @@ std::array<float, 3> corner_of(const Triangles& mesh, int32_t face, int corner) 
   return {mesh.places[0][vertex], mesh.places[1][vertex], mesh.places[2][vertex]};
 }
 
+// A box, and below it either triangles, `count` from `first` on, or two boxes: the next one and `first`.
+struct Pair {
+  Box box;
+  int32_t first, count;
+};
+
+// Divides by two, by the surface area heuristic.
 struct Builder {
   const Triangles& mesh;
   std::vector<Box> boxes;
   std::vector<int32_t> order;
-  std::vector<BvhNode> nodes;
+  std::vector<Pair> nodes;
 
   explicit Builder(const Triangles& mesh) : mesh(mesh), boxes((size_t)mesh.face_count) {
     for (int32_t face = 0; face < mesh.face_count; ++face) {
@@ -95,7 +102,7 @@ struct Builder {
       middles.take({middle, middle});
     }
     const size_t here = nodes.size();
-    nodes.push_back({{box.low[0], box.low[1], box.low[2]}, first, {box.high[0], box.high[1], box.high[2]}, count});
+    nodes.push_back({box, first, count});
     if (count <= kLeaf) return;
     int32_t left = depth < kDeepest ? split(first, count, middles, box.area()) : 0;
     if (left == 0 && count <= 64) return;
@@ -108,11 +115,52 @@ struct Builder {
   }
 };
 
+// Joins what was divided, the largest boxes last, to nodes of kWidest boxes.
+struct Joiner {
+  const std::vector<Pair>& pairs;
+  float margin;  // [m] what single precision may lose
+  std::vector<BvhNode> nodes;
+
+  void join(int32_t from) {
+    std::vector<int32_t> below = {from};
+    while (below.size() < (size_t)kWidest) {
+      const auto area = [&](int32_t i) { return pairs[i].count > 0 ? -1.0 : pairs[i].box.area(); };
+      const auto largest = std::max_element(below.begin(), below.end(),
+                                            [&](int32_t a, int32_t b) { return area(a) < area(b); });
+      const int32_t divided = *largest;
+      if (pairs[divided].count > 0) break;
+      *largest = divided + 1;
+      below.push_back(pairs[divided].first);
+    }
+    const size_t here = nodes.size();
+    nodes.emplace_back();
+    for (int i = 0; i < kWidest; ++i) {
+      const bool used = i < (int)below.size();
+      for (int axis = 0; axis < 3; ++axis) {
+        nodes[here].low[axis][i] = used ? pairs[below[i]].box.low[axis] - margin : 3e38f;
+        nodes[here].high[axis][i] = used ? pairs[below[i]].box.high[axis] + margin : -3e38f;
+      }
+      nodes[here].count[i] = used ? pairs[below[i]].count : 0;
+      nodes[here].first[i] = used ? pairs[below[i]].first : 0;
+    }
+    for (size_t i = 0; i < below.size(); ++i) {
+      if (pairs[below[i]].count > 0) continue;
+      nodes[here].first[i] = (int32_t)nodes.size();
+      join(below[i]);
+    }
+  }
+};
+
 }  // namespace
 
 Bvh make_bvh(const Triangles& mesh) {
   Builder builder(mesh);
   Bvh bvh;
+  float largest = 0.0f;
+  for (int axis = 0; axis < 3; ++axis)
+    largest = std::max({largest, -builder.nodes[0].box.low[axis], builder.nodes[0].box.high[axis]});
+  Joiner joiner{builder.nodes, 4e-6f * largest, {}};
+  joiner.join(0);
   for (const int32_t face : builder.order) {
     const std::array<std::array<float, 3>, 3> p = {corner_of(mesh, face, 0), corner_of(mesh, face, 1),
                                                    corner_of(mesh, face, 2)};
@@ -120,7 +168,7 @@ Bvh make_bvh(const Triangles& mesh) {
     for (int edge = 1; edge < 3; ++edge)
       for (int i = 0; i < 3; ++i) bvh.corners.push_back(p[edge][i] - p[0][i]);
   }
-  bvh.nodes = std::move(builder.nodes);
+  bvh.nodes = std::move(joiner.nodes);
   return bvh;
 }
 

@@ -1,4 +1,4 @@
-// A tree of boxes around the triangles of a mesh.
+// A tree of boxes around the triangles of a mesh, as many at once as the widest machine compares.
 #pragma once
 
 #include <vector>

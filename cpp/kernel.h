@@ -32,14 +32,13 @@ struct Triangles {
   int32_t vertex_count, face_count;
 };
 
-constexpr int kDeepestBvh = 64;
+constexpr int kMostWaiting = 1024;  // nodes that a walk through a tree may put off
 
-// A box, and below it either triangles, `count` from `first` on, or two boxes: the next one and `first`.
+// Boxes, and below each either `count` triangles from `first` on, or, where count is 0, the node `first`. What is not
+// used is a box that holds nothing.
 struct BvhNode {
-  float low[3];
-  int32_t first;
-  float high[3];
-  int32_t count;
+  float low[3][kWidest], high[3][kWidest];
+  int32_t first[kWidest], count[kWidest];
 };
 
 struct BvhView {
@@ -127,7 +126,7 @@ struct Kernel {
   const char* name;
   void (*see)(const View&, const Solid&, const Buffers&);
   void (*shade)(const View&, const Solid&, const Lighting&, const Buffers&);
-  void (*cast)(const Solid*, int32_t, const float* directions, int32_t count, float reach, float* ranges,
+  void (*cast)(const Solid*, int32_t, const float* directions, int64_t count, float reach, float* ranges,
                int32_t* shapes);
 };
 

@@ -82,6 +82,26 @@ inline uint32_t bits(I mask) {
 #endif
 }
 
+// The largest and the least of all lanes.
+inline float largest(F a) {
+#if defined(__AVX512F__)
+  return _mm512_reduce_max_ps((__m512)a);
+#elif defined(__SSE2__)
+#if defined(__AVX2__)
+  __m128 half = _mm_max_ps(_mm256_castps256_ps128((__m256)a), _mm256_extractf128_ps((__m256)a, 1));
+#else
+  __m128 half = (__m128)a;
+#endif
+  half = _mm_max_ps(half, _mm_movehl_ps(half, half));
+  return _mm_cvtss_f32(_mm_max_ss(half, _mm_shuffle_ps(half, half, 1)));
+#else
+  float most = a[0];
+  for (int i = 1; i < kLanes; ++i) most = a[i] > most ? a[i] : most;
+  return most;
+#endif
+}
+inline float least(F a) { return -largest(-a); }
+
 inline F counting() {
   F numbers;
   for (int i = 0; i < kLanes; ++i) numbers[i] = (float)i;
@@ -119,6 +139,7 @@ inline F load(const float* at) {
   __builtin_memcpy(&value, at, sizeof value);
   return value;
 }
+inline I counting_whole() { return __builtin_convertvector(counting(), I); }
 inline I load(const int32_t* at) {
   I value;
   __builtin_memcpy(&value, at, sizeof value);

@@ -101,6 +101,9 @@ Renderer::Renderer(SceneSpec scene)
   for (const LightSpec& light : scene_.lights)
     if (light.body != -1 && !is_index(light.body, (size_t)scene_.bodies))
       throw std::invalid_argument("a light rides on a body that does not exist");
+  shape_poses_.resize(scene_.shapes.size());
+  for (const ShapeSpec& shape : scene_.shapes) bounds_.push_back(bounds_of(shape));
+  place_shapes();
 }
 
 void Renderer::update(const double* poses) {
@@ -111,21 +114,40 @@ void Renderer::update(const double* poses) {
                      (pose && (pose->position != before->position || pose->rotation != before->rotation));
     body_poses_[i] = pose;
   }
+  place_shapes();
+}
+
+void Renderer::place_shapes() {
+  for (size_t i = 0; i < scene_.shapes.size(); ++i) {
+    const ShapeSpec& shape = scene_.shapes[i];
+    const auto& body = body_poses_[shape.body];
+    shape_poses_[i] = body && is_finite(shape.size) ? std::optional(*body * shape.body_from_shape) : std::nullopt;
+  }
 }
 
 Renderer::Bounds Renderer::bounds_of(const ShapeSpec& shape) const {
   const double x = shape.size[0], y = shape.size[1], z = shape.size[2];
-  Vec3 high;
+  Bounds bounds{};
   switch (shape.kind) {
-    case Kind::kMesh: return {scene_.meshes[shape.mesh].low, scene_.meshes[shape.mesh].high};
-    case Kind::kPlane: high = {x > 0 ? x : kEndless, y > 0 ? y : kEndless, 0.0}; break;
-    case Kind::kSphere: high = {x, x, x}; break;
-    case Kind::kCylinder: high = {x, x, y}; break;
-    case Kind::kCapsule: high = {x, x, x + y}; break;
+    case Kind::kMesh: break;
+    case Kind::kPlane: bounds.high = {x > 0 ? x : kEndless, y > 0 ? y : kEndless, 0.0}; break;
+    case Kind::kSphere: bounds.high = {x, x, x}; break;
+    case Kind::kCylinder: bounds.high = {x, x, y}; break;
+    case Kind::kCapsule: bounds.high = {x, x, x + y}; break;
     case Kind::kBox:
-    case Kind::kEllipsoid: high = {x, y, z}; break;
+    case Kind::kEllipsoid: bounds.high = {x, y, z}; break;
   }
-  return {{-high[0], -high[1], -high[2]}, high};
+  double square = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    bounds.low[i] = -bounds.high[i];
+    if (shape.kind == Kind::kMesh)
+      bounds.low[i] = scene_.meshes[shape.mesh].low[i], bounds.high[i] = scene_.meshes[shape.mesh].high[i];
+    const double half = 0.5 * (bounds.high[i] - bounds.low[i]);
+    bounds.middle[i] = bounds.low[i] + half;
+    square += half * half;
+  }
+  bounds.radius = std::sqrt(square) * 1.0001 + 1e-4;
+  return bounds;
 }
 
 bool Renderer::is_endless(const ShapeSpec& shape) const {
@@ -135,9 +157,8 @@ bool Renderer::is_endless(const ShapeSpec& shape) const {
 // Where a shape is as seen from somewhere; nothing where it is nowhere.
 std::optional<Frame> Renderer::orient(const Frame& world_from_camera, size_t index, Solid& solid) const {
   const ShapeSpec& shape = scene_.shapes[index];
-  const auto& body = body_poses_[shape.body];
-  if (!body || !is_finite(shape.size)) return std::nullopt;
-  const Frame world_from_shape = *body * shape.body_from_shape;
+  if (!shape_poses_[index]) return std::nullopt;
+  const Frame& world_from_shape = *shape_poses_[index];
   Frame camera_from_shape;
   for (int i = 0; i < 3; ++i) {
     const Vec3 axis = world_from_camera.turn_back(world_from_shape.axis(i));
@@ -172,7 +193,7 @@ bool Renderer::place(const View& view, const Frame& world_from_camera, size_t in
     solid.left = solid.top = 0, solid.right = view.width, solid.bottom = view.height;
     return solid.eye[2] > 0.0f;
   }
-  const auto [low, high] = bounds_of(shape);
+  const auto& [low, high, middle, radius] = bounds_[index];
   const Rectangle pixels = covered(view, *camera_from_shape, low, high);
   solid.left = pixels.left, solid.top = pixels.top, solid.right = pixels.right, solid.bottom = pixels.bottom;
   return !pixels.empty();
@@ -182,42 +203,26 @@ void Renderer::cast(const Frame& world_from_place, const float* directions, size
                     int32_t exclude, float* ranges, int32_t* shapes) {
   if (trees_.empty())
     for (const Triangles& mesh : triangles_) trees_.push_back(mesh.face_count > 0 ? make_bvh(mesh) : Bvh());
-  std::vector<Solid> solids;
+  solids_.clear();
   for (size_t i = 0; i < scene_.shapes.size(); ++i) {
     const ShapeSpec& shape = scene_.shapes[i];
     Solid solid;
-    if (shape.body == exclude) continue;
-    const auto place_from_shape = orient(world_from_place, i, solid);
-    if (!place_from_shape) continue;
+    if (shape.body == exclude || !shape_poses_[i]) continue;
     solid.radius = solid.reach = -1.0f;
-    if (shape.kind == Kind::kMesh) solid.bvh = trees_[shape.mesh].view();
     if (!is_endless(shape)) {
-      const auto [low, high] = bounds_of(shape);
-      Vec3 middle;
-      double square = 0.0;
-      for (int axis = 0; axis < 3; ++axis) {
-        middle[axis] = 0.5 * (low[axis] + high[axis]);
-        square += 0.25 * (high[axis] - low[axis]) * (high[axis] - low[axis]);
-      }
-      middle = place_from_shape->move(middle);
-      const double radius = std::sqrt(square) * 1.0001 + 1e-4;
-      double away = 0.0;
-      for (int axis = 0; axis < 3; ++axis) solid.middle[axis] = (float)middle[axis], away += middle[axis] * middle[axis];
+      const double radius = bounds_[i].radius;
+      const Vec3 middle = world_from_place.move_back(shape_poses_[i]->move(bounds_[i].middle));
+      const double away = middle[0] * middle[0] + middle[1] * middle[1] + middle[2] * middle[2];
       if (std::sqrt(away) - radius > reach) continue;
+      for (int axis = 0; axis < 3; ++axis) solid.middle[axis] = (float)middle[axis];
       // What single precision loses in the difference of two large squares is added.
       solid.radius = (float)radius, solid.reach = (float)(away - radius * radius - 1e-6 * away);
     }
-    solids.push_back(solid);
+    if (!orient(world_from_place, i, solid)) continue;
+    if (shape.kind == Kind::kMesh) solid.bvh = trees_[shape.mesh].view();
+    solids_.push_back(solid);
   }
-  const size_t padded = (count + kWidest - 1) / kWidest * kWidest;
-  std::vector<float> rows(3 * padded, 0.0f), found(padded);
-  std::vector<int32_t> met(padded);
-  for (size_t i = 0; i < count; ++i)
-    for (int axis = 0; axis < 3; ++axis) rows[axis * padded + i] = directions[3 * i + axis];
-  best_kernel().cast(solids.data(), (int32_t)solids.size(), rows.data(), (int32_t)padded, reach, found.data(),
-                     met.data());
-  std::copy_n(found.begin(), count, ranges);
-  std::copy_n(met.begin(), count, shapes);
+  best_kernel().cast(solids_.data(), (int32_t)solids_.size(), directions, (int64_t)count, reach, ranges, shapes);
 }
 
 // Flat things lie on the ground: what a plane would shade is below it.
@@ -226,14 +231,13 @@ void Renderer::draw_maps() {
   std::vector<Corners> corners;
   for (size_t i = 0; i < scene_.shapes.size(); ++i) {
     const ShapeSpec& shape = scene_.shapes[i];
-    const auto& body = body_poses_[shape.body];
-    if (!shape.casts_shadow || shape.kind == Kind::kPlane || looks_[i].opacity < 1.0f || !body) continue;
-    const auto [low, high] = bounds_of(shape);
+    const auto& world_from_shape = shape_poses_[i];
+    if (!shape.casts_shadow || shape.kind == Kind::kPlane || looks_[i].opacity < 1.0f || !world_from_shape) continue;
+    const auto& [low, high, middle, radius] = bounds_[i];
     if (!(low[0] <= high[0])) continue;
-    const Frame world_from_shape = *body * shape.body_from_shape;
     Corners box;
     for (int corner = 0; corner < 8; ++corner)
-      box[corner] = world_from_shape.move({corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
+      box[corner] = world_from_shape->move({corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
                                            corner & 4 ? high[2] : low[2]});
     if (!std::all_of(box.begin(), box.end(), [](const Vec3& p) { return std::isfinite(p[0] + p[1] + p[2]); })) continue;
     casters.push_back(i);

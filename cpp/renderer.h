@@ -58,16 +58,18 @@ class Renderer {
   void update(const double* poses);  // (bodies, 7)
   // Into (height, width, 3), (height, width), (height, width); depth and segment may be null.
   void render(const Camera& camera, uint8_t* rgb, float* depth, int32_t* segment);
-  // How far rays from one place go before they meet a shape [m], and which; `reach` and -1 where they meet none. Unit
+  // How far rays from one place go before they meet a shape [m], and which; infinity and -1 where they meet none. Unit
   // directions (count, 3) in the frame of that place; of the body `exclude`, nothing is met.
   void cast(const Frame& world_from_place, const float* directions, size_t count, float reach, int32_t exclude,
             float* ranges, int32_t* shapes);
   int32_t bodies() const { return scene_.bodies; }
 
  private:
-  struct Bounds {
-    Vec3 low, high;
+  struct Bounds {  // in the shape's frame [m]: a box, and a ball around it
+    Vec3 low, high, middle;
+    double radius;
   };
+  void place_shapes();
   Bounds bounds_of(const ShapeSpec& shape) const;
   bool is_endless(const ShapeSpec& shape) const;
   std::optional<Frame> orient(const Frame& world_from_camera, size_t index, Solid& solid) const;
@@ -81,7 +83,10 @@ class Renderer {
   std::vector<Bvh> trees_;  // made when first a ray is cast
   std::vector<Look> looks_;
   std::vector<int32_t> first_ids_;
+  std::vector<Bounds> bounds_;
   std::vector<std::optional<Frame>> body_poses_;  // nothing: nowhere, and not drawn
+  std::vector<std::optional<Frame>> shape_poses_;  // in the world
+  std::vector<Solid> solids_;                      // that rays may meet
   std::vector<std::optional<LightMap>> maps_;     // of each light
   bool maps_are_old_ = true;
   std::vector<float> nearness_, nearness_through_, projected_;

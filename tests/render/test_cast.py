@@ -158,6 +158,36 @@ def test_every_triangle_of_a_large_mesh_is_found() -> None:
     assert (np.abs(ranges - away) < 1e-5).mean() > 0.99  # a few are hidden behind a crest
 
 
+def test_a_ray_meets_the_same_whichever_rays_are_cast_beside_it() -> None:
+    """Narrow fans of rays go through a mesh together, others one by one."""
+    places = ((2.0, 0.1, 0.0), (-1.0, 0.9, 0.2), (0.2, -1.1, 0.1))
+    made = renderer(*(Shape(name="m", body=0, geometry=ico(3), body_from_shape=Pose(place)) for place in places))
+    ways = around(720, 8)
+    ranges, shapes = made.cast(Pose(), ways, reach_m=10.0)
+    assert len(set(shapes.tolist())) == 4
+    shuffled = np.random.default_rng(1).permutation(len(ways))
+    again, others = made.cast(Pose(), ways[shuffled], reach_m=10.0)
+    assert again.tobytes() == ranges[shuffled].tobytes()
+    assert (others == shapes[shuffled]).all()
+    alone = [made.cast(Pose(), way[None], reach_m=10.0)[0][0] for way in ways[::97]]
+    assert alone == ranges[::97].tolist()
+
+
+def test_a_ray_that_goes_nowhere_disturbs_no_other() -> None:
+    made = renderer(Shape(name="m", body=0, geometry=ico(2), body_from_shape=Pose((2.0, 0.0, 0.0))))
+    ways = around(720, 3)[720:1440]
+    kept, _ = made.cast(Pose(), ways, reach_m=10.0)
+    lost = np.zeros(720, dtype=bool)
+    lost[::7] = True
+    ways[lost] = np.nan
+    ways[14] = 0.0
+    ranges, shapes = made.cast(Pose(), ways, reach_m=10.0)
+    assert np.isinf(ranges[lost]).all()
+    assert (shapes[lost] == -1).all()
+    assert ranges[~lost].tobytes() == kept[~lost].tobytes()
+    assert np.isfinite(kept).any()
+
+
 def test_a_body_can_be_looked_through_and_one_that_is_nowhere_is_not_met() -> None:
     near = Shape(name="near", body=0, geometry=Sphere(0.2), body_from_shape=Pose((1.0, 0.0, 0.0)))
     far = Shape(name="far", body=1, geometry=Sphere(0.2), body_from_shape=Pose((3.0, 0.0, 0.0)))

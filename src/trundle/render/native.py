@@ -140,7 +140,6 @@ class NativeRenderer:
             ranges=ranges,
             shapes=shapes,
         )
-        ranges[shapes < 0] = np.inf
         return ranges, shapes
 
 
