@@ -18,7 +18,7 @@ from .index import CompiledWorld, index_world
 from .inertia import principal_inertia
 from .joints import JointMaker, soften_stops
 from .settings import apply_settings
-from .shapes import ShapeEntry, add_shape
+from .shapes import Meets, ShapeEntry, add_shape
 from .surfaces import Touch
 from .tree import WORLD, Hold, Place, Tree
 from .wheels import add_tread, is_wheel, without_tread
@@ -159,11 +159,10 @@ class Compiler:
         hold = self.tree.held.get(place.name)
         if isinstance(collision.geometry, Cylinder) and hold is not None and is_wheel(hold, place, collision):
             tread = add_tread(body, collision, collision.geometry, f"{name}::tread")
-            self._keep(tread, f"{name}::tread", place, collision, is_tread=True)
+            self._keep(tread, f"{name}::tread", place, collision, Meets.PLANES | Meets.STANDING)
             wheel = without_tread(collision, collision.geometry)
-        geoms = add_shape(self.spec, body, wheel, name, self.report, fixed=fixed)
-        for geom in geoms:
-            self._keep(geom, geom.name, place, collision)
+        for geom, meets in add_shape(self.spec, body, wheel, name, self.report, fixed=fixed):
+            self._keep(geom, geom.name, place, collision, meets)
 
     def _keep(
         self,
@@ -171,8 +170,7 @@ class Compiler:
         name: str,
         place: Place,
         collision: Collision,
-        *,
-        is_tread: bool = False,
+        meets: Meets,
     ) -> None:
         self.shapes.append(
             ShapeEntry(
@@ -183,7 +181,7 @@ class Compiler:
                 link=place.name,
                 fixed=place.name in self.tree.still,
                 surface=collision.surface,
-                is_tread=is_tread,
+                meets=meets,
             )
         )
 

@@ -16,7 +16,7 @@ from trundle.diagnostics import Diagnostics
 from trundle.model import Model
 
 from .settings import SOFT, SOLIMP, contact_solref, is_soft, sliding_solref, soft_spring
-from .shapes import ShapeEntry
+from .shapes import Meets, ShapeEntry
 from .surfaces import Touch, category_of, friction_of, is_plain, may_meet, touch_of
 from .tree import Tree
 
@@ -43,12 +43,12 @@ def add_contacts(
     ranks = {mu: -i for i, mu in enumerate(sorted({friction_of(shape.surface) for shape in shapes}))}
     fixed = [shape for shape in shapes if shape.fixed]
     moving = [shape for shape in shapes if not shape.fixed]
-    solid = [shape for shape in moving if not shape.is_tread]
+    solid = [shape for shape in moving if shape.meets & Meets.MOVING]
     special = _special(shapes, models, tree, h=spec.option.timestep, report=report)
     if len(fixed) * len(moving) > MOST_PAIRS:
         # Planes, which most things stand on, keep their pairs: only a pair can keep what slides from hopping.
-        found = [shape for shape in fixed if shape.name not in special and not _is_plane(shape)]
-        finding = [shape for shape in moving if shape.name not in special]
+        found = [shape for shape in fixed if shape.name not in special and shape.kind is Meets.STANDING]
+        finding = [shape for shape in moving if shape.name not in special and shape.meets & Meets.STANDING]
         _let_find(found, finding, h=spec.option.timestep, ranks=ranks)
         _keep_apart(spec, product(finding, found), rules)
         met = {(a.name, b.name) for a, b in product(finding, found)}
@@ -99,7 +99,8 @@ class _Rules:
         }
 
     def may_touch(self, a: ShapeEntry, b: ShapeEntry) -> bool:
-        return may_meet(a.surface, b.surface) and self.links_may_touch(a, b)
+        can = a.kind in b.meets and b.kind in a.meets
+        return can and may_meet(a.surface, b.surface) and self.links_may_touch(a, b)
 
     def links_may_touch(self, a: ShapeEntry, b: ShapeEntry) -> bool:
         """Whether the links of two shapes may touch, whatever their bitmasks say."""
@@ -189,7 +190,3 @@ def _keep_apart(spec: mujoco.MjSpec, pairs: Iterable[tuple[ShapeEntry, ShapeEntr
     }
     for one, other in sorted(apart):
         spec.add_exclude(bodyname1=one, bodyname2=other)
-
-
-def _is_plane(shape: ShapeEntry) -> bool:
-    return shape.geom.type == mujoco.mjtGeom.mjGEOM_PLANE

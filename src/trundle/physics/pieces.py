@@ -1,13 +1,17 @@
 """Concave meshes as convex pieces, which is all that MuJoCo can touch.
 
 What hangs together in a mesh is one piece if it is convex. If it is not, and never moves, each flat face of it becomes
-a slab as thick as a wall may be: so a room can be entered, and a ramp driven up. What moves is its convex hull.
+a slab as thick as a wall may be: so a room can be entered, and a ramp driven up. What moves is cut into a few nearly
+convex pieces if it is truly hollow; else, and where that makes nothing better, it is filled.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .decompose import cut_up
+from .hulls import Hull, distance, hull_of, spread, volume_of
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
@@ -23,14 +27,35 @@ _DENT = 2e-3
 """Part of its size by which a piece may be hollow and still count as convex."""
 
 
+_HOLLOW = 0.05
+"""Part of its size by which the hull of something hollow may be away from it, and it is filled all the same."""
+_FULL = 1.1
+"""Times its volume that a hull may have, and it is filled all the same."""
+_SAMPLES = 1000
+_MOST_CUT = 8
+"""Parts of a mesh that are cut up, the largest first."""
+
+
+@dataclass(frozen=True, slots=True)
+class Misfit:
+    """How what is simulated differs from a mesh that is hollow."""
+
+    times: float | None
+    """Its volume over the mesh's; None where the mesh is open and has none."""
+    away: float
+    """[m] How far the two surfaces are from one another at most."""
+    is_filled: bool
+    """Whether something hollow was made solid."""
+
+
 @dataclass(frozen=True, slots=True)
 class Pieces:
     """Convex pieces of a mesh."""
 
     corners: list[_Points]
     """(N, 3) of each; its hull is the piece."""
-    is_exact: bool
-    """Whether nothing hollow was filled."""
+    misfits: list[Misfit]
+    """One for each part that is not what it is in the mesh."""
 
 
 def convex_pieces(vertices: _Points, faces: _Faces, *, fixed: bool) -> Pieces:
@@ -43,12 +68,12 @@ def convex_pieces(vertices: _Points, faces: _Faces, *, fixed: bool) -> Pieces:
     """
     points, faces = _welded(vertices, faces)
     if not len(faces):
-        return Pieces([vertices], True)
+        return Pieces([vertices], [])
     labels = _islands(len(points), faces)[faces[:, 0]]
     order = np.argsort(labels, kind="stable")
     starts = np.flatnonzero(np.diff(labels[order])) + 1
     corners: list[_Points] = []
-    exact = True
+    hollow: list[_Faces] = []
     for island in np.split(faces[order], starts):
         own = points[np.unique(island)]
         if fixed and (_is_flat(own) or not _is_convex(points, island, own)):
@@ -56,11 +81,60 @@ def convex_pieces(vertices: _Points, faces: _Faces, *, fixed: bool) -> Pieces:
         elif fixed or _is_convex(points, island, own):
             corners.append(own)
         else:
-            corners.append(own)
-            exact = False
-        if len(corners) > MOST_PIECES:
-            return Pieces([points], False)
-    return Pieces(corners, exact)
+            hollow.append(island)
+        if len(corners) + len(hollow) > MOST_PIECES:
+            return _filled(points, faces)
+    pieces = Pieces(corners, [])
+    hollow.sort(key=lambda island: -float(np.prod(np.ptp(points[np.unique(island)], axis=0))))
+    for i, island in enumerate(hollow):
+        taken = _taken_for(points[np.unique(island)], _renumbered(island), may_cut=i < _MOST_CUT)
+        pieces.corners.extend(taken.corners)
+        pieces.misfits.extend(taken.misfits)
+    return pieces
+
+
+def _filled(points: _Points, faces: _Faces) -> Pieces:
+    return _taken_for(points[np.unique(faces)], _renumbered(faces), may_cut=False)
+
+
+def _taken_for(points: _Points, faces: _Faces, *, may_cut: bool) -> Pieces:
+    """What stands for a hollow part: pieces, or its hull."""
+    hull = hull_of(points)
+    if hull is None:  # flat
+        return Pieces([points], [])
+    triangles, closed = points[faces], _is_closed(faces)
+    own_volume = volume_of(triangles) if closed else 0.0
+    times = hull.volume / own_volume if own_volume > 0 else None
+    misfit = Misfit(times, distance(hull.triangles, triangles), is_filled=True)
+    if may_cut and misfit.away > _HOLLOW * float(np.ptp(points, axis=0).max()) and not (times and times < _FULL):
+        cut = cut_up(points, faces, hull, closed=closed) or []
+        solids = [solid for piece in cut if (solid := hull_of(piece)) is not None]
+        volume, away = sum(solid.volume for solid in solids), _off(triangles, solids, closed=closed)
+        if volume < hull.volume / _FULL and away < misfit.away:
+            return Pieces(cut, [Misfit(volume / own_volume if times else None, away, is_filled=False)])
+    return Pieces([points], [misfit])
+
+
+def _off(triangles: _Points, solids: list[Hull], *, closed: bool) -> float:
+    """[m] How far solids are from a surface (F, 3, 3) at most: it lies in them or outside, or they are its walls."""
+    if not solids:
+        return np.inf
+    if not closed:
+        return distance(np.concatenate([solid.triangles for solid in solids]), triangles)
+    samples, _ = spread(triangles, _SAMPLES)
+    return float(np.abs(np.min([solid.heights(samples) for solid in solids], axis=0)).max())
+
+
+def _is_closed(faces: _Faces) -> bool:
+    """Whether each edge is there once each way."""
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    once = len(np.unique(edges, axis=0)) == len(edges)
+    return once and len(np.unique(np.concatenate([edges, edges[:, ::-1]]), axis=0)) == len(edges)
+
+
+def _renumbered(faces: _Faces) -> _Faces:
+    """Faces of the corners that they use, in their order."""
+    return np.unique(faces, return_inverse=True)[1].reshape(faces.shape)
 
 
 def _welded(vertices: _Points, faces: _Faces) -> tuple[_Points, _Faces]:

@@ -1,6 +1,7 @@
 """Collisions as MuJoCo geoms."""
 
 from dataclasses import dataclass
+from enum import Flag, auto
 
 import mujoco
 import numpy as np
@@ -26,7 +27,8 @@ from trundle.model import (
 )
 from trundle.spatial import Pose, Vector3, upright
 
-from .pieces import convex_pieces
+from .hulls import hull_of
+from .pieces import Pieces, convex_pieces
 from .terrain import add_terrain
 
 _CONE_SIDES = 32
@@ -34,6 +36,16 @@ _MOST_CORNERS = 1000
 """Of a polyline: cutting it up takes time by their cube."""
 THINNEST = 1e-4
 """[m] What a thickness of zero becomes: 0.1 mm."""
+
+
+class Meets(Flag):
+    """What a shape can touch."""
+
+    PLANES = auto()
+    STANDING = auto()
+    """What else stands."""
+    MOVING = auto()
+    ALL = PLANES | STANDING | MOVING
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,13 +62,19 @@ class ShapeEntry:
     fixed: bool
     """Part of the world: nothing moves it."""
     surface: Surface
-    is_tread: bool = False
-    """Of a wheel; touches what is fixed."""
+    meets: Meets = Meets.ALL
+
+    @property
+    def kind(self) -> Meets:
+        """As what it is met."""
+        if not self.fixed:
+            return Meets.MOVING
+        return Meets.PLANES if self.geom.type == mujoco.mjtGeom.mjGEOM_PLANE else Meets.STANDING
 
 
 def add_shape(
     spec: mujoco.MjSpec, body: mujoco.MjsBody, collision: Collision, name: str, report: Diagnostics, *, fixed: bool
-) -> list[mujoco.MjsGeom]:
+) -> list[tuple[mujoco.MjsGeom, Meets]]:
     """Add a collision to a body, in pieces where it takes several; none after a warning where it cannot be one."""
     geometry = _mended(collision, report)
     pose = collision.link_from_collision
@@ -74,11 +92,13 @@ def add_shape(
         case Cone(radius, length):
             turns = np.linspace(0.0, 2 * np.pi, _CONE_SIDES, endpoint=False)
             base = np.column_stack([radius * np.cos(turns), radius * np.sin(turns), np.full(_CONE_SIDES, -length / 2)])
-            return [_add_hull(spec, body, collision, name, np.vstack([base, [0.0, 0.0, length / 2]]))]
+            corners = np.vstack([base, [0.0, 0.0, length / 2]])
+            return [(_add_hull(spec, body, collision, name, corners), Meets.ALL)]
         case Polyline(outlines, height):
-            return _add_prisms(spec, body, collision, name, report, outlines, height)
+            prisms = _add_prisms(spec, body, collision, name, report, outlines, height)
+            return [(geom, Meets.ALL) for geom in prisms]
         case Heightmap():
-            return add_terrain(spec, body, collision, geometry, name, report)
+            return [(geom, Meets.ALL) for geom in add_terrain(spec, body, collision, geometry, name, report)]
         case _:
             pass
     geom = body.add_geom(name=name, pos=pose.position, quat=pose.quaternion, group=3)
@@ -96,7 +116,7 @@ def add_shape(
         case Plane(normal, _):
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_PLANE, [0, 0, 1]
             geom.quat = (pose @ Pose(quaternion=upright(normal))).quaternion
-    return [geom]
+    return [(geom, Meets.ALL)]
 
 
 def _add_pieces(
@@ -108,16 +128,30 @@ def _add_pieces(
     mesh: Mesh,
     *,
     fixed: bool,
-) -> list[mujoco.MjsGeom]:
+) -> list[tuple[mujoco.MjsGeom, Meets]]:
     pieces = convex_pieces(mesh.vertices.astype(float), mesh.faces.astype(np.intp), fixed=fixed)
-    if not pieces.is_exact:
-        why = "it has too many pieces" if fixed else "it moves"
-        what = f"a hollow mesh of {len(mesh.faces)} triangles; physics fills it, as {why}"
+    if pieces.misfits:
+        what = f"a hollow mesh of {len(mesh.faces)} triangles; physics {_said(pieces)}"
         report.info(collision.at, f"collision {collision.name!r}: {what}")
     corners = [_thick_hull(piece, collision, report) for piece in pieces.corners]
     if len(corners) == 1:
-        return [_add_hull(spec, body, collision, name, corners[0])]
-    return [_add_hull(spec, body, collision, f"{name}#{i}", piece) for i, piece in enumerate(corners)]
+        return [(_add_hull(spec, body, collision, name, corners[0]), Meets.ALL)]
+    geoms = [_add_hull(spec, body, collision, f"{name}#{i}", piece) for i, piece in enumerate(corners)]
+    around = np.concatenate(corners)
+    if fixed or hull_of(around) is None:
+        return [(geom, Meets.ALL) for geom in geoms]
+    # On a plane pieces stand as the hull around them all does, which touches it in far fewer points.
+    hull = _add_hull(spec, body, collision, f"{name}#hull", around)
+    return [(hull, Meets.PLANES), *((geom, Meets.STANDING | Meets.MOVING) for geom in geoms)]
+
+
+def _said(pieces: Pieces) -> str:
+    """What stands for a hollow mesh, and how well."""
+    worst = max(pieces.misfits, key=lambda misfit: misfit.away)
+    is_filled = any(misfit.is_filled for misfit in pieces.misfits)
+    how = "fills it" if is_filled else f"takes it for {len(pieces.corners)} convex pieces"
+    times = "" if worst.times is None else f"{round(worst.times, 2):g} times its volume, "
+    return f"{how}: {times}a surface up to {worst.away:.2g} m away"
 
 
 def _add_prisms(

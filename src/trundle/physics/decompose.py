@@ -1,0 +1,86 @@
+"""Hollow bodies that move, as a few convex pieces: V-HACD's, kept on disk.
+
+K. Mamou: Volumetric Hierarchical Approximate Convex Decomposition. Game Engine Gems 3, 2016. One thread and no limit of
+time, so that the same mesh has the same pieces everywhere; a few tenths of a second each.
+"""
+
+import hashlib
+import logging
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.meshes import RawPart, keep, load_kept
+
+from .hulls import Hull, hull_of
+
+_Points = NDArray[np.float64]
+_Faces = NDArray[np.intp]
+_VERSION = 1
+"""Raised where the same mesh becomes other pieces."""
+_MOST_FACES = 100_000
+_SETTINGS = {
+    "maxConvexHulls": 16,
+    "resolution": 20_000,
+    "minimumVolumePercentErrorAllowed": 2.0,
+    "maxRecursionDepth": 6,
+    "fillMode": "flood",
+    "maxNumVerticesPerCH": 32,
+    "asyncACD": False,
+    "minEdgeLength": 2,
+    "findBestPlane": False,
+}
+_SWEEPS = 4
+_log = logging.getLogger(__name__)
+
+
+def cut_up(points: _Points, faces: _Faces, hull: Hull, *, closed: bool) -> list[_Points] | None:
+    """Cut a mesh into convex pieces, whose corners come back; None where that makes nothing better.
+
+    The pieces together have every corner of the mesh's hull, and nothing outside: it stands as the mesh would.
+
+    Args:
+        points: (N, 3) [m].
+        faces: (M, 3) indices into them.
+        hull: around all of it.
+        closed: whether the surface has an inside; what has none becomes a wall of a few hundredths of its size.
+    """
+    if len(faces) > _MOST_FACES:
+        return None
+    settings = f"vhacd {_VERSION} {closed} {sorted(_SETTINGS.items())}".encode()
+    key = hashlib.sha256(settings + points.tobytes() + faces.astype(np.int64).tobytes()).hexdigest()
+    kept = load_kept(key)
+    if kept is None:
+        _log.warning("cutting a hollow mesh of %d triangles into convex pieces; that is done once", len(faces))
+        none = np.zeros((0, 3), dtype=np.int64)
+        kept = [RawPart(names=("piece",), vertices=piece, faces=none) for piece in _cut(points, faces, hull, closed)]
+        keep(key, kept)
+    return [part.vertices for part in kept] or None
+
+
+def _cut(points: _Points, faces: _Faces, hull: Hull, closed: bool) -> list[_Points]:
+    from vhacdx import compute_vhacd  # few worlds need it
+
+    # Its grid is made for bodies about as large as one.
+    middle, size = points.mean(axis=0), float(np.ptp(points, axis=0).max())
+    numbered = np.column_stack([np.full(len(faces), 3), faces]).astype(np.uint32)
+    # A wall without thickness must not be shrunk onto its surface: nothing would be left of it.
+    found = compute_vhacd((points - middle) / size, numbered.ravel(), shrinkWrap=closed, **_SETTINGS)
+    solids = [solid for corners, _ in found if (solid := hull_of(_within(hull, corners * size + middle))) is not None]
+    if len(solids) < 2:
+        return []
+    return _covering(hull, solids)
+
+
+def _within(hull: Hull, corners: _Points) -> _Points:
+    """Corners of a piece, those that stick out of the hull moved back onto it."""
+    for _ in range(_SWEEPS):
+        for normal, offset in zip(hull.normals, hull.offsets, strict=True):
+            corners = corners - np.outer(np.maximum(corners @ normal - offset, 0.0), normal)
+    return corners
+
+
+def _covering(hull: Hull, solids: list[Hull]) -> list[_Points]:
+    """Each piece with the corners of the hull that are nearest to it."""
+    nearest = np.argmin([solid.heights(hull.corners) for solid in solids], axis=0)
+    return [np.concatenate([solid.corners, hull.corners[nearest == i]]) for i, solid in enumerate(solids)]
