@@ -131,6 +131,7 @@ NB_MODULE(_native, module) {
             self.update(poses.data());
           },
           nb::arg("poses"))
+      .def("reshape", &Renderer::reshape, nb::arg("mesh"), nb::arg("form"))
       .def(
           "render",
           [](Renderer& self, std::array<double, 7> world_from_camera, double focal, double near_, double far_,

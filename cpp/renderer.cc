@@ -84,7 +84,6 @@ Renderer::Renderer(SceneSpec scene)
   projected_.resize(6 * most);
   for (Image& image : scene_.textures) image.texture.texels = image.texels.data();
   const auto is_index = [](int32_t index, size_t count) { return index >= 0 && (size_t)index < count; };
-  int64_t id = 0;
   for (const ShapeSpec& shape : scene_.shapes) {
     if (!is_index(shape.body, (size_t)scene_.bodies))
       throw std::invalid_argument("a shape rides on a body that does not exist");
@@ -92,15 +91,13 @@ Renderer::Renderer(SceneSpec scene)
       throw std::invalid_argument("a shape names a mesh that does not exist");
     if (shape.look.texture != -1 && !is_index(shape.look.texture, scene_.textures.size()))
       throw std::invalid_argument("a shape names a texture that does not exist");
-    first_ids_.push_back((int32_t)id);
-    id += shape.kind == Kind::kMesh ? triangles_[shape.mesh].face_count : 1;
-    if (id > std::numeric_limits<int32_t>::max()) throw std::invalid_argument("more than two billion triangles");
     looks_.push_back(look_of(shape.look, scene_.textures));
     if (shape.kind == Kind::kMesh && !triangles_[shape.mesh].layout) looks_.back().texture = nullptr;
   }
   for (const LightSpec& light : scene_.lights)
     if (light.body != -1 && !is_index(light.body, (size_t)scene_.bodies))
       throw std::invalid_argument("a light rides on a body that does not exist");
+  number_faces();
   shape_poses_.resize(scene_.shapes.size());
   for (const ShapeSpec& shape : scene_.shapes) bounds_.push_back(bounds_of(shape));
   place_shapes();
@@ -122,6 +119,31 @@ void Renderer::place_shapes() {
     const ShapeSpec& shape = scene_.shapes[i];
     const auto& body = body_poses_[shape.body];
     shape_poses_[i] = body && is_finite(shape.size) ? std::optional(*body * shape.body_from_shape) : std::nullopt;
+  }
+}
+
+void Renderer::reshape(int32_t mesh, Mesh form) {
+  if (mesh < 0 || (size_t)mesh >= scene_.meshes.size()) throw std::invalid_argument("there is no such mesh");
+  if (triangles_[mesh].layout && form.layout.empty() && form.face_count > 0)
+    throw std::invalid_argument("a mesh cannot lose its places in textures");
+  scene_.meshes[mesh] = std::move(form);
+  triangles_[mesh] = scene_.meshes[mesh].triangles();
+  projected_.resize(std::max(projected_.size(), 6 * scene_.meshes[mesh].places[0].size()));
+  if (!trees_.empty()) trees_[mesh] = triangles_[mesh].face_count > 0 ? make_bvh(triangles_[mesh]) : Bvh();
+  for (size_t i = 0; i < scene_.shapes.size(); ++i)
+    if (scene_.shapes[i].kind == Kind::kMesh && scene_.shapes[i].mesh == mesh) bounds_[i] = bounds_of(scene_.shapes[i]);
+  number_faces();
+  maps_are_old_ = true;
+}
+
+// Each face of a mesh has a number of its own, any other shape has one.
+void Renderer::number_faces() {
+  int64_t id = 0;
+  first_ids_.clear();
+  for (const ShapeSpec& shape : scene_.shapes) {
+    first_ids_.push_back((int32_t)id);
+    id += shape.kind == Kind::kMesh ? triangles_[shape.mesh].face_count : 1;
+    if (id > std::numeric_limits<int32_t>::max()) throw std::invalid_argument("more than two billion triangles");
   }
 }
 

@@ -56,6 +56,7 @@ class Renderer {
   explicit Renderer(SceneSpec scene);  // throws std::invalid_argument where an index leads nowhere
 
   void update(const double* poses);  // (bodies, 7)
+  void reshape(int32_t mesh, Mesh form);  // whatever shape bears that mesh changes
   // Into (height, width, 3), (height, width), (height, width); depth and segment may be null.
   void render(const Camera& camera, uint8_t* rgb, float* depth, int32_t* segment);
   // How far rays from one place go before they meet a shape [m], and which; infinity and -1 where they meet none. Unit
@@ -74,6 +75,7 @@ class Renderer {
   bool is_endless(const ShapeSpec& shape) const;
   std::optional<Frame> orient(const Frame& world_from_camera, size_t index, Solid& solid) const;
   bool place(const View& view, const Frame& world_from_camera, size_t index, Solid& solid) const;
+  void number_faces();
   void draw_maps();
   void clear(const View& view, const Frame& world_from_camera, bool segment);
   void draw_see_through(const View& view, const Solid& solid, const Lighting& lighting, Buffers buffers);

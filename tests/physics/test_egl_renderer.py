@@ -75,6 +75,24 @@ def test_colours_distances_and_shapes_are_those_of_opengl(opengl: EglRenderer) -
     assert set(np.unique(b.segmentation)) == {*range(len(THINGS)), -1}
 
 
+def test_a_mesh_that_is_reshaped_stands_where_ours_does(opengl: EglRenderer) -> None:
+    mesh = THINGS[-1].geometry
+    assert isinstance(mesh, Mesh)
+    ours = NativeRenderer(scene())
+    depths = []
+    for each in (ours, opengl):
+        each.update(np.array([[0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+        each.reshape(len(THINGS) - 1, mesh.vertices * np.float32([1.5, 0.3, 0.7]))
+        picture = each.render(EYE, LENS, depth=True, segmentation=True)
+        assert picture.depth is not None
+        assert picture.segmentation is not None
+        depths.append(np.where(picture.segmentation == len(THINGS) - 1, picture.depth, np.nan))
+    opengl.reshape(len(THINGS) - 1, mesh.vertices)
+
+    assert (np.isnan(depths[0]) != np.isnan(depths[1])).mean() <= 0.001
+    assert np.nanmedian(np.abs(depths[0] - depths[1])) <= 1e-4
+
+
 def test_a_body_that_is_nowhere_is_not_seen(opengl: EglRenderer) -> None:
     opengl.update(np.full((1, 7), math.nan))
     picture = opengl.render(EYE, LENS, segmentation=True)

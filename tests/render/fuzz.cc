@@ -124,6 +124,7 @@ int main(int, char** words) {
     try {
       Renderer renderer(scene());
       look_at(renderer);
+      if (whole(0, 3) == 0) renderer.reshape(index(1), mesh());
       look_at(renderer);
       ++drawn;
     } catch (const std::invalid_argument&) {  // an index that leads nowhere

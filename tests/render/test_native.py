@@ -281,3 +281,32 @@ def test_the_same_world_is_the_same_picture_to_the_last_byte() -> None:
     assert first.depth is not None
     assert second.depth is not None
     assert first.depth.tobytes() == second.depth.tobytes()
+
+
+def test_a_mesh_that_is_reshaped_is_drawn_and_met_as_it_is_now() -> None:
+    """Its faces without area may have some now, and the shape after it keeps numbers of its own."""
+    square = np.array([[0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1]], dtype=np.float32)
+    faces = np.array([[0, 2, 1], [0, 3, 2]], dtype=np.int32)
+    flat = Mesh(square * np.float32([1, 1, 0]), faces)
+    made = renderer(shape(flat, Pose((4.0, 0.0, 0.0))), shape(Sphere(0.3), Pose((3.0, 0.0, 0.0)), GREEN))
+    ahead = np.array([[1.0, 0.0, 0.2]], dtype=np.float32)
+    ahead /= np.linalg.norm(ahead)
+
+    assert not is_red(made.render(Pose(), WIDE).rgb).any()
+    assert made.cast(Pose(), ahead, reach_m=50)[1].tolist() == [-1]
+    made.reshape(0, square)
+    picture = made.render(Pose(), WIDE, segmentation=True)
+
+    assert picture.segmentation is not None
+    side = 2 * WIDE.focal_px / 4
+    assert (picture.segmentation == 0).sum() + (picture.segmentation == 1).sum() == pytest.approx(side**2, rel=0.03)
+    assert (picture.rgb[picture.segmentation == 1][:, 1] > 0).all()
+    assert made.cast(Pose(), ahead, reach_m=50)[1].tolist() == [0]
+    made.reshape(0, square * np.float32([1, 0.5, 0.5]))
+    assert is_red(made.render(Pose(), WIDE).rgb).sum() < side**2 / 3
+
+
+def test_what_is_no_mesh_cannot_be_reshaped() -> None:
+    made = renderer(shape(Sphere(0.3)))
+    with pytest.raises(KeyError):
+        made.reshape(0, np.zeros((3, 3), dtype=np.float32))

@@ -13,7 +13,7 @@ from PIL import Image
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.packages import Packages
-from trundle.render import Intrinsics, Picture, Scene, corners_of, scene_of
+from trundle.render import Intrinsics, Picture, Scene, corners_of, move_skins, scene_of
 from trundle.sensors import CameraSensor, mount_cameras
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
@@ -79,7 +79,7 @@ class Studio:
         scene = scene_of(stage.world, report)
         if options.camera is None:
             scene = replace(scene, ambient=_STUDIO_LIGHT, background=_BACKDROP)
-        self._renderer = RENDERERS[options.renderer](scene)
+        self._scene, self._renderer = scene, RENDERERS[options.renderer](scene)
         self._sensor: CameraSensor | None = None
         width, height = options.size or DEFAULT_SIZE
         self._lens = Intrinsics(width_px=width, height_px=height, horizontal_fov_rad=_FOV, near_m=0.01, far_m=1000.0)
@@ -104,6 +104,7 @@ class Studio:
         """Draw what is there now; the view of everything may have gone around, counter-clockwise from above."""
         snapshot = self.simulation.snapshot()
         self._renderer.update(snapshot.poses)
+        move_skins(self._renderer, self._scene, self.simulation.moment_of)
         if self._sensor is not None:
             view = self._sensor.world_from_camera(snapshot)
         else:

@@ -9,6 +9,7 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
+from .collada_skin import read_skin
 from .mesh import Rgba
 from .raw import MOST_TRIANGLES, MeshError, RawPart, corner_uv, fans, used_vertices
 
@@ -16,15 +17,20 @@ _DEEPEST = 64
 _MOST_NODES = 100_000
 """Nodes may be named again and again by others: a small file can ask for any number."""
 _Look = tuple[Rgba | None, str | None]
-_Triangles = list[tuple[str, NDArray[np.float64], NDArray[np.int64], NDArray[np.float32] | None]]
-"""Of each material: its symbol, vertices (N, 3), faces (M, 3) and the uv of their corners (M, 3, 2)."""
+_Triangles = list[tuple[str, NDArray[np.float64], NDArray[np.int64], NDArray[np.float32] | None, NDArray[np.int64]]]
+"""Of each material: its symbol, vertices (N, 3), faces (M, 3), the uv of their corners (M, 3, 2), and which of the
+geometry's vertices those are (N,)."""
 
 
-def read_collada(data: bytes) -> list[RawPart]:
+def read_collada(data: bytes, *, skins: bool = False) -> list[RawPart]:
     """Read a COLLADA file; lengths are made metres by its <unit>.
 
     Its <up_axis> is left alone: Gazebo (gazebo-classic#1305) and RViz (rviz#1045) never read that tag, and published
     robots are made to look right in them.
+
+    Args:
+        data: the file.
+        skins: tell how vertices hang on bones, too, in the file's own unit.
 
     Raises:
         Exception: pycollada's own, in its own words.
@@ -38,7 +44,7 @@ def read_collada(data: bytes) -> list[RawPart]:
     scene = document.scene or (document.scenes[0] if document.scenes else None)
     if scene is None:
         raise MeshError("no scene")
-    walk = _Walk(float(document.assetInfo.unitmeter or 1.0))
+    walk = _Walk(float(document.assetInfo.unitmeter or 1.0), skins)
     return [part for node in scene.nodes for part in walk.parts(node, np.eye(4), "", 0)]
 
 
@@ -47,6 +53,7 @@ class _Walk:
     """Everything met on the way down."""
 
     metres: float
+    skins: bool
     nodes: int = 0
     triangles: int = 0
     geometries: dict[int, _Triangles] = field(default_factory=dict[int, _Triangles])
@@ -61,7 +68,9 @@ class _Walk:
             skin = node.controller
             matrix = getattr(skin, "bind_shape_matrix", None)
             bound = world_from_parent if matrix is None else world_from_parent @ np.asarray(matrix).reshape(4, 4)
-            yield from self._geometry(skin.geometry, node.materials, bound, name)
+            yield from self._geometry(
+                skin.geometry, node.materials, bound, name, skin if self.skins and matrix is not None else None
+            )
         elif hasattr(node, "children"):
             world_from_node = world_from_parent @ np.asarray(node.matrix, dtype=np.float64)
             own = getattr(node, "node", node).xmlnode
@@ -69,12 +78,12 @@ class _Walk:
                 yield from self.parts(child, world_from_node, own.get("name") or own.get("id") or name, depth + 1)
 
     def _geometry(
-        self, geometry: Any, materials: Any, world_from_node: NDArray[np.float64], name: str
+        self, geometry: Any, materials: Any, world_from_node: NDArray[np.float64], name: str, skin: Any = None
     ) -> Iterator[RawPart]:
         targets = {str(each.symbol): each.target for each in materials or ()}
         if id(geometry) not in self.geometries:
             self.geometries[id(geometry)] = _triangles(geometry)
-        for symbol, vertices, faces, uv in self.geometries[id(geometry)]:
+        for symbol, vertices, faces, uv, used in self.geometries[id(geometry)]:
             self.triangles += len(faces)
             if self.triangles > MOST_TRIANGLES:
                 raise MeshError(f"more than {MOST_TRIANGLES} triangles")
@@ -88,6 +97,7 @@ class _Walk:
                 texture=texture if uv is not None else None,
                 tint=(1.0, 1.0, 1.0, 1.0 if rgba is None else rgba[3]),
                 uv=None if uv is None else uv[:, ::outwards],
+                skin=None if skin is None else read_skin(skin, vertices, used),
             )
 
 
@@ -110,7 +120,7 @@ def _triangles(geometry: Any) -> _Triangles:
         uv = None
         if uv_set is not None and uv_corners is not None and uv_corners.shape == corners.shape:
             uv = corner_uv(np.asarray(uv_set, dtype=np.float64), uv_corners)
-        found.append((str(primitive.material), *used_vertices(points, corners), uv))
+        found.append((str(primitive.material), *used_vertices(points, corners), uv, np.unique(corners)))
     return found
 
 

@@ -13,7 +13,7 @@ from .mesh import Mesh, MeshPart, Rgba
 from .raw import MOST_TRIANGLES, MeshError, RawPart
 from .texture import find_texture, mean_colour
 
-_MOST_BYTES = 256 * 1024 * 1024
+MOST_BYTES = 256 * 1024 * 1024
 _SLOW = frozenset({".dae", ".glb", ".obj"})
 """Formats that are worth keeping once read; STL is as fast as the cache."""
 _FORMATS = _SLOW | {".stl"}
@@ -52,8 +52,8 @@ def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -
 
 @lru_cache(maxsize=256)
 def _load(path: Path, suffix: str, submesh: str | None, center: bool, state: tuple[int, int]) -> Mesh:
-    if state[1] > _MOST_BYTES:
-        raise MeshError(f"larger than {_MOST_BYTES >> 20} MiB")
+    if state[1] > MOST_BYTES:
+        raise MeshError(f"larger than {MOST_BYTES >> 20} MiB")
     parts = _parts(path, suffix)
     if submesh is not None:
         chosen = [part for part in parts if submesh in part.names]
@@ -61,7 +61,7 @@ def _load(path: Path, suffix: str, submesh: str | None, center: bool, state: tup
             names = sorted({part.names[0] for part in parts if part.names})
             raise MeshError(f"no part {submesh!r}; parts there: {', '.join(map(repr, names)) or 'none'}")
         parts = chosen
-    return _joined(parts, path, center)
+    return joined(parts, path, center)
 
 
 def _parts(path: Path, suffix: str) -> list[RawPart]:
@@ -103,12 +103,17 @@ def _beside(path: Path, name: str) -> bytes | None:
     file = path.parent / name.replace("\\", "/")
     try:
         inside = file.resolve().is_relative_to(path.parent.resolve())
-        return file.read_bytes() if inside and file.is_file() and file.stat().st_size <= _MOST_BYTES else None
+        return file.read_bytes() if inside and file.is_file() and file.stat().st_size <= MOST_BYTES else None
     except (OSError, ValueError):
         return None
 
 
-def _joined(parts: Sequence[RawPart], path: Path, center: bool) -> Mesh:
+def joined(parts: Sequence[RawPart], path: Path, center: bool) -> Mesh:
+    """One mesh of parts, in their order; those without triangles are left out.
+
+    Raises:
+        MeshError: nothing is left, or not everything is a triangle in space.
+    """
     parts = [part for part in parts if len(part.faces)]
     if not parts:
         raise MeshError("no triangles")

@@ -17,6 +17,21 @@ class MeshError(TrundleError):
     """A mesh file that cannot be used; the text says why."""
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RawSkin:
+    """How a part's vertices hang on bones."""
+
+    bound: NDArray[np.float64]
+    """(N, 3) the vertices where they were bound."""
+    bones: tuple[str, ...]
+    bone_from_skin: NDArray[np.float64]
+    """(bones, 4, 4)"""
+    influences: NDArray[np.intp]
+    """(N, K) indices into the bones."""
+    weights: NDArray[np.float64]
+    """(N, K) of each; each row's sum is 1."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RawPart:
     """The triangles of one material in one node or object."""
@@ -34,6 +49,8 @@ class RawPart:
     """What the texture's colours are multiplied by."""
     uv: NDArray[np.float32] | None = None
     """(M, 3, 2) of each corner of each face; v is up."""
+    skin: RawSkin | None = None
+    """None: it hangs on no bones."""
 
 
 def used_vertices(

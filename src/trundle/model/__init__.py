@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from trundle.doors import opened_on_use
 
 if TYPE_CHECKING:
-    from .actor import Actor, Animation, Skin, Trajectory, Waypoint
+    from .actor import Actor, Animation, Moment, Skin, Trajectory, Waypoint
     from .camera import CameraOptics, Distortion, Lens, PixelIntrinsics, Projection
     from .environment import Atmosphere, Fog, PhysicsSettings, SceneSettings, SphericalCoordinates
     from .flatten import flattened
@@ -91,6 +91,7 @@ _HOMES = {
     "MeshFile": "geometry",
     "Mimic": "joint",
     "Model": "model",
+    "Moment": "actor",
     "Noise": "noise",
     "OrientationReference": "sensor",
     "PhysicsSettings": "environment",
@@ -164,6 +165,7 @@ __all__ = [
     "MeshFile",
     "Mimic",
     "Model",
+    "Moment",
     "Noise",
     "OrientationReference",
     "PhysicsSettings",

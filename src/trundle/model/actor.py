@@ -58,6 +58,20 @@ class Trajectory:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Moment:
+    """What the bones of an actor are at."""
+
+    animation: str = ""
+    """Its name; what no animation bears stands for the first."""
+    time_s: float = 0.0
+    """Since the animation began."""
+    way_m: float | None = None
+    """What has been covered of the way; None: the actor stands, and the animation itself carries it along."""
+    placed: bool = True
+    """Whether the animation places and turns the root bone, too; else the actor's own pose does."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Actor:
     """Something that moves as its script or its plugins say."""
 

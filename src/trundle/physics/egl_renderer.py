@@ -59,6 +59,17 @@ class EglRenderer:
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_camlight(self._model, self._data)
 
+    def reshape(self, shape: int, vertices: NDArray[np.float32]) -> None:
+        """See `Renderer.reshape`; the light falls on it as it did before."""
+        mesh = int(self._model.geom(f"s{shape}").dataid[0])
+        first, count = int(self._model.mesh_vertadr[mesh]), int(self._model.mesh_vertnum[mesh])
+        turn = np.empty(9)
+        mujoco.mju_quat2Mat(turn, self._model.mesh_quat[mesh])
+        # MuJoCo keeps vertices in the mesh's principal frame.
+        self._model.mesh_vert[first : first + count] = (vertices - self._model.mesh_pos[mesh]) @ turn.reshape(3, 3)
+        self._context.make_current()
+        mujoco.mjr_uploadMesh(self._model, self._gl, mesh)
+
     def render(
         self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
     ) -> Picture:

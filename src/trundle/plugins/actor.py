@@ -31,8 +31,8 @@ class WanderingActor(Plugin):
     """Walks an actor from target to target, drawn at random within x −3 to 3.5 and y −10 to 2 m.
 
     Parameters: <target> [m] (0 −5 1.2138), the first; <target_weight> (1.15), <obstacle_weight> (1.5): how much models
-    nearer than 4 m repel; <ignore_obstacles> with any number of <model>. <animation_factor> moves bones, which are not
-    simulated. The actor's script is not followed.
+    nearer than 4 m repel; <ignore_obstacles> with any number of <model>; <animation_factor> (4.5): seconds of the
+    animation for each metre. The actor's script is not followed.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, tag: PluginTag) -> None:
@@ -43,11 +43,11 @@ class WanderingActor(Plugin):
         self._obstacle_weight = parameters.number("obstacle_weight", default=1.5, report=report)
         ignored = parameters.find("ignore_obstacles")
         self._ignored = {model.name, *(child.text for child in (ignored.all("model") if ignored else ()))}
-        parameters.find("animation_factor")
+        self._factor = parameters.number("animation_factor", default=4.5, report=report)
         parameters.report_unread(report)
         self._seed = sim.seed
         self.reset()
-        walk = sim.actors.get(model.name)
+        walk = self._walk = sim.actors.get(model.name)
         if walk is None:
             report.warn(tag.at, f"plugin {tag.name!r} is for actors; {model.name!r} is a model, and moved all the same")
         else:
@@ -79,6 +79,8 @@ class WanderingActor(Plugin):
             step = _SPEED * sim.step_ns / 1e9
             x, y, heading = x + way[0] * step, y + way[1] * step, heading + missing
         x, y = min(max(x, _X[0]), _X[1]), min(max(y, _Y[0]), _Y[1])
+        if self._walk is not None:
+            self._walk.animation_s += math.dist(here.position[:2], (x, y)) * self._factor
         self._model.set_pose(Pose.from_rpy(x, y, _HIPS, _HALF_TURN, 0.0, heading))
 
     def _way(self, sim: Simulation, here: Vector3) -> Vector3:

@@ -4,7 +4,8 @@ from .extent import corners_of
 from .from_world import scene_of
 from .native import NativeRenderer
 from .renderer import Intrinsics, Picture, Renderer
-from .scene import Scene, SceneLight, Shape, ShapeGeometry
+from .scene import Scene, SceneLight, SceneSkin, Shape, ShapeGeometry
+from .skins import move_skins, why_stiff
 
 __all__ = [
     "Intrinsics",
@@ -13,8 +14,11 @@ __all__ = [
     "Renderer",
     "Scene",
     "SceneLight",
+    "SceneSkin",
     "Shape",
     "ShapeGeometry",
     "corners_of",
+    "move_skins",
     "scene_of",
+    "why_stiff",
 ]

@@ -23,7 +23,8 @@ from trundle.model import (
 )
 
 from .roads import road_shapes
-from .scene import Scene, SceneLight, Shape, ShapeGeometry
+from .scene import Scene, SceneLight, SceneSkin, Shape, ShapeGeometry
+from .skins import skin_shapes
 
 _COLLISION: Rgba = (1.0, 0.55, 0.1, 0.45)
 _SKY: tuple[Rgba, Rgba] = ((0.86, 0.91, 0.96, 1.0), (0.30, 0.52, 0.82, 1.0))
@@ -40,10 +41,20 @@ def scene_of(world: World, report: Diagnostics, *, collisions: bool = False) -> 
     shapes: list[Shape] = []
     bodies: list[str] = []
     lights = [_light(light, None, world) for light in world.lights]
+    actors = {} if collisions else {f"{actor.name}_pose": actor for actor in world.actors}
+    skins: list[SceneSkin] = []
     for model in world.models:
         for link in model.links:
             items = link.collisions if collisions else link.visuals
-            shapes += _shapes(items, len(bodies), report)
+            actor = actors.get(link.name)
+            moving = None
+            if actor is not None and actor.name == model.name:
+                moving = skin_shapes(actor, len(bodies), len(shapes))
+            if moving is None:
+                shapes += _shapes(items, len(bodies), report)
+            else:
+                shapes += moving[0]
+                skins.append(moving[1])
             lights += [_light(light, len(bodies), world) for light in link.lights]
             bodies.append(f"{model.name}::{link.name}")
     if not collisions:
@@ -51,6 +62,7 @@ def scene_of(world: World, report: Diagnostics, *, collisions: bool = False) -> 
     return Scene(
         bodies=tuple(bodies),
         shapes=tuple(shapes),
+        skins=tuple(skins),
         lights=tuple(lights),
         ambient=world.scene.ambient,
         background=world.scene.background,

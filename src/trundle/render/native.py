@@ -1,6 +1,7 @@
 """Trundle's own renderer: pictures made on the CPU, in C++; no GPU, no display."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -79,6 +80,12 @@ class NativeRenderer:
             return _native_shape(shape, mesh, look(shape))
 
         shapes = [native(shape) for shape in scene.shapes]
+        self._meshes = {
+            number: (meshes.number(id(shape.geometry), _never), shape.geometry)
+            for number, shape in enumerate(scene.shapes)
+            if isinstance(shape.geometry, Mesh)
+        }
+        """Of each shape that is one: its number in C++, and what it began as."""
         horizon, zenith = scene.sky or (scene.background, scene.background)
         self._renderer = _native.Renderer(
             bodies=len(scene.bodies),
@@ -95,6 +102,11 @@ class NativeRenderer:
     def update(self, poses: NDArray[np.float64]) -> None:
         """See `Renderer.update`."""
         self._renderer.update(np.ascontiguousarray(poses, dtype=np.float64))
+
+    def reshape(self, shape: int, vertices: NDArray[np.float32]) -> None:
+        """See `Renderer.reshape`."""
+        number, mesh = self._meshes[shape]
+        self._renderer.reshape(number, _native_mesh(replace(mesh, vertices=vertices)))
 
     def render(
         self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
@@ -141,6 +153,10 @@ class NativeRenderer:
             shapes=shapes,
         )
         return ranges, shapes
+
+
+def _never() -> _native.Mesh:
+    raise AssertionError("every mesh of the scene has its number")
 
 
 def _native_mesh(mesh: Mesh) -> _native.Mesh:

@@ -45,6 +45,10 @@ class Renderer(Protocol):
         """Move the scene's bodies: (bodies, 7) x y z qw qx qy qz in the world."""
         ...
 
+    def reshape(self, shape: int, vertices: NDArray[np.float32]) -> None:
+        """Give a shape that is a mesh other places for its vertices, (N, 3); its faces stay."""
+        ...
+
     def render(
         self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
     ) -> Picture:

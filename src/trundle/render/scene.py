@@ -3,10 +3,14 @@
 A scene is plain data. Renderers and the viewer both draw it; neither knows where it came from.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from trundle.meshes import Mesh, Texture
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, LightType, Plane, Rgba, Sphere
+from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, LightType, Moment, Plane, Rgba, Sphere
 from trundle.spatial import Pose, Vector3
 
 ShapeGeometry = Box | Capsule | Cylinder | Ellipsoid | Mesh | Plane | Sphere
@@ -60,6 +64,19 @@ class SceneLight:
     casts_shadows: bool = False
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SceneSkin:
+    """An actor's skin: meshes whose vertices move in their body's frame."""
+
+    actor: str
+    first: int
+    """The number of its first shape; the others follow."""
+    rows: tuple[NDArray[np.intp], ...]
+    """Of each shape: which of the skin's vertices are its own."""
+    vertices: Callable[[Moment], NDArray[np.float32]]
+    """(N, 3) All of them at a moment, in the body's frame [m]."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scene:
     """Everything a picture can show."""
@@ -67,6 +84,8 @@ class Scene:
     bodies: tuple[str, ...]
     """Names; the order of the poses."""
     shapes: tuple[Shape, ...]
+    skins: tuple[SceneSkin, ...] = ()
+    """Shapes that change as time passes."""
     lights: tuple[SceneLight, ...] = ()
     ambient: Rgba = (0.4, 0.4, 0.4, 1.0)
     background: Rgba = (0.7, 0.7, 0.7, 1.0)

@@ -1,5 +1,6 @@
 """Rays, and what they find."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -7,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import Plane, World
-from trundle.render import NativeRenderer, Scene, scene_of
+from trundle.model import Moment, Plane, World
+from trundle.render import NativeRenderer, Scene, move_skins, scene_of
 from trundle.spatial import Pose, Vector3
 
 _Array = NDArray[np.float64]
@@ -48,15 +49,16 @@ class RayCaster:
         self.world = world
         scene = scene_of(world, Diagnostics(), collisions=collisions)
         scene = _endless(scene) if collisions else scene
-        self._renderer = NativeRenderer(scene)
+        self._scene, self._renderer = scene, NativeRenderer(scene)
         self._retros = np.array([*(shape.laser_retro for shape in scene.shapes), 0.0])
         self._poses: _Array = np.zeros((0, 7))
         self._bodies = np.array([*(shape.body for shape in scene.shapes), -1], dtype=np.intp)
 
-    def update(self, poses: _Array) -> None:
-        """Move the links: (links, 7) x y z qw qx qy qz in the world."""
+    def update(self, poses: _Array, moment_of: Callable[[str], Moment]) -> None:
+        """Move the links, (links, 7) x y z qw qx qy qz in the world, and the skins of actors."""
         self._poses = poses
         self._renderer.update(poses)
+        move_skins(self._renderer, self._scene, moment_of)
 
     def cast(self, origin: Vector3, directions: _Array, reach: float, exclude: int | None) -> Found:
         """See `Rays`."""

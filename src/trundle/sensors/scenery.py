@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.model import Visual, World
-from trundle.render import Intrinsics, Picture, Renderer, Scene, scene_of
+from trundle.render import Intrinsics, Picture, Renderer, Scene, move_skins, scene_of
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
@@ -54,5 +54,6 @@ class Scenery:
             self._shown = None
         if self._shown is not snapshot:
             self._renderer.update(snapshot.poses)
+            move_skins(self._renderer, self.scene, self._simulation.moment_of)
             self._shown = snapshot
         return self._renderer.render(world_from_camera, intrinsics, depth=depth, segmentation=segmentation)

@@ -47,7 +47,7 @@ class Surroundings:
         simulation = self._simulation
         if caster is None or caster.world is not simulation.world:
             caster = RayCaster(simulation.world, collisions=collisions)
-        caster.update(simulation.engine.reader.link_poses())
+        caster.update(simulation.engine.reader.link_poses(), simulation.moment_of)
         return caster
 
     def beacons(self, type_: str) -> list[Beacon]:

@@ -2,9 +2,13 @@
 
 import math
 from bisect import bisect_right
+from itertools import accumulate, pairwise
 
-from trundle.model import Actor, Trajectory
+from trundle.model import Actor, Moment, Trajectory
 from trundle.spatial import Pose, Quaternion, Twist, Vector3, normalized, quaternion_product
+
+_PIECES, _MOST_PIECES = 32, 100_000
+"""From one waypoint to the next, and in all: a way's length is that of so many straight pieces."""
 
 
 class ActorScript:
@@ -13,6 +17,7 @@ class ActorScript:
     def __init__(self, actor: Actor) -> None:
         self._delay = max(actor.delay_start_s, 0.0)
         self._loop = actor.loop
+        self._first = actor.trajectories[0].type if actor.trajectories else ""
         self._ways: list[tuple[float, _Way]] = []
         """The time each begins [s], and what it is."""
         self.length_s = 0.0
@@ -27,12 +32,24 @@ class ActorScript:
 
     def pose_at(self, time_s: float) -> Pose:
         """World pose at a time since the actor began; it waits before each round where it goes round."""
+        since, way = self._on_way(time_s)
+        return way.pose_at(since)
+
+    def moment_at(self, time_s: float) -> Moment:
+        """What the bones are at; without waypoints the first animation goes on and on."""
+        if not self._ways:
+            return Moment(animation=self._first, time_s=max(time_s - self._delay, 0.0))
+        since, way = self._on_way(time_s)
+        return Moment(animation=way.type, time_s=since, way_m=way.covered(since))
+
+    def _on_way(self, time_s: float) -> "tuple[float, _Way]":
+        """Which way it is on at a time, and for how long [s]."""
         round_s = self._delay + self.length_s
         if self._loop and round_s > 0.0:
             time_s = math.fmod(time_s, round_s)
         since = min(max(time_s - self._delay, 0.0), self.length_s)
         begins, way = self._ways[max(bisect_right([start for start, _ in self._ways], since) - 1, 0)]
-        return way.pose_at(since - begins)
+        return since - begins, way
 
     def twist_at(self, time_s: float, dt: float) -> Twist:
         """What brings it to where it is dt [s] later; it leaps back to where it began without."""
@@ -55,6 +72,8 @@ class _Way:
 
     def __init__(self, trajectory: Trajectory) -> None:
         points = trajectory.waypoints
+        self.type = trajectory.type
+        self._covered: list[float] | None = None
         self._times = [point.time_s for point in points]
         self._turns = [point.pose.quaternion for point in points]
         self._places = [point.pose.position for point in points]
@@ -76,6 +95,19 @@ class _Way:
             return start + a * (end - start) + b * self._slopes[i][axis] + c * self._slopes[i + 1][axis]
 
         return Pose((along(0), along(1), along(2)), _between(self._turns[i], self._turns[i + 1], u))
+
+    def covered(self, time_s: float) -> float:
+        """The length of the way up to a time [m], from straight pieces."""
+        first, last = self._times[0], self._times[-1]
+        if not first < time_s or not first < last:
+            return 0.0
+        count = min(_PIECES * (len(self._times) - 1), _MOST_PIECES)
+        if self._covered is None:
+            places = [self.pose_at(first + (last - first) * i / count).position for i in range(count + 1)]
+            self._covered = [0.0, *accumulate(math.dist(a, b) for a, b in pairwise(places))]
+        at = min((time_s - first) / (last - first), 1.0) * count
+        i = min(int(at), count - 1)
+        return self._covered[i] + (at - i) * (self._covered[i + 1] - self._covered[i])
 
 
 def _slopes(places: list[Vector3], share: float) -> list[Vector3]:

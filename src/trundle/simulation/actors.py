@@ -1,6 +1,6 @@
 """Actors as bodies that nothing pushes, moved by their scripts.
 
-What a skin looks like with its bones moving is not simulated: a box as large as its mesh stands for it, on the feet.
+A box as large as its skin, on the feet, stands for what has no bones; what has is drawn as they move.
 """
 
 from collections.abc import Sequence
@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from trundle.diagnostics import Diagnostics
 from trundle.meshes import MeshError, load_mesh
-from trundle.model import Actor, Box, Link, Model, Skin, Visual, World
+from trundle.model import Actor, Box, Link, Model, Moment, Skin, Visual, World
+from trundle.render import why_stiff
 from trundle.spatial import Pose, Vector3
 
 from .actor_script import ActorScript
@@ -41,10 +42,20 @@ class ActorWalk:
         self._script = ActorScript(actor)
         self._handle = handle
         self.is_on = bool(self._script) and actor.auto_start
+        self._starts = actor.auto_start
+        self.taken_over = False
+        self.animation_s = 0.0
+        """How far the animation is of an actor that somebody else moves."""
 
     def stop(self) -> None:
-        """Leave the actor to somebody else."""
-        self.is_on = False
+        """Leave the actor to somebody else, whose pose of it is that of its bones, too."""
+        self.is_on, self.taken_over = False, True
+
+    def moment(self, time_ns: int) -> Moment:
+        """What its bones are at."""
+        if self.taken_over:
+            return Moment(time_s=self.animation_s, way_m=0.0, placed=False)
+        return self._script.moment_at(time_ns / 1e9 if self._starts else 0.0)
 
     def wanted(self, models: Sequence[ModelHandle]) -> bool:
         """Whether the actor is there, and on its way."""
@@ -81,7 +92,9 @@ def _body(actor: Actor, skin: Skin, report: Diagnostics) -> Link:
         place = Pose.from_rpy(0.0, height / 2 - _HIPS, 0.0, -1.5707963)
     name = f"{actor.name}_pose"
     box = Visual(name=name, at=actor.at, geometry=Box((width, depth, height)), link_from_visual=place)
-    report.info(actor.at, f"actor {actor.name!r} is a box of its skin's size; its bones do not move")
+    why = why_stiff(actor)
+    if why is not None:
+        report.info(actor.at, f"actor {actor.name!r} is a box of its skin's size; its bones do not move: {why}")
     return Link(name=name, at=actor.at, kinematic=True, gravity=False, visuals=(box,))
 
 

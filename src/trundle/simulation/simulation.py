@@ -12,7 +12,7 @@ from itertools import count
 from typing import TypeAlias
 
 from trundle.diagnostics import Diagnostics, UsageError
-from trundle.model import Joint, Model, World
+from trundle.model import Joint, Model, Moment, World
 from trundle.physics import Contact, Engine, EngineState, GripLaw, compile_world
 from trundle.spatial import Pose, Wrench
 
@@ -99,6 +99,11 @@ class Simulation:
             if model.name == name:
                 return model
         raise UsageError(f"no model {name!r}; there are: {', '.join(repr(m.name) for m in self.models) or 'none'}")
+
+    def moment_of(self, actor: str) -> Moment:
+        """What the bones of an actor are at now; one that is gone stands."""
+        walk = self.actors.get(actor)
+        return Moment() if walk is None else walk.moment(self.time_ns)
 
     # -- time
 

@@ -1,0 +1,108 @@
+"""BVH motion capture files: a skeleton of plain offsets, and its joints' angles frame by frame."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .raw import MeshError
+from .skeleton import Bone, Motion, track_of
+
+_Array = NDArray[np.float64]
+_MOST_BONES, _MOST_FRAMES = 1000, 100_000
+_AXES = "XYZ"
+
+
+def read_bvh(text: str) -> Motion:
+    """Read a file, in its own lengths and axes, as Gazebo does; a joint turns by its angles in their order.
+
+    Raises:
+        MeshError: it is no such file, or ends too early.
+    """
+    words = iter(text.split())
+    try:
+        if next(words) != "HIERARCHY":
+            raise MeshError("does not begin with HIERARCHY")
+        bones, channels = _hierarchy(words)
+        count, step_s = _heading(words)
+        numbers = np.array([float(word) for word in words])
+    except StopIteration:
+        raise MeshError("ends too early") from None
+    except ValueError as error:
+        raise MeshError(str(error)) from None
+    width = sum(map(len, channels))
+    count = min(count, len(numbers) // max(width, 1), _MOST_FRAMES)
+    if not (count > 0 and width > 0 and step_s > 0.0 and np.isfinite(numbers).all()):
+        raise MeshError("holds no motion")
+    frames = np.split(
+        numbers[: count * width].reshape(count, width), np.cumsum([len(c) for c in channels])[:-1], axis=1
+    )
+    times = np.arange(count, dtype=np.float64) * np.float64(step_s)
+    poses = (_poses(*each) for each in zip(bones, channels, frames, strict=True))
+    return Motion(bones, {number: track_of(times, pose) for number, pose in enumerate(poses)})
+
+
+def _hierarchy(words: Iterator[str]) -> tuple[tuple[Bone, ...], list[list[str]]]:
+    """The joints, parents first, and what each of them is told in a frame; ends of limbs are no joints."""
+    bones: list[Bone] = []
+    channels: list[list[str]] = []
+    above: list[int] = []
+    """The joints around this word; −1 for an end of a limb."""
+    while (word := next(words)) != "MOTION":
+        match word:
+            case "ROOT" | "JOINT":
+                if len(bones) >= _MOST_BONES:
+                    raise MeshError(f"more than {_MOST_BONES} joints")
+                name = next(words)
+                bones.append(Bone(name=name, id=name, parent=above[-1] if above else -1, is_joint=True, rest=np.eye(4)))
+                channels.append([])
+                above.append(len(bones) - 1)
+            case "End":
+                next(words)
+                above.append(-1)
+            case "}":
+                if not above:
+                    raise MeshError("a '}' too many")
+                above.pop()
+            case "OFFSET":
+                offset = [float(next(words)) for _ in range(3)]
+                if above and above[-1] >= 0:
+                    bones[above[-1]].rest[:3, 3] = offset
+            case "CHANNELS":
+                names = [next(words) for _ in range(min(int(next(words)), 6))]
+                if above and above[-1] >= 0:
+                    channels[above[-1]] += names
+            case _:
+                pass  # braces
+    return tuple(bones), channels
+
+
+def _heading(words: Iterator[str]) -> tuple[int, float]:
+    """How many frames follow, and how long each lasts [s]."""
+    if next(words) != "Frames:":
+        raise MeshError("no 'Frames:' after MOTION")
+    count = int(next(words))
+    if [next(words), next(words)] != ["Frame", "Time:"]:
+        raise MeshError("no 'Frame Time:'")
+    return count, float(next(words))
+
+
+def _poses(bone: Bone, channels: list[str], values: _Array) -> _Array:
+    """(frames, 4, 4) parent_from_bone."""
+    poses = np.repeat(bone.rest[None], len(values), axis=0)
+    for channel, column in zip(channels, values.T, strict=True):
+        axis = _AXES.find(channel[:1])
+        if axis < 0:
+            continue
+        if channel[1:] == "position":
+            poses[:, axis, 3] = column
+        elif channel[1:] == "rotation":
+            angles = column * (math.pi / 180.0)
+            turn = np.repeat(np.eye(4)[None], len(values), axis=0)
+            i, j = (axis + 1) % 3, (axis + 2) % 3
+            turn[:, i, i] = turn[:, j, j] = np.cos(angles)
+            turn[:, j, i] = np.sin(angles)
+            turn[:, i, j] = -turn[:, j, i]
+            poses = poses @ turn
+    return poses

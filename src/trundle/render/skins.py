@@ -1,0 +1,101 @@
+"""Actors' skins: the shapes they are made of, and where their vertices are at a moment."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.meshes import MeshError, Motion, Skin, load_motion, load_skin, matched, root_of
+from trundle.model import Actor, Animation, Moment
+
+from .renderer import Renderer
+from .scene import Scene, SceneSkin, Shape
+
+
+def why_stiff(actor: Actor) -> str | None:
+    """Why the bones of an actor's skin do not move; None: they do."""
+    if actor.skin is None or actor.skin.path is None:
+        return "its skin is nowhere"
+    try:
+        skin = load_skin(actor.skin.path)
+        for animation in actor.animations:
+            if animation.path is not None and matched(skin.bones, load_motion(animation.path).bones) is None:
+                return f"animation {animation.name!r} is of another skeleton"
+    except MeshError as error:
+        return str(error)
+    return None
+
+
+def skin_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], SceneSkin] | None:
+    """The shapes of an actor's skin as it begins, and how they go on; None where its bones do not move.
+
+    Args:
+        actor: with a skin.
+        body: that it rides on.
+        first: the number of the first of the shapes in the scene.
+    """
+    if actor.skin is None or actor.skin.path is None or why_stiff(actor) is not None:
+        return None
+    puppet = Puppet(actor, load_skin(actor.skin.path))
+    mesh = puppet.skin.mesh
+    numbers = np.repeat(np.arange(len(mesh.vertices), dtype=np.float32)[:, None], 3, axis=1)
+    numbered = replace(mesh, vertices=numbers)
+    start = replace(mesh, vertices=puppet.vertices(Moment()))
+    shapes: list[Shape] = []
+    rows: list[NDArray[np.intp]] = []
+    for piece, same in zip(start.by_look(), numbered.by_look(), strict=True):
+        texture = piece.parts[0].texture if piece.parts and piece.uv is not None else None
+        rgba = piece.parts[0].tint if texture is not None else piece.rgba
+        shape = Shape(name=f"{actor.name}_skin", body=body, geometry=piece, texture=texture)
+        shapes.append(shape if rgba is None else replace(shape, rgba=rgba))
+        rows.append(same.vertices[:, 0].astype(np.intp))
+    return shapes, SceneSkin(actor=actor.name, first=first, rows=tuple(rows), vertices=puppet.vertices)
+
+
+def move_skins(renderer: Renderer, scene: Scene, moment_of: Callable[[str], Moment]) -> None:
+    """Have the skins of a scene drawn as they are at their actors' moments."""
+    for skin in scene.skins:
+        vertices = skin.vertices(moment_of(skin.actor))
+        for number, rows in enumerate(skin.rows):
+            renderer.reshape(skin.first + number, vertices[rows])
+
+
+class Puppet:
+    """A skin on its animations."""
+
+    def __init__(self, actor: Actor, skin: Skin) -> None:
+        assert actor.skin is not None
+        self.skin = skin
+        self._scale = actor.skin.scale
+        self._root = root_of(skin.bones)
+        self._animations: dict[str, tuple[Animation, Motion, dict[int, int]]] = {}
+        for animation in actor.animations:
+            if animation.path is None:
+                continue
+            motion = load_motion(animation.path)
+            bones = matched(skin.bones, motion.bones)
+            if bones is not None:
+                self._animations[animation.name] = (animation, motion, bones)
+
+    def vertices(self, moment: Moment) -> NDArray[np.float32]:
+        """(N, 3) where the skin's vertices are, in the actor's frame [m].
+
+        As in Gazebo: the root bone of an actor on its way stays over the way, and with <interpolate_x> the animation
+        goes on with what has been covered.
+        """
+        chosen = self._animations.get(moment.animation) or next(iter(self._animations.values()), None)
+        if chosen is None:
+            return self.skin.vertices({}) * np.float32(self._scale)
+        animation, motion, bones = chosen
+        scale = animation.scale / (self._scale or 1.0)
+        time_s = moment.time_s
+        if animation.interpolate_x and moment.way_m and motion.length_s > 0.0:
+            time_s = motion.time_at(moment.way_m, animation.scale)
+        poses = {bones[number]: pose for number, pose in motion.poses(time_s, scale).items() if number in bones}
+        if self._root in poses:
+            if not moment.placed:
+                poses[self._root] = np.eye(4)
+            elif moment.way_m is not None:
+                poses[self._root][0, 3] = 0.0
+        return self.skin.vertices(poses) * np.float32(self._scale)
