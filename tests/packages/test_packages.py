@@ -248,3 +248,12 @@ class TestReadingOutside:
         mass = '${xacro.load_yaml("../config/arm.yaml")["mass"]}'
         path = write(robot.with_name("arm.xacro"), XACRO.format(f"<link name='{mass}'/>"))
         assert 'name="7"' in expand_xacro(path, {}, packages=Packages({}, start=robot), report=Diagnostics())
+
+
+def test_a_package_is_called_what_its_manifest_says_outside_of_comments(tmp_path: Path) -> None:
+    manifest = "<package>\n<!-- <name>old</name> -->\n<name>\n  new\n</name>\n<author>& unescaped</package>"
+    write(tmp_path / "src/folder/package.xml", manifest)
+    packages = Packages({"ROS_PACKAGE_PATH": str(tmp_path / "src")}, start=tmp_path)
+
+    assert packages.find_package("new") == tmp_path / "src/folder"
+    assert packages.find_package("old") is None

@@ -1,10 +1,11 @@
 """What reading a description gives."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
-from trundle.model import World
-from trundle.robot import Robot
+if TYPE_CHECKING:
+    from trundle.model import World
+    from trundle.robot import Robot
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -12,9 +13,9 @@ class Loaded:
     """Only what the file names: no added ground or sun."""
 
     kind: Literal["world", "model", "urdf"]
-    world: World
+    world: "World"
     """A model alone is the one model of a world of default settings."""
-    robot: Robot | None = None
+    robot: "Robot | None" = None
     """The URDF's own tree, unconverted."""
     urdf: str | None = None
     """The expanded URDF text, what goes on the parameter robot_description."""

@@ -201,10 +201,11 @@ def _parse_for(original: Callable[..., Any], packages: Packages, report: Diagnos
 def _prefix_core_tags(document: Any, filename: str, report: Diagnostics) -> None:
     """Give Indigo's bare core tags their prefix."""
     rewritten: set[str] = set()
-    for tag, attribute in _CORE.items():
-        for element in document.getElementsByTagName(tag):
+    for element in document.getElementsByTagName("*"):
+        tag = element.tagName
+        if tag in _CORE and element.hasAttribute(_CORE[tag]):
             has_elements = any(child.nodeType == child.ELEMENT_NODE for child in element.childNodes)
-            if element.hasAttribute(attribute) and not (tag == "include" and has_elements):
+            if not (tag == "include" and has_elements):
                 element.tagName = element.nodeName = f"xacro:{tag}"
                 rewritten.add(tag)
     for tag in sorted(rewritten):

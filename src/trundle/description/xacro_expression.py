@@ -6,6 +6,8 @@ What honest files write gives what xacro gives. Powers, repetitions, shifts, ran
 import ast
 import operator
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
+from types import CodeType
 from typing import Any, cast
 
 _MOST_BITS = 100_000
@@ -26,11 +28,7 @@ def bounded_eval(expression: str, symbols: Any, local_symbols: Any = None) -> ob
         ExpressionTooLargeError: a value or a loop is beyond all sense.
         Exception: whatever the expression itself raises.
     """
-    tree = ast.parse(expression.strip(), "<expression>", "eval")
-    code = compile(ast.fix_missing_locations(_Guard().visit(tree)), "<expression>", "eval")
-    hidden = sorted({name for name in _names(tree) if name.startswith("__")})
-    if hidden:
-        raise ValueError(f"Use of invalid name(s): {', '.join(hidden)}")
+    code = _guarded(expression.strip())
     counter = _Counter()
     symbols.update(__builtins__={})
     guards = {"<power>": _power, "<times>": _times, "<shift>": _shift, "<counted>": counter, "<range>": _range}
@@ -40,6 +38,17 @@ def bounded_eval(expression: str, symbols: Any, local_symbols: Any = None) -> ob
     finally:
         for name in guards:
             del symbols[name]
+
+
+@lru_cache
+def _guarded(expression: str) -> CodeType:
+    """Macros ask for the same again and again."""
+    tree = ast.parse(expression, "<expression>", "eval")
+    code = compile(ast.fix_missing_locations(_Guard().visit(tree)), "<expression>", "eval")
+    hidden = sorted({name for name in _names(tree) if name.startswith("__")})
+    if hidden:
+        raise ValueError(f"Use of invalid name(s): {', '.join(hidden)}")
+    return code
 
 
 class _Guard(ast.NodeTransformer):

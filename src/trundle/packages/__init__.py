@@ -1,7 +1,21 @@
 """Where files live: ROS packages, Gazebo models, worlds and what their URIs mean."""
 
-from .manifest import needs
-from .model_config import model_file, refuse_template
-from .packages import ALLOW_OUTSIDE, Packages
+from typing import TYPE_CHECKING
+
+from trundle.doors import opened_on_use
+
+if TYPE_CHECKING:
+    from .manifest import needs
+    from .model_config import model_file, refuse_template
+    from .packages import ALLOW_OUTSIDE, Packages
+
+_HOMES = {
+    "ALLOW_OUTSIDE": "packages",
+    "Packages": "packages",
+    "model_file": "model_config",
+    "needs": "manifest",
+    "refuse_template": "model_config",
+}
+__getattr__ = opened_on_use(__name__, _HOMES)
 
 __all__ = ["ALLOW_OUTSIDE", "Packages", "model_file", "needs", "refuse_template"]

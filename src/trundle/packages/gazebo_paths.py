@@ -7,7 +7,6 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from trundle.diagnostics import DescriptionError
-from trundle.xmlnode import read_xml
 
 from .ros_packages import RosPackages
 from .workspace import nearby
@@ -93,6 +92,8 @@ class GazeboPaths:
 
     @cached_property
     def _exports(self) -> list[tuple[Path, dict[str, str]]]:
+        from trundle.xmlnode import read_xml  # of what most commands ask of packages, only this takes lxml
+
         found: list[tuple[Path, dict[str, str]]] = []
         for folder in self._ros.all().values():
             manifest = folder / "package.xml"

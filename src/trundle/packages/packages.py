@@ -1,6 +1,7 @@
 """Where files live: package://, model://, file:// and relative URIs become paths, or one sentence that says why not."""
 
 from collections.abc import Mapping
+from functools import cached_property
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -104,15 +105,21 @@ class Packages:
         """
         if self._environment.get(ALLOW_OUTSIDE) == "1":
             return
-        if Confinement([self._own, *([] if root is None else [root])]).allows(path):
-            return
-        folders = [*self._ros.roots, *self._gazebo.model_folders, *self._gazebo.resource_folders]
-        if not Confinement([*folders, *self._ros.all().values()]).allows(path):
+        near = Confinement([self._own, *([] if root is None else [root])])
+        if not (near.allows(path) or self._in_ros.allows(path) or self._in_gazebo.allows(path)):
             raise DescriptionError(
                 at,
                 f"{told} leads to {path}; a description reads only below its own folders, the packages and the "
                 "resource paths; --allow-outside lifts that",
             )
+
+    @cached_property
+    def _in_ros(self) -> Confinement:
+        return Confinement([*self._ros.roots, *self._ros.all().values()])
+
+    @cached_property
+    def _in_gazebo(self) -> Confinement:
+        return Confinement([*self._gazebo.model_folders, *self._gazebo.resource_folders])
 
     def _located(self, uri: str, beside: Path, at: Source) -> tuple[Path | None, Path]:
         """Where a URI leads, and the folder of the package or model it names."""

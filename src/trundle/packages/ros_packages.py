@@ -7,9 +7,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TypeAlias
 
-from trundle.diagnostics import DescriptionError
-from trundle.xmlnode import read_xml
-
 from .workspace import MANIFESTS, PARTS, own_package, workspaces
 
 _DEEPEST = 8
@@ -17,6 +14,7 @@ _DEEPEST = 8
 _MOST_GUESSED = 5000
 """Folders looked at where nobody said that packages are: a home folder has more than one wants to wait for."""
 _NOT_CRAWLED = frozenset({"build", "node_modules", "__pycache__"})
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _NAME = re.compile(r"<name>\s*([\w.-]+)\s*</name>")
 _IGNORED_BY = ("CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE", "rospack_nosubdirs")
 SHIPPED = Path(__file__).parent / "ros"
@@ -113,19 +111,13 @@ def _may_hold_packages(entry: os.DirEntry[str]) -> bool:
 
 
 def _package_name(folder: Path) -> str:
-    for manifest in MANIFESTS[:1]:
-        try:
-            name = read_xml(folder / manifest).string("name")
-        except DescriptionError:  # rospack's own reader minds less
-            name = _named_in(folder / manifest)
-        if name:
-            return name
-    return folder.name  # manifest.xml (rosbuild) has no name: the folder is the name
+    """What the manifest calls a package; of one in manifest.xml (rosbuild) the folder is the name.
 
-
-def _named_in(manifest: Path) -> str:
+    No XML is parsed: rospack's own reader minds little, and of a large workspace hundreds are read.
+    """
     try:
-        found = _NAME.search(manifest.read_text(errors="replace"))
+        text = (folder / MANIFESTS[0]).read_text(errors="replace")
     except OSError:
-        return ""
-    return found[1] if found else ""
+        return folder.name
+    found = _NAME.search(_COMMENT.sub("", text))
+    return found[1] if found else folder.name
