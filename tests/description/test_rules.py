@@ -243,8 +243,8 @@ def test_sdf_1_0_writes_values_as_attributes(tmp_path: Path) -> None:
 def test_gazebo_tags_may_have_a_value_attribute_in_place_of_text(tmp_path: Path) -> None:
     """As in the urdf tutorials; sdformat reads both."""
     text = """<robot name="r"><link name="a"><inertial><mass value="1"/>
-<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry><sphere radius="1"/></geometry>
-</collision></link><gazebo reference="a"><mu1 value="200.0"/><fdir1 value="0 1 0"/><kp>7</kp>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry><sphere radius="1"/>
+</geometry></collision></link><gazebo reference="a"><mu1 value="200.0"/><fdir1 value="0 1 0"/><kp>7</kp>
 <turnGravityOff value="true"/></gazebo></robot>"""
     report = Diagnostics()
 

@@ -4,7 +4,6 @@ import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from threading import Event
 
 from trundle.diagnostics import Diagnostics
 from trundle.launch import LaunchParam, LaunchPlan, read_arguments, read_launch, resolve_params
@@ -17,7 +16,7 @@ from .launch_options import LaunchOptions
 from .launch_read import ReadLaunch
 from .launch_words import LaunchRequest, read_words
 from .showing import Showing
-from .signals import stop_flag
+from .signals import StopFlag, stop_flag
 
 NS = 1_000_000_000
 
@@ -88,7 +87,7 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
     return ReadLaunch(plan=plan, params=params, packages=packages, start=start, env=env, report=report, show=show)
 
 
-def _run(read: ReadLaunch, options: LaunchOptions, stop: Event) -> int:
+def _run(read: ReadLaunch, options: LaunchOptions, stop: StopFlag) -> int:
     from .launch_session import LaunchSession, SilentClock
 
     with LaunchSession(read, options) as session:
@@ -127,7 +126,7 @@ def _tell_everything(plan: LaunchPlan, params: Sequence[LaunchParam], say: Calla
         say(f"Added node of type [{node.package}/{node.type}] in namespace [{node.namespace}]")
 
 
-def _wait_for_master(env: Mapping[str, str], stop: Event, say: Callable[[str], None]) -> bool:
+def _wait_for_master(env: Mapping[str, str], stop: StopFlag, say: Callable[[str], None]) -> bool:
     """Wait until a master answers; False: somebody asked to stop first."""
     proxy = MasterProxy(env.get("ROS_MASTER_URI") or master_uri_from_env(), timeout_s=2.0)
     said = False

@@ -7,7 +7,6 @@ import time
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from threading import Event
 
 import numpy as np
 
@@ -21,7 +20,7 @@ from trundle.viewer import Pause, Play, Reset, SetSpeed, Step, Viewer, ViewerSta
 from .exposure import warn_of_exposure
 from .page_layout import joint_indices, lay_out
 from .showing import Showing
-from .signals import stop_flag
+from .signals import StopFlag, stop_flag
 
 _FRAME_S = 1 / 30
 
@@ -73,7 +72,7 @@ class _Player:
         self._paused = options.paused
         self._at_s = float(log.times[0])
 
-    def run(self, stop: Event) -> None:
+    def run(self, stop: StopFlag) -> None:
         """Go round and round."""
         then = time.monotonic()
         while not stop.wait(_FRAME_S):

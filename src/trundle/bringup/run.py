@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from threading import Event
 from typing import Literal, TypeAlias
 
 from trundle.description import write_sdf, written_uri
@@ -24,7 +23,7 @@ from .plugins import load_plugins, load_world_plugins
 from .renderers import RENDERERS, RendererName
 from .ros_side import RosSide
 from .showing import Showing
-from .signals import stop_flag
+from .signals import StopFlag, stop_flag
 from .stage import Stage, set_stage
 
 OnInstability: TypeAlias = Literal["pause", "reset", "exit"]
@@ -126,7 +125,7 @@ def _drive(
     ros: RosSide | None,
     page: Page | None,
     options: RunOptions,
-    stop: Event,
+    stop: StopFlag,
     say: Callable[[str], None],
 ) -> float:
     """Step until the time is over or somebody asks to stop; return the wall time it took [s].

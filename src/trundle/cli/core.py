@@ -3,7 +3,8 @@
 import argparse
 import signal
 import sys
-import threading
+from contextlib import suppress
+from queue import Empty, SimpleQueue
 
 from trundle.diagnostics import UsageError
 from trundle.ros import NOETIC, PROFILES, Core, GraphLoop
@@ -30,25 +31,23 @@ def main(args: argparse.Namespace) -> int:
     """Run until Ctrl-C, SIGTERM, or a shutdown request."""
     if not 0 <= args.port < 65536:
         raise UsageError(f"a port lies between 0 and 65535, got {args.port}")
-    stopped = threading.Event()
-    reasons: list[str] = []
-
-    def stop(reason: str) -> None:
-        reasons.append(reason)
-        stopped.set()
-
-    signal.signal(signal.SIGTERM, lambda _number, _frame: stop("terminated"))
+    reasons: SimpleQueue[str] = SimpleQueue()  # not an Event: only this may be told by a signal's handler
+    signal.signal(signal.SIGTERM, lambda _number, _frame: reasons.put("terminated"))
     with GraphLoop() as loop:
-        core = Core(loop, port=args.port, host=args.host, profile=PROFILES[args.distro], on_shutdown=stop)
+        core = Core(loop, port=args.port, host=args.host, profile=PROFILES[args.distro], on_shutdown=reasons.put)
         loop.run(core.start())
         loop.run(core.ready())
         print(f"ROS_MASTER_URI={core.uri}", flush=True)
         print(f"started core service [/rosout]; run_id {core.run_id}; Ctrl-C stops it", file=sys.stderr, flush=True)
         try:
-            while not stopped.wait(1.0):
-                pass
+            reason = _next(reasons)
         finally:
             loop.run(core.stop(), timeout_s=1.5)
-    if reasons:
-        print(f"core stopped: {reasons[0]}", file=sys.stderr)
+    print(f"core stopped: {reason}", file=sys.stderr)
     return 0
+
+
+def _next(reasons: SimpleQueue[str]) -> str:
+    while True:
+        with suppress(Empty):
+            return reasons.get(timeout=1.0)  # Ctrl-C gets through between two looks, on Windows too

@@ -1,0 +1,54 @@
+"""The flag that Ctrl-C sets."""
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from trundle.bringup.signals import StopFlag, stop_flag
+
+_HAMMERED = """
+import signal
+from trundle.bringup.signals import StopFlag
+flag, looks = StopFlag(), 0
+signal.signal(signal.SIGALRM, lambda *_: flag.set())
+signal.setitimer(signal.ITIMER_REAL, 1e-3, 1e-3)
+while looks < 3_000:
+    flag = StopFlag()
+    while not flag.wait(0.001):
+        pass
+    looks += 1
+signal.setitimer(signal.ITIMER_REAL, 0)
+print(looks)
+"""
+
+
+def test_it_stays_set() -> None:
+    flag = StopFlag()
+    assert not flag.is_set()
+    assert not flag.wait(0.0)
+
+    flag.set()
+
+    assert flag.wait(0.0)
+    assert flag.wait(10.0)
+    assert flag.is_set()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="timers that send signals are POSIX's")
+def test_a_signal_may_set_it_at_any_moment() -> None:
+    """Thousands of signals fall on every line of a wait; none of them may block for ever."""
+    done = subprocess.run([sys.executable, "-c", _HAMMERED], capture_output=True, text=True, timeout=100)
+    assert done.stdout == "3000\n", done.stderr
+
+
+def test_the_first_signal_sets_it_and_the_second_interrupts() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    with stop_flag() as flag:
+        signal.raise_signal(signal.SIGINT)
+        assert flag.is_set()
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) == before
