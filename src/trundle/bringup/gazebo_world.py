@@ -14,7 +14,7 @@ from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import World
 from trundle.packages import Packages
 from trundle.ros import NOETIC, Node, SimClock, StaticTransformBroadcaster
-from trundle.sensors import CameraSensor, Surroundings, mount_cameras, mount_sensors
+from trundle.sensors import CameraSensor, MeasuringSensor, Surroundings, mount_cameras, mount_sensors
 from trundle.simulation import ModelHandle, Simulation, SimulationUnstableError
 from trundle.spatial import Pose
 
@@ -72,7 +72,7 @@ class GazeboWorld:
         self._ending = threading.Event()
         self._simulation: Simulation | None = None
         self._renderer: RendererName = renderer
-        self._cameras: list[CameraSensor] = []
+        self._sensors: list[CameraSensor | MeasuringSensor] = []
         self._around: Surroundings | None = None
         self._plugin_nodes: list[Node] = []
         """Of the models whose plugins are being loaded."""
@@ -188,7 +188,7 @@ class GazeboWorld:
         simulation.delete(name)
         for node in self._nodes.pop(name, []):
             self._graph.loop.run(node.shutdown(), timeout_s=_CALL_S)
-        self._cameras = [camera for camera in self._cameras if camera.model.name != name]
+        self._sensors = [sensor for sensor in self._sensors if sensor.model.name != name]
         self._show_anew()
 
     def edit(self, world: World) -> None:
@@ -253,7 +253,7 @@ class GazeboWorld:
         clock = ClockTopic(self._node, rate_hz=self._clock_hz)
         simulation.add_hook(clock, period_ns=clock.period_ns, wanted=clock.wanted)
         self._simulation, self._around = simulation, None
-        self._cameras = []
+        self._sensors = []
         self._mount(simulation)
         self._load_plugins(simulation, None)
 
@@ -261,7 +261,8 @@ class GazeboWorld:
         """Have the sensors of the world, or of a model that came, measure; those that are there go on."""
         assert self._node is not None
         assert self._still is not None
-        cameras = mount_cameras(simulation, RENDERERS[self._renderer], model=model, beside=self._cameras)
+        beside = [sensor for sensor in self._sensors if isinstance(sensor, CameraSensor)]
+        cameras = mount_cameras(simulation, RENDERERS[self._renderer], model=model, beside=beside)
         self._around = self._around or Surroundings(simulation)
         sensors = mount_sensors(simulation, model=model, around=self._around)
         for sensor in (*cameras, *sensors):
@@ -270,12 +271,12 @@ class GazeboWorld:
         silent = attach_sensor_plugins(cameras, self._node, self._report)
         camera_topics(self._node, self._still, silent, world)
         sensor_topics(self._node, self._still, attach_sensor_plugins(sensors, self._node, self._report), world)
-        self._cameras += cameras
+        self._sensors += [*cameras, *sensors]
         self._show_anew()
 
     def _show_anew(self) -> None:
         if self._page is not None:
-            self._page.replace(self.simulation, self._cameras)
+            self._page.replace(self.simulation, self._sensors)
         self._pacer.restart()
 
     def _load_plugins(self, simulation: Simulation, models: list[ModelHandle] | None) -> None:
@@ -302,7 +303,7 @@ class GazeboWorld:
             return
         host, port = window
         try:
-            self._page = Page.open(self.simulation, self._cameras, None, host=host, port=port)
+            self._page = Page.open(self.simulation, self._sensors, None, host=host, port=port)
         except TrundleError as error:
             node.log_error(str(error))
             self._window = None

@@ -2,15 +2,18 @@
 
 import math
 import time
+from collections.abc import Sequence
+from functools import partial
 from types import TracebackType
 from typing import Protocol, Self
 
-from trundle.sensors import CameraSensor
+from trundle.sensors import CameraReading, CameraSensor, MeasuringSensor
 from trundle.simulation import Simulation
 from trundle.viewer import Drive, Pause, Play, Reset, SetJoint, SetSpeed, Step, Viewer, ViewerState
 
 from .pace import Pacer
 from .page_layout import drawn_lines, joint_indices, lay_out, slider_names
+from .sight import Sight
 
 _FRAME_NS = 33_000_000
 """The page is fed 30 times a second of wall time."""
@@ -36,6 +39,10 @@ class Page:
     ) -> None:
         self._viewer = viewer
         self._driver = driver
+        self._sight = Sight(lambda: viewer.alive)
+        self._numbers: dict[CameraSensor, int] = {}
+        """Of the cameras, as the page shows them."""
+        self._heard: set[CameraSensor] = set()
         self._follow(simulation, joints)
         self._fed_ns = 0
         self._command = (0.0, 0.0)
@@ -45,7 +52,7 @@ class Page:
     def open(
         cls,
         simulation: Simulation,
-        cameras: list[CameraSensor],
+        sensors: Sequence[CameraSensor | MeasuringSensor],
         driver: Driver | None,
         *,
         host: str,
@@ -56,28 +63,38 @@ class Page:
         Raises:
             UsageError: the port asked for is taken.
         """
-        layout = lay_out(simulation, cameras, drive=driver is not None)
+        layout = lay_out(simulation, _cameras(sensors), drive=driver is not None)
         viewer = Viewer.start(layout.scene, host=host, port=port, state=layout.first)
         page = cls(viewer, simulation, driver, layout.joints)
-        page._listen(cameras)
+        page._listen(sensors)
         return page
 
-    def replace(self, simulation: Simulation, cameras: list[CameraSensor]) -> None:
-        """Show another simulation: models came or went."""
-        layout = lay_out(simulation, cameras, drive=self._driver is not None)
+    def replace(self, simulation: Simulation, sensors: Sequence[CameraSensor | MeasuringSensor]) -> None:
+        """Show it anew: models came or went."""
+        layout = lay_out(simulation, _cameras(sensors), drive=self._driver is not None)
         self._viewer.replace(layout.scene, state=layout.first)
         self._follow(simulation, layout.joints)
-        self._listen(cameras)
+        self._listen(sensors)
 
     def _follow(self, simulation: Simulation, joints: list[tuple[str, str]]) -> None:
         self._simulation = simulation
         self._joints = dict(zip(slider_names(joints), joints, strict=True))
         self._slider_indices = joint_indices(simulation, joints)
 
-    def _listen(self, cameras: list[CameraSensor]) -> None:
-        viewer = self._viewer
-        for index, camera in enumerate(cameras):
-            camera.listen(lambda reading, index=index: viewer.image(index, reading.rgb), wanted=lambda: viewer.alive)
+    def _listen(self, sensors: Sequence[CameraSensor | MeasuringSensor]) -> None:
+        self._sight.follow(sensors)
+        cameras = _cameras(sensors)
+        new = [camera for camera in cameras if camera not in self._heard]
+        self._numbers = {camera: number for number, camera in enumerate(cameras)}
+        self._heard.update(new)
+        for camera in new:
+            camera.listen(partial(self._show_picture, camera), wanted=partial(self._wants_picture, camera))
+
+    def _wants_picture(self, camera: CameraSensor) -> bool:
+        return camera in self._numbers and self._viewer.alive
+
+    def _show_picture(self, camera: CameraSensor, reading: CameraReading) -> None:
+        self._viewer.image(self._numbers[camera], reading.rgb)
 
     @property
     def url(self) -> str:
@@ -98,7 +115,7 @@ class Page:
                 joint_positions=snapshot.joint_positions[self._slider_indices],
                 real_time_factor=None if paused else pacer.real_time_factor,
                 paused=paused,
-                lines=drawn_lines(self._simulation),
+                lines=(*drawn_lines(self._simulation), *self._sight.lines(snapshot)),
             )
         )
 
@@ -152,3 +169,7 @@ class Page:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+def _cameras(sensors: Sequence[CameraSensor | MeasuringSensor]) -> list[CameraSensor]:
+    return [sensor for sensor in sensors if isinstance(sensor, CameraSensor)]

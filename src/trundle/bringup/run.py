@@ -96,7 +96,8 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         show.findings()
         page = None
         if not options.headless:
-            page = open_things.enter_context(Page.open(simulation, cameras, ros, host=options.host, port=options.port))
+            shown = (*cameras, *sensors)
+            page = open_things.enter_context(Page.open(simulation, shown, ros, host=options.host, port=options.port))
             show.line(f"see it at {page.url}")
         wall_s = _drive(simulation, ros, page, options, stop, show.line)
         show.findings()

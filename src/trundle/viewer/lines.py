@@ -1,4 +1,4 @@
-"""Lines that the simulation's plugins draw into the scene."""
+"""Lines in the scene: what plugins draw, and what sensors see."""
 
 import numpy as np
 import viser
@@ -10,13 +10,14 @@ _WIDTH_PX = 2.0
 
 
 class Lines:
-    """Line strips by their place in the state; each is sent anew only when it grew."""
+    """Line strips by their place in the state; each is sent anew only when it changed."""
 
     def __init__(self, server: viser.ViserServer, folder: str) -> None:
         self._server = server
         self._folder = folder
         self._handles: dict[int, viser.LineSegmentsHandle] = {}
         self._drawn: dict[int, bytes] = {}
+        self._colours: dict[int, tuple[int, int, int]] = {}
 
     def update(self, lines: tuple[DrawnLine, ...]) -> None:
         """Draw these, and no others."""
@@ -24,7 +25,11 @@ class Lines:
             seen = line.points.tobytes()
             if self._drawn.get(i) == seen:
                 continue
-            self._drawn[i] = seen
+            same = i in self._handles and len(self._drawn[i]) == len(seen) and self._colours[i] == line.rgb
+            self._drawn[i], self._colours[i] = seen, line.rgb
+            if same:
+                self._handles[i].points = segments_along(line.points)
+                continue
             self._remove(i)
             if len(line.points) >= 2:
                 self._handles[i] = self._server.scene.add_line_segments(
