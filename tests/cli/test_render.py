@@ -299,3 +299,18 @@ def test_a_camera_that_is_not_there_comes_with_what_was_left_out(
     told = capsys.readouterr().err
     assert f"{world}:2: warning: model://lost: no model 'lost'" in told
     assert "no camera 'eye'; cameras there: none" in told
+
+
+def test_an_empty_picture_is_explained_in_the_last_line(tmp_path: Path, capfd) -> None:
+    file = tmp_path / "ghost.urdf"
+    mesh = '<visual><geometry><mesh filename="package://ghost_description/body.dae"/></geometry></visual>'
+    inertial = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+    file.write_text(f'<robot name="ghost"><link name="base">{inertial}{mesh}</link></robot>')
+
+    assert main(["render", str(file), "-o", str(tmp_path / "ghost.png"), "--size", "40x30"]) == 0
+
+    said = capfd.readouterr().err.splitlines()
+    assert "no package 'ghost_description'" in said[0]
+    assert said[-1] == (
+        f"{file}: nothing can be seen: none of its meshes was found (package://ghost_description/body.dae)"
+    )

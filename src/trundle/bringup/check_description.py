@@ -12,6 +12,7 @@ from trundle.packages import Packages
 from .described_file import load_described
 from .doubts import name_doubts
 from .unremarkable import is_unremarkable
+from .unseen import why_unseen
 
 if TYPE_CHECKING:
     from trundle.diagram import TreeNode
@@ -44,7 +45,9 @@ class FoundDescription:
         sensors = sum(len(link.sensors) for model in models for link in model.links)
         what = {"world": "a world", "model": "a model", "urdf": "a URDF"}[self.loaded.kind]
         version = f" (SDF {self.flat.sdf_version})" if self.flat.sdf_version else ""
-        return f"{what}{version}: {len(models)} models, {links} links, {joints} joints, {sensors} sensors"
+        counts = f"{len(models)} models, {links} links, {joints} joints, {sensors} sensors"
+        unseen = why_unseen(self.flat)
+        return f"{what}{version}: {counts}{f'; {unseen}' if unseen else ''}"
 
 
 def check_description(file: str, *, packages: Packages, start: Path, report: Diagnostics) -> FoundDescription:

@@ -22,6 +22,8 @@ from trundle.model import (
 from trundle.names import is_legal_base_name, ros_name
 from trundle.spatial import Pose
 
+from .overlaps import name_overlaps
+
 _SLUGGISH = 2.0
 """Times the largest moment that the mass could have within the link's shapes."""
 _TWITCHY = 1e-4
@@ -31,9 +33,11 @@ _TRANSMISSION = re.compile(r"<transmission\b.*?</transmission>", re.DOTALL)
 
 
 def name_doubts(loaded: Loaded, report: Diagnostics) -> None:
-    """Report on every model: inertias that fit no body, joints nothing drives, names that ROS cannot have."""
+    """Report on every model: inertias of no body, bodies in one another, idle joints, names that ROS cannot have."""
     driven = " ".join(_TRANSMISSION.findall(loaded.urdf or ""))
-    for model in flattened(loaded.world).models:
+    models = flattened(loaded.world).models
+    name_overlaps(models, report)
+    for model in models:
         if model.static:
             continue
         for link in model.links:

@@ -21,6 +21,7 @@ from trundle.spatial import Pose
 from .outcome import pose_of
 from .renderers import RENDERERS, RendererName
 from .stage import set_stage
+from .unseen import why_unseen
 
 DEFAULT_SIZE = (800, 600)
 _FOV = 0.6
@@ -75,6 +76,8 @@ class Studio:
         """
         stage = set_stage(file, Packages(environment, start=start), report)
         self._content = options.content
+        self.unseen = why_unseen(stage.world)
+        """Why the picture is empty, if it is."""
         self.simulation = Simulation(stage.world, report)
         scene = scene_of(stage.world, report)
         if options.camera is None:

@@ -58,6 +58,8 @@ def main(args: argparse.Namespace) -> int:
     finally:
         for warning in report.warnings:
             print(warning, file=sys.stderr)
+    if studio.unseen:
+        print(f"{args.file}: {studio.unseen}", file=sys.stderr)
     if moves:
         frames = turntable(studio) if args.orbit else run_of(studio, args.duration or _FILM_S)
         write_film(frames, args.output, tell=_tell)
