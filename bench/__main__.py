@@ -6,7 +6,7 @@ import sys
 from bench.peers import TABLE
 from bench.table import Row, print_table
 
-BENCHES = ("descriptions", "commands", "step", "robots", "images", "renderer", "startup", "launches")
+BENCHES = ("graph", "descriptions", "commands", "step", "robots", "images", "renderer", "startup", "launches")
 
 
 def main() -> int:

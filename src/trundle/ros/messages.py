@@ -196,18 +196,18 @@ class Messages:
         """Make a `time` value from nanoseconds."""
         return self._store.types["builtin_interfaces/msg/Time"](sec=ns // 10**9, nanosec=ns % 10**9)
 
-    def serialize(self, message: Message) -> memoryview:
-        """Write a message's bytes.
+    def serialize(self, message: Message, *, room: int = 0) -> memoryview:
+        """Write a message's bytes, behind `room` bytes that the caller fills in.
 
         Raises:
             MessageError: a field holds what its type cannot; the text names it.
         """
         key: str = message.__msgtype__
         try:
-            return self._store.serialize_ros1(message, key)
+            return self._write(message, key, room)
         except (AttributeError, TypeError, ValueError, AssertionError, OverflowError, struct.error):
             # Lists where numpy arrays belong, or something wrong: convert field by field, which names what is wrong.
-            return self._store.serialize_ros1(self._filling.message(key, message, 0), key)
+            return self._write(self._filling.message(key, message, 0), key, room)
 
     def deserialize(self, data: bytes | memoryview, type_name: str) -> Message:
         """Read a message's bytes; its arrays may be read-only views of them.
@@ -221,7 +221,20 @@ class Messages:
         except Exception as error:  # generated code meets arbitrary bytes here
             raise MessageError(f"{len(data)} bytes are no {type_name}: {error}") from None
 
+    def prepare(self, type_name: str) -> None:
+        """Have all ready that reading and writing a type takes: libraries are imported, code is generated."""
+        self._store.get_msgdef(self._key(type_name))
+
     # -- inside
+
+    def _write(self, message: Message, key: str, room: int) -> memoryview:
+        """As the store's own `serialize_ros1`, which leaves no room: a picture would be copied for its length."""
+        store = self._store
+        kind = store.get_msgdef(key)
+        data = memoryview(bytearray(room + kind.getsize_ros1(0, message, store)))
+        end = kind.serialize_ros1(data, room, message, store)
+        assert end == len(data)
+        return data
 
     @property
     def _store(self) -> "Typestore":

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from .errors import MessageError
 from .messages import Message
-from .tcpros import FrameProtocol, check_md5, frame
+from .tcpros import LENGTH_BYTES, FrameProtocol, check_md5, fill_frame, frame
 
 if TYPE_CHECKING:
     from .node import Node
@@ -154,13 +154,19 @@ class Publisher:
         )
         self._links[link] = peer
         self._count()
-        if self._latched is not None and (data := self._bytes(self._latched)) is not None:
-            link.send_all([frame(data)], self._queue_size)
+        if self._latched is not None and (framed := self._framed(self._latched)) is not None:
+            link.send_all([framed], self._queue_size)
+
+    def catch_up(self) -> None:
+        """Go on after all subscribers were too slow."""
+        if self._outbox:
+            self._flush_soon()
 
     def release(self, link: FrameProtocol) -> None:
         """Forget a connection that has ended."""
         self._links.pop(link, None)
         self._count()
+        self.catch_up()
 
     def attach(self, subscriber: LocalSubscriber, name: str) -> None:
         """Take a subscription of this process."""
@@ -210,48 +216,53 @@ class Publisher:
             self._on_connect(self)
 
     def _flush(self) -> None:
-        frames: list[bytes] = []
+        frames: list[bytes | memoryview] = []
         count = size = 0
         try:
-            while self._outbox and count < _BATCH_MESSAGES and size < _BATCH_BYTES:
+            while self._outbox and count < _BATCH_MESSAGES and size < _BATCH_BYTES and not self._is_held_up:
                 message = self._outbox.popleft()
                 count += 1
                 if self.latch:
                     self._latched = message
                 self.published += 1
-                data = self._bytes(message) if self._links else None
-                if data is not None:
-                    frames.append(frame(data))
-                    size += len(data)
+                framed = self._framed(message) if self._links else None
+                if framed is not None:
+                    frames.append(framed)
+                    size += len(framed)
                 for subscriber in list(self._local):
-                    self._hand_over(message, subscriber, data)
+                    self._hand_over(message, subscriber, framed)
             if frames:
                 for link in list(self._links):
                     link.send_all(frames, self._queue_size)
         finally:
             # In this order: a message put in between is seen here or by its own publish().
             self._flushes = False
-            if self._outbox:
+            if self._outbox and not self._is_held_up:
                 self._flush_soon()
+
+    @property
+    def _is_held_up(self) -> bool:
+        """Whether nobody can take a message now; until somebody can, those of the outbox need no bytes."""
+        return bool(self._links) and not self._local and all(link.is_behind for link in self._links)
 
     def _flush_soon(self) -> None:
         if not self._flushes:
             self._flushes = True
             self._node.loop.deliver_soon(self._flush)
 
-    def _hand_over(self, message: Any, subscriber: LocalSubscriber, data: bytes | memoryview | None) -> None:
+    def _hand_over(self, message: Any, subscriber: LocalSubscriber, framed: bytes | memoryview | None) -> None:
         if not subscriber.is_raw and not isinstance(message, bytes | bytearray | memoryview):
             subscriber.receive(message)
             return
-        data = self._bytes(message) if data is None else data
-        if data is not None:
-            subscriber.receive_bytes(bytes(data), self)
+        framed = self._framed(message) if framed is None else framed
+        if framed is not None:
+            subscriber.receive_bytes(bytes(framed[LENGTH_BYTES:]), self)
 
-    def _bytes(self, message: Any) -> bytes | memoryview | None:
+    def _framed(self, message: Any) -> bytes | memoryview | None:
         if isinstance(message, bytes | bytearray | memoryview):
-            return bytes(message)
+            return frame(message)
         try:
-            return self._node.messages.serialize(message)
+            return fill_frame(self._node.messages.serialize(message, room=LENGTH_BYTES))
         except MessageError as error:
             self._node.log_error(f"a message on {self.topic} is not sent: {error}")
             return None

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 from .loop import close_server
 from .network import ServerAddress
+from .publisher import Publisher
 from .rpc_server import RpcServer, UnknownMethodError
 from .tcpros import FrameProtocol
 
 if TYPE_CHECKING:
     from .node import Node
-    from .publisher import Publisher
     from .service import Service
 
 _BACKLOG = 128
@@ -138,6 +138,10 @@ class _Inbound(FrameProtocol):
 
         if isinstance(self._target, Service):
             self._target.request(self, data)
+
+    def drained(self) -> None:
+        if isinstance(self._target, Publisher):
+            self._target.catch_up()
 
     def closed(self, _: str, /) -> None:
         self._links.discard(self)

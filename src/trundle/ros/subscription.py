@@ -196,6 +196,8 @@ class Subscription:
                 pass
             case _:
                 raise WireError(f"it does not offer TCPROS: {str(answer)[:100]}")
+        if not self.is_raw:  # not on the loop: the first message of a type would hold up all others
+            await asyncio.to_thread(self._node.messages.prepare, self.type)
         async with asyncio.timeout(_CONNECT_S):
             link = _SubscriberLink(self, self._request())
             await asyncio.get_running_loop().create_connection(lambda: link, host, port)

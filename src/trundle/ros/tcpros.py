@@ -4,7 +4,7 @@ import asyncio
 import socket
 import struct
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import cast
 
 from .errors import WireError
@@ -16,6 +16,9 @@ MAX_MESSAGE_BYTES = 1_000_000_000
 HANDSHAKE_S = 15.0
 """How long a peer may take for its header."""
 _LENGTH = struct.Struct("<I")
+LENGTH_BYTES = _LENGTH.size
+_JOINED_BYTES = 64 * 1024
+"""Frames are joined up to this size, since each call costs; larger ones cost more to copy."""
 
 
 def encode_header(fields: Mapping[str, str]) -> bytes:
@@ -50,9 +53,15 @@ def decode_header(data: bytes) -> dict[str, str]:
     return fields
 
 
-def frame(data: bytes | memoryview) -> bytes:
+def frame(data: bytes | bytearray | memoryview) -> bytes:
     """Put the length in front."""
     return b"".join((_LENGTH.pack(len(data)), data))
+
+
+def fill_frame(data: memoryview) -> memoryview:
+    """Write the length into the room left for it in front; what comes out is read-only."""
+    _LENGTH.pack_into(data, 0, len(data) - LENGTH_BYTES)
+    return data.toreadonly()
 
 
 def check_md5(wanted: str, ours: str) -> bool:
@@ -76,7 +85,7 @@ class FrameProtocol(asyncio.Protocol):
         """Frames thrown away because the peer reads too slowly."""
         self._buffer = bytearray()
         self._deadline: asyncio.TimerHandle | None = None
-        self._queue: deque[bytes] = deque()
+        self._queue: deque[bytes | memoryview] = deque()
         self._may_write = True
 
     # what subclasses fill in
@@ -89,6 +98,9 @@ class FrameProtocol(asyncio.Protocol):
 
     def frame_received(self, data: bytes) -> None:
         """Called with each frame after the header; a WireError ends the connection."""
+
+    def drained(self) -> None:
+        """Called when the peer, having been too slow, reads again."""
 
     def closed(self, reason: str, /) -> None:
         """Called once when the connection has ended."""
@@ -145,15 +157,24 @@ class FrameProtocol(asyncio.Protocol):
         if self.transport is not None:
             self.transport.write(encode_header(fields))
 
-    def send_all(self, frames: list[bytes], queue_size: int | None) -> None:
+    def send_all(self, frames: Sequence[bytes | memoryview], queue_size: int | None) -> None:
         """Send framed messages; if the peer reads too slowly, at most `queue_size` wait and the oldest go."""
-        if self._may_write and not self._queue:
-            self._write(b"".join(frames) if len(frames) > 1 else frames[0], len(frames))
+        if not self.is_behind:
+            if sum(map(len, frames)) <= _JOINED_BYTES:
+                self._write(b"".join(frames), len(frames))
+            else:
+                for each in frames:
+                    self._write(each, 1)
             return
         self._queue.extend(frames)
         while queue_size is not None and len(self._queue) > queue_size:
             self._queue.popleft()
             self.dropped += 1
+
+    @property
+    def is_behind(self) -> bool:
+        """Whether something waits for a peer that reads too slowly."""
+        return not self._may_write or bool(self._queue)
 
     def refuse(self, reason: str) -> None:
         """Answer a header with an error and end the connection."""
@@ -189,8 +210,10 @@ class FrameProtocol(asyncio.Protocol):
     def _send_waiting(self) -> None:
         while self._queue and self._may_write:
             self._write(self._queue.popleft(), 1)
+        if not self.is_behind:
+            self.drained()
 
-    def _write(self, data: bytes, frames: int) -> None:
+    def _write(self, data: bytes | memoryview, frames: int) -> None:
         if self.transport is not None and not self.transport.is_closing():
             self.bytes_sent += len(data)
             self.frames_sent += frames

@@ -1,0 +1,93 @@
+"""The graph against rospy, in turns on one master: messages a second, latency, and the wait for `topic list`."""
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Generator, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any
+
+from bench.table import Row
+from trundle.ros import Core, GraphLoop
+
+_END = Path(__file__).parent / "ros_end.py"
+_TWIST, _IMAGE = "geometry_msgs/Twist", "sensor_msgs/Image"
+_RUNS = 5
+_ROSTOPIC = "/usr/bin/rostopic"
+_OURS = [sys.executable, str(_END), "trundle"]
+_THEIRS = ["/usr/bin/python3", "-W", "ignore", str(_END), "rospy"]
+
+
+def run() -> list[Row]:
+    """Pairs of processes; without Debian's rospy there are no ratios."""
+    return [
+        _row("Twist, flat out", "messages/s", lambda end, _: _rate(end, _TWIST, 30_000)),
+        _row("Twist in one process", "messages/s", lambda end, own: _rate(end, _TWIST, 30_000, one=own)),
+        _row("Image 320x240, flat out", "messages/s", lambda end, _: _rate(end, _IMAGE, 300)),
+        _row("Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: _age(end)),
+        _row("topic list, start to exit", "s", lambda _, own: _topic_list(own), against="rostopic list"),
+    ]
+
+
+@contextmanager
+def _fresh_master() -> Generator[dict[str, str]]:
+    """A master that knows nobody yet; yields the environment of its nodes."""
+    with GraphLoop() as loop:
+        core = Core(loop, port=0)
+        loop.run(core.start())
+        yield {**os.environ, "ROS_MASTER_URI": core.uri, "ROS_IP": "127.0.0.1", "PYTHONWARNINGS": "ignore"}
+        loop.run(core.stop())
+
+
+def _row(name: str, unit: str, measure: Callable[[Sequence[str], bool], float], *, against: str = "rospy") -> Row:
+    """Measure both in turns, if the original is here."""
+    if not Path(_ROSTOPIC).exists():
+        return Row(name, statistics.median(measure(_OURS, True) for _ in range(_RUNS)), unit, "", None)
+    pairs = [(measure(_OURS, True), measure(_THEIRS, False)) for _ in range(_RUNS)]
+    ratio = statistics.median(own / other for own, other in pairs)
+    return Row(name, statistics.median(own for own, _ in pairs), unit, against, ratio)
+
+
+def _rate(end: Sequence[str], kind: str, count: int, *, one: bool = False) -> float:
+    """From the first message's sending to the last one's coming [messages/s]."""
+    if one:
+        both = _ends(end, ["both"], kind, count, 0)[0]
+        return count / (both["end"] - both["start"])
+    heard, sent = _ends(end, ["sub", "pub"], kind, count, 0)
+    return count / (heard["end"] - sent["start"])
+
+
+def _age(end: Sequence[str]) -> float:
+    """99 in 100 messages, sent a thousand times a second, are younger than this when they come [ms]."""
+    ages = sorted(_ends(end, ["sub", "pub"], _TWIST, 3000, 1000)[0]["ages"])
+    return ages[len(ages) * 99 // 100] * 1e3
+
+
+def _ends(end: Sequence[str], roles: Sequence[str], *words: object) -> list[dict[str, Any]]:
+    """Run one process for each role; what each says."""
+    with _fresh_master() as env, ExitStack() as processes:
+        started = [
+            processes.enter_context(
+                subprocess.Popen(
+                    [*end, role, *map(str, words)], env=env, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+                )
+            )
+            for role in roles
+        ]
+        try:
+            return [json.loads(process.stdout.readline()) for process in started if process.stdout is not None]
+        finally:
+            for process in started:
+                process.kill()
+
+
+def _topic_list(own: bool) -> float:
+    command = [sys.executable, "-m", "trundle", "topic", "list"] if own else [_ROSTOPIC, "list"]
+    with _fresh_master() as env:
+        start = time.perf_counter()
+        subprocess.run(command, env=env, check=True, capture_output=True)
+        return time.perf_counter() - start

@@ -1,0 +1,129 @@
+"""One end of a topic, over Trundle's graph or over rospy; `bench.graph` runs it as a program.
+
+usage: ros_end.py trundle|rospy  pub|sub|both  Twist|Image  COUNT  RATE_HZ (0: flat out)
+
+A subscriber prints one JSON object when it has COUNT messages, a publisher when it has sent them; stamps are
+`time.monotonic()`, which all processes of a machine share.
+"""
+
+import dataclasses
+import json
+import sys
+import threading
+import time
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+_WARM_S = 1.0
+_PIXELS = bytes(320 * 240 * 3)
+
+
+class OverTrundle:
+    """Trundle's own client library."""
+
+    def __init__(self, role: str) -> None:
+        from trundle.ros import GraphLoop, Node
+
+        self._loop = GraphLoop()
+        self._loop.start()
+        self._node = Node(f"bench_{role}", loop=self._loop, rosout=False)
+
+    def publisher(self, kind: str) -> tuple[Callable[[float], None], Callable[[], bool]]:
+        """A function that publishes a message with a number in it, and one that tells whether anybody hears it."""
+        publisher = self._node.advertise("/bench", kind, queue_size=None)
+        new = self._node.new
+        if kind == "sensor_msgs/Image":
+            image = {"width": 320, "height": 240, "encoding": "rgb8", "step": 960}
+            pixels = new(kind, {"data": _PIXELS}).data
+            empty = new(kind, image)
+
+            def publish(number: float) -> None:
+                del number
+                publisher.publish(dataclasses.replace(empty, header=new("std_msgs/Header"), data=pixels))
+
+        else:
+            twist, vector = type(new(kind)), type(new("geometry_msgs/Vector3"))
+
+            def publish(number: float) -> None:
+                publisher.publish(twist(linear=vector(number, 0.0, 0.0), angular=vector(0.0, 0.0, 0.0)))
+
+        return publish, lambda: publisher.has_subscribers
+
+    def subscribe(self, kind: str, callback: Callable[[Any], None]) -> None:
+        """Call back with each message."""
+        self._node.subscribe("/bench", kind, callback, queue_size=None)
+
+
+class OverRospy:
+    """The original's."""
+
+    def __init__(self, role: str) -> None:
+        self._rospy: Any = import_module("rospy")
+        self._rospy.init_node(f"bench_{role}", disable_signals=True, disable_rosout=True)
+
+    def publisher(self, kind: str) -> tuple[Callable[[float], None], Callable[[], bool]]:
+        """A function that publishes a message with a number in it, and one that tells whether anybody hears it."""
+        cls = _rospy_type(kind)
+        publisher = self._rospy.Publisher("/bench", cls, queue_size=0)
+
+        def publish(number: float) -> None:
+            if kind == "sensor_msgs/Image":
+                publisher.publish(cls(height=240, width=320, encoding="rgb8", step=960, data=_PIXELS))
+            else:
+                message = cls()
+                message.linear.x = number
+                publisher.publish(message)
+
+        def is_heard() -> bool:
+            return bool(publisher.get_num_connections())
+
+        return publish, is_heard
+
+    def subscribe(self, kind: str, callback: Callable[[Any], None]) -> None:
+        """Call back with each message."""
+        self._rospy.Subscriber("/bench", _rospy_type(kind), callback)
+
+
+def _rospy_type(kind: str) -> Any:
+    package, _, name = kind.partition("/")
+    return getattr(import_module(f"{package}.msg"), name)
+
+
+def main() -> None:
+    """Be the end, or both, that the command line says."""
+    library, role, kind, count, rate_hz = sys.argv[1:]
+    end = {"trundle": OverTrundle, "rospy": OverRospy}[library](role)
+    total, period_s = int(count), 1 / float(rate_hz) if float(rate_hz) else 0.0
+    ages: list[float] = []
+    done = threading.Event()
+
+    def take(message: Any) -> None:
+        ages.append(time.monotonic() - message.linear.x if period_s else 0.0)
+        if len(ages) > total:
+            done.set()
+
+    said: dict[str, Any] = {}
+    if role != "pub":
+        end.subscribe(kind, take)
+    if role != "sub":
+        publish, is_heard = end.publisher(kind)
+        while not is_heard():
+            time.sleep(0.01)
+        publish(time.monotonic())  # the first one finds everything cold
+        time.sleep(_WARM_S)
+        said["start"] = due = time.monotonic()
+        for _ in range(total):
+            if period_s:
+                due += period_s
+                time.sleep(max(0.0, due - time.monotonic()))
+            publish(time.monotonic())
+    if role != "pub":
+        done.wait()
+        said |= {"end": time.monotonic(), "ages": ages[1:] if period_s else []}
+    print(json.dumps(said), flush=True)
+    sys.stdin.read()  # stay until whoever started this has what it wants
+
+
+if __name__ == "__main__":
+    main()
