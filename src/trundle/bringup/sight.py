@@ -11,7 +11,7 @@ from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 from trundle.viewer import DrawnLine
 
-_MOST_RAYS = 180
+_MOST_RAYS = 90
 """Of one sensor: of more, every so many."""
 _RIM = 24
 _BLUE = (90, 150, 255)

@@ -183,7 +183,8 @@ def _rfid(at: _Spot) -> RfidSensor:
 
 
 def _sonar(at: _Spot) -> SonarSensor:
-    return SonarSensor(at.model, at.link, at.sensor, link_index=at.index, rays=at.around.rays)
+    rays = at.around.foreign_rays(at.model, at.link)
+    return SonarSensor(at.model, at.link, at.sensor, link_index=at.index, rays=rays)
 
 
 def _wireless_receiver(at: _Spot) -> WirelessSensor:

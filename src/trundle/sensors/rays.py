@@ -1,6 +1,6 @@
 """Rays, and what they find."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -65,6 +65,15 @@ class RayCaster:
         rays = directions.astype(np.float32)
         distances, shapes = self._renderer.cast(Pose(origin), rays, reach_m=reach, exclude=exclude)
         return Found(distances.astype(np.float64), self._retros[shapes], self._bodies[shapes])
+
+    def cast_past(self, origin: Vector3, directions: _Array, reach: float, hidden: Sequence[int]) -> Found:
+        """Cast rays that look through some links wherever they are."""
+        poses = self._poses.copy()
+        poses[hidden, :3] = _AWAY
+        self._renderer.update(poses)
+        found = self.cast(origin, directions, reach, None)
+        self._renderer.update(self._poses)
+        return found
 
     def cast_beyond(self, origin: Vector3, directions: _Array, reach: float, nearest: float) -> Found:
         """Cast rays that look through a link where it is nearer than this [m], as a GPU's begin at its near clip."""

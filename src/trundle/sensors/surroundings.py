@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import Model, Transceiver, World
+from trundle.model import Joint, Link, Model, Transceiver, World
 from trundle.render import corners_of, scene_of
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Vector3
@@ -31,6 +31,26 @@ class Surroundings:
         """Against collision shapes; see `Rays`."""
         self._touched = self._seen_anew(self._touched, collisions=True)
         return self._touched.cast(origin, directions, reach, exclude)
+
+    def foreign_rays(self, model: Model, link: Link) -> Rays:
+        """Against the collision shapes of what this link may touch, as Gazebo's sonar is a shape of its link: of its
+        own model that is nothing, or with <self_collide> what no joint ties to it."""
+        tied = {link.name, *(end for joint in model.joints for end in _ends(joint, link.name))}
+
+        def may_touch(other: Link) -> bool:
+            asked = (model.self_collide if each.self_collide is None else each.self_collide for each in (link, other))
+            return other.name not in tied and any(asked)
+
+        names = [each.name for each in model.links if not may_touch(each)]
+
+        def cast(origin: Vector3, directions: _Array, reach: float, exclude: int) -> Found:
+            del exclude
+            self._touched = self._seen_anew(self._touched, collisions=True)
+            own = self._simulation[model.name]
+            hidden = [own.link(name).index for name in names]
+            return self._touched.cast_past(origin, directions, reach, hidden)
+
+        return cast
 
     def light_rays(self, nearest: float) -> Rays:
         """Against visuals, and from this distance on [m]: Gazebo's GPU rays see their own link, too."""
@@ -78,6 +98,11 @@ class Surroundings:
         if self._bodies is None or self._bodies_of is not world:
             self._bodies, self._bodies_of = _bodies(world), world
         return self._bodies
+
+
+def _ends(joint: Joint, link: str) -> tuple[str, str]:
+    """The links that a joint ties this one to; of another joint this one alone."""
+    return (joint.parent, joint.child) if link in (joint.parent, joint.child) else (link, link)
 
 
 def _bodies(world: World) -> list[Body]:

@@ -1,0 +1,64 @@
+"""How near sonars say things are."""
+
+from pathlib import Path
+
+import pytest
+
+import trundle
+from trundle.sensors import SonarSensor, mount_sensors
+
+_BOX = "<collision name='c'><geometry><box><size>{0} {0} {0}</size></box></geometry></collision>"
+
+
+def range_of(folder: Path, *, wall: float, beside: float = 0.0, arm: str = "", model: str = "") -> float:
+    """What a sonar at the origin that looks along +x says [m].
+
+    Args:
+        folder: takes the file.
+        wall: how far a wall of 1 m is [m].
+        beside: how far it is off the axis [m].
+        arm: of the sonar's own model, with a link 1 m ahead: the element that joins it, if any.
+        model: what the model says besides.
+    """
+    file = folder / "w.sdf"
+    ahead = f"<link name='arm'><pose>1.25 0 0 0 0 0</pose>{_BOX.format(0.5)}</link>{arm}" if arm else ""
+    file.write_text(
+        f"""<sdf version="1.6"><world name="w"><model name="m"><static>1</static>{model}
+        <link name="l">{_BOX.format(0.2)}<sensor name="s" type="sonar"><pose>0 0 0 0 -1.5707963267948966 0</pose>
+        <sonar><min>0.3</min><max>5</max><radius>2</radius></sonar></sensor></link>{ahead}</model>
+        <model name="wall"><static>1</static><pose>{wall + 0.5} {beside} 0 0 0 0</pose><link name="l">{_BOX.format(1)}
+        </link></model></world></sdf>"""
+    )
+    sim = trundle.load(str(file))
+    (sonar,) = mount_sensors(sim)
+    assert isinstance(sonar, SonarSensor)
+    return sonar.take(sim.snapshot()).range_m
+
+
+def test_what_is_ahead_is_as_near_as_its_nearest_point_in_the_cone(tmp_path: Path) -> None:
+    assert range_of(tmp_path, wall=2.0) == pytest.approx(2.0, abs=1e-5)
+    assert range_of(tmp_path, wall=2.0, beside=1.0) == pytest.approx((4.0 + 0.5**2) ** 0.5, abs=0.03)
+
+
+@pytest.mark.parametrize(("wall", "beside"), [(6.0, 0.0), (2.0, 3.0)])
+def test_what_is_out_of_the_cone_is_nothing(tmp_path: Path, wall: float, beside: float) -> None:
+    """Nothing reads as the largest range, as in Gazebo."""
+    assert range_of(tmp_path, wall=wall, beside=beside) == 5.0
+
+
+def test_nothing_is_nearer_than_the_least(tmp_path: Path) -> None:
+    assert range_of(tmp_path, wall=0.15) == pytest.approx(0.3)
+
+
+_FIXED = "<joint name='j' type='fixed'><parent>l</parent><child>arm</child></joint>"
+_COLLIDES = "<self_collide>1</self_collide>"
+
+
+@pytest.mark.parametrize(
+    ("arm", "model", "found"), [(" ", "", 2.0), (" ", _COLLIDES, 1.0), (_FIXED, _COLLIDES, 2.0), (_FIXED, "", 2.0)]
+)
+def test_its_own_model_is_met_only_where_it_may_touch_itself(
+    tmp_path: Path, arm: str, model: str, found: float
+) -> None:
+    """Gazebo's sonar is a shape of its link, and meets what that link would: nothing across a joint either."""
+    assert range_of(tmp_path, wall=2.0, arm=arm, model=model) == pytest.approx(found, abs=1e-5)
