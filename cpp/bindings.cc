@@ -49,13 +49,16 @@ NB_MODULE(_native, module) {
   nb::class_<Mesh>(module, "Mesh").def(
       "__init__",
       [](Mesh* self, Array<const float, nb::shape<-1, 3>> vertices, Array<const int32_t, nb::shape<-1, 3>> faces,
-         std::optional<Array<const float, nb::shape<-1, 3, 2>>> uv) {
-        std::vector<float> places;
-        if (uv) places.assign(uv->data(), uv->data() + uv->size());
+         std::optional<Array<const float, nb::shape<-1, 3, 2>>> uv,
+         std::optional<Array<const float, nb::shape<-1, 3, 3>>> normals) {
+        const auto numbers = [](const auto& array) {
+          return array ? std::vector<float>(array->data(), array->data() + array->size()) : std::vector<float>();
+        };
         new (self) Mesh(make_mesh({vertices.data(), vertices.data() + vertices.size()},
-                                  {faces.data(), faces.data() + faces.size()}, places));
+                                  {faces.data(), faces.data() + faces.size()}, numbers(uv), numbers(normals)));
       },
-      nb::arg("vertices"), nb::arg("faces"), nb::arg("uv") = nb::none());
+      nb::arg("vertices"), nb::arg("faces"), nb::kw_only(), nb::arg("uv") = nb::none(),
+      nb::arg("normals") = nb::none());
 
   nb::class_<Image>(module, "Texture")
       .def(

@@ -13,7 +13,7 @@ size_t padded(size_t count) { return (count + kWidest - 1) / kWidest * kWidest; 
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// How a number given at the corners of a triangle runs over its plane: gradient, and value at the origin.
+// How a number that is given at the corners of a triangle runs over its plane: gradient, and value at the origin.
 void add_slope(std::vector<float>& layout, const Vec3& origin, const Vec3& a, const Vec3& b, double at_origin,
                double at_a, double at_b) {
   const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), area = aa * bb - ab * ab;
@@ -22,7 +22,23 @@ void add_slope(std::vector<float>& layout, const Vec3& origin, const Vec3& a, co
   Vec3 gradient;
   for (int axis = 0; axis < 3; ++axis) gradient[axis] = along_a * a[axis] + along_b * b[axis];
   for (const double slope : gradient) layout.push_back((float)slope);
-  layout.push_back((float)(at_origin - std::floor(at_origin) - dot(gradient, origin)));
+  layout.push_back((float)(at_origin - dot(gradient, origin)));
+}
+
+// The normals of a face's corners; whether they differ from its own.
+bool add_bend(std::vector<float>& bend, const float* normals, const Vec3& flat, const Vec3& origin, const Vec3& a,
+              const Vec3& b) {
+  std::array<Vec3, 3> at;
+  bool bent = false;
+  for (int corner = 0; corner < 3; ++corner) {
+    const Vec3 n = {normals[3 * corner], normals[3 * corner + 1], normals[3 * corner + 2]};
+    const double length = std::sqrt(dot(n, n));
+    const bool is_one = length > 1e-6 && std::isfinite(length);
+    at[corner] = is_one ? Vec3{n[0] / length, n[1] / length, n[2] / length} : flat;
+    bent |= dot(at[corner], flat) < 0.99999;
+  }
+  for (int axis = 0; axis < 3; ++axis) add_slope(bend, origin, a, b, at[0][axis], at[1][axis], at[2][axis]);
+  return bent;
 }
 
 }  // namespace
@@ -32,11 +48,13 @@ Triangles Mesh::triangles() const {
           {corners[0].data(), corners[1].data(), corners[2].data()},
           normals.data(),
           layout.empty() ? nullptr : layout.data(),
+          bend.empty() ? nullptr : bend.data(),
           vertex_count,
           face_count};
 }
 
-Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& faces, const std::vector<float>& uv) {
+Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& faces, const std::vector<float>& uv,
+               const std::vector<float>& normals) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Mesh mesh;
   mesh.vertex_count = (int32_t)(vertices.size() / 3);
@@ -47,6 +65,9 @@ Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& f
   mesh.low = {inf, inf, inf}, mesh.high = {-inf, -inf, -inf};
   if (!uv.empty() && uv.size() != 2 * faces.size())
     throw std::invalid_argument("there must be one place in the texture for each corner of each face");
+  if (!normals.empty() && normals.size() != 3 * faces.size())
+    throw std::invalid_argument("there must be one normal for each corner of each face");
+  bool bent = false;
   for (size_t i = 0; i + 2 < faces.size(); i += 3) {
     double p[3][3];
     for (int corner = 0; corner < 3; ++corner) {
@@ -67,11 +88,15 @@ Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& f
         mesh.high[axis] = std::max(mesh.high[axis], corner[axis]);
       }
     }
-    if (uv.empty()) continue;
-    for (int axis = 0; axis < 2; ++axis)
-      add_slope(mesh.layout, {p[0][0], p[0][1], p[0][2]}, a, b, uv[2 * i + axis], uv[2 * i + 2 + axis],
-                uv[2 * i + 4 + axis]);
+    const Vec3 origin = {p[0][0], p[0][1], p[0][2]};
+    for (int axis = 0; axis < 2 && !uv.empty(); ++axis) {
+      const double first = uv[2 * i + axis], whole = std::floor(first);  // it repeats: small numbers are exact
+      add_slope(mesh.layout, origin, a, b, first - whole, uv[2 * i + 2 + axis] - whole, uv[2 * i + 4 + axis] - whole);
+    }
+    const Vec3 flat = {n[0] / length, n[1] / length, n[2] / length};
+    if (!normals.empty()) bent |= add_bend(mesh.bend, &normals[3 * i], flat, origin, a, b);
   }
+  if (!bent) mesh.bend.clear();
   mesh.face_count = (int32_t)mesh.corners[0].size();
   for (auto& corner : mesh.corners) corner.resize(padded(corner.size()), 0);
   return mesh;

@@ -13,15 +13,17 @@ namespace trundle {
 struct Mesh {
   std::array<std::vector<float>, 3> places;
   std::array<std::vector<int32_t>, 3> corners;
-  std::vector<float> normals, layout;
+  std::vector<float> normals, layout, bend;
   int32_t vertex_count = 0, face_count = 0;
   Vec3 low{}, high{};
   Triangles triangles() const;
 };
 
-// `vertices` and `faces` hold three numbers each; `uv`, two numbers for each corner of each face, may be empty. Faces whose corners do not exist throw std::invalid_argument; those
-// without area or with a corner that is no number are left out of sight.
-Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& faces, const std::vector<float>& uv);
+// `vertices` and `faces` hold three numbers each. For each corner of each face, `uv` holds two numbers and `normals`
+// three; both may be empty. Faces whose corners do not exist throw std::invalid_argument; those without area or with a
+// corner that is no number are left out of sight. Where a corner's normal is none, the face's is.
+Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& faces, const std::vector<float>& uv,
+               const std::vector<float>& normals);
 
 struct Image {
   std::vector<int32_t> texels;

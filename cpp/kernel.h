@@ -29,6 +29,7 @@ struct Triangles {
   const int32_t* corners[3];  // vertices of each face, counter-clockwise from outside
   const float* normals;       // (face_count, 3), unit, outwards
   const float* layout;        // (face_count, 8): u and v, each as gradient [1/m] and value at the origin; may be null
+  const float* bend;          // (face_count, 12): x, y and z of normals that run over edges, as the layout; may be null
   int32_t vertex_count, face_count;
 };
 
@@ -141,5 +142,7 @@ namespace avx512 {
 extern const Kernel kernel;
 }
 #endif
+
+const Kernel& best_kernel();  // that this machine runs
 
 }  // namespace trundle

@@ -95,6 +95,4 @@ class Renderer {
   std::vector<int32_t> id_, id_through_, colour_, segment_;
 };
 
-const Kernel& best_kernel();
-
 }  // namespace trundle

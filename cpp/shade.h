@@ -94,6 +94,18 @@ inline F3 normal_of_face(const Triangles& mesh, I faces, I mask) {
   return {gather(mesh.normals, at), gather(mesh.normals + 1, at), gather(mesh.normals + 2, at)};
 }
 
+// What runs over the edges of faces, of about unit length.
+inline F3 normal_at_point(const Triangles& mesh, const F3& p, I faces, I mask) {
+  const I at = (faces & mask) * 12;
+  F n[3];
+  for (int i = 0; i < 3; ++i) {
+    const float* from = mesh.bend + 4 * i;
+    const F value = gather(from, at) * p.x + gather(from + 1, at) * p.y + gather(from + 2, at) * p.z + gather(from + 3, at);
+    n[i] = max(min(value, splat(1.0f)), splat(-1.0f));  // beside thin faces, single precision leaves the range
+  }
+  return {n[0], n[1], n[2]};
+}
+
 inline F3 operator*(const F3& a, const F3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 template <Kind kind>
@@ -115,12 +127,14 @@ void shade_solid(const View& view, const Solid& solid, const Lighting& lighting,
       const F3 local = splat(solid.eye) + turn(solid.axes, point);
       F3 outward;
       if constexpr (kind == Kind::kMesh) {
-        outward = normal_of_face(*solid.mesh, ids - solid.first_id, mask);
+        outward = solid.mesh->bend ? normal_at_point(*solid.mesh, local, ids - solid.first_id, mask)
+                                   : normal_of_face(*solid.mesh, ids - solid.first_id, mask);
       } else {
         outward = normal_at<kind>(solid, local);
       }
       F3 n = turn_back(solid.axes, outward);
-      if constexpr (kind != Kind::kMesh) n = n * (1.0f / sqrt(dot(n, n)));  // those of faces are of unit length
+      const bool is_unit = kind == Kind::kMesh && !solid.mesh->bend;
+      if (!is_unit) n = n * (1.0f / sqrt(max(dot(n, n), splat(1e-20f))));
       const F3 back = point * (-1.0f / sqrt(dot(point, point)));
       const F none = F{};
       Lit lit = {{none, none, none}, {none, none, none}};

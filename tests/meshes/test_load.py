@@ -125,6 +125,46 @@ def test_a_mirrored_mesh_keeps_its_outside_outside(tmp_path: Path, scale: tuple[
     assert volume(mirrored) == pytest.approx(0.4 * 0.6 * 0.8, rel=1e-5)
 
 
+@pytest.mark.parametrize("suffix", [".dae", ".glb", ".obj"])
+@pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (-1.0, 2.0, 1.0)])
+def test_a_ball_comes_with_the_normals_of_its_file(
+    tmp_path: Path, suffix: str, scale: tuple[float, float, float]
+) -> None:
+    ball = trimesh.creation.icosphere(subdivisions=2, radius=0.5)
+    path = tmp_path / f"ball{suffix}"
+    assert ball.vertex_normals is not None
+    options = {"include_normals": True} if suffix != ".dae" else {}
+    path.write_bytes(
+        ball.export(file_type=suffix[1:], **options).encode()
+        if suffix == ".obj"
+        else ball.export(file_type=suffix[1:], **options)
+    )
+    mesh = load_mesh(path).scaled(scale)
+    assert mesh.normals is not None
+    found = mesh.normals / np.linalg.norm(mesh.normals, axis=2, keepdims=True)
+    steep = mesh.vertices[mesh.faces] / np.square(scale)  # of an ellipsoid
+    assert found == pytest.approx(steep / np.linalg.norm(steep, axis=2, keepdims=True), abs=0.02)
+
+
+def test_normals_turn_with_their_faces_where_a_mesh_is_bent() -> None:
+    ball = trimesh.creation.icosphere(subdivisions=1)
+    vertices, faces = ball.vertices.astype(np.float32), ball.faces.astype(np.int32)
+    assert Mesh(vertices, faces).bent(vertices * 2).normals is None
+    turn = trimesh.transformations.rotation_matrix(0.7, (1.0, 2.0, 3.0))[:3, :3].T.astype(np.float32)
+    bent = Mesh(vertices, faces, normals=vertices[faces]).bent(vertices @ turn)
+    assert bent.normals == pytest.approx((vertices @ turn)[faces], abs=1e-5)
+    flattened = Mesh(vertices, faces, normals=vertices[faces]).bent(np.zeros_like(vertices))
+    assert flattened.normals is not None
+    assert not flattened.normals.any()
+
+
+def test_files_without_normals_have_flat_faces(tmp_path: Path) -> None:
+    for suffix in (".stl", ".glb", ".obj"):
+        path = tmp_path / f"block{suffix}"
+        path.write_bytes(_exported(suffix))
+        assert load_mesh(path).normals is None
+
+
 def two_parts(path: Path) -> None:
     parts = trimesh.Scene()
     wheel = trimesh.creation.icosphere(subdivisions=1, radius=0.5)

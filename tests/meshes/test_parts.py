@@ -191,6 +191,14 @@ def test_obj_textures_follow_the_corners(tmp_path: Path) -> None:
     assert mirrored.uv[0] == pytest.approx(mirrored.vertices[mirrored.faces[0], :2] * (-1.0, 1.0))
 
 
+def test_obj_faces_without_normals_are_flat_beside_others_that_have_some(tmp_path: Path) -> None:
+    path = tmp_path / "two.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 2\nvn 1 0 0\no a\nf 1//1 2//2 3//-1\no b\nf 1 2 3\n")
+    mesh = load_mesh(path)
+    assert mesh.normals is not None
+    assert mesh.normals.tolist() == [[[0, 0, 2], [1, 0, 0], [1, 0, 0]], [[0, 0, 0]] * 3]
+
+
 def test_a_texture_of_a_library_is_tinted_by_its_diffuse_colour(tmp_path: Path) -> None:
     (tmp_path / "car.obj").write_text(OBJ.replace("3/3 4", "3/3"))
     (tmp_path / "car.mtl").write_text("newmtl red\nmap_Kd paint.png\nKd 1 0.5 0\nd 0.5\n")

@@ -54,6 +54,18 @@ def test_the_upper_edge_of_an_image_is_north(tmp_path: Path) -> None:
     assert mesh.vertices[mesh.vertices[:, 2] > 0.99][:, 1].min() == pytest.approx(1.0, abs=0.1)
 
 
+def test_the_normals_of_a_terrain_and_a_cone_stand_on_their_surfaces() -> None:
+    x, y = np.meshgrid(np.linspace(-2.0, 2.0, 5), np.linspace(3.0, -3.0, 7))
+    terrain = terrain_mesh(((2.0 + 0.5 * x + 0.25 * y) / 4.0).astype(np.float32), (4.0, 6.0, 4.0))
+    assert terrain.normals is not None
+    assert terrain.normals == pytest.approx(np.broadcast_to([-0.5, -0.25, 1.0], terrain.normals.shape), abs=1e-5)
+    cone = cone_mesh(0.5, 2.0)
+    assert cone.normals is not None
+    for corner in range(3):
+        facing = np.einsum("ij,ij->i", cone.normals[:, corner], solid(cone).face_normals)
+        assert facing / np.linalg.norm(cone.normals[:, corner], axis=1) == pytest.approx(1.0, abs=5e-3)
+
+
 def test_what_is_no_terrain_is_refused_with_the_reason(tmp_path: Path) -> None:
     (tmp_path / "text.png").write_text("no image")
     with pytest.raises(MeshError, match="cannot identify image"):

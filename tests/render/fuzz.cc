@@ -47,14 +47,16 @@ Frame frame() {
 
 Mesh mesh() {
   const int32_t vertex_count = whole(1, 40), face_count = whole(0, 120);
-  std::vector<float> vertices, uv;
+  std::vector<float> vertices, uv, normals;
   std::vector<int32_t> faces;
   const bool wild = whole(0, 4) == 0;
   for (int32_t i = 0; i < 3 * vertex_count; ++i) vertices.push_back((float)(wild ? number() : sane()));
   for (int32_t i = 0; i < 3 * face_count; ++i) faces.push_back(whole(0, 2000) ? whole(0, vertex_count - 1) : -1);
   if (whole(0, 1))
     for (int32_t i = 0; i < 6 * face_count; ++i) uv.push_back((float)(wild ? number() : sane()));
-  return make_mesh(std::move(vertices), faces, uv);
+  if (whole(0, 1))
+    for (int32_t i = 0; i < 9 * face_count; ++i) normals.push_back((float)(wild ? number() : sane()));
+  return make_mesh(vertices, faces, uv, normals);
 }
 
 Image image() {

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from trundle.meshes import Mesh
 from trundle.model import Box, Fog, Plane, Sphere
-from trundle.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape
+from trundle.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
 from trundle.spatial import Pose
 
 BLACK = (0.0, 0.0, 0.0, 1.0)
@@ -46,6 +47,24 @@ def block(x: float = 0.0, z: float = 1.0, side: float = 1.0) -> Shape:
 def test_the_ground_answers_the_sun_by_lamberts_law() -> None:
     assert at(picture(GROUND), 1.0, 1.0) == [128, 128, 128]
     assert at(picture(GROUND, lights=(leaning(60.0),)), 1.0, 1.0) == pytest.approx([64, 64, 64], abs=1)
+
+
+def test_a_mesh_with_normals_is_lit_as_the_round_thing_that_it_stands_for() -> None:
+    import trimesh
+
+    ball = trimesh.creation.icosphere(subdivisions=3, radius=3.0)
+    flat = Mesh(ball.vertices.astype(np.float32), ball.faces.astype(np.int32))
+    smooth = replace(flat, normals=flat.vertices[flat.faces] * 7.0)
+    lamp = (replace(leaning(30.0), specular=WHITE, casts_shadows=False),)
+
+    def lit(geometry: ShapeGeometry) -> NDArray[np.float64]:
+        thing = Shape(name="s", body=0, geometry=geometry, rgba=WHITE, specular=(0.5, 0.5, 0.5, 1.0))
+        return picture(thing, lights=lamp, background=BLACK)[60:140, 60:140].astype(float)
+
+    round_one = lit(Sphere(3.0))
+    assert np.abs(lit(smooth) - round_one).mean() < 0.5
+    assert np.abs(lit(flat) - round_one).mean() > 2.0
+    assert (lit(replace(flat, normals=np.zeros((1280, 3, 3), dtype=np.float32))) == lit(flat)).all()
 
 
 def test_a_shadow_lies_where_the_sun_is_hidden() -> None:

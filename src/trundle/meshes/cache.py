@@ -18,7 +18,7 @@ import numpy as np
 
 from .raw import RawPart
 
-VERSION = 3
+VERSION = 4
 """Part of every key; raised where a reader gives something else for the same bytes."""
 _MOST_BYTES = 512 * 1024 * 1024
 
@@ -65,7 +65,7 @@ def _packed(parts: Sequence[RawPart]) -> bytes:
     heads: list[dict[str, Any]] = []
     for i, part in enumerate(parts):
         head = asdict(part)
-        for name in ("vertices", "faces", "uv"):
+        for name in ("vertices", "faces", "uv", "normals"):
             array = head.pop(name)
             if array is not None:
                 arrays[f"{name}{i}"] = array
@@ -93,6 +93,7 @@ def _unpacked(data: bytes) -> list[RawPart]:
                 texture=arrays[f"texture{i}"].tobytes() if f"texture{i}" in arrays else head["texture"],
                 tint=tuple(head["tint"]),
                 uv=arrays.get(f"uv{i}"),
+                normals=arrays.get(f"normals{i}"),
             )
             for i, head in enumerate(heads)
         ]

@@ -11,15 +11,16 @@ from numpy.typing import NDArray
 
 from .collada_skin import read_skin
 from .mesh import Rgba
-from .raw import MOST_TRIANGLES, MeshError, RawPart, corner_uv, fans, used_vertices
+from .raw import MOST_TRIANGLES, MeshError, RawPart, at_corners, fans, used_vertices
 
 _DEEPEST = 64
 _MOST_NODES = 100_000
 """Nodes may be named again and again by others: a small file can ask for any number."""
 _Look = tuple[Rgba | None, str | None]
-_Triangles = list[tuple[str, NDArray[np.float64], NDArray[np.int64], NDArray[np.float32] | None, NDArray[np.int64]]]
-"""Of each material: its symbol, vertices (N, 3), faces (M, 3), the uv of their corners (M, 3, 2), and which of the
-geometry's vertices those are (N,)."""
+_Corners = NDArray[np.float32] | None
+_Triangles = list[tuple[str, NDArray[np.float64], NDArray[np.int64], _Corners, _Corners, NDArray[np.int64]]]
+"""Of each material: its symbol, vertices (N, 3), faces (M, 3), of their corners the uv (M, 3, 2) and normals (M, 3, 3),
+and which of the geometry's vertices those are (N,)."""
 
 
 def read_collada(data: bytes, *, skins: bool = False) -> list[RawPart]:
@@ -83,7 +84,8 @@ class _Walk:
         targets = {str(each.symbol): each.target for each in materials or ()}
         if id(geometry) not in self.geometries:
             self.geometries[id(geometry)] = _triangles(geometry)
-        for symbol, vertices, faces, uv, used in self.geometries[id(geometry)]:
+        normals_from_node = np.linalg.pinv(world_from_node[:3, :3]).astype(np.float32)  # transposed
+        for symbol, vertices, faces, uv, normals, used in self.geometries[id(geometry)]:
             self.triangles += len(faces)
             if self.triangles > MOST_TRIANGLES:
                 raise MeshError(f"more than {MOST_TRIANGLES} triangles")
@@ -97,6 +99,7 @@ class _Walk:
                 texture=texture if uv is not None else None,
                 tint=(1.0, 1.0, 1.0, 1.0 if rgba is None else rgba[3]),
                 uv=None if uv is None else uv[:, ::outwards],
+                normals=None if normals is None else normals[:, ::outwards] @ normals_from_node,
                 skin=None if skin is None else read_skin(skin, vertices, used),
             )
 
@@ -107,21 +110,28 @@ def _triangles(geometry: Any) -> _Triangles:
         if primitive.vertex is None or primitive.vertex_index is None or not len(primitive.vertex_index):
             continue
         corners = np.asarray(primitive.vertex_index, dtype=np.int64)
-        uv_set = primitive.texcoordset[0] if len(primitive.texcoordset) else None
-        uv_corners = np.asarray(primitive.texcoord_indexset[0], dtype=np.int64) if uv_set is not None else None
+        triangles = None
         if hasattr(primitive, "vcounts"):
-            corners = corners.ravel()
-            triangles = fans(corners, np.asarray(primitive.vcounts, dtype=np.int64))
-            corners = corners[triangles]
-            uv_corners = None if uv_corners is None else uv_corners.ravel()[triangles]
+            triangles = fans(corners.ravel(), np.asarray(primitive.vcounts, dtype=np.int64))
+            corners = corners.ravel()[triangles]
         if corners.ndim != 2 or corners.shape[1] != 3:
             continue  # lines
+        uv = normals = None
+        if len(primitive.texcoordset):
+            uv = _corners(primitive.texcoordset[0], primitive.texcoord_indexset[0], corners, triangles, 2)
+        if primitive.normal is not None and primitive.normal_index is not None:
+            normals = _corners(primitive.normal, primitive.normal_index, corners, triangles, 3)
         points = np.asarray(primitive.vertex, dtype=np.float64)
-        uv = None
-        if uv_set is not None and uv_corners is not None and uv_corners.shape == corners.shape:
-            uv = corner_uv(np.asarray(uv_set, dtype=np.float64), uv_corners)
-        found.append((str(primitive.material), *used_vertices(points, corners), uv, np.unique(corners)))
+        found.append((str(primitive.material), *used_vertices(points, corners), uv, normals, np.unique(corners)))
     return found
+
+
+def _corners(
+    values: Any, indices: Any, corners: NDArray[np.int64], triangles: NDArray[np.int64] | None, size: int
+) -> _Corners:
+    numbers = np.asarray(indices, dtype=np.int64)
+    numbers = numbers if triangles is None else numbers.ravel()[triangles]
+    return at_corners(np.asarray(values, dtype=np.float64), numbers, size) if numbers.shape == corners.shape else None
 
 
 def _look(material: Any) -> _Look:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .raw import MOST_TRIANGLES, MeshError, RawPart, corner_uv
+from .raw import MOST_TRIANGLES, MeshError, RawPart, at_corners
 from .texture import as_png
 
 _JSON = b"JSON"
@@ -40,7 +40,16 @@ def read_glb(data: bytes) -> list[RawPart]:
         if triangles > MOST_TRIANGLES:
             raise MeshError(f"more than {MOST_TRIANGLES} triangles")
         faces = faces[:, ::-1] if np.linalg.det(transform[:3, :3]) < 0 else faces
-        part = RawPart(names=(str(name), str(node)), vertices=vertices[:, [0, 2, 1]] * (1.0, -1.0, 1.0), faces=faces)
+        normals = None
+        if "vertex_normals" in geometry._cache:  # else trimesh would make some up, and glTF wants flat faces then
+            turned = np.asarray(geometry.vertex_normals, dtype=np.float64) @ np.linalg.pinv(transform[:3, :3])
+            normals = at_corners(turned[:, [0, 2, 1]] * (1.0, -1.0, 1.0), faces, 3)
+        part = RawPart(
+            names=(str(name), str(node)),
+            vertices=vertices[:, [0, 2, 1]] * (1.0, -1.0, 1.0),
+            faces=faces,
+            normals=normals,
+        )
         parts.append(_painted(part, geometry.visual, pictures))
     return parts
 
@@ -62,7 +71,7 @@ def _painted(part: RawPart, visual: Any, pictures: dict[int, bytes | None]) -> R
     """A part with its material; trimesh turns glTF's v, which points down, up."""
     uv = getattr(visual, "uv", None)
     if uv is not None:
-        part = replace(part, uv=corner_uv(np.asarray(uv, dtype=np.float64), part.faces))
+        part = replace(part, uv=at_corners(np.asarray(uv, dtype=np.float64), part.faces, 2))
     material = getattr(visual, "material", None)
     if material is None:
         return part

@@ -7,6 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import cache
 from .mesh import Mesh, MeshPart, Rgba
@@ -133,7 +134,8 @@ def joined(parts: Sequence[RawPart], path: Path, center: bool) -> Mesh:
         vertices=np.ascontiguousarray(vertices, dtype=np.float32),
         faces=np.ascontiguousarray(faces, dtype=np.int32),
         rgba=max(described, key=lambda part: part.face_count).rgba,
-        uv=_uv(parts) if any(part.uv is not None for part in parts) else None,
+        uv=_joined_corners([part.uv for part in parts], parts, 2),
+        normals=_joined_corners([part.normals for part in parts], parts, 3),
         parts=described,
     )
 
@@ -166,6 +168,14 @@ def _tinted(rgba: Rgba, tint: Rgba) -> Rgba:
     return (r, g, b, a)
 
 
-def _uv(parts: Sequence[RawPart]) -> np.ndarray:
-    rows = [part.uv if part.uv is not None else np.zeros((len(part.faces), 3, 2), np.float32) for part in parts]
+def _joined_corners(
+    values: Sequence[NDArray[np.float32] | None], parts: Sequence[RawPart], size: int
+) -> NDArray[np.float32] | None:
+    """What all parts say of their corners, zeros where one says nothing; None where all do."""
+    if all(value is None for value in values):
+        return None
+    rows = [
+        np.zeros((len(part.faces), 3, size), np.float32) if value is None else value
+        for value, part in zip(values, parts, strict=True)
+    ]
     return np.nan_to_num(np.concatenate(rows))

@@ -47,19 +47,45 @@ class Mesh:
     paints a mesh, its texture is laid out by this too."""
     parts: tuple[MeshPart, ...] = ()
     """In the order of the faces; none: all of one colour."""
+    normals: NDArray[np.float32] | None = None
+    """(M, 3, 3) which way the surface faces at each corner of each face, of any length, for light that runs smoothly
+    over edges; zeros, or None, where faces are flat."""
 
     def scaled(self, scale: tuple[float, float, float]) -> "Mesh":
         """The mesh stretched along its axes; a mirrored one keeps its outside outside."""
         if scale == (1.0, 1.0, 1.0):
             return self
         mirrored = scale[0] * scale[1] * scale[2] < 0
-        faces = self.faces[:, ::-1].copy() if mirrored else self.faces
-        uv = self.uv[:, ::-1].copy() if mirrored and self.uv is not None else self.uv
-        return Mesh(self.vertices * np.asarray(scale, dtype=np.float32), faces, self.rgba, uv, self.parts)
+        step = -1 if mirrored else 1
+        factors = np.asarray(scale, dtype=np.float32)
+        upright = factors[[1, 2, 0]] * factors[[2, 0, 1]] * np.float32(step)  # along 1 / factors, where none is 0 too
+        return replace(
+            self,
+            vertices=self.vertices * factors,
+            faces=self.faces[:, ::step].copy(),
+            uv=None if self.uv is None else self.uv[:, ::step].copy(),
+            normals=None if self.normals is None else self.normals[:, ::step] * upright,
+        )
+
+    def bent(self, vertices: NDArray[np.float32]) -> "Mesh":
+        """The mesh with its vertices elsewhere, (N, 3) [m]; its normals turn as their faces do."""
+        if self.normals is None:
+            return replace(self, vertices=vertices)
+        in_face = self.normals @ _axes(self.vertices[self.faces]).transpose(0, 2, 1)
+        normals = (in_face @ _axes(vertices[self.faces])).astype(np.float32)
+        return replace(self, vertices=vertices, normals=normals)
 
     def by_look(self) -> tuple["Mesh", ...]:
         """The mesh cut into meshes of one colour and one texture each, which its first part has."""
         return _by_look(self)
+
+
+def _axes(corners: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Of triangles (M, 3, 3): three axes in rows that turn with them, (M, 3, 3); zeros where there is no area."""
+    along = corners[:, 1] - corners[:, 0]
+    up = np.cross(along, corners[:, 2] - corners[:, 0])
+    axes = np.stack([along, np.cross(up, along), up], axis=1)
+    return axes / np.maximum(np.linalg.norm(axes, axis=2, keepdims=True), np.float32(1e-30))
 
 
 @lru_cache(maxsize=256)  # a robot's four wheels are to stay instances of one mesh
@@ -79,5 +105,6 @@ def _cut_out(mesh: Mesh, parts: list[MeshPart]) -> Mesh:
         faces=renumbered.reshape(faces.shape).astype(np.int32),
         rgba=parts[0].rgba,
         uv=None if mesh.uv is None else mesh.uv[rows],
+        normals=None if mesh.normals is None else mesh.normals[rows],
         parts=(replace(parts[0], first_face=0, face_count=len(faces)),),
     )

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .mesh import Rgba
-from .raw import RawPart, corner_uv, fans, used_vertices
+from .raw import RawPart, at_corners, fans, used_vertices
 
 ReadBeside = Callable[[str], bytes | None]
 """A file beside the mesh, by its relative path; None where there is none."""
@@ -18,6 +18,7 @@ class _Group:
 
     corners: list[int] = field(default_factory=list[int])
     uv_corners: list[int] = field(default_factory=list[int])
+    normal_corners: list[int] = field(default_factory=list[int])
     counts: list[int] = field(default_factory=list[int])
 
 
@@ -42,6 +43,7 @@ def read_obj(data: bytes, beside: ReadBeside) -> list[RawPart]:
     """
     vertices: list[list[float]] = []
     places: list[list[float]] = []
+    normals: list[list[float]] = []
     looks: dict[str, _Look] = {}
     groups: dict[tuple[str, str], _Group] = {}
     name, material = "", ""
@@ -52,8 +54,11 @@ def read_obj(data: bytes, beside: ReadBeside) -> list[RawPart]:
                 vertices.append([float(word) for word in words[1:4]])
             case ["vt"]:
                 places.append([float(word) for word in (*words[1:3], "0")[:2]])
+            case ["vn"]:
+                normals.append([float(word) for word in words[1:4]])
             case ["f"]:
-                _add_face(groups.setdefault((name, material), _Group()), words[1:], len(vertices), len(places))
+                counts = (len(vertices), len(places), len(normals))
+                _add_face(groups.setdefault((name, material), _Group()), words[1:], counts)
             case ["o" | "g"]:
                 name = " ".join(words[1:])
             case ["usemtl"]:
@@ -64,16 +69,17 @@ def read_obj(data: bytes, beside: ReadBeside) -> list[RawPart]:
                 pass
     points = np.array(vertices, dtype=np.float64).reshape(-1, 3)
     uv = np.array(places, dtype=np.float64).reshape(-1, 2)
-    return [_part(group, points, uv, key[0], looks.get(key[1])) for key, group in groups.items()]
+    directions = np.array(normals, dtype=np.float64).reshape(-1, 3)
+    return [_part(group, points, uv, directions, key[0], looks.get(key[1])) for key, group in groups.items()]
 
 
-def _add_face(group: _Group, corners: list[str], vertices: int, places: int) -> None:
-    """Indices count from 1, or from the latest back if negative."""
+def _add_face(group: _Group, corners: list[str], counts: tuple[int, int, int]) -> None:
+    """Indices count from 1, or from the latest back if negative; `counts` of vertices, places and normals so far."""
     for corner in corners:
-        index, _, rest = corner.partition("/")
-        place = rest.partition("/")[0]
-        group.corners.append(_index(index, vertices))
-        group.uv_corners.append(_index(place, places) if place else -1)
+        index, place, normal = (*corner.split("/"), "", "")[:3]
+        group.corners.append(_index(index, counts[0]))
+        group.uv_corners.append(_index(place, counts[1]) if place else -1)
+        group.normal_corners.append(_index(normal, counts[2]) if normal else -1)
     group.counts.append(len(corners))
 
 
@@ -85,12 +91,14 @@ def _index(text: str, count: int) -> int:
     return index
 
 
-def _part(group: _Group, points: np.ndarray, uv: np.ndarray, name: str, look: _Look | None) -> RawPart:
+def _part(
+    group: _Group, points: np.ndarray, uv: np.ndarray, normals: np.ndarray, name: str, look: _Look | None
+) -> RawPart:
     corners = np.array(group.corners, dtype=np.int64)
     uv_corners = np.array(group.uv_corners, dtype=np.int64)
     triangles = fans(corners, np.array(group.counts, dtype=np.int64))
     vertices, faces = used_vertices(points, corners[triangles])
-    own_uv = corner_uv(uv, uv_corners[triangles])
+    own_uv = at_corners(uv, uv_corners[triangles], 2)
     return RawPart(
         names=(name,),
         vertices=vertices,
@@ -99,6 +107,7 @@ def _part(group: _Group, points: np.ndarray, uv: np.ndarray, name: str, look: _L
         texture=None if look is None or own_uv is None else look.texture,
         tint=(1.0, 1.0, 1.0, 1.0) if look is None else look.over(1.0, 1.0, 1.0),
         uv=own_uv,
+        normals=at_corners(normals, np.array(group.normal_corners, dtype=np.int64)[triangles], 3),
     )
 
 

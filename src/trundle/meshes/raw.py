@@ -49,6 +49,8 @@ class RawPart:
     """What the texture's colours are multiplied by."""
     uv: NDArray[np.float32] | None = None
     """(M, 3, 2) of each corner of each face; v is up."""
+    normals: NDArray[np.float32] | None = None
+    """(M, 3, 3) of each corner of each face, of any length."""
     skin: RawSkin | None = None
     """None: it hangs on no bones."""
 
@@ -67,11 +69,14 @@ def used_vertices(
     return vertices[used], renumbered.reshape(faces.shape)
 
 
-def corner_uv(places: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float32] | None:
-    """Where each corner is in an image, by faces that number places; None where they name one that is not there."""
-    if not len(faces) or faces.min() < 0 or faces.max() >= len(places) or places.shape[1] < 2:
+def at_corners(values: NDArray[np.float64], faces: NDArray[np.int64], size: int) -> NDArray[np.float32] | None:
+    """The first numbers of a value for each corner: (M, 3, size), by faces that number values.
+
+    None where they name one that is not there.
+    """
+    if not len(faces) or faces.min() < 0 or faces.max() >= len(values) or values.shape[1] < size:
         return None
-    return places[faces][..., :2].astype(np.float32)
+    return values[faces][..., :size].astype(np.float32)
 
 
 def fans(indices: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:

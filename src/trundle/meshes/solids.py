@@ -20,7 +20,10 @@ def cone_mesh(radius: float, length: float) -> Mesh:
     after = np.roll(here, -1)
     tip, middle = np.full(_SIDES, _SIDES), np.full(_SIDES, _SIDES + 1)
     faces = np.vstack([np.column_stack([here, after, tip]), np.column_stack([after, here, middle])])
-    return Mesh(vertices.astype(np.float32), faces.astype(np.int32))
+    turned = np.stack([turns, turns + 2 * np.pi / _SIDES, turns + np.pi / _SIDES], axis=1)
+    side = np.stack([length * np.cos(turned), length * np.sin(turned), np.full_like(turned, radius)], axis=-1)
+    normals = np.vstack([side, np.broadcast_to([0.0, 0.0, -1.0], side.shape)])
+    return Mesh(vertices.astype(np.float32), faces.astype(np.int32), normals=normals.astype(np.float32))
 
 
 def prism_mesh(outlines: Sequence[Sequence[Point]], height: float) -> Mesh:
@@ -48,4 +51,6 @@ def terrain_mesh(heights: NDArray[np.float32], size: tuple[float, float, float])
     nw, ne, sw, se = corner[:-1, :-1], corner[:-1, 1:], corner[1:, :-1], corner[1:, 1:]
     faces = np.stack([np.stack([sw, se, ne], axis=-1), np.stack([sw, ne, nw], axis=-1)], axis=2).reshape(-1, 3)
     places = np.stack(np.meshgrid(np.linspace(0, 1, columns), np.linspace(1, 0, rows)), axis=-1).reshape(-1, 2)
-    return Mesh(vertices, faces, uv=places.astype(np.float32)[faces])
+    down, right = np.gradient(heights * np.float32(size[2]), size[1] / (rows - 1), size[0] / (columns - 1))
+    normals = np.stack([-right, down, np.ones_like(right)], axis=-1).reshape(-1, 3)
+    return Mesh(vertices, faces, uv=places.astype(np.float32)[faces], normals=normals.astype(np.float32)[faces])

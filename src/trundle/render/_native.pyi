@@ -26,7 +26,12 @@ class FogKind:
 
 class Mesh:
     def __init__(
-        self, vertices: NDArray[np.float32], faces: NDArray[np.int32], uv: NDArray[np.float32] | None = None
+        self,
+        vertices: NDArray[np.float32],
+        faces: NDArray[np.int32],
+        *,
+        uv: NDArray[np.float32] | None = None,
+        normals: NDArray[np.float32] | None = None,
     ) -> None: ...
 
 class Texture:

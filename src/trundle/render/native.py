@@ -1,7 +1,6 @@
 """Trundle's own renderer: pictures made on the CPU, in C++; no GPU, no display."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -106,7 +105,7 @@ class NativeRenderer:
     def reshape(self, shape: int, vertices: NDArray[np.float32]) -> None:
         """See `Renderer.reshape`."""
         number, mesh = self._meshes[shape]
-        self._renderer.reshape(number, _native_mesh(replace(mesh, vertices=vertices)))
+        self._renderer.reshape(number, _native_mesh(mesh.bent(vertices)))
 
     def render(
         self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
@@ -160,9 +159,14 @@ def _never() -> _native.Mesh:
 
 
 def _native_mesh(mesh: Mesh) -> _native.Mesh:
-    uv = None if mesh.uv is None else np.ascontiguousarray(mesh.uv, dtype=np.float32)
+    def reals(values: NDArray[np.float32]) -> NDArray[np.float32]:
+        return np.ascontiguousarray(values, dtype=np.float32)
+
     return _native.Mesh(
-        np.ascontiguousarray(mesh.vertices, dtype=np.float32), np.ascontiguousarray(mesh.faces, dtype=np.int32), uv
+        reals(mesh.vertices),
+        np.ascontiguousarray(mesh.faces, dtype=np.int32),
+        uv=None if mesh.uv is None else reals(mesh.uv),
+        normals=None if mesh.normals is None else reals(mesh.normals),
     )
 
 

@@ -41,7 +41,7 @@ def skin_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], Scene
     mesh = puppet.skin.mesh
     numbers = np.repeat(np.arange(len(mesh.vertices), dtype=np.float32)[:, None], 3, axis=1)
     numbered = replace(mesh, vertices=numbers)
-    start = replace(mesh, vertices=puppet.vertices(Moment()))
+    start = mesh.bent(puppet.vertices(Moment()))
     shapes: list[Shape] = []
     rows: list[NDArray[np.intp]] = []
     for piece, same in zip(start.by_look(), numbered.by_look(), strict=True):
