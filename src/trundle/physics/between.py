@@ -4,19 +4,18 @@ Bounces, friction with a direction of its own, moving and slipping surfaces, vel
 parted: a world without them steps in C alone.
 """
 
-from collections.abc import Mapping
-
 import mujoco
 import numpy as np
 
 from trundle.model import Link
 from trundle.spatial import ZERO
 
+from .approach import lay
 from .bounce import Bounce
 from .grip import Grips
-from .index import CompiledWorld, GeomPair
+from .index import CompiledWorld
+from .pairs import PairTable
 from .parting import Parting
-from .surfaces import Touch
 
 _SLOWEST = 0.01
 """[m/s or rad/s] ODE damps nothing that is slower."""
@@ -29,7 +28,7 @@ class Between:
         self._model = compiled.model
         self._data = data
         self._bounce = Bounce(compiled.model, data, compiled.touches)
-        self._grain = _Grain(data, compiled.touches)
+        self._grain = _Grain(compiled, data)
         self.grips = Grips(compiled.model, data)
         self.parting = Parting(compiled)
         self._decay = _Decay(compiled, data)
@@ -65,34 +64,30 @@ class Between:
 class _Grain:
     """Friction that has a first direction in the frame of one of two shapes, and another coefficient across it."""
 
-    def __init__(self, data: mujoco.MjData, touches: Mapping[GeomPair, Touch]) -> None:
+    def __init__(self, compiled: CompiledWorld, data: mujoco.MjData) -> None:
         self._data = data
-        self._directions: dict[GeomPair, tuple[int, np.ndarray[tuple[int], np.dtype[np.float64]]]] = {}
-        for pair, touch in touches.items():
-            if touch.fdir1 != ZERO and touch.mu != touch.mu2 and min(touch.mu, touch.mu2) > 0:
-                self._directions[pair] = (pair[touch.fdir1_of], np.array(touch.fdir1))
+        found = {
+            pair: touch
+            for pair, touch in compiled.touches.items()
+            if touch.fdir1 != ZERO and touch.mu != touch.mu2 and min(touch.mu, touch.mu2) > 0
+        }
+        self._table = PairTable(compiled.model.ngeom, found)
+        self._geoms = np.array([pair[found[pair].fdir1_of] for pair in self._table.pairs], dtype=np.intp)
+        self._directions = np.array([found[pair].fdir1 for pair in self._table.pairs]).reshape(-1, 3)
+        """(pairs, 3) in the frame of that geom."""
 
     def __bool__(self) -> bool:
-        return bool(self._directions)
+        return bool(self._table.pairs)
 
     def turn(self) -> bool:
         """Lay the first tangent of each contact along its direction; return whether any was laid."""
-        turned = False
         data = self._data
-        for i, (a, b) in enumerate(data.contact.geom.tolist()):
-            found = self._directions.get((min(a, b), max(a, b)))
-            if found is None:
-                continue
-            contact, (geom, direction) = data.contact[i], found
-            normal = contact.frame[:3]
-            along = data.geom_xmat[geom].reshape(3, 3) @ direction
-            along = along - (along @ normal) * normal
-            length = float(np.linalg.norm(along))
-            if length > 1e-6:
-                contact.frame[3:6] = along / length
-                contact.frame[6:9] = np.cross(normal, along / length)
-                turned = True
-        return turned
+        contacts, pairs = self._table.find(data)
+        if not len(contacts):
+            return False
+        axes = data.geom_xmat[self._geoms[pairs]].reshape(-1, 3, 3)
+        along = np.einsum("nij,nj->ni", axes, self._directions[pairs])
+        return bool(lay(data, contacts, along).any())
 
 
 class _Decay:

@@ -7,7 +7,6 @@ Newton's law, friction within Coulomb's cone, over all contacts at once by proje
 
 import math
 from collections.abc import Mapping
-from typing import TypeVar
 
 import mujoco
 import numpy as np
@@ -15,12 +14,12 @@ from numpy.typing import NDArray
 
 from .approach import Approach
 from .index import GeomPair
+from .pairs import PairTable
 from .surfaces import Touch
 
 _SWEEPS = 50
 _SLOWEST = 3.0
 """Steps' worth of falling: what comes slower than that is at rest."""
-_Number = TypeVar("_Number", int, NDArray[np.int64])
 
 
 class Bounce:
@@ -32,9 +31,8 @@ class Bounce:
         self._touches = {pair: touch for pair, touch in touches.items() if touch.restitution > 0 and touch.is_felt}
         self._approach = Approach(model, data)
         self._slowest = _SLOWEST * math.hypot(*model.opt.gravity) * model.opt.timestep
-        pairs = sorted(self._touches)
-        self._keys = np.array([self._key(*pair) for pair in pairs], dtype=np.int64)
-        self._least = np.array([max(self._touches[pair].threshold, self._slowest) for pair in pairs])
+        self._table = PairTable(model.ngeom, self._touches)
+        self._least = np.array([max(self._touches[pair].threshold, self._slowest) for pair in self._table.pairs])
         """[m/s] Of each pair: what approaches slower, does not bounce."""
 
     def __bool__(self) -> bool:
@@ -68,15 +66,9 @@ class Bounce:
 
     def _approaching(self) -> NDArray[np.intp]:
         """Contacts that may bounce: most do not, and those cost nothing more."""
-        contacts = self._data.contact
-        keys = self._key(contacts.geom.min(axis=1).astype(np.int64), contacts.geom.max(axis=1))
-        places = np.minimum(np.searchsorted(self._keys, keys), len(self._keys) - 1)
-        fast = self._approach.speeds() > self._least[places] * (1 - 1e-6)
-        return np.flatnonzero(fast & (self._keys[places] == keys) & (contacts.dist <= 0))
-
-    def _key(self, low: _Number, high: _Number) -> _Number:
-        """One number for two geoms."""
-        return low * self._model.ngeom + high
+        contacts, places = self._table.find(self._data)
+        fast = self._approach.speeds()[contacts] > self._least[places] * (1 - 1e-6)
+        return contacts[fast & (self._data.contact.dist[contacts] <= 0)]
 
     def _pull(self, contact: mujoco.MjContact, g1: int, g2: int) -> float:
         """How gravity speeds the approach up [m/s²]; two bodies that both fall, not at all."""

@@ -5,8 +5,6 @@ direction in which a surface slips, MuJoCo's friction is switched off, and a for
 place, up to what friction would hold.
 """
 
-import math
-from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -15,15 +13,17 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.spatial import Vector3, cross, normalized
+from trundle.spatial import Vector3
 
-from .approach import Approach
+from .approach import Approach, lay
 
 _Array = NDArray[np.float64]
-_SHORTEST = 1e-9
-"""Of a first direction within the surface: what is shorter, has none."""
+_Numbers = NDArray[np.intp]
 _SMOOTH = 1e-5
 """Friction that MuJoCo takes for none."""
+
+
+_NO_GRIP = (0.0,) * 6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,12 +56,19 @@ GripLaw: TypeAlias = Callable[[ContactPoint], Grip | None]
 
 @dataclass(frozen=True, slots=True)
 class _Slipping:
-    contact: mujoco.MjContact
-    body: int
+    """Contacts that slip in this step."""
+
+    bodies: _Numbers
+    rows: _Array
+    """(N, 2, nv) speeds along the two tangents, as functions of all speeds."""
     slips: _Array
-    """(2,) Along the tangents [m/s/N]; 0: MuJoCo's friction holds."""
+    """(N, 2) along the tangents [m/s/N]; 0: MuJoCo's friction holds."""
+    slipping: NDArray[np.bool_]
+    """(N, 2) which are above zero."""
     frictions: _Array
-    """(2,) Coefficients along the tangents."""
+    """(N, 2) coefficients along the tangents."""
+    speeds: _Array
+    """(N, 2) of the surface, along the tangents [m/s]."""
 
 
 class Grips:
@@ -74,8 +81,8 @@ class Grips:
         self._laws: Mapping[int, GripLaw] = {}
         self._lawful = np.zeros(model.ngeom, dtype=bool)
         """Which geoms are of a body that has a law."""
-        self._loads: dict[int, float] = {}
-        self._slipping: list[_Slipping] = []
+        self._loads = np.zeros(model.nbody)
+        self._slipping: _Slipping | None = None
 
     def set_laws(self, laws: Mapping[int, GripLaw]) -> None:
         """Take the laws of bodies, by number."""
@@ -89,75 +96,82 @@ class Grips:
 
     def weigh(self) -> None:
         """Keep how hard each body was pressed in the last step, which limits its friction [N]."""
-        self._loads = dict.fromkeys(self._laws, 0.0)
-        for contact, body, _ in self._ours():
-            if contact.efc_address >= 0:
-                self._loads[body] += float(self._data.efc_force[contact.efc_address])
+        contacts, bodies, _ = self._ours()
+        rows = self._data.contact.efc_address[contacts]
+        pressed = rows >= 0
+        self._loads[:] = 0.0
+        np.add.at(self._loads, bodies[pressed], self._data.efc_force[rows[pressed]])
 
     def turn(self) -> bool:
         """Ask the laws, and lay each contact's first tangent along its direction; return whether any was laid."""
-        turned = False
-        self._slipping = []
-        for contact, body, sign in self._ours():
-            normal = sign * contact.frame[:3]
-            grip = self._laws[body](ContactPoint(position=_vector(contact.pos), normal=_vector(normal)))
-            if grip is not None and self._lay(contact, body, sign, grip):
-                turned = True
-        return turned
-
-    def _lay(self, contact: mujoco.MjContact, body: int, sign: float, grip: Grip) -> bool:
-        normal, (x, y, z) = _vector(contact.frame[:3]), grip.along
-        upwards = normal[0] * x + normal[1] * y + normal[2] * z
-        within = (x - upwards * normal[0], y - upwards * normal[1], z - upwards * normal[2])
-        along = normalized(within)
-        if along is None or math.hypot(*within) < _SHORTEST:
+        self._slipping = None
+        contacts, bodies, signs = self._ours()
+        if not len(contacts):
             return False
-        contact.frame[3:6], contact.frame[6:9] = along, cross(normal, along)
-        contact.surfacevel[:2] = (sign * grip.speed, 0.0)
-        slips = np.array([grip.slip, grip.slip_across])
-        if (slips > 0.0).any():
-            slips[slips < self._least_slips(contact)] = 0.0
-        if slips[0] > 0.0 == slips[1]:
-            # The solver wants the direction that holds to be the first.
-            contact.frame[3:6], contact.frame[6:9] = contact.frame[6:9].copy(), -contact.frame[3:6]
-            contact.surfacevel[:2] = (0.0, -sign * grip.speed)
-            contact.friction[:2] = contact.friction[1::-1].copy()
-            slips = slips[::-1]
-        if slips.any():
-            self._slipping.append(_Slipping(contact, body, slips, contact.friction[:2].copy()))
-            contact.friction[:2] = np.where(slips > 0.0, _SMOOTH, contact.friction[:2])
+        there = self._data.contact
+        points, normals = there.pos[contacts].tolist(), (signs[:, None] * there.frame[contacts, :3]).tolist()
+        grips = [
+            self._laws[body](ContactPoint(position=(x, y, z), normal=(nx, ny, nz)))
+            for body, (x, y, z), (nx, ny, nz) in zip(bodies.tolist(), points, normals, strict=True)
+        ]
+        # No direction where there is no law: nothing is laid there.
+        values = np.array([_NO_GRIP if g is None else (*g.along, g.speed, g.slip, g.slip_across) for g in grips])
+        laid = np.flatnonzero(lay(self._data, contacts, values[:, :3]))
+        if not len(laid):
+            return False
+        self._let_go(contacts[laid], bodies[laid], signs[laid] * values[laid, 3], values[laid, 4:])
         return True
 
-    def _least_slips(self, contact: mujoco.MjContact) -> _Array:
-        """(2,) [m/s/N] What a force changes within a step: a surface that slips less is as good as one that holds."""
-        rows = self._approach.of(contact)[1:]
-        reach = np.zeros_like(rows)
-        mujoco.mj_solveM(self._model, self._data, reach, rows)
-        return np.einsum("ij,ij->i", rows, reach) * self._model.opt.timestep
+    def _let_go(self, contacts: _Numbers, bodies: _Numbers, run: _Array, slips: _Array) -> None:
+        """Have surfaces run [m/s] along their first tangent, and slip (N, 2) [m/s/N] along both."""
+        there = self._data.contact
+        surfaces = there.surfacevel
+        surfaces[contacts, 0], surfaces[contacts, 1] = run, 0.0
+        if not slips.any():
+            return
+        frames = there.frame
+        rows = frames[contacts, 3:].reshape(-1, 2, 3) @ self._approach.differences(contacts)
+        slips[slips < self._least_slips(rows)] = 0.0
+        # The solver wants the direction that holds to be the first.
+        swapped = np.flatnonzero((slips[:, 0] > 0.0) & (slips[:, 1] == 0.0))
+        if len(swapped):
+            at = contacts[swapped]
+            frames[at, 3:6], frames[at, 6:9] = frames[at, 6:9], -frames[at, 3:6]
+            surfaces[at, 0], surfaces[at, 1] = 0.0, -run[swapped]
+            there.friction[at, :2] = there.friction[at, 1::-1]
+            rows[swapped, 0], rows[swapped, 1] = rows[swapped, 1], -rows[swapped, 0]
+            slips[swapped] = slips[swapped, ::-1]
+        slipping = slips > 0.0
+        frictions = there.friction[contacts, :2]
+        there.friction[contacts, :2] = np.where(slipping, _SMOOTH, frictions)
+        self._slipping = _Slipping(bodies, rows, slips, slipping, frictions, surfaces[contacts, :2])
+
+    def _least_slips(self, rows: _Array) -> _Array:
+        """(N, 2) [m/s/N] What a force changes within a step: a surface that slips less is as good as one that holds."""
+        flat = np.ascontiguousarray(rows.reshape(-1, self._model.nv))
+        reach = np.zeros_like(flat)
+        mujoco.mj_solveM(self._model, self._data, reach, flat)
+        return np.einsum("ij,ij->i", flat, reach).reshape(-1, 2) * self._model.opt.timestep
 
     def drag(self) -> None:
         """Push against what slips, for this step: force = −speed / slip, within the ellipse of friction."""
-        data = self._data
-        shares = Counter(each.body for each in self._slipping)
-        for each in self._slipping:
-            rows, share = self._approach.of(each.contact)[1:], shares[each.body]
-            speeds = rows @ data.qvel + each.contact.surfacevel[:2]
-            forces = np.where(each.slips > 0.0, -speeds / np.where(each.slips > 0.0, share * each.slips, 1.0), 0.0)
-            most = np.maximum(each.frictions * self._loads[each.body] / share, 1e-12)
-            data.qfrc_passive += rows.T @ (forces / max(float(np.linalg.norm(forces / most)), 1.0))
+        each = self._slipping
+        if each is None:
+            return
+        shares = np.bincount(each.bodies[each.slipping.any(axis=1)], minlength=self._model.nbody)[each.bodies, None]
+        speeds = each.rows @ self._data.qvel + each.speeds
+        forces = np.where(each.slipping, -speeds / np.where(each.slipping, shares * each.slips, 1.0), 0.0)
+        most = np.maximum(each.frictions * self._loads[each.bodies, None] / np.maximum(shares, 1), 1e-12)
+        over = np.sqrt(((forces / most) ** 2).sum(axis=1, keepdims=True))
+        self._data.qfrc_passive += (forces / np.maximum(over, 1.0)).ravel() @ each.rows.reshape(forces.size, -1)
 
-    def _ours(self) -> list[tuple[mujoco.MjContact, int, float]]:
+    def _ours(self) -> tuple[_Numbers, _Numbers, _Array]:
         """Contacts with friction of bodies that have a law, which body, and 1 where it is the second, else −1."""
-        contacts = self._data.contact
-        ours = self._lawful[contacts.geom]
-        found: list[tuple[mujoco.MjContact, int, float]] = []
-        for i in np.flatnonzero(ours.any(axis=1) & (contacts.dim >= 3)).tolist():
-            second = bool(ours[i, 1])
-            contact = contacts[i]
-            found.append((contact, int(self._model.geom_bodyid[contact.geom[int(second)]]), 1.0 if second else -1.0))
-        return found
-
-
-def _vector(values: _Array) -> Vector3:
-    x, y, z = values.tolist()
-    return (x, y, z)
+        geoms = self._data.contact.geom
+        if not len(geoms):
+            return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp), np.zeros(0)
+        ours = self._lawful[geoms]
+        contacts = np.flatnonzero(ours.any(axis=1) & (self._data.contact.dim >= 3))
+        second = ours[contacts, 1].astype(np.intp)
+        bodies = self._model.geom_bodyid[geoms[contacts, second]].astype(np.intp)
+        return contacts, bodies, 2.0 * second - 1.0
