@@ -314,3 +314,23 @@ def test_an_empty_picture_is_explained_in_the_last_line(tmp_path: Path, capfd) -
     assert said[-1] == (
         f"{file}: nothing can be seen: none of its meshes was found (package://ghost_description/body.dae)"
     )
+
+
+def test_a_robot_without_masses_is_drawn_as_it_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """As the first steps of ROS tutorials write them: Gazebo simulates nothing of it. The arm hangs below its joint."""
+    robot, out = tmp_path / "r.urdf", tmp_path / "r.png"
+    robot.write_text(
+        """<robot name="r"><material name="m"><color rgba="1 0 0 1"/></material>
+        <link name="base"><visual><geometry><box size="0.4 0.4 0.4"/></geometry><material name="m"/></visual></link>
+        <link name="arm"><visual><geometry><cylinder radius="0.1" length="1"/></geometry><material name="m"/></visual>
+        </link><joint name="j" type="revolute"><parent link="base"/><child link="arm"/><origin xyz="0 0 -0.7"/>
+        <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>"""
+    )
+
+    assert main(["render", str(robot), "-o", str(out), "--size", "200x150"]) == 0
+
+    rows, columns = np.nonzero(_red(out))
+    assert rows.min() > 0
+    assert rows.max() < 149
+    assert rows.max() - rows.min() > 2 * (columns.max() - columns.min())
+    assert f"{robot}: nothing of it can be simulated; it is drawn as it is written" in capsys.readouterr().err

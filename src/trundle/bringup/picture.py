@@ -12,12 +12,14 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from trundle.diagnostics import Diagnostics, UsageError
+from trundle.model import World
 from trundle.packages import Packages
 from trundle.render import Intrinsics, Picture, Scene, corners_of, move_skins, scene_of
 from trundle.sensors import CameraSensor, mount_cameras
-from trundle.simulation import Simulation
+from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
+from .as_written import with_robot
 from .outcome import pose_of
 from .renderers import RENDERERS, RendererName
 from .stage import set_stage
@@ -74,12 +76,23 @@ class Studio:
             DescriptionError: the file is at fault.
             UsageError: no such camera, or a picture too large to draw.
         """
-        stage = set_stage(file, Packages(environment, start=start), report)
+        packages = Packages(environment, start=start)
+        stage = set_stage(file, packages, report)
         self._content = options.content
         self.unseen = why_unseen(stage.world)
-        """Why the picture is empty, if it is."""
+        """Why the picture is empty, or not what would be simulated, if it is so."""
         self.simulation = Simulation(stage.world, report)
         scene = scene_of(stage.world, report)
+        self._written: NDArray[np.float64] = np.zeros((0, 7))
+        """Poses of bodies that are drawn and not simulated."""
+        if (
+            options.camera is None
+            and stage.robot is not None
+            and not _is_seen(stage.world)
+            and _has_visuals(stage.robot)
+        ):
+            self.unseen = "nothing of it can be simulated; it is drawn as it is written"
+            scene, self._written = with_robot(scene, stage.robot, packages, report)
         if options.camera is None:
             scene = replace(scene, ambient=_STUDIO_LIGHT, background=_BACKDROP)
         self._scene, self._renderer = scene, RENDERERS[options.renderer](scene)
@@ -101,12 +114,15 @@ class Studio:
             raise UsageError(f"a picture of {asked} is too large; it may have {_MOST_PX} pixels, as 3840x2160 has")
         if options.at_s > 0.0:
             self.simulation.run(options.at_s)
-        self._cloud = _corners(scene, self.simulation.snapshot().poses)
+        self._cloud = _corners(scene, self._poses(self.simulation.snapshot()))
+
+    def _poses(self, snapshot: Snapshot) -> NDArray[np.float64]:
+        return np.concatenate([snapshot.poses, self._written])
 
     def picture(self, *, turned_rad: float = 0.0) -> Image.Image:
         """Draw what is there now; the view of everything may have gone around, counter-clockwise from above."""
         snapshot = self.simulation.snapshot()
-        self._renderer.update(snapshot.poses)
+        self._renderer.update(self._poses(snapshot))
         move_skins(self._renderer, self._scene, self.simulation.moment_of)
         if self._sensor is not None:
             view = self._sensor.world_from_camera(snapshot)
@@ -133,6 +149,11 @@ class Studio:
         large = replace(self._lens, width_px=width * _SAMPLES, height_px=height * _SAMPLES)
         picture = Image.fromarray(self._renderer.render(view, large).rgb)
         return picture.resize((width, height), Image.Resampling.BOX)
+
+
+def _is_seen(world: World) -> bool:
+    """Whether there is a visual that was not added to what the file says."""
+    return any(link.visuals for model in world.models if not model.added for link in model.links)
 
 
 def _camera(name: str, cameras: list[CameraSensor]) -> CameraSensor:
