@@ -7,6 +7,7 @@ from typing import Any
 from .messages import Message, Messages
 
 _NUMBERS = {"float32", "float64"} | {f"{u}int{n}" for u in ("", "u") for n in (8, 16, 32, 64)} | {"byte", "char"}
+_BYTES = ("uint8[", "char[")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,6 +53,8 @@ class MessagePrinter:
             yield name, str(value)
         else:
             for field, kind in self.messages.fields(base).items():
+                if kind.startswith(_BYTES):  # strings of bytes to the original, nothing to plot
+                    continue
                 if not (self.hide_arrays and "[" in kind) and not (self.hide_strings and "string" in kind):
                     yield from self.columns(field_value(value, field), kind, f"{name}.{field}")
 
