@@ -85,14 +85,10 @@ class Studio:
         scene = scene_of(stage.world, report)
         self._written: NDArray[np.float64] = np.zeros((0, 7))
         """Poses of bodies that are drawn and not simulated."""
-        if (
-            options.camera is None
-            and stage.robot is not None
-            and not _is_seen(stage.world)
-            and _has_visuals(stage.robot)
-        ):
+        robot = stage.robot if options.camera is None and not _is_seen(stage.world) else None
+        if robot is not None and any(link.visuals for link in robot.links):
             self.unseen = "nothing of it can be simulated; it is drawn as it is written"
-            scene, self._written = with_robot(scene, stage.robot, packages, report)
+            scene, self._written = with_robot(scene, robot, packages, report)
         if options.camera is None:
             scene = replace(scene, ambient=_STUDIO_LIGHT, background=_BACKDROP)
         self._scene, self._renderer = scene, RENDERERS[options.renderer](scene)
