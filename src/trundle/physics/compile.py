@@ -6,6 +6,7 @@ holds. A joint whose limits leave no freedom (the 0..0 of many published robots)
 
 import warnings
 from collections import Counter
+from dataclasses import replace
 
 import mujoco
 
@@ -19,6 +20,7 @@ from .inertia import principal_inertia
 from .joints import JointMaker, soften_stops
 from .settings import apply_settings
 from .shapes import Meets, ShapeEntry, add_shape
+from .starting import start_positions
 from .surfaces import Touch
 from .tree import WORLD, Hold, Place, Tree
 from .wheels import add_tread, is_wheel, without_tread
@@ -67,7 +69,8 @@ class Compiler:
         compiled = self.compile_spec()
         soften(compiled, touches)
         soften_stops(compiled, (axis for axes in self.joints.axes.values() for axis in axes))
-        return index_world(self.world, self.tree, self.joints.axes, touches, collisions, compiled)
+        world = index_world(self.world, self.tree, self.joints.axes, touches, collisions, compiled)
+        return replace(world, start=start_positions(compiled, self.tree, self.report))
 
     def fill(self) -> dict[tuple[str, str], Touch]:
         """Put the world into the specification; return how its shapes touch."""

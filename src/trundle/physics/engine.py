@@ -81,9 +81,11 @@ class Engine:
         self.reset()
 
     def reset(self) -> None:
-        """Go back to the world as compiled, at rest, with every motor off."""
+        """Go back to where the world starts, at rest, with every motor off."""
         self._rest.allow(False)
         mujoco.mj_resetData(self._model, self._data)
+        if self.compiled.start is not None:
+            self._data.qpos[:] = self.compiled.start
         self._taken = 0
         self._leapt = True
         self.motors.switch_off()

@@ -59,6 +59,8 @@ class CompiledWorld:
     """How two shapes touch that have a pair of their own."""
     geom_collisions: tuple[str, ...]
     """`model::link::collision` of each geom."""
+    start: NDArray[np.float64] | None = None
+    """Positions of everything at the start, where that is not as written."""
 
 
 def index_world(

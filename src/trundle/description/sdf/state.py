@@ -109,11 +109,6 @@ def _placed(model: Model, state: XmlNode, world_from_outer: Pose, context: Conte
         else link
         for link in model.links
     )
-    moved = [link for link in started if link.start is not None]
-    if moved:
-        names = ", ".join(repr(link.name) for link in moved[:5])
-        what = f"<state> of model {model.name!r}: links saved elsewhere than written ({names}) start as written"
-        report.info(links[moved[0].name].at, what)
     return replace(
         model,
         world_from_model=world_from_outer.inverse() @ world_from_model,

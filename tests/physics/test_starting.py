@@ -1,0 +1,102 @@
+"""A world that was saved while it ran goes on from where its links were."""
+
+from pathlib import Path
+
+import pytest
+
+import trundle
+from trundle.physics import compile_world
+from trundle.simulation import Simulation
+from trundle.spatial import Pose
+
+PARTS = """<link name="a"><pose>0 0 1 0 0 0</pose></link><link name="b"><pose>0.5 0 1 0 0.3 0</pose></link>
+<link name="c"><pose>0.5 0.4 1.2 0.1 0 0</pose></link>
+<joint name="outer" type="{outer}"><pose>-0.2 0 0.1 0 0 0</pose><parent>a</parent><child>b</child>{axes}</joint>
+<joint name="inner" type="revolute"><parent>{c_or_b}</parent><child>{b_or_c}</child><axis><xyz>0 1 0</xyz>
+<limit><lower>0</lower><upper>6</upper></limit></axis></joint>"""
+AXIS = "<axis><xyz>0.6 0 0.8</xyz></axis>"
+AXES = "<axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 1 0</xyz></axis2>"
+PLACE = Pose.from_rpy(3.0, -1.0, 2.0, 0.4, -0.3, 2.0)
+
+
+def world(folder: Path, parts: str, state: str = "") -> Path:
+    file = folder / "w.world"
+    model = f'<model name="m">{parts}</model>'
+    file.write_text(f'<sdf version="1.6"><world name="w"><gravity>0 0 0</gravity>{model}{state}</world></sdf>')
+    return file
+
+
+def saved(sim: Simulation) -> str:
+    """What Gazebo writes of a world: where each link is in it."""
+    links = "".join(
+        f'<link name="{name}"><pose>{" ".join(map(repr, sim["m"].link(name).pose.as_list()))}</pose></link>'
+        for name in ("a", "b", "c")
+    )
+    model_pose = " ".join(map(repr, sim["m"].pose.as_list()))
+    return f'<state world_name="w"><model name="m"><pose>{model_pose}</pose>{links}</model></state>'
+
+
+@pytest.mark.parametrize(
+    ("outer", "axes", "positions"),
+    [
+        ("revolute", AXIS, (0.7,)),
+        ("revolute", AXIS, (-2.9,)),
+        ("prismatic", AXIS, (0.35,)),
+        ("universal", AXES, (0.8, -0.6)),
+        ("revolute2", AXES, (-2.0, 0.5)),
+    ],
+)
+@pytest.mark.parametrize("turned", [False, True])
+def test_joints_are_where_the_saved_poses_of_links_have_them(tmp_path, outer, axes, positions, turned) -> None:
+    ends = {"c_or_b": "c" if turned else "b", "b_or_c": "b" if turned else "c"}
+    parts = PARTS.format(outer=outer, axes=axes, **ends)
+    before = trundle.load(str(world(tmp_path, parts)))
+    before["m"].set_pose(PLACE)
+    for i, position in enumerate(positions):
+        before["m"].joint("outer").set_position(position, axis=i)
+    before["m"].joint("inner").set_position(4.0)
+
+    after = trundle.load(str(world(tmp_path, parts, saved(before))))
+
+    assert after["m"].joint("outer").positions == pytest.approx(positions, abs=1e-6)
+    assert after["m"].joint("inner").position == pytest.approx(4.0, abs=1e-6)
+    for name in "abc":
+        assert after["m"].link(name).pose.as_list() == pytest.approx(before["m"].link(name).pose.as_list(), abs=1e-6)
+    assert not [finding for finding in after.report.findings if "saved where" in finding.what]
+    after.run(0.01)
+    after.reset()
+    assert after["m"].joint("outer").positions == pytest.approx(positions, abs=1e-6)
+
+
+def test_a_ball_is_turned_as_it_was(tmp_path: Path) -> None:
+    parts = PARTS.format(outer="ball", axes="", c_or_b="b", b_or_c="c")
+    before = trundle.load(str(world(tmp_path, parts)))
+    before["m"].joint("outer").set_effort(2.0, axis=1)
+    before.run(0.4)
+    before["m"].joint("inner").set_position(1.0)
+
+    after = trundle.load(str(world(tmp_path, parts, saved(before))))
+
+    turned = before["m"].joint("outer").positions
+    assert max(map(abs, turned)) > 0.02
+    assert after["m"].joint("outer").positions == pytest.approx(turned, abs=1e-6)
+
+
+def test_a_link_saved_where_no_joint_takes_it_is_named(tmp_path: Path) -> None:
+    parts = PARTS.format(outer="revolute", axes=AXIS, c_or_b="b", b_or_c="c")
+    sim = trundle.load(str(world(tmp_path, parts)))
+    state = saved(sim).replace('<link name="c"><pose>', '<link name="c"><pose>9')
+
+    after = trundle.load(str(world(tmp_path, parts, state)))
+
+    said = [
+        str(finding) for finding in after.report.findings if "saved where its joints cannot take it" in finding.what
+    ]
+    assert len(said) == 1
+    assert "link 'c'" in said[0]
+
+
+def test_a_world_that_was_never_saved_has_no_start_of_its_own(tmp_path: Path) -> None:
+    sim = trundle.load(str(world(tmp_path, PARTS.format(outer="revolute", axes=AXIS, c_or_b="b", b_or_c="c"))))
+
+    assert compile_world(sim.world, sim.report).start is None
