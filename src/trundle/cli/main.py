@@ -36,6 +36,7 @@ COMMANDS: dict[str, str] = {
     "srv": "show service types",
     "tf": "print, draw and measure transforms",
     "graph": "draw who publishes what to whom",
+    "plot": "draw numbers of messages over time",
     "log": "show what nodes log",
     "exec": "run a node of a package",
     "pack": "find packages and what they need",

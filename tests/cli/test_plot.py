@@ -1,0 +1,103 @@
+"""`trundle plot`: numbers of messages over time."""
+
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from trundle.cli.plot_picture import Curve, as_svg, as_text
+from trundle.ros import WallClock
+
+
+@pytest.fixture
+def bag(graph: Any, tmp_path: Path) -> Path:
+    """Fifty points on a line, a second apart as their publisher's clock has it."""
+    node = graph.node("talker")
+    publisher = node.advertise("/points", "geometry_msgs/PointStamped", queue_size=None)
+    joints = node.advertise("/joints", "sensor_msgs/JointState", queue_size=None)
+    graph.ready(node)
+    path = tmp_path / "run.bag"
+
+    async def talk() -> None:
+        i = 0
+        while True:
+            publisher.publish({"header": "auto", "point": {"x": float(i), "y": -1.0}})
+            joints.publish({"name": ["a", "b"], "position": [1.0, i * 2.0]})
+            i += 1
+            await WallClock().sleep(0.005)
+
+    talking = graph.loop.spawn(talk())
+    assert graph.trundle("bag", "record", "-O", str(path), "-l", "50", "/points", "/joints")[0] == 0
+    talking.cancel()
+    return path
+
+
+def _lines(svg: str) -> list[list[tuple[float, float]]]:
+    found = re.findall(r'<polyline [^>]*points="([^"]*)"', svg)
+    return [[(float(x), float(y)) for x, y in (pair.split(",") for pair in line.split())] for line in found]
+
+
+def test_a_bag_is_drawn_as_a_picture(graph: Any, bag: Path, tmp_path: Path) -> None:
+    target = tmp_path / "points.svg"
+
+    assert graph.trundle("plot", "/points/point/x:y", "-b", str(bag), "-o", str(target)) == (0, "", "")
+
+    rising, level = _lines(target.read_text())
+    assert rising[0][1] > rising[-1][1], "upwards is less in a picture"
+    assert len({y for _, y in level}) == 1
+    assert ">/points/point/x<" in target.read_text()
+
+
+def test_each_number_of_an_array_is_a_curve(graph: Any, bag: Path) -> None:
+    code, text, _ = graph.trundle("plot", "/joints/position", "-b", str(bag))
+    assert code == 0
+    assert "* /joints/position[0] = 1\n" in text
+    assert re.search(r"\+ /joints/position\[1\] = \d+", text)
+
+
+def test_a_running_topic_is_drawn(graph: Any, tmp_path: Path) -> None:
+    publisher = graph.node("ticker").advertise("/speed", "std_msgs/Float32")
+
+    async def talk() -> None:
+        while True:
+            publisher.publish({"data": 0.5})
+            await WallClock().sleep(0.01)
+
+    talking = graph.loop.spawn(talk())
+    target = tmp_path / "speed.svg"
+    assert graph.trundle("plot", "/speed/data", "--duration", "0.1", "-o", str(target)) == (0, "", "")
+    code, text, _ = graph.trundle("plot", "/speed/data", "--duration", "0.1")
+    talking.cancel()
+    assert code == 0
+    assert len(_lines(target.read_text())[0]) > 2
+    assert "* /speed/data = 0.5" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (["/points/header/frame_id"], "/points/header/frame_id is a string, not a number"),
+        (["/points/point"], "/points/point is a geometry_msgs/Point, not a number; fields here: x, y, z"),
+        (["/points/point/w"], "no field named w in geometry_msgs/Point; fields here: x, y, z"),
+        (["/none"], "no topic of /none in "),
+        (["/points/point/x", "-o", "x.png"], "x.png does not end in .svg"),
+    ],
+)
+def test_what_cannot_be_drawn_is_one_sentence(graph: Any, bag: Path, words: list[str], complaint: str) -> None:
+    code, _, error = graph.trundle("plot", *words, "-b", str(bag))
+    assert (code, error.startswith(f"ERROR: {complaint}")) == (1, True), error
+
+
+def test_a_curve_is_broken_where_it_is_no_number() -> None:
+    curve = Curve("c", [(0.0, 1.0), (1.0, 2.0), (2.0, math.nan), (3.0, math.inf), (4.0, 1.0), (5.0, 1.0)])
+    assert len(_lines(as_svg([curve]))) == 2
+    assert "*" in as_text([curve], columns=60, rows=10)
+
+
+def test_a_spike_among_a_hundred_thousand_points_is_seen() -> None:
+    points = [(i / 1000, float(i == 54_321)) for i in range(100_000)]
+    (line,) = _lines(as_svg([Curve("c", points)]))
+    assert len(line) < 4000
+    assert len({y for _, y in line}) == 2
