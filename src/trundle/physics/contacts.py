@@ -4,7 +4,7 @@ In Gazebo the smaller friction of two surfaces wins; MuJoCo takes the larger, so
 joined by a joint never touch, links of one model only where they say so.
 
 ODE and MuJoCo cannot agree on everything: ODE's friction pyramid becomes an elliptic cone, and max_vel, which limits
-how fast ODE pushes bodies out of one another, holds for what begins so (see `parting`), not for what hits hard.
+how fast ODE corrects depth, holds for what begins deep (see `parting`); what hits is slow to come up by itself.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
