@@ -206,6 +206,14 @@ class XmlNode:
             self._element.text = value
         return self
 
+    def write(self, tag: str, text: str) -> None:
+        """Give a child this text; one is made where there is none."""
+        element = self._element.find(tag)
+        if element is None:
+            element = etree.SubElement(self._element, tag)
+            self._children = None
+        element.text = text
+
     @property
     def raw_text(self) -> str:
         """All text directly inside the element, white space and text between children included."""

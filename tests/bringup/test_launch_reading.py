@@ -10,7 +10,7 @@ def test_listing_nodes_loads_nothing_heavy(tmp_path: Path) -> None:
     file.write_text('<launch><node pkg="p" type="t" name="one"/><param name="x" value="1"/></launch>')
     code = (
         f"import sys; from trundle.cli import main; assert main(['launch', '--nodes', {str(file)!r}]) == 0;"
-        "print([name for name in ('numpy', 'mujoco', 'rosbags', 'viser') if name in sys.modules])"
+        "print([name for name in ('asyncio', 'numpy', 'mujoco', 'rosbags', 'viser') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines() == ["/one", "[]"]

@@ -1,5 +1,6 @@
 """One rule of a format at a time."""
 
+import math
 from pathlib import Path
 
 import pytest
@@ -243,13 +244,32 @@ def test_sdf_1_0_writes_values_as_attributes(tmp_path: Path) -> None:
 def test_gazebo_tags_may_have_a_value_attribute_in_place_of_text(tmp_path: Path) -> None:
     """As in the urdf tutorials; sdformat reads both."""
     text = """<robot name="r"><link name="a"><inertial><mass value="1"/>
-<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry><sphere radius="1"/>
-</geometry></collision></link><gazebo reference="a"><mu1 value="200.0"/><fdir1 value="0 1 0"/><kp>7</kp>
-<turnGravityOff value="true"/></gazebo></robot>"""
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><geometry><sphere radius="1"/></geometry></collision></link>
+<gazebo reference="a"><mu1 value="200.0"/><fdir1 value="0 1 0"/><kp>7</kp>
+<turnGravityOff value="true"/></gazebo><gazebo><self_collide>true</self_collide></gazebo></robot>"""
     report = Diagnostics()
 
-    link = read(tmp_path, text, report, name="x.urdf").world.models[0].links[0]
+    model = read(tmp_path, text, report, name="x.urdf").world.models[0]
 
+    (link,) = model.links
+    assert model.self_collide
     surface = link.collisions[0].surface
     assert (surface.mu, surface.fdir1, surface.kp, link.gravity) == (200.0, (0.0, 1.0, 0.0), 7.0, False)
     assert report.warnings == []
+
+
+def test_a_plugin_on_a_link_that_was_lumped_means_the_lump_and_an_offset(tmp_path: Path) -> None:
+    text = """<robot name="r"><link name="base"><inertial><mass value="1"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link><link name="imu_link"/>
+<joint name="j" type="fixed"><parent link="base"/><child link="imu_link"/>
+<origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/></joint>
+<gazebo><plugin name="p" filename="libp.so"><bodyName>imu_link</bodyName><frameName>imu_link</frameName>
+<xyzOffset>0.5 0 0</xyzOffset></plugin></gazebo></robot>"""
+
+    plugin = read(tmp_path, text, name="x.urdf").world.models[0].plugins[0].node
+
+    assert (plugin.string("bodyName"), plugin.string("frameName")) == ("base", "base")
+    report = Diagnostics()
+    assert plugin.vector("xyzOffset", default=(0, 0, 0), report=report) == pytest.approx((1.0, 2.5, 3.0))
+    assert plugin.vector("rpyOffset", default=(0, 0, 0), report=report) == pytest.approx((0.0, 0.0, math.pi / 2))

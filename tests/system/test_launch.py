@@ -152,6 +152,26 @@ def test_a_node_that_dies_again_and_again_is_started_ever_more_slowly(start, unt
     assert running.interrupt() == 130
 
 
+def test_a_second_launch_takes_over_the_names_it_shares(start, trundle, until, package: Path) -> None:
+    """As in ROS: the master tells the older node of that name to shut down, and everything else goes on."""
+    node = '<node pkg="tf2_ros" type="static_transform_publisher" name="{0}" args="0 0 0 0 0 0 x {0}" output="screen"/>'
+    for name in ("first", "second"):
+        (package / f"{name}.launch").write_text(f"<launch>{node.format('shared')}{node.format(name)}</launch>")
+    first = start("launch", "p", "first.launch", "--headless", ROS_PACKAGE_PATH=str(package.parent))
+    until("the first launch", lambda: "publishing x to shared" in first.output())
+
+    second = trundle(
+        "launch", "p", "second.launch", "--headless", "--duration", "2", ROS_PACKAGE_PATH=str(package.parent)
+    )
+
+    assert second.returncode == 0
+    assert "[shared-1] killing on exit" in second.stdout
+    until("the end of the older one", lambda: "[shared-1] process has finished cleanly" in first.output())
+    assert "shutdown request: [/shared] Reason: new node registered with same name" in first.output()
+    assert trundle("node", "list").stdout.split() == ["/first", "/rosout"]
+    assert first.interrupt() == 130
+
+
 def test_what_runs_is_said_in_a_table(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="a" args="0"/><node pkg="p" type="gone" name="b"/>'

@@ -43,6 +43,64 @@ LAUNCH = """<launch>
 """
 
 
+_GOAL = """{goal: {trajectory: {joint_names: [shoulder], points: [
+{positions: [0.4], time_from_start: {secs: 1}}, {positions: [0.8], time_from_start: {secs: 2}}]}}}"""
+
+
+@pytest.mark.slow
+def test_an_action_moves_the_arm_along_a_trajectory(
+    start: Callable[..., Any], trundle: Callable[..., Any], until: Callable[..., None], tmp_path: Path
+) -> None:
+    controller = "{type: position_controllers/JointTrajectoryController, joints: [shoulder]}"
+    yaml = f"{YAML.partition('  shoulder')[0]}  arm_controller: {controller}\n"
+    launch = LAUNCH.replace("shoulder_position_controller", "arm_controller")
+    xacro = XACRO.replace("EffortJointInterface", "PositionJointInterface")
+    for name, text in (("rr.xacro", xacro), ("rr.yaml", yaml), ("rr.launch", launch)):
+        (tmp_path / name).write_text(text)
+    running = start("launch", str(tmp_path / "rr.launch"), "--headless")
+    until("the controllers", lambda: "Started controllers: joint_state_controller, arm_controller" in running.output())
+    action = "/rr/arm_controller/follow_joint_trajectory"
+    kind = "control_msgs/FollowJointTrajectoryActionGoal"
+    assert trundle("topic", "pub", "-1", f"{action}/goal", kind, _GOAL).returncode == 0
+
+    def position() -> float:
+        return float(trundle("topic", "echo", "-n", "1", "/rr/joint_states/position[0]").stdout.split()[0])
+
+    until("the arm at the end", lambda: position() == pytest.approx(0.8, abs=1e-3))
+    assert running.interrupt() == 130
+    assert "Traceback" not in running.output()
+
+
+@pytest.mark.slow
+def test_a_published_robot_drives_by_cmd_vel_as_its_tutorial_says(
+    start: Callable[..., Any], trundle: Callable[..., Any], until: Callable[..., None], master: Any, shared: Path
+) -> None:
+    """urdf_sim_tutorial's R2D2 with its diff_drive_controller."""
+    repositories = shared / "corpus/repos"
+    if not repositories.is_dir():
+        pytest.skip("the published launch files (../shared/corpus) are not beside this checkout")
+    running = start(
+        "launch", "urdf_sim_tutorial", "13-diffdrive.launch", "--headless", ROS_PACKAGE_PATH=str(repositories)
+    )
+    base = "/r2d2_diff_drive_controller"
+    until("the controller", lambda: f"{base}/odom" in dict(master.call("getTopicTypes")))
+    publisher = start("topic", "pub", "-r", "10", f"{base}/cmd_vel", "geometry_msgs/Twist", "{linear: {x: 0.5}}")
+
+    def forwards() -> float:
+        told = trundle("topic", "echo", "-n", "1", f"{base}/odom/pose/pose/position/x").stdout
+        return float(told.split()[0])
+
+    until("it to drive", lambda: forwards() > 0.3)
+    publisher.interrupt()
+
+    def speed() -> float:
+        return float(trundle("topic", "echo", "-n", "1", f"{base}/odom/twist/twist/linear/x").stdout.split()[0])
+
+    until("it to stop, as nobody commands it any more", lambda: abs(speed()) < 0.01)
+    assert running.interrupt() == 130
+    assert "Traceback" not in running.output()
+
+
 @pytest.mark.slow
 def test_a_command_turns_the_arm_and_its_frame(
     start: Callable[..., Any], trundle: Callable[..., Any], until: Callable[..., None], tmp_path: Path

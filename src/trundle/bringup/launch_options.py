@@ -4,8 +4,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from trundle.supervisor import Patience
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LaunchOptions:
@@ -27,7 +25,9 @@ class LaunchOptions:
     verbose: bool = False
     core_only: bool = False
     pid_file: Path | None = None
-    patience: Patience = Patience()
+    interrupt_s: float = 15.0
+    terminate_s: float = 2.0
+    """How long a node may take to end after SIGINT, then after SIGTERM [s]; the defaults are roslaunch's."""
     strict: bool = False
     quiet: bool = False
     """Say only what goes wrong."""

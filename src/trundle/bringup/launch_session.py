@@ -10,6 +10,7 @@ from typing import Self
 from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import Host, Simulator
 from trundle.ros import PROFILES, Clock, Node, Recorder, RecordOptions, follow_time
+from trundle.supervisor import Patience
 from trundle.viewer import GraphPage
 
 from . import launch_print
@@ -113,20 +114,21 @@ class LaunchSession:
 
     def start(self, nodes: Sequence[LaunchNode]) -> RunningNodes:
         """Start nodes, and say what runs."""
-        loop, patience = self.graph.loop, self._options.patience
-        running = self._running = RunningNodes(self.starter, nodes, patience=patience, quiet=self._options.quiet)
+        loop, options = self.graph.loop, self._options
+        patience = Patience(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
+        running = self._running = RunningNodes(self.starter, nodes, patience=patience, quiet=options.quiet)
         loop.run(running.start(), timeout_s=_START_S)
         self._read.show.findings()
-        if running.launched and not self._options.quiet:
+        if running.launched and not options.quiet:
             print(what_runs(running.launched), flush=True)
         return running
 
     def close(self) -> None:
         """Stop the nodes, the last started first, then everything else."""
-        patience = self._options.patience
+        options = self._options
         try:
             if self._running is not None:
-                timeout_s = patience.interrupt_s + patience.terminate_s + _LAST_S
+                timeout_s = options.interrupt_s + options.terminate_s + _LAST_S
                 self.graph.loop.run(self._running.stop(), timeout_s=timeout_s)
         finally:
             self._open_things.close()

@@ -73,7 +73,6 @@ def main(args: argparse.Namespace) -> int:
     with quiet_imports():
         from trundle.bringup.launch import launch
         from trundle.bringup.launch_options import LaunchOptions
-        from trundle.supervisor import Patience
 
     options = LaunchOptions(
         headless=args.headless or args.core,
@@ -93,7 +92,8 @@ def main(args: argparse.Namespace) -> int:
         verbose=args.verbose,
         core_only=args.core,
         pid_file=args.pid,
-        patience=Patience(interrupt_s=args.sigint_timeout, terminate_s=args.sigterm_timeout),
+        interrupt_s=args.sigint_timeout,
+        terminate_s=args.sigterm_timeout,
         strict=args.strict,
         only="find-node" if args.find_node else "args" if args.args else args.only,
         node=args.find_node or args.args or "",

@@ -47,7 +47,7 @@ from ..sdf.context import Context, RawPose
 from ..sdf.frames import MODEL, FrameGraph
 from ..sdf.version import Version
 from .gazebo_tags import GazeboTags
-from .lump import WORLD, Lump, lump_links, lumped_inertial, shape_name
+from .lump import WORLD, Lump, follow_lumps, lump_links, lumped_inertial, shape_name
 
 _TYPES = {
     "revolute": JointType.REVOLUTE,
@@ -110,14 +110,18 @@ class _Lowering:
         joints = (*joints, *self.tags.joints(graph))
         self.tags.name_tuning()
         plugins = self.tags.plugins("")
-        static = self.tags.flag("", "static") or False
+        for plugin in plugins:
+            follow_lumps(plugin.node, self.lumps.values(), self.report)
+        static, self_collide, wind = (
+            self.tags.flag("", name) or False for name in ("static", "self_collide", "enable_wind")
+        )
         self.tags.report_unread()
         return Model(
             name=self.robot.name,
             at=self.robot.at,
             static=static,
-            self_collide=self.tags.flag("", "self_collide") or False,
-            enable_wind=self.tags.flag("", "enable_wind") or False,
+            self_collide=self_collide,
+            enable_wind=wind,
             links=links,
             joints=joints,
             plugins=plugins,

@@ -1,10 +1,13 @@
 """Links joined by fixed joints become one, as Gazebo's conversion makes them."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from trundle.diagnostics import Diagnostics
 from trundle.model import Inertial
 from trundle.robot import Robot, RobotInertial, RobotShape
-from trundle.spatial import Pose, Quaternion
+from trundle.spatial import ZERO, Pose, Quaternion
+from trundle.xmlnode import XmlNode
 
 from ..bodies import together, turned
 
@@ -47,6 +50,25 @@ def lump_links(robot: Robot, kept: frozenset[str]) -> dict[str, Lump]:
         else:
             lump.parts.append(part)
     return lumps
+
+
+def follow_lumps(plugin: XmlNode, lumps: Iterable[Lump], report: Diagnostics) -> None:
+    """Have a plugin's <bodyName> and <frameName> mean the lump that a link went into, offset to where the link was.
+
+    As sdformat's conversion does (ReduceSDFExtensionPluginFrameReplace), so that plugins find their link.
+    """
+    places = {link: (lump.name, pose) for lump in lumps for link, pose in lump.parts[1:]}
+    for tag in ("bodyName", "frameName"):
+        found = plugin.find(tag)
+        if found is None or found.text not in places:
+            continue
+        name, pose = places[found.text]
+        if tag == "bodyName":
+            offsets = [plugin.vector(offset, default=ZERO, report=report) for offset in ("xyzOffset", "rpyOffset")]
+            moved = pose @ Pose.from_rpy(*offsets[0], *offsets[1])
+            plugin.write("xyzOffset", " ".join(f"{value:.12g}" for value in moved.position))
+            plugin.write("rpyOffset", " ".join(f"{value:.12g}" for value in moved.rpy))
+        plugin.write(tag, name)
 
 
 def shape_name(lump: str, link: str, kind: str, number: int, shape: RobotShape) -> str:
