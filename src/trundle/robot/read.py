@@ -1,17 +1,16 @@
 """Reads a URDF by urdfdom's rules."""
 
 import math
-from collections.abc import Iterable
 from typing import cast, get_args
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.spatial import Pose, Vector3
 from trundle.xmlnode import XmlNode, parse_numbers
 
+from .materials import Look, Materials
 from .robot import (
     JointLimit,
     Mimic,
-    Rgba,
     Robot,
     RobotBox,
     RobotCylinder,
@@ -43,9 +42,8 @@ def read_robot(root: XmlNode, report: Diagnostics) -> Robot:
     name = root.attribute("name")
     if not name:
         raise DescriptionError(root.at, "<robot> needs a name")
-    materials = _read_materials(root.all("material"), report)
+    materials = Materials(root.all("material"), report)
     link_nodes = root.all("link")
-    # A material defined inside any link is known to the links after it, as in urdfdom.
     links = [_read_link(node, materials, report) for node in link_nodes]
     joints = [_read_joint(node, report) for node in root.all("joint")]
     for tag in _FOR_OTHERS:
@@ -99,31 +97,7 @@ def _root(node: XmlNode, links: list[RobotLink], joints: list[RobotJoint]) -> st
     return roots[0]
 
 
-def _read_materials(nodes: Iterable[XmlNode], report: Diagnostics) -> dict[str, Rgba | None]:
-    materials: dict[str, Rgba | None] = {}
-    for node in nodes:
-        name = node.required_attribute("name")
-        if name in materials:
-            raise DescriptionError(node.at, f"a second material {name!r}")
-        materials[name] = _read_colour(node, report)
-    return materials
-
-
-def _read_colour(node: XmlNode, report: Diagnostics) -> Rgba | None:
-    if node.find("texture") is not None:
-        report.info(node.at, "textures of URDF materials are not drawn yet; the plain colour is")
-    colour = node.find("color")
-    if colour is None:
-        return None
-    values = parse_numbers(colour.attribute("rgba") or "")
-    if values is None or len(values) != 4 or not all(map(math.isfinite, values)):
-        report.warn(colour.at, f"<color rgba={colour.attribute('rgba')!r}> wants four numbers; it is ignored")
-        return None
-    r, g, b, a = (min(max(v, 0.0), 1.0) for v in values)
-    return (r, g, b, a)
-
-
-def _read_link(node: XmlNode, materials: dict[str, Rgba | None], report: Diagnostics) -> RobotLink:
+def _read_link(node: XmlNode, materials: Materials, report: Diagnostics) -> RobotLink:
     name = node.required_attribute("name")
     link = RobotLink(
         name=name,
@@ -161,28 +135,20 @@ def _read_inertial(link: XmlNode, name: str, report: Diagnostics) -> RobotInerti
     )
 
 
-def _read_shape(node: XmlNode, materials: dict[str, Rgba | None] | None, report: Diagnostics) -> RobotShape | None:
+def _read_shape(node: XmlNode, materials: Materials | None, report: Diagnostics) -> RobotShape | None:
     geometry = _read_geometry(node, report)
     if geometry is None:
         return None
-    rgba: Rgba | None = None
     material = node.find("material")
-    name = "" if material is None else material.attribute("name") or ""
-    if material is not None and materials is not None:
-        rgba = _read_colour(material, report)
-        if rgba is not None and name:
-            materials[name] = rgba
-        elif rgba is None and name in materials:
-            rgba = materials[name]
-        elif rgba is None and material.find("texture") is None:
-            report.warn(material.at, f"no material {name!r}; it has no colour")
+    look = Look() if material is None or materials is None else materials.look(material)
     shape = RobotShape(
         name=node.attribute("name") or "",
         geometry=geometry,
         at=node.at,
         link_from_shape=_read_origin(node, report),
-        rgba=rgba,
-        material=name,
+        rgba=look.rgba,
+        texture=look.texture,
+        material="" if material is None else material.attribute("name") or "",
     )
     node.report_unread(report)
     return shape

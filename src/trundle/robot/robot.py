@@ -67,6 +67,8 @@ class RobotShape:
     link_from_shape: Pose = Pose()
     rgba: Rgba | None = None
     """A visual's own colour; None where the file names none."""
+    texture: str = ""
+    """URI of the image on a visual, as written; `rgba` tints it."""
     material: str = ""
 
 

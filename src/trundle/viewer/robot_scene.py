@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from trundle.diagnostics import Diagnostics, TrundleError
-from trundle.meshes import Mesh, load_mesh
+from trundle.meshes import Mesh, load_mesh, mean_colour
 from trundle.model import Box, Cylinder, Rgba, Sphere
 from trundle.packages import Packages
 from trundle.render import Scene, Shape, ShapeGeometry
@@ -25,17 +25,30 @@ def robot_scene(robot: Robot, packages: Packages, report: Diagnostics, *, collis
             geometry = _geometry(shape, packages, report)
             if geometry is None:
                 continue
+            look = shape.rgba or _seen_from_afar(shape, packages, report)
             shapes += (
                 Shape(
                     name=shape.name or link.name,
                     body=body,
                     geometry=piece,
                     body_from_shape=shape.link_from_shape,
-                    rgba=shape.rgba or (piece.rgba if isinstance(piece, Mesh) else None) or _UNPAINTED,
+                    rgba=look or (piece.rgba if isinstance(piece, Mesh) else None) or _UNPAINTED,
                 )
-                for piece in (geometry.by_look() if isinstance(geometry, Mesh) and shape.rgba is None else (geometry,))
+                for piece in (geometry.by_look() if isinstance(geometry, Mesh) and look is None else (geometry,))
             )
     return Scene(bodies=tuple(link.name for link in links), shapes=tuple(shapes))
+
+
+def _seen_from_afar(shape: RobotShape, packages: Packages, report: Diagnostics) -> Rgba | None:
+    """The colour of its texture: the page draws none."""
+    if not shape.texture:
+        return None
+    try:
+        image = packages.resolve(shape.texture, beside=Path(shape.at.file).parent, at=shape.at)
+    except TrundleError as error:
+        report.warn(shape.at, f"{error}; the texture is left out")
+        return None
+    return mean_colour(image)
 
 
 def _geometry(shape: RobotShape, packages: Packages, report: Diagnostics) -> ShapeGeometry | None:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import (
+    GREY,
     Box,
     Collision,
     Cylinder,
@@ -207,12 +208,13 @@ class _Lowering:
                     geometry=self._geometry(shape),
                     at=shape.at,
                     link_from_visual=pose @ shape.link_from_shape,
-                    material=gazebo or _material(shape),
+                    material=gazebo or self._material(shape),
                     transparency=0.0 if gazebo or shape.rgba is None else 1.0 - shape.rgba[3],
                 )
             )
-            if gazebo is None and shape.rgba is not None:
-                self.report.info(shape.at, "Gazebo draws URDF colours grey; here they are kept")
+            if gazebo is None and (shape.rgba is not None or shape.texture):
+                what = "textures" if shape.texture else "colours"
+                self.report.info(shape.at, f"Gazebo draws URDF {what} grey; here they are kept")
         return visuals
 
     def _collisions(self, lump: str, part: RobotLink, pose: Pose) -> list[Collision]:
@@ -240,11 +242,18 @@ class _Lowering:
             case RobotMesh(uri, scale):
                 return MeshFile(path=self._path(uri, shape), uri=uri, scale=scale)
 
-    def _path(self, uri: str, shape: RobotShape) -> Path | None:
+    def _material(self, shape: RobotShape) -> Material:
+        texture = self._path(shape.texture, shape, "texture") if shape.texture else None
+        if shape.rgba is None and texture is None:
+            return GREY  # a mesh then comes in its own colours
+        r, g, b, _ = shape.rgba or (1.0, 1.0, 1.0, 1.0)
+        return Material(ambient=(r, g, b, 1.0), diffuse=(r, g, b, 1.0), texture=texture)
+
+    def _path(self, uri: str, shape: RobotShape, what: str = "mesh") -> Path | None:
         try:
             return self.context.packages.resolve(uri, beside=self.context.folder, at=shape.at)
         except DescriptionError as error:
-            self.report.warn(error.at, f"{error.what}; the mesh is left out")
+            self.report.warn(error.at, f"{error.what}; the {what} is left out")
             return None
 
     def _joint(self, joint: RobotJoint, poses: Mapping[str, Pose]) -> Joint | None:
@@ -287,10 +296,3 @@ class _Lowering:
             spring_reference=self.tags.number(joint.name, "springReference", 0.0),
             spring_stiffness=self.tags.number(joint.name, "springStiffness", 0.0),
         )
-
-
-def _material(shape: RobotShape) -> Material:
-    if shape.rgba is None:
-        return Material()
-    r, g, b, _ = shape.rgba
-    return Material(ambient=(r, g, b, 1.0), diffuse=(r, g, b, 1.0))

@@ -129,6 +129,8 @@ class _Writer:
                 material = shape.add("material", name=f"{link.name}_{visual.name}")
                 r, g, b, a = visual.material.diffuse
                 material.add("color", rgba=spelled((r, g, b, a * (1.0 - visual.transparency))))
+                if visual.material.texture is not None:
+                    material.add("texture", filename=self.uri_of(visual.material.texture, ""))
         for collision in link.collisions:
             self._add_shape(tag, "collision", collision, frame_from_link @ collision.link_from_collision)
         self._add_extras(root, link, frame_from_link)

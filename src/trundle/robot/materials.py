@@ -1,0 +1,59 @@
+"""Reads a URDF's <material>: a colour, an image, or the name of one that was read before, by urdfdom's rules."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.xmlnode import XmlNode, parse_numbers
+
+from .robot import Rgba
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What a material says."""
+
+    rgba: Rgba | None = None
+    """None where it names no colour."""
+    texture: str = ""
+    """URI of an image, as written."""
+
+
+class Materials:
+    """The materials known so far, by name; those defined inside a link are known to the links after it."""
+
+    def __init__(self, nodes: Iterable[XmlNode], report: Diagnostics) -> None:
+        """Read those of the robot."""
+        self._report = report
+        self._looks: dict[str, Look] = {}
+        for node in nodes:
+            name = node.required_attribute("name")
+            if name in self._looks:
+                raise DescriptionError(node.at, f"a second material {name!r}")
+            self._looks[name] = self._read(node)
+
+    def look(self, node: XmlNode) -> Look:
+        """How a visual with this <material> looks."""
+        name, look = node.attribute("name") or "", self._read(node)
+        if look == Look():
+            if name not in self._looks:
+                self._report.warn(node.at, f"no material {name!r}; it has no colour")
+            return self._looks.get(name, look)
+        if name:
+            self._looks[name] = look
+        return look
+
+    def _read(self, node: XmlNode) -> Look:
+        texture, colour = node.find("texture"), node.find("color")
+        image = "" if texture is None else texture.attribute("filename") or ""
+        return Look(None if colour is None else self._colour(colour), image)
+
+    def _colour(self, node: XmlNode) -> Rgba | None:
+        text = node.attribute("rgba")
+        values = parse_numbers(text or "")
+        if values is None or len(values) != 4 or not all(map(math.isfinite, values)):
+            self._report.warn(node.at, f"<color rgba={text!r}> wants four numbers; it is ignored")
+            return None
+        r, g, b, a = (min(max(v, 0.0), 1.0) for v in values)
+        return (r, g, b, a)
