@@ -334,3 +334,13 @@ def test_a_robot_without_masses_is_drawn_as_it_is_written(tmp_path: Path, capsys
     assert rows.max() < 149
     assert rows.max() - rows.min() > 2 * (columns.max() - columns.min())
     assert f"{robot}: nothing of it can be simulated; it is drawn as it is written" in capsys.readouterr().err
+
+
+def test_the_ground_hides_nothing_of_a_robot_that_is_written_below_it(tmp_path: Path) -> None:
+    """Many have their root at their middle; in a simulation the ground pushes them up."""
+    model, out = tmp_path / "m.sdf", tmp_path / "m.png"
+    model.write_text(BOX.replace("<pose>3 1 0.5 0 0 0</pose>", "<pose>3 1 -4 0 0 0</pose>"))
+
+    assert main(["render", str(model), "-o", str(out), "--size", "200x150"]) == 0
+
+    assert _red(out).sum() > 1000

@@ -7,8 +7,10 @@ from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
-from trundle.render import Scene, corners_of
+from trundle.render import Scene
 from trundle.robot import Robot, root_from_links
+
+from .lowest import lowest_of
 
 
 def with_robot(
@@ -24,11 +26,7 @@ def with_robot(
     drawn = robot_scene(robot, packages, report)
     poses = root_from_links(robot, {})
     links = [poses[name] for name in drawn.bodies]
-    heights = [
-        (links[shape.body] @ shape.body_from_shape).point(corner)[2]
-        for shape in drawn.shapes
-        for corner in corners_of(shape.geometry)
-    ]
+    heights = [lowest_of(shape.geometry, links[shape.body] @ shape.body_from_shape) for shape in drawn.shapes]
     rows = np.array([(*pose.position, *pose.quaternion) for pose in links])
     rows[:, 2] -= min(heights, default=0.0)
     first = len(scene.bodies)

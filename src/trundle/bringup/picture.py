@@ -20,6 +20,7 @@ from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
 from .as_written import with_robot
+from .lowest import lowest_of
 from .outcome import pose_of
 from .renderers import RENDERERS, RendererName
 from .stage import set_stage
@@ -110,10 +111,19 @@ class Studio:
             raise UsageError(f"a picture of {asked} is too large; it may have {_MOST_PX} pixels, as 3840x2160 has")
         if options.at_s > 0.0:
             self.simulation.run(options.at_s)
+        added = [options.camera is None and model.added for model in stage.world.models for _ in model.links]
+        self._ground = np.flatnonzero(added)
+        self._sunk_m = 0.0
         self._cloud = _corners(scene, self._poses(self.simulation.snapshot()))
+        rows = self._poses(self.simulation.snapshot())
+        heights = [lowest_of(each.geometry, pose_of(rows[each.body]) @ each.body_from_shape) for each in scene.shapes]
+        self._sunk_m = min([0.0, *heights])
 
     def _poses(self, snapshot: Snapshot) -> NDArray[np.float64]:
-        return np.concatenate([snapshot.poses, self._written])
+        """Where everything is drawn; the ground that was added is low enough not to hide what is written below it."""
+        poses = np.concatenate([snapshot.poses, self._written])
+        poses[self._ground, 2] += self._sunk_m
+        return poses
 
     def picture(self, *, turned_rad: float = 0.0) -> Image.Image:
         """Draw what is there now; the view of everything may have gone around, counter-clockwise from above."""

@@ -1,0 +1,30 @@
+"""How low things reach."""
+
+import math
+
+from trundle.meshes import Mesh
+from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
+from trundle.render import ShapeGeometry
+from trundle.spatial import Pose
+
+
+def lowest_of(geometry: ShapeGeometry, world_from_shape: Pose) -> float:
+    """The height of a shape's lowest point [m]; of an endless plane, infinity."""
+    # How much of each of the shape's axes points up or down.
+    x, y, z = world_from_shape.inverse().direction((0.0, 0.0, 1.0))
+    match geometry:
+        case Box(size):
+            below = sum(side / 2 * abs(up) for side, up in zip(size, (x, y, z), strict=True))
+        case Cylinder(radius, length):
+            below = length / 2 * abs(z) + radius * math.hypot(x, y)
+        case Capsule(radius, length):
+            below = length / 2 * abs(z) + radius
+        case Sphere(radius):
+            below = radius
+        case Ellipsoid((a, b, c)):
+            below = math.hypot(a * x, b * y, c * z)
+        case Plane():
+            return math.inf
+        case Mesh(vertices):
+            below = -float((vertices @ (x, y, z)).min())
+    return world_from_shape.position[2] - below
