@@ -158,6 +158,7 @@ def _overview() -> str:
             *lines,
             "",
             'tab completion: eval "$(register-python-argcomplete trundle)"',
+            "         fish: register-python-argcomplete --shell fish trundle | source",
         ]
     )
 
@@ -166,11 +167,13 @@ def _complete() -> None:
     """Answer the shell's request for completions; does not return."""
     import argcomplete
 
+    from .completion import complete
+
     parser = argparse.ArgumentParser(prog="trundle")
     subparsers = parser.add_subparsers()
     typed = os.environ.get("COMP_LINE", "").split()
     for name, summary in COMMANDS.items():
         subparser = subparsers.add_parser(name, help=summary, formatter_class=_Formatter)
         if name in typed:
-            _parser(name, subparser)
+            complete(_parser(name, subparser), name)
     argcomplete.autocomplete(parser)

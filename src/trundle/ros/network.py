@@ -17,6 +17,10 @@ class ServerAddress:
     warning: str | None = None
     """What the environment asks for and does not get, in one sentence."""
 
+    def at(self, port: int) -> str:
+        """Host and port as a URI has them: an IPv6 address in brackets."""
+        return f"[{self.advertise}]:{port}" if ":" in self.advertise else f"{self.advertise}:{port}"
+
 
 def master_uri_from_env() -> str:
     """Return ROS_MASTER_URI, or the usual address on this machine."""

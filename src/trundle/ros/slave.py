@@ -35,7 +35,7 @@ class Slave:
     async def start(self) -> None:
         """Listen at two free ports."""
         await self._rpc.start(self._address.bind, 0)
-        self.uri = f"http://{self._address.advertise}:{self._rpc.port}/"
+        self.uri = f"http://{self._address.at(self._rpc.port)}/"
         loop = asyncio.get_running_loop()
         self._server = await loop.create_server(
             lambda: _Inbound(self._node, self._links, self._newcomers), self._address.bind, 0, backlog=_BACKLOG
@@ -45,7 +45,7 @@ class Slave:
     @property
     def service_uri(self) -> str:
         """Where this node's services are called."""
-        return f"rosrpc://{self._address.advertise}:{self.tcp_port}"
+        return f"rosrpc://{self._address.at(self.tcp_port)}"
 
     async def stop(self) -> None:
         """Stop listening and drop every peer."""

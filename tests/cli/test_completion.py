@@ -1,0 +1,49 @@
+"""Tab completion, as a shell asks for it."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+
+@pytest.fixture
+def complete(graph: Any, tmp_path: Path) -> Any:
+    """What a shell would offer behind a line."""
+    node = graph.node("talker", params={"rate": 5})
+    node.advertise("/chatter", "std_msgs/String")
+    node.advertise_service("~enable", "std_srvs/SetBool", lambda _: {})
+    graph.ready(node)
+
+    def words(line: str, **more: str) -> list[str]:
+        answer = tmp_path / "words"
+        asked = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_IFS": "\n", "_ARGCOMPLETE_STDOUT_FILENAME": str(answer)}
+        env = {**os.environ, **asked, "COMP_LINE": line, "COMP_POINT": str(len(line)), **more}
+        subprocess.run([sys.executable, "-m", "trundle"], env=env, check=True, timeout=60)
+        return answer.read_text().split("\n")
+
+    return words
+
+
+@pytest.mark.parametrize(
+    ("line", "offered"),
+    [
+        ("trundle to", "topic "),
+        ("trundle topic ec", "echo "),
+        ("trundle topic echo /ch", "/chatter "),
+        ("trundle topic pub /x std_msgs/Stri", "std_msgs/String "),
+        ("trundle plot /ch", "/chatter "),
+        ("trundle node info /ta", "/talker "),
+        ("trundle param get /talker/r", "/talker/rate "),
+        ("trundle service call /talker/en", "/talker/enable "),
+        ("trundle srv show std_srvs/SetB", "std_srvs/SetBool "),
+    ],
+)
+def test_words_and_live_names_are_completed(complete: Any, line: str, offered: str) -> None:
+    assert complete(line) == [offered]
+
+
+def test_without_a_master_nothing_is_offered(complete: Any) -> None:
+    assert complete("trundle node info /ta", ROS_MASTER_URI="http://127.0.0.1:9/") == [""]
