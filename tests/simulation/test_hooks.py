@@ -196,3 +196,21 @@ def test_a_hook_nobody_wants_is_not_called_and_does_not_cut_the_stride() -> None
     sim.run(0.03)
     # It does not make up for what it missed.
     assert track.times_ns("looks") == [110 * MS, 120 * MS, 130 * MS]
+
+
+def test_a_hook_that_is_removed_is_called_no_more() -> None:
+    sim = empty_world()
+    calls: list[int] = []
+
+    class Counter:
+        def after_step(self, snapshot: Snapshot) -> None:
+            calls.append(snapshot.time_ns)
+
+    one, other = Counter(), Counter()
+    for hook in (one, other):
+        sim.add_hook(hook, period_ns=MS)
+    sim.step()
+    sim.remove_hook(one)
+    sim.step()
+
+    assert calls == [MS, MS, 2 * MS]

@@ -188,7 +188,10 @@ class GazeboWorld:
         simulation.delete(name)
         for node in self._nodes.pop(name, []):
             self._graph.loop.run(node.shutdown(), timeout_s=_CALL_S)
-        self._sensors = [sensor for sensor in self._sensors if sensor.model.name != name]
+        gone = [sensor for sensor in self._sensors if sensor.model.name == name]
+        self._sensors = [sensor for sensor in self._sensors if sensor not in gone]
+        for sensor in gone:
+            simulation.remove_hook(sensor)
         self._show_anew()
 
     def edit(self, world: World) -> None:

@@ -66,6 +66,7 @@ class ScheduledHook:
     def __init__(
         self, hook: object, period_ns: Period, step_ns: int, *, now_ns: int, wanted: Callable[[], bool] | None
     ) -> None:
+        self.hook = hook
         self.wanted = wanted
         self.awake = True
         """Whether it was wanted at the last look."""

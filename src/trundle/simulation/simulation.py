@@ -154,6 +154,10 @@ class Simulation:
         """
         self._hooks.append(ScheduledHook(hook, period_ns, self.step_ns, now_ns=self.time_ns, wanted=wanted))
 
+    def remove_hook(self, hook: object) -> None:
+        """Call a hook no more."""
+        self._hooks = [scheduled for scheduled in self._hooks if scheduled.hook is not hook]
+
     # -- state
 
     def snapshot(self) -> Snapshot:
