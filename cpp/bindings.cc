@@ -119,13 +119,16 @@ NB_MODULE(_native, module) {
           "__init__",
           [](Renderer* self, int32_t bodies, std::vector<Mesh> meshes, std::vector<Image> textures,
              std::vector<ShapeSpec> shapes, std::vector<LightSpec> lights, Colour ambient, Colour horizon,
-             Colour zenith, std::optional<Fog> fog) {
+             Colour zenith, std::optional<Fog> fog, int32_t threads) {
             if (bodies < 0) throw std::invalid_argument("there cannot be fewer than no bodies");
+            const Sky sky{{horizon[0], horizon[1], horizon[2]}, {zenith[0], zenith[1], zenith[2]}, {}, 0};
             new (self) Renderer(SceneSpec{bodies, std::move(meshes), std::move(textures), std::move(shapes),
-                                          std::move(lights), ambient, Sky{horizon, zenith}, fog.value_or(Fog{})});
+                                          std::move(lights), ambient, sky, fog.value_or(Fog{})},
+                                threads);
           },
           nb::kw_only(), nb::arg("bodies"), nb::arg("meshes"), nb::arg("textures"), nb::arg("shapes"),
-          nb::arg("lights"), nb::arg("ambient"), nb::arg("horizon"), nb::arg("zenith"), nb::arg("fog") = nb::none())
+          nb::arg("lights"), nb::arg("ambient"), nb::arg("horizon"), nb::arg("zenith"), nb::arg("fog") = nb::none(),
+          nb::arg("threads") = 1)
       .def(
           "update",
           [](Renderer& self, Array<const double, nb::shape<-1, 7>> poses) {

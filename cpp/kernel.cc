@@ -71,6 +71,31 @@ void see(const View& view, const Solid& solid, const Buffers& buffers) {
   }
 }
 
+void fill(const View& view, const Sky& sky, int32_t top, int32_t bottom, const Buffers& buffers) {
+  const float step = 1.0f / view.focal;
+  float more[3];
+  bool is_even = true;
+  for (int i = 0; i < 3; ++i) more[i] = sky.zenith[i] - sky.horizon[i], is_even &= more[i] == 0.0f;
+  for (int row = top; row < bottom; ++row) {
+    const float z = (view.centre_v - ((float)row + 0.5f)) * step;
+    for (int column = 0; column < view.stride; column += kLanes) {
+      const int at = row * view.stride + column;
+      const I none = load(buffers.id + at) < 0;
+      if (!any(none)) continue;
+      I word = splat(sky.even);
+      if (!is_even) {
+        const F y = (view.centre_u - (counting() + ((float)column + 0.5f))) * step;
+        const F up = (sky.up[0] + sky.up[1] * y + sky.up[2] * z) / sqrt(1.0f + y * y + z * z);
+        const F share = sqrt(max(up, F{}));
+        const I high = to_byte(sky.horizon[0] + share * more[0]) | to_byte(sky.horizon[1] + share * more[1]) << 8 |
+                       to_byte(sky.horizon[2] + share * more[2]) << 16;
+        word = select(up > 0.0f, high, word);
+      }
+      store(buffers.colour + at, word);
+    }
+  }
+}
+
 void shade(const View& view, const Solid& solid, const Lighting& lighting, const Buffers& buffers) {
   switch (solid.kind) {
     case Kind::kPlane: return shade_solid<Kind::kPlane>(view, solid, lighting, buffers);
@@ -88,6 +113,6 @@ void shade(const View& view, const Solid& solid, const Lighting& lighting, const
 #define TRUNDLE_TEXT(name) #name
 #define TRUNDLE_NAME(name) TRUNDLE_TEXT(name)
 extern const Kernel kernel;
-const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), see, shade, cast};
+const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), see, fill, shade, cast};
 
 }  // namespace trundle::TRUNDLE_ISA

@@ -114,6 +114,13 @@ struct Lighting {
   Fog fog;
 };
 
+// What is seen where nothing is: one colour, or two that run into each other from the horizon up.
+struct Sky {
+  float horizon[3], zenith[3];
+  float up[3];   // in the camera's frame
+  int32_t even;  // the horizon's, as Buffers::colour has it: all of the sky below it, or where both are one
+};
+
 // Rows of `stride` numbers each.
 struct Buffers {
   float* nearness;    // 1 / depth [1/m]; of a parallel view -depth [m]
@@ -126,6 +133,7 @@ struct Buffers {
 struct Kernel {
   const char* name;
   void (*see)(const View&, const Solid&, const Buffers&);
+  void (*fill)(const View&, const Sky&, int32_t top, int32_t bottom, const Buffers&);  // where nothing is
   void (*shade)(const View&, const Solid&, const Lighting&, const Buffers&);
   void (*cast)(const Solid*, int32_t, const float* directions, int64_t count, float reach, float* ranges,
                int32_t* shapes);

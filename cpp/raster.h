@@ -52,13 +52,14 @@ inline int first_at(float coordinate, int last) { return kept_inside(__builtin_c
 inline int first_past(float coordinate, int last) { return kept_inside(__builtin_floorf(coordinate + 0.5f), last); }
 
 // Counter-clockwise from outside; seen from behind, nothing is drawn.
-inline void draw_triangle(const View& view, const Buffers& buffers, const Corner& a, const Corner& b, const Corner& c,
+inline void draw_triangle(const View& view, const Solid& solid, const Buffers& buffers, const Corner& a, const Corner& b, const Corner& c,
                           int32_t id) {
   const double bu = (double)b.u - a.u, bv = (double)b.v - a.v, cu = (double)c.u - a.u, cv = (double)c.v - a.v;
   const double area = bu * cv - bv * cu;
   if (!(area < 0.0)) return;  // v runs downwards, so that front sides turn the other way
-  const int row0 = first_at(least_of(a.v, least_of(b.v, c.v)), view.height);
-  const int row1 = first_past(most_of(a.v, most_of(b.v, c.v)), view.height);
+  int row0 = first_at(least_of(a.v, least_of(b.v, c.v)), view.height);
+  int row1 = first_past(most_of(a.v, most_of(b.v, c.v)), view.height);
+  row0 = row0 > solid.top ? row0 : solid.top, row1 = row1 < solid.bottom ? row1 : solid.bottom;
   const int column0 = first_at(least_of(a.u, least_of(b.u, c.u)), view.width);
   const int column1 = first_past(most_of(a.u, most_of(b.u, c.u)), view.width);
   if (column0 >= column1 || row0 >= row1) return;
@@ -99,7 +100,7 @@ struct Corners {
   Corner at[3];
 };
 
-inline void draw_clipped(const View& view, const Buffers& buffers, const Corners& corners, int32_t id) {
+inline void draw_clipped(const View& view, const Solid& solid, const Buffers& buffers, const Corners& corners, int32_t id) {
   Corner kept[4];
   int count = 0;
   for (int i = 0; i < 3; ++i) {
@@ -109,7 +110,7 @@ inline void draw_clipped(const View& view, const Buffers& buffers, const Corners
     if (seen && !next_seen) kept[count++] = cut(view, here, next);
     if (!seen && next_seen) kept[count++] = cut(view, next, here);
   }
-  for (int i = 2; i < count; ++i) draw_triangle(view, buffers, kept[0], kept[i - 1], kept[i], id);
+  for (int i = 2; i < count; ++i) draw_triangle(view, solid, buffers, kept[0], kept[i - 1], kept[i], id);
 }
 
 // The vertices of a mesh as a view sees them, in rows as a mesh has them.
@@ -208,7 +209,8 @@ inline void draw_faces(const View& view, const Solid& solid, const Buffers& buff
     const F ab_u = bu - au, ab_v = bv - av, ac_u = cu - au, ac_v = cv - av;
     const F area = ab_u * ac_v - ab_v * ac_u;
     const I small = (high_u - low_u <= kSmall) & (high_v - low_v <= kSmall);
-    const I row0 = first_at(low_v, view.height), row1 = first_past(high_v, view.height);
+    I row0 = first_at(low_v, view.height), row1 = first_past(high_v, view.height);
+    row0 = select(row0 > solid.top, row0, splat(solid.top)), row1 = min_of(row1, solid.bottom);
     const I column0 = first_at(low_u, view.width), column1 = first_past(high_u, view.width);
     // v runs downwards, so that front sides turn the other way.
     I drawn = (row0 < row1) & (column0 < column1) & (area < 0.0f) & small;
@@ -232,7 +234,7 @@ inline void draw_faces(const View& view, const Solid& solid, const Buffers& buff
     }
     for (uint32_t left = bits(others); left; left &= left - 1) {
       const int i = __builtin_ctz(left);
-      draw_clipped(view, buffers, {{seen.corner(a[i]), seen.corner(b[i]), seen.corner(c[i])}}, solid.first_id + first + i);
+      draw_clipped(view, solid, buffers, {{seen.corner(a[i]), seen.corner(b[i]), seen.corner(c[i])}}, solid.first_id + first + i);
     }
   }
 }

@@ -29,11 +29,6 @@ struct ShapeSpec {
   bool casts_shadow = true;
 };
 
-// What is seen where nothing is: one colour, or two that run into each other from the horizon up.
-struct Sky {
-  std::array<float, 3> horizon, zenith;
-};
-
 struct SceneSpec {
   int32_t bodies = 0;
   std::vector<Mesh> meshes;
@@ -51,9 +46,12 @@ struct Camera {
   double focal, near_, far_;
 };
 
+constexpr int32_t kMostThreads = 64;
+
 class Renderer {
  public:
-  explicit Renderer(SceneSpec scene);  // throws std::invalid_argument where an index leads nowhere
+  // Throws std::invalid_argument where an index leads nowhere. Pictures are the same with any number of threads.
+  explicit Renderer(SceneSpec scene, int32_t threads = 1);
 
   void update(const double* poses);  // (bodies, 7)
   void reshape(int32_t mesh, Mesh form);  // whatever shape bears that mesh changes
@@ -77,8 +75,9 @@ class Renderer {
   bool place(const View& view, const Frame& world_from_camera, size_t index, Solid& solid) const;
   void number_faces();
   void draw_maps();
-  void clear(const View& view, const Frame& world_from_camera, bool segment);
-  void draw_see_through(const View& view, const Solid& solid, const Lighting& lighting, Buffers buffers);
+  struct Band;
+  template <typename Work>
+  void in_bands(int32_t height, const Work& work);
 
   SceneSpec scene_;
   std::vector<Triangles> triangles_;
@@ -91,7 +90,8 @@ class Renderer {
   std::vector<Solid> solids_;                      // that rays may meet
   std::vector<std::optional<LightMap>> maps_;     // of each light
   bool maps_are_old_ = true;
-  std::vector<float> nearness_, nearness_through_, projected_;
+  std::vector<std::vector<float>> projected_;  // of each thread
+  std::vector<float> nearness_, nearness_through_;
   std::vector<int32_t> id_, id_through_, colour_, segment_;
 };
 

@@ -90,7 +90,8 @@ SceneSpec scene() {
     spec.lights.push_back(light);
   }
   spec.ambient = triple();
-  spec.sky = {triple(), triple()};
+  for (float* colour : {spec.sky.horizon, spec.sky.zenith})
+    for (int32_t i = 0; i < 3; ++i) colour[i] = (float)number();
   spec.fog = {(FogKind)whole(0, 3), {0.5f, 0.5f, 0.5f}, (float)number(), (float)number(), (float)number()};
   return spec;
 }
@@ -124,7 +125,7 @@ int main(int, char** words) {
   for (int32_t seed = 0; seed < count; ++seed) {
     source.seed((uint32_t)seed);
     try {
-      Renderer renderer(scene());
+      Renderer renderer(scene(), whole(1, 3));
       look_at(renderer);
       if (whole(0, 3) == 0) renderer.reshape(index(1), mesh());
       look_at(renderer);

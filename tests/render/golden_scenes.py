@@ -75,9 +75,9 @@ SCENES = {
 }
 
 
-def draw(name: str) -> NDArray[np.uint8]:
+def draw(name: str, *, threads: int = 1) -> NDArray[np.uint8]:
     """One of the scenes."""
-    made = NativeRenderer(SCENES[name])
+    made = NativeRenderer(SCENES[name], threads=threads)
     made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
     return made.render(EYE, LENS).rgb
 

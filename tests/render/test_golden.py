@@ -33,6 +33,12 @@ def test_a_picture_is_what_it_was(name: str, tmp_path: Path) -> None:
         )
 
 
+@pytest.mark.parametrize("threads", [2, 3, 64])
+@pytest.mark.parametrize("name", golden_scenes.SCENES)
+def test_any_number_of_threads_draws_the_same_bytes(name: str, threads: int) -> None:
+    assert golden_scenes.draw(name, threads=threads).tobytes() == golden_scenes.draw(name).tobytes()
+
+
 def test_every_instruction_set_draws_the_same_bytes() -> None:
     def hashes(wish: str) -> str:
         program = [sys.executable, str(Path(golden_scenes.__file__))]

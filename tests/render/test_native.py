@@ -1,6 +1,8 @@
 """What a camera sees."""
 
 import math
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -266,6 +268,42 @@ def test_panes_lie_over_each_other_from_the_far_one_to_the_near_one() -> None:
     for order in ((near, far), (far, near)):
         rgb = renderer(*order).render(Pose(), WIDE).rgb[120, 160]
         assert rgb == pytest.approx([0.5 * 255 + 0.25 * 51, 0.25 * 255 + 0.25 * 102, 0.25 * 153], abs=1.5)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"width_px": 0, "height_px": 0}, "a picture is 1 to 16384 pixels wide and high, not 0 x 0"),
+        ({"width_px": 100_000, "height_px": 100_000}, "not 100000 x 100000"),
+        ({"horizontal_fov_rad": 0.0}, "a field of view is between 0 and pi, not 0 rad"),
+        ({"horizontal_fov_rad": 3.5}, "not 3.5 rad"),
+        ({"horizontal_fov_rad": math.nan}, "not nan rad"),
+        ({"near_m": 5.0, "far_m": 1.0}, "a camera needs 0 < near < far, not 5 m and 1 m"),
+        ({"near_m": 1.0, "far_m": 1.0}, "not 1 m and 1 m"),
+        ({"near_m": math.nan}, "not nan m and 100 m"),
+    ],
+)
+def test_a_camera_that_cannot_be_is_refused_in_one_sentence(wrong: dict[str, Any], said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        replace(WIDE, **wrong)
+
+
+def test_a_camera_or_a_fan_of_rays_that_is_nowhere_is_refused() -> None:
+    made = renderer(shape(Sphere(0.5)))
+    nowhere = Pose((math.nan, 0.0, 0.0))
+    with pytest.raises(ValueError, match="the pose of the camera is not of finite numbers"):
+        made.render(nowhere, WIDE)
+    with pytest.raises(ValueError, match="the place that rays start from is not of finite numbers"):
+        made.cast(nowhere, np.array([[1.0, 0.0, 0.0]], dtype=np.float32), reach_m=1.0)
+
+
+def test_a_million_triangles_without_area_are_not_seen() -> None:
+    faces = np.repeat(np.arange(1000, dtype=np.int32), 3000).reshape(-1, 3)
+    assert len(faces) == 1_000_000
+    vertices = np.random.default_rng(0).random((1000, 3)).astype(np.float32)
+    made = renderer(shape(Mesh(vertices, faces)))
+    assert (made.render(Pose((-3.0, 0.0, 0.0)), WIDE).rgb == (51, 102, 153)).all()
+    assert np.isinf(made.cast(Pose((-3.0, 0.0, 0.0)), np.eye(3, dtype=np.float32), reach_m=9.0)[0]).all()
 
 
 def test_the_same_world_is_the_same_picture_to_the_last_byte() -> None:

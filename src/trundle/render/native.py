@@ -51,8 +51,13 @@ class _Numbered(Generic[Key, Item]):
 class NativeRenderer:
     """Implements `Renderer`: what is seen is found by exact ray intersection, of meshes by rasterising."""
 
-    def __init__(self, scene: Scene) -> None:
-        """Hand a scene to C++."""
+    def __init__(self, scene: Scene, *, threads: int = 1) -> None:
+        """Hand a scene to C++.
+
+        Args:
+            scene: what there is to see.
+            threads: that share the rows of each picture, at most 64; the picture is the same with any number.
+        """
         meshes = _Numbered[int, _native.Mesh]()
         textures = _Numbered[Texture, _native.Texture]()
 
@@ -96,6 +101,7 @@ class NativeRenderer:
             horizon=horizon[:3],
             zenith=zenith[:3],
             fog=_native_fog(scene.fog),
+            threads=threads,
         )
 
     def update(self, poses: NDArray[np.float64]) -> None:

@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 
 from trundle.spatial import Pose
 
+_LARGEST = 16384
+"""[px]"""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Intrinsics:
@@ -19,6 +22,20 @@ class Intrinsics:
     horizontal_fov_rad: float
     near_m: float = 0.1
     far_m: float = 100.0
+
+    def __post_init__(self) -> None:
+        """Refuse what no picture can be made with.
+
+        Raises:
+            ValueError: with the reason.
+        """
+        if not (1 <= self.width_px <= _LARGEST and 1 <= self.height_px <= _LARGEST):
+            size = f"{self.width_px} x {self.height_px}"
+            raise ValueError(f"a picture is 1 to {_LARGEST} pixels wide and high, not {size}")
+        if not 0.0 < self.horizontal_fov_rad < math.pi:
+            raise ValueError(f"a field of view is between 0 and pi, not {self.horizontal_fov_rad:g} rad")
+        if not 0.0 < self.near_m < self.far_m:
+            raise ValueError(f"a camera needs 0 < near < far, not {self.near_m:g} m and {self.far_m:g} m")
 
     @property
     def focal_px(self) -> float:
