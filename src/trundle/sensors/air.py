@@ -33,8 +33,8 @@ class PressureReading:
     """[Pa²]"""
 
 
-class AirPressureSensor(MountedSensor[PressureReading]):
-    """A barometer in air that thins with height."""
+class _InAir(MountedSensor[PressureReading]):
+    """Reads a pressure, with noise."""
 
     def __init__(
         self,
@@ -51,66 +51,49 @@ class AirPressureSensor(MountedSensor[PressureReading]):
         Args:
             model: whose it is.
             link: that carries it.
-            sensor: with its air_pressure.
+            sensor: with its instrument.
             link_index: of the link in `Snapshot.poses`.
             air: of the world.
             random: for its noise.
         """
         super().__init__(model, link, sensor, link_index=link_index)
-        assert isinstance(sensor.instrument, AirPressure), f"{sensor.name!r} is no barometer"
-        self._air = air
-        self._settings = sensor.instrument
-        self._noise = NoiseSource(sensor.instrument.pressure, random)
-
-    def take(self, snapshot: Snapshot) -> PressureReading:
-        """The pressure at this instant."""
-        height = self._settings.reference_altitude + self.world_from_sensor(snapshot).position[2]
-        return PressureReading(
-            time_ns=snapshot.time_ns,
-            pressure=self._noise.disturb_one(pressure_at(self._air, height)),
-            variance=self._settings.pressure.stddev**2,
-        )
-
-
-class AirSpeedSensor(MountedSensor[PressureReading]):
-    """A Pitot tube along +x: ρ v² / 2 of the air that comes from ahead."""
-
-    def __init__(
-        self,
-        model: Model,
-        link: Link,
-        sensor: Sensor,
-        *,
-        link_index: int,
-        air: Atmosphere,
-        wind: Vector3,
-        random: np.random.Generator,
-    ) -> None:
-        """Mount it; see `AirPressureSensor`.
-
-        Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: with its air_speed.
-            link_index: of the link in `Snapshot.poses`.
-            air: of the world.
-            wind: of the world [m/s].
-            random: for its noise.
-        """
-        super().__init__(model, link, sensor, link_index=link_index)
-        assert isinstance(sensor.instrument, AirSpeed), f"{sensor.name!r} is no air speed sensor"
-        self._air = air
-        self._wind = wind
+        assert isinstance(sensor.instrument, AirPressure | AirSpeed), f"{sensor.name!r} reads no pressure"
+        self.air = air
         self._variance = sensor.instrument.pressure.stddev**2
         self._noise = NoiseSource(sensor.instrument.pressure, random)
 
+    def pressure(self, snapshot: Snapshot) -> float:
+        """What there is at this instant [Pa]."""
+        raise NotImplementedError
+
     def take(self, snapshot: Snapshot) -> PressureReading:
         """The pressure at this instant."""
+        pressure = self._noise.disturb_one(self.pressure(snapshot))
+        return PressureReading(time_ns=snapshot.time_ns, pressure=pressure, variance=self._variance)
+
+
+class AirPressureSensor(_InAir):
+    """A barometer in air that thins with height."""
+
+    def pressure(self, snapshot: Snapshot) -> float:
+        """What there is at this instant [Pa]."""
+        settings = self.sensor.instrument
+        assert isinstance(settings, AirPressure), f"{self.name!r} is no barometer"
+        return pressure_at(self.air, settings.reference_altitude + self.world_from_sensor(snapshot).position[2])
+
+
+class AirSpeedSensor(_InAir):
+    """A Pitot tube along +x: ρ v² / 2 of the air that comes from ahead."""
+
+    wind: Vector3 = (0.0, 0.0, 0.0)
+    """Of the world [m/s]."""
+
+    def pressure(self, snapshot: Snapshot) -> float:
+        """What moving adds at this instant [Pa]."""
         world_from_sensor = self.world_from_sensor(snapshot)
-        vx, vy, vz = (own - air for own, air in zip(self.velocity(snapshot), self._wind, strict=True))
+        vx, vy, vz = (own - air for own, air in zip(self.velocity(snapshot), self.wind, strict=True))
         ahead, _, _ = Pose(quaternion=world_from_sensor.quaternion).inverse().direction((vx, vy, vz))
-        met = 0.5 * density_at(self._air, world_from_sensor.position[2]) * ahead * abs(ahead)
-        return PressureReading(time_ns=snapshot.time_ns, pressure=self._noise.disturb_one(met), variance=self._variance)
+        return 0.5 * density_at(self.air, world_from_sensor.position[2]) * ahead * abs(ahead)
 
 
 def pressure_at(air: Atmosphere, height: float) -> float:

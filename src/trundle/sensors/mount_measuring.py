@@ -124,9 +124,9 @@ def _air_pressure(at: _Spot) -> AirPressureSensor:
 
 def _air_speed(at: _Spot) -> AirSpeedSensor:
     world = at.simulation.world
-    return AirSpeedSensor(
-        at.model, at.link, at.sensor, link_index=at.index, air=world.atmosphere, wind=world.wind, random=at.random
-    )
+    made = AirSpeedSensor(at.model, at.link, at.sensor, link_index=at.index, air=world.atmosphere, random=at.random)
+    made.wind = world.wind
+    return made
 
 
 def _altimeter(at: _Spot) -> AltimeterSensor:
