@@ -34,5 +34,7 @@ def read_heights(path: Path, *, sampling: int = 1, most: int = MOST_SAMPLES) -> 
             columns, rows = (min((n - 1) * max(sampling, 1) + 1, most) for n in image.size)
             heights = np.asarray(grey.convert("F").resize((columns, rows), Image.Resampling.BILINEAR))
             return (heights / (65535.0 if deep else 255.0)).astype(np.float32)
-    except (OSError, ValueError, Image.DecompressionBombError) as error:
+    except MeshError:
+        raise
+    except Exception as error:  # every decoder behind Pillow fails in its own way
         raise MeshError(" ".join(str(error).split())) from None

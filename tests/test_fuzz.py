@@ -1,0 +1,145 @@
+"""Every reader of files, on damaged ones: what comes out is a result or one sentence.
+
+Descriptions themselves are damaged in tests/description, launch files in tests/launch, bags in tests/ros.
+"""
+
+import contextlib
+import io
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from PIL import Image
+from tests.meshes.test_parts import MTL, OBJ, collada
+
+from trundle.description import expand_xacro
+from trundle.diagnostics import Diagnostics, TrundleError
+from trundle.meshes import load_mesh, read_heights
+from trundle.packages import Packages, model_file, needs
+from trundle.viewer import read_rviz_config
+
+XACRO = """<?xml version="1.0"?><robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
+<xacro:arg name="n" default="2"/><xacro:property name="l" value="${2 * 0.5}"/>
+<xacro:property name="d" value="${dict(a=1, b=[1, 2])}"/>
+<xacro:macro name="box" params="name size:=^|1 *origin"><link name="${name}"><xacro:insert_block name="origin"/>
+<visual><geometry><box size="${size} ${l} ${sin(pi / 6)}"/></geometry></visual></link></xacro:macro>
+<xacro:if value="${int('$(arg n)') > 1}"><xacro:box name="a"><origin xyz="0 0 ${d['b'][1]}"/></xacro:box></xacro:if>
+<xacro:unless value="false"><xacro:box name="b_$(arg n)" size="2"><origin/></xacro:box></xacro:unless></robot>"""
+MODEL_CONFIG = """<?xml version="1.0"?><model><name>m</name><version>1.0</version>
+<sdf version="1.4">model.sdf</sdf><sdf version='1.6'>model.sdf</sdf><description>d</description></model>"""
+PACKAGE = """<package format="2"><name>p</name><depend>roscpp</depend><exec_depend condition="$ROS_VERSION == 1">x
+</exec_depend><export><gazebo_ros gazebo_model_path="${prefix}/models" plugin_path="lib"/></export></package>"""
+RVIZ = """Panels: []
+Visualization Manager:
+  Displays:
+    - {Class: rviz/Grid, Name: Grid, Enabled: true, Color: 160; 160; 164}
+    - Class: rviz/Group
+      Displays: [{Class: rviz/TF, Name: TF, Show Names: false}, {Class: rviz/Image, Image Topic: /eye/image}]
+    - {Class: rviz/RobotModel, Robot Description: robot_description, Collision Enabled: &on true}
+  Global Options: {Background Color: 48; 48; 48, Fixed Frame: odom}
+"""
+ODD = st.one_of(
+    st.sampled_from(
+        [b"nan", b"1e400", b"-1", b"0", b"", b"\0", b"<", b"&", b'"', b"${", b"$(find x)", b"../../x", b"{"]
+    ),
+    st.sampled_from(
+        [b"&a [*a, *a]", b"!!python/name:os", b"999999999999", b"\xff\xfe", b"\xff\xff\xff\xff", b"x" * 5000]
+    ),
+    st.binary(max_size=8),
+)
+EDITS = st.lists(st.tuples(st.integers(0, 100_000), st.integers(0, 12), ODD), min_size=1, max_size=4)
+
+
+def _xacro(path: Path) -> None:
+    expand_xacro(path, {}, packages=Packages({}, start=path), report=Diagnostics())
+
+
+def _model_config(path: Path) -> None:
+    model_file(path.parent, Diagnostics())
+
+
+def _package(path: Path) -> None:
+    needs(path.parent)
+    packages = Packages({"ROS_PACKAGE_PATH": str(path.parent)}, start=path.parent)
+    packages.find_package("p")
+    packages.worlds()
+    packages.material_folders()
+
+
+def _rviz(path: Path) -> None:
+    read_rviz_config(path, Diagnostics())
+
+
+def _collada(path: Path) -> bytes:
+    return collada(path).read_bytes()
+
+
+def _obj(path: Path) -> bytes:
+    (path.parent / "car.mtl").write_text(MTL)
+    return OBJ.encode()
+
+
+def _exported(kind: str) -> Callable[[Path], bytes]:
+    def write(_: Path) -> bytes:
+        made = trimesh.creation.box().export(file_type=kind)
+        return made if isinstance(made, bytes) else made.encode()
+
+    return write
+
+
+def _heights(_: Path) -> bytes:
+    buffer = io.BytesIO()
+    Image.fromarray(np.arange(81, dtype=np.uint8).reshape(9, 9)).save(buffer, "PNG")
+    return buffer.getvalue()
+
+
+CASES: dict[str, tuple[Callable[[Path], bytes], Callable[[Path], object]]] = {
+    "r.urdf.xacro": (lambda _: XACRO.encode(), _xacro),
+    "model.config": (lambda _: MODEL_CONFIG.encode(), _model_config),
+    "package.xml": (lambda _: PACKAGE.encode(), _package),
+    "c.rviz": (lambda _: RVIZ.encode(), _rviz),
+    "m.dae": (_collada, load_mesh),
+    "m.obj": (_obj, load_mesh),
+    "m.stl": (_exported("stl"), load_mesh),
+    "m.glb": (_exported("glb"), load_mesh),
+    "h.png": (_heights, read_heights),
+}
+"""File → what is in it, and what reads it."""
+
+
+def _damaged(whole: bytes, edits: list[tuple[int, int, bytes]]) -> bytes:
+    for where, length, odd in edits:
+        start = where % (len(whole) + 1)
+        whole = whole[:start] + odd + whole[start + length :]
+    return whole
+
+
+@pytest.mark.parametrize("name", CASES)
+@settings(max_examples=80, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(edits=EDITS)
+def test_a_damaged_file_is_read_or_refused_in_a_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, edits: list[tuple[int, int, bytes]]
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    write, read = CASES[name]
+    file = tmp_path / name
+    (tmp_path / "model.sdf").touch()
+    file.write_bytes(_damaged(write(file), edits))
+
+    with contextlib.suppress(TrundleError):
+        read(file)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_same_file_is_read_while_it_is_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    write, read = CASES[name]
+    file = tmp_path / name
+    (tmp_path / "model.sdf").touch()
+    file.write_bytes(write(file))
+
+    read(file)
