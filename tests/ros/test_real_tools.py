@@ -199,6 +199,19 @@ def test_a_rospy_node_publishes_subscribes_serves_and_calls(graph: Any, real: Re
     graph.until(lambda: not publisher.has_subscribers)
 
 
+def test_a_roscpp_node_that_prefers_udpros_gets_tcpros(graph: Any, real: Real) -> None:
+    if not Path("/usr/lib/topic_tools/relay").exists():
+        pytest.skip("Debian's topic-tools is not installed")
+    node = graph.node("talker")
+    node.advertise("/a", "std_msgs/String", latch=True).publish({"data": "over TCP"})
+    got: list[str] = []
+    node.subscribe("/copy", "std_msgs/String", lambda m: got.append(m.data))
+    graph.ready(node)
+    with real.started("../lib/topic_tools/relay", "/a", "/copy", "_unreliable:=true"):
+        graph.until(lambda: got)
+    assert got[0] == "over TCP"
+
+
 async def _topics(node: Node) -> list[list[str]]:
     return await call_value(node.master_uri, "getPublishedTopics", node.name, "")
 
