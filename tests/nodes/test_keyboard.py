@@ -18,6 +18,8 @@ def test_arrows_are_keys_of_their_own() -> None:
     ("what", "topic", "keys", "wanted"),
     [
         ("teleop_twist_keyboard/teleop_twist_keyboard.py", "/cmd_vel", b"qi", (0.55, 0.0)),
+        ("turtlebot_teleop/turtlebot_teleop_key", "/turtlebot_teleop_key/cmd_vel", b"qi", (0.22, 0.0)),
+        ("turtlebot3_teleop/turtlebot3_teleop_key", "/cmd_vel", b"w" * 30 + b"a", (0.22, 0.1)),
         ("turtlesim/turtle_teleop_key", "/turtle1/cmd_vel", b"\x1b[D", (0.0, 2.0)),
     ],
 )

@@ -66,6 +66,8 @@ STAND_INS: dict[tuple[str, str], str] = {
     ("topic_tools", "relay"): "trundle.nodes.topic_tools:Relay",
     ("topic_tools", "throttle"): "trundle.nodes.topic_tools:Throttle",
     ("topic_tools", "transform"): "trundle.nodes.topic_tools:Transform",
+    ("turtlebot3_teleop", "turtlebot3_teleop_key"): "trundle.nodes.turtlebot3_teleop_key:Turtlebot3TeleopKey",
+    ("turtlebot_teleop", "turtlebot_teleop_key"): "trundle.nodes.teleop_twist_keyboard:TurtlebotTeleopKey",
     ("turtlesim", "draw_square"): "trundle.nodes.turtlesim:DrawSquare",
     ("turtlesim", "mimic"): "trundle.nodes.turtlesim:Mimic",
     ("turtlesim", "turtle_teleop_key"): "trundle.nodes.turtlesim:TurtleTeleopKey",

@@ -57,6 +57,10 @@ _SPEEDS = {"q": (1.1, 1.1), "z": (0.9, 0.9), "w": (1.1, 1.0), "x": (0.9, 1.0), "
 class TeleopTwistKeyboard:
     """Publishes a Twist (or TwistStamped with ~stamped) a key press, and again every ~repeat_rate."""
 
+    topic = "cmd_vel"
+    speed, turn = 0.5, 1.0
+    """[m/s], [rad/s] where no parameter says."""
+
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
         del arguments, host
         self._node = node
@@ -65,12 +69,12 @@ class TeleopTwistKeyboard:
         """Read keys until cancelled; the robot is stopped at the end."""
         node = self._node
         settings = Settings(await node.get_param("~", {}), node.name)
-        speed, turn = settings.number("speed", 0.5), settings.number("turn", 1.0)
+        speed, turn = settings.number("speed", self.speed), settings.number("turn", self.turn)
         repeat_hz, timeout_s = settings.number("repeat_rate", 0.0), settings.number("key_timeout", 0.5)
         stamped = settings.flag("stamped", default=False)
         frame = settings.text("frame_id", "")
         kind = "geometry_msgs/TwistStamped" if stamped else "geometry_msgs/Twist"
-        commands = node.advertise("cmd_vel", kind, queue_size=1)
+        commands = node.advertise(self.topic, kind, queue_size=1)
 
         def send(move: tuple[int, int, int, int]) -> None:
             x, y, z, th = move
@@ -103,3 +107,10 @@ class TeleopTwistKeyboard:
                     send(move)
             finally:
                 send((0, 0, 0, 0))
+
+
+class TurtlebotTeleopKey(TeleopTwistKeyboard):
+    """turtlebot_teleop/turtlebot_teleop_key: the same keys, slower, on a topic of the node's own."""
+
+    topic = "~cmd_vel"
+    speed, turn = 0.2, 1.0

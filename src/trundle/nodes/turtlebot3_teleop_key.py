@@ -1,0 +1,69 @@
+"""turtlebot3_teleop_key: speeds that keys step up and down."""
+
+import os
+
+from trundle.control import approach
+from trundle.ros import Node, Settings
+
+from .host import Host
+from .keyboard import Keyboard
+
+_HELP = """
+Control Your TurtleBot3!
+---------------------------
+Moving around:
+        w
+   a    s    d
+        x
+
+w/x : increase/decrease linear velocity (Burger : ~ 0.22, Waffle and Waffle Pi : ~ 0.26)
+a/d : increase/decrease angular velocity (Burger : ~ 2.84, Waffle and Waffle Pi : ~ 1.82)
+
+space key, s : force stop
+
+CTRL-C to quit
+"""
+_STEPS = {"w": (0.01, 0.0), "x": (-0.01, 0.0), "a": (0.0, 0.1), "d": (0.0, -0.1)}
+_FASTEST = {"burger": (0.22, 2.84)}
+_OTHERS = (0.26, 1.82)
+"""[m/s], [rad/s]"""
+_PERIOD_S = 0.1
+
+
+class Turtlebot3TeleopKey:
+    """Publishes cmd_vel ten times a second, and goes to a new speed by half a step each time."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del arguments
+        self._node = node
+        self._env = {**os.environ, **host.env}
+
+    async def run(self) -> int:
+        """Read keys until cancelled; the robot is stopped at the end."""
+        node = self._node
+        settings = Settings(await node.get_param("~", {}), node.name)
+        model = settings.text("model", self._env.get("TURTLEBOT3_MODEL", "burger"))
+        fastest = _FASTEST.get(model, _OTHERS)
+        commands = node.advertise("cmd_vel", "geometry_msgs/Twist", queue_size=10)
+        keyboard = Keyboard(node)
+        if not keyboard.there:
+            node.log_warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
+            await node.closed.wait()
+            return 0
+        print(_HELP)
+        wanted, told = (0.0, 0.0), (0.0, 0.0)
+        with keyboard.held():
+            try:
+                while True:
+                    key = await keyboard.key(_PERIOD_S)
+                    if key in _STEPS:
+                        pairs = zip(wanted, _STEPS[key], fastest, strict=True)
+                        linear, angular = (min(max(now + step, -most), most) for now, step, most in pairs)
+                        wanted = (linear, angular)
+                        print(f"currently:\tlinear velocity {linear:.2f}\t angular velocity {angular:.2f} ")
+                    elif key in (" ", "s"):
+                        wanted = told = (0.0, 0.0)
+                    told = (approach(told[0], wanted[0], 0.005), approach(told[1], wanted[1], 0.05))
+                    commands.publish({"linear": {"x": told[0]}, "angular": {"z": told[1]}})
+            finally:
+                commands.publish({})
