@@ -15,34 +15,21 @@ from trundle.model import Link, Model, World
 from trundle.physics import GripLaw
 from trundle.spatial import Pose, Twist, Vector3, Wrench, cross
 
+from .handle import Handle
 from .joint_handle import JointHandle
 
 if TYPE_CHECKING:
     from .simulation import Simulation
 
 
-class LinkHandle:
+class LinkHandle(Handle):
     """One link."""
 
+    KIND = "link"
+
     def __init__(self, simulation: "Simulation", link: Link, index: int) -> None:
-        self._simulation = simulation
+        super().__init__(simulation, index)
         self.link = link
-        self._index: int | None = index
-
-    @property
-    def index(self) -> int:
-        """Into `Snapshot.poses`; it changes as models before this one go.
-
-        Raises:
-            UsageError: the model was deleted.
-        """
-        if self._index is None:
-            raise UsageError(f"link {self.name!r} is gone: its model was deleted")
-        return self._index
-
-    def move_to(self, index: int | None) -> None:
-        """Be at another index, or nowhere any more; for the simulation alone."""
-        self._index = index
 
     @property
     def name(self) -> str:

@@ -10,39 +10,22 @@ from trundle.diagnostics import UsageError
 from trundle.model import Joint
 from trundle.spatial import Wrench
 
+from .handle import Handle
+
 if TYPE_CHECKING:
     from .simulation import Simulation
 
 
-class JointHandle:
+class JointHandle(Handle):
     """One joint; its freedoms are its axes, counted from 0 as the file has them. A ball joint's three are a rotation
     vector, which can be read, and an effort.
     """
 
+    KIND = "joint"
+
     def __init__(self, simulation: "Simulation", joint: Joint, index: int) -> None:
-        self._simulation = simulation
+        super().__init__(simulation, index)
         self.joint = joint
-        self._index: int | None = index
-
-    @property
-    def index(self) -> int:
-        """Into `Snapshot.joint_positions`; it changes as models before this one go.
-
-        Raises:
-            UsageError: the model was deleted.
-        """
-        if self._index is None:
-            raise UsageError(f"joint {self.name!r} is gone: its model was deleted")
-        return self._index
-
-    @property
-    def is_there(self) -> bool:
-        """Whether its model is, still."""
-        return self._index is not None
-
-    def move_to(self, index: int | None) -> None:
-        """Be at another index, or nowhere any more; for the simulation alone."""
-        self._index = index
 
     @property
     def name(self) -> str:
