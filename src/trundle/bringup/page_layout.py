@@ -1,7 +1,7 @@
 """What the page of a simulation shows: its bodies, frames, cameras, and a slider for each joint that can move."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 
 import numpy as np
@@ -38,7 +38,8 @@ def lay_out(simulation: Simulation, cameras: list[CameraSensor], *, drive: bool)
     names = slider_names([(model, joint.name) for model, joint in movable])
     scene = ViewerScene(
         title=f"{world.name} · Trundle",
-        scene=scene_of(world, simulation.report),
+        # The page draws skins as they began: their bones stay in this process.
+        scene=replace(scene_of(world, simulation.report), skins=()),
         collisions=scene_of(world, simulation.report, collisions=True),
         frames=tuple(FrameInfo(f.frame, f.parent) for f in link_frames(world)),
         cameras=tuple(

@@ -93,7 +93,9 @@ def _body(actor: Actor, skin: Skin, report: Diagnostics) -> Link:
     name = f"{actor.name}_pose"
     box = Visual(name=name, at=actor.at, geometry=Box((width, depth, height)), link_from_visual=place)
     why = why_stiff(actor)
-    if why is not None:
+    if why is None:
+        report.info(actor.at, f"actor {actor.name!r}: cameras and lidars see its bones move; the page draws it stiff")
+    else:
         report.info(actor.at, f"actor {actor.name!r} is a box of its skin's size; its bones do not move: {why}")
     return Link(name=name, at=actor.at, kinematic=True, gravity=False, visuals=(box,))
 
