@@ -56,3 +56,18 @@ def test_it_keeps_away_from_models_but_those_it_ignores(tmp_path: Path) -> None:
     shy, bold = nearest
     assert bold == pytest.approx(0.5, abs=5e-3), "it passes beside it"
     assert shy > 0.9, "which is where it turns away from it"
+
+
+def test_its_bones_keep_step_with_what_it_covers(tmp_path: Path) -> None:
+    """2 s of the animation for each metre; a reset begins anew."""
+    sim = load(tmp_path, more="<animation_factor>2</animation_factor>")
+    start = sim["walker"].pose.position
+
+    sim.run(1.0)
+    moment = sim.moment_of("walker")
+
+    assert moment.animation == "walking"
+    assert not moment.placed
+    assert moment.time_s == pytest.approx(2.0 * math.dist(start, sim["walker"].pose.position), rel=1e-3)
+    sim.reset()
+    assert sim.moment_of("walker").time_s == 0.0

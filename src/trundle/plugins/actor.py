@@ -46,8 +46,8 @@ class WanderingActor(Plugin):
         self._factor = parameters.number("animation_factor", default=4.5, report=report)
         parameters.report_unread(report)
         self._seed = sim.seed
-        self.reset()
         walk = self._walk = sim.actors.get(model.name)
+        self.reset()
         if walk is None:
             report.warn(tag.at, f"plugin {tag.name!r} is for actors; {model.name!r} is a model, and moved all the same")
         else:
@@ -63,6 +63,8 @@ class WanderingActor(Plugin):
         """Begin with the first target, and draw the same ones."""
         self._random = np.random.default_rng([self._seed, *self._model.name.encode()])
         self._target: Vector3 = self._first
+        if self._walk is not None:
+            self._walk.animation_s = 0.0
 
     def before_step(self, sim: Simulation) -> None:
         """Take a step, or turn."""

@@ -24,6 +24,8 @@ _PERSON: Vector3 = (0.3, 0.5, 1.8)
 _WANDERING = "libActorPlugin.so"
 """It has skins lie on their backs, whose own up is y, with the hips at 1.2138 m, and takes no notice of scripts."""
 _HIPS = 1.2138
+_WALKING = "walking"
+"""The animation that it plays."""
 
 
 def with_actors(world: World, report: Diagnostics) -> World:
@@ -54,7 +56,7 @@ class ActorWalk:
     def moment(self, time_ns: int) -> Moment:
         """What its bones are at."""
         if self.taken_over:
-            return Moment(time_s=self.animation_s, way_m=0.0, placed=False)
+            return Moment(animation=_WALKING, time_s=self.animation_s, way_m=0.0, placed=False)
         return self._script.moment_at(time_ns / 1e9 if self._starts else 0.0)
 
     def wanted(self, models: Sequence[ModelHandle]) -> bool:
