@@ -74,6 +74,28 @@ def test_the_frames_are_drawn_as_a_tree(graph: Any, robot: Any, tmp_path: Path) 
     assert graph.trundle("tf", "tree", "-o", "frames.pdf")[0] == 1
 
 
+def test_breaks_in_the_tree_are_named(graph: Any, robot: Any) -> None:
+    one, two = graph.node("one"), graph.node("two")
+    broadcasters = TransformBroadcaster(one), TransformBroadcaster(two)
+
+    async def quarrel() -> None:
+        while True:
+            for parent, broadcaster in zip(("map", "world"), broadcasters, strict=True):
+                broadcaster.send(Transform(parent=parent, child="camera", stamp_ns=one.clock.now_ns()))
+            await WallClock().sleep(0.01)
+
+    quarrelling = graph.loop.spawn(quarrel())
+    error = ""
+    while not error.count("by turns"):  # until both were heard
+        code, _, error = graph.trundle("tf", "tree", "-t", "0.2")
+        assert code == 0
+    quarrelling.cancel()
+    assert "WARNING: 2 trees that nothing joins; their roots: " in error
+    assert (
+        "WARNING: 'camera' is below 'map' (by /one) and 'world' (by /two) by turns; a frame has one parent\n" in error
+    )
+
+
 def test_delays_and_rates_are_measured(graph: Any, robot: Any) -> None:
     code, out, _ = graph.trundle("tf", "monitor", "-n", "1")
     assert code == 0

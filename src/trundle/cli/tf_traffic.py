@@ -47,6 +47,8 @@ class TransformTraffic:
         self._clock = clock
         self.frames: dict[str, FrameTraffic] = {}
         self.senders: dict[str, SenderTraffic] = {}
+        self.rivals: dict[str, set[tuple[str, str]]] = {}
+        """Frame that is hung up in two places by turns → (parent, who says so)."""
         for topic, is_static in (("/tf", False), ("/tf_static", True)):
             node.subscribe(topic, "*", lambda m, s=is_static: self._take(m, is_static=s), queue_size=None, on_loop=True)
 
@@ -58,6 +60,8 @@ class TransformTraffic:
             child, parent = item.child_frame_id.removeprefix("/"), item.header.frame_id.removeprefix("/")
             frame = self.frames.get(child)
             if frame is None or (frame.parent, frame.caller) != (parent, raw.caller):
+                if frame is not None and frame.parent != parent:
+                    self.rivals.setdefault(child, set()).update({(frame.parent, frame.caller), (parent, raw.caller)})
                 frame = self.frames[child] = FrameTraffic(child, parent, raw.caller, is_static)
             stamp_s = ns_of(item.header.stamp) / 1e9
             frame.stamps.append(stamp_s)

@@ -1,7 +1,9 @@
 """`trundle tf tree`: all frames as a tree, as text, a picture or Graphviz' own language."""
 
 import argparse
+import sys
 import time
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from trundle.diagnostics import UsageError
@@ -34,6 +36,8 @@ def main(args: argparse.Namespace) -> int:
         found = loop.run(frames())
     if not found:
         raise UsageError("no tf data received")
+    for line in _breaks(found, traffic.rivals):
+        print(f"WARNING: {line}", file=sys.stderr)
     if target is None:
         print(tree_text(_roots(found, now_s)))
         return 0
@@ -44,6 +48,16 @@ def main(args: argparse.Namespace) -> int:
         raise UsageError(f"{target} cannot be written: {error.strerror}") from None
     print(f"{target} generated")
     return 0
+
+
+def _breaks(frames: list[FrameTraffic], rivals: Mapping[str, set[tuple[str, str]]]) -> Iterator[str]:
+    """What keeps one frame from being looked up in another."""
+    roots = sorted({frame.parent for frame in frames} - {frame.child for frame in frames})
+    if len(roots) > 1:
+        yield f"{len(roots)} trees that nothing joins; their roots: {', '.join(map(repr, roots))}"
+    for child, places in sorted(rivals.items()):
+        below = " and ".join(f"{parent!r} (by {caller})" for parent, caller in sorted(places))
+        yield f"{child!r} is below {below} by turns; a frame has one parent"
 
 
 def _roots(frames: list[FrameTraffic], now_s: float) -> list[TreeNode]:
