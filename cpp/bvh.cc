@@ -9,7 +9,7 @@ namespace trundle {
 namespace {
 
 constexpr int kBins = 16;
-constexpr int32_t kLeaf = 4;      // triangles that are not worth a division
+constexpr int32_t kLeaf = 2;      // triangles that are not worth a division
 constexpr int kDeepest = kMostWaiting / kWidest - 2;
 
 struct Box {
