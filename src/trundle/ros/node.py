@@ -19,6 +19,7 @@ from .loop import GraphLoop
 from .messages import ANY_TYPE, Message
 from .network import master_uri_from_env, server_address
 from .node_calls import NodeCalls, ParamCallback
+from .node_links import NodeLinks
 from .node_log import NodeLog
 from .profile import NOETIC
 from .publisher import Publisher
@@ -33,7 +34,7 @@ _LINK_S = 0.01
 _Action = Callable[[], Awaitable[None]]
 
 
-class Node(NodeCalls, NodeLog):
+class Node(NodeCalls, NodeLinks, NodeLog):
     """One node of the graph."""
 
     def __init__(
@@ -306,46 +307,6 @@ class Node(NodeCalls, NodeLog):
         farewells += [self._tell("unregisterPublisher", topic, self.uri) for topic in self._publishers]
         farewells += [self._tell("unsubscribeParam", self.uri, name) for name in self.watched]
         await asyncio.gather(*farewells, return_exceptions=True)
-
-    # -- for this node's servers, on the loop
-
-    @property
-    def publishers(self) -> list[Publisher]:
-        """What this node publishes."""
-        return list(self._publishers.values())
-
-    def publisher(self, topic: str) -> Publisher | None:
-        """Find a publisher by its topic's global name."""
-        return self._publishers.get(topic)
-
-    def service(self, name: str) -> Service | None:
-        """Find a service by its global name."""
-        return self._services.get(name)
-
-    def subscribed_topics(self) -> list[tuple[str, str]]:
-        """Topics with the type this node expects."""
-        return [(topic, subscriptions[0].type) for topic, subscriptions in self._subscriptions.items()]
-
-    def connections(self) -> list[list[Any]]:
-        """All links, as getBusInfo tells them."""
-        links = [link for publisher in self._publishers.values() for link in publisher.connections()]
-        return links + [
-            link
-            for subscriptions in self._subscriptions.values()
-            for subscription in subscriptions
-            for link in subscription.connections()
-        ]
-
-    def statistics(self) -> list[list[Any]]:
-        """Bytes and messages, as getBusStats tells them."""
-        subscriptions = [s for subscriptions in self._subscriptions.values() for s in subscriptions]
-        return [[p.statistics() for p in self._publishers.values()], [s.statistics() for s in subscriptions], []]
-
-    def publishers_changed(self, topic: str, uris: list[str]) -> None:
-        """Follow what the master says about a topic's publishers."""
-        self._publisher_uris[topic] = uris
-        for subscription in self._subscriptions.get(topic, []):
-            subscription.follow(uris)
 
     def asked_to_shut_down(self, reason: str) -> None:
         """Obey the master or another node."""
