@@ -12,7 +12,7 @@ from PIL import Image
 
 import trundle
 from trundle.meshes import triangles_of
-from trundle.physics import decompose
+from trundle.physics import decompose, pieces
 from trundle.physics.pieces import MOST_PIECES, convex_pieces
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist
@@ -108,6 +108,7 @@ def test_parts_of_a_mesh_are_shapes_of_their_own(load: Load) -> None:
 @pytest.fixture
 def cache(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr(pieces, "_known", {})
     return tmp_path / "cache/trundle/meshes"
 
 
@@ -169,6 +170,7 @@ def test_what_moves_and_is_hollow_stands_on_its_corners_and_lets_through(load: L
 
 def test_pieces_are_the_same_every_time_and_kept(load: Load, cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def corners() -> bytes:
+        monkeypatch.setattr(pieces, "_known", {})
         return load(gate(), "0 0 5", static=False).engine.compiled.model.mesh_vert.tobytes()
 
     first = corners()
@@ -177,6 +179,16 @@ def test_pieces_are_the_same_every_time_and_kept(load: Load, cache: Path, monkey
     assert corners() == first
     monkeypatch.setattr(decompose, "_cut", None)  # from now on, nothing is cut
     assert corners() == first
+
+
+def test_a_mesh_is_cut_up_once_however_often_the_world_is_compiled(
+    load: Load, cache: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sim = load(gate(), "0 0 5", static=False)
+    monkeypatch.setattr(pieces, "_cut_up", None)  # from now on, nothing is cut
+    sim.spawn(sim["m"].model, allow_renaming=True)
+    collisions = sim.engine.compiled.geom_collisions
+    assert collisions.count("m_0::l::c") == collisions.count("m::l::c") > 1
 
 
 def test_what_is_hardly_hollow_is_filled_aloud(load: Load, cache: Path) -> None:

@@ -5,6 +5,7 @@ a slab as thick as a wall may be: so a room can be entered, and a ramp driven up
 convex pieces if it is truly hollow; else, and where that makes nothing better, it is filled.
 """
 
+import hashlib
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,6 +35,7 @@ _FULL = 1.1
 _SAMPLES = 1000
 _MOST_CUT = 8
 """Parts of a mesh that are cut up, the largest first."""
+_MOST_KNOWN = 256
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,14 +60,27 @@ class Pieces:
     """One for each part that is not what it is in the mesh."""
 
 
+_known: dict[bytes, Pieces] = {}
+"""By what they were cut from; the longest unused first."""
+
+
 def convex_pieces(vertices: _Points, faces: _Faces, *, fixed: bool) -> Pieces:
-    """Cut a mesh up.
+    """Cut a mesh up, or remember how: whenever a model comes or goes, the whole world is compiled anew.
 
     Args:
         vertices: (N, 3) [m].
         faces: (M, 3) indices into them, counter-clockwise from outside.
         fixed: it never moves.
     """
+    digest = hashlib.sha256(b"%d %d " % (fixed, len(vertices)) + vertices.tobytes() + faces.tobytes()).digest()
+    found = _known.pop(digest, None) or _cut_up(vertices, faces, fixed=fixed)
+    _known[digest] = found
+    if len(_known) > _MOST_KNOWN:
+        del _known[next(iter(_known))]
+    return found
+
+
+def _cut_up(vertices: _Points, faces: _Faces, *, fixed: bool) -> Pieces:
     points, faces = _welded(vertices, faces)
     if not len(faces):
         return Pieces([vertices], [])
