@@ -120,7 +120,9 @@ def expand_xacro(path: Path, arguments: Mapping[str, str], *, packages: Packages
         except DescriptionError:
             raise
         except RecursionError:
-            raise DescriptionError(_where(path), "macros or properties that use themselves without end") from None
+            raise DescriptionError(
+                _where(path), "elements, macros or properties within one another without end"
+            ) from None
         except ExpatError as error:
             raise DescriptionError(Source(_where(path).file, error.lineno), f"not well-formed XML: {error}") from None
         except Exception as error:  # xacro evaluates the file's own Python: anything may come out of it

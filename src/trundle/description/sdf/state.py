@@ -46,7 +46,7 @@ def _applied(
     leave_out(
         node, ("sim_time", "wall_time", "real_time", "iterations", "time"), "is not heeded: time starts at 0", context
     )
-    leave_out(node, ("joint_state",), "is not supported: joints start as written", context)
+    leave_out(node, ("joint_state",), "is not heeded: the poses of links say where joints start", context)
     insertions = node.find("insertions")
     if insertions is not None:
         insertions.all("model")
