@@ -14,6 +14,7 @@ import sys
 import time
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -61,7 +62,7 @@ def test_they_run_without_an_error(shared: Path, tmp_path: Path, loop: GraphLoop
         package = file.parents[1]
         (package / "package.xml").write_text(f"<package><name>{package.name}</name></package>")
     with ThreadPoolExecutor(_AT_ONCE) as pool:
-        problems = list(pool.map(lambda line: _run(line, corpus, tmp_path, loop), lines))
+        problems = list(pool.map(partial(_run, corpus=corpus, folder=tmp_path, loop=loop), lines))
     assert [problem for problem in problems if problem] == []
 
 
