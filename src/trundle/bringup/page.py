@@ -4,7 +4,6 @@ import math
 import time
 from collections.abc import Sequence
 from functools import partial
-from types import TracebackType
 from typing import Protocol, Self
 
 from trundle.sensors import CameraReading, CameraSensor, MeasuringSensor
@@ -165,9 +164,7 @@ class Page:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
 

@@ -1,7 +1,6 @@
 """The ROS side of a simulation: its node, clock, frames, images and parameters on the graph."""
 
 from collections.abc import Mapping, Sequence
-from types import TracebackType
 from typing import Self
 
 from trundle.bridge import ClockTopic, JointStates, SimulationFrames, camera_topics, sensor_topics
@@ -120,7 +119,5 @@ class RosSide:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
