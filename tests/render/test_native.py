@@ -275,8 +275,8 @@ def test_panes_lie_over_each_other_from_the_far_one_to_the_near_one() -> None:
     [
         ({"width_px": 0, "height_px": 0}, "a picture is 1 to 16384 pixels wide and high, not 0 x 0"),
         ({"width_px": 100_000, "height_px": 100_000}, "not 100000 x 100000"),
-        ({"horizontal_fov_rad": 0.0}, "a field of view is between 0 and pi, not 0 rad"),
-        ({"horizontal_fov_rad": 3.5}, "not 3.5 rad"),
+        ({"horizontal_fov_rad": 0.0}, "a field of view is between 0 and 2 pi, not 0 rad"),
+        ({"horizontal_fov_rad": 7.0}, "not 7 rad"),
         ({"horizontal_fov_rad": math.nan}, "not nan rad"),
         ({"near_m": 5.0, "far_m": 1.0}, "a camera needs 0 < near < far, not 5 m and 1 m"),
         ({"near_m": 1.0, "far_m": 1.0}, "not 1 m and 1 m"),

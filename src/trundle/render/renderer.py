@@ -20,6 +20,7 @@ class Intrinsics:
     width_px: int
     height_px: int
     horizontal_fov_rad: float
+    """Less than pi where a picture is to be drawn; what a wide lens sees is looked up in several such pictures."""
     near_m: float = 0.1
     far_m: float = 100.0
 
@@ -32,8 +33,8 @@ class Intrinsics:
         if not (1 <= self.width_px <= _LARGEST and 1 <= self.height_px <= _LARGEST):
             size = f"{self.width_px} x {self.height_px}"
             raise ValueError(f"a picture is 1 to {_LARGEST} pixels wide and high, not {size}")
-        if not 0.0 < self.horizontal_fov_rad < math.pi:
-            raise ValueError(f"a field of view is between 0 and pi, not {self.horizontal_fov_rad:g} rad")
+        if not 0.0 < self.horizontal_fov_rad <= math.tau:
+            raise ValueError(f"a field of view is between 0 and 2 pi, not {self.horizontal_fov_rad:g} rad")
         if not 0.0 < self.near_m < self.far_m:
             raise ValueError(f"a camera needs 0 < near < far, not {self.near_m:g} m and {self.far_m:g} m")
 
