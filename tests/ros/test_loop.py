@@ -7,7 +7,7 @@ import warnings
 
 import pytest
 
-from trundle.ros.loop import close_server
+from trundle.ros.loop import GraphLoop, close_server
 
 
 @pytest.mark.parametrize("passes", range(5))
@@ -29,3 +29,21 @@ def test_a_server_that_closes_loses_nobody_at_its_door(passes: int) -> None:
         asyncio.run(knock())
         gc.collect()
     assert [str(leak.message) for leak in leaks] == []
+
+
+def test_what_a_thread_gathers_comes_when_it_is_released_and_in_order() -> None:
+    came: list[int] = []
+    with GraphLoop() as loop:
+        loop.gather()
+        for number in range(3):
+            loop.call_soon(lambda number=number: came.append(number))
+        assert came == []
+        assert loop.rest(5.0, unless=lambda: False)
+        assert came == [0, 1, 2]
+
+
+def test_it_does_not_rest_while_something_is_under_way() -> None:
+    with GraphLoop() as loop:
+        with loop.work.under_way():
+            assert not loop.rest(0.05, unless=lambda: False)
+        assert loop.rest(5.0, unless=lambda: False)

@@ -20,6 +20,7 @@ from trundle.spatial import Pose
 
 from .gazebo_models import read_spawned
 from .graph import Graph
+from .in_step import Steps
 from .pace import Pacer
 from .page import Page
 from .plugins import attach_sensor_plugins, load_plugins, load_world_plugins
@@ -46,6 +47,7 @@ class GazeboWorld:
         window: tuple[str, int | None] | None,
         speed: float | None = 1.0,
         renderer: RendererName = "cpu",
+        steps: Steps | None = None,
     ) -> None:
         """Get ready; nothing is simulated before `open`.
 
@@ -59,6 +61,7 @@ class GazeboWorld:
             window: host and port of the page; None: headless.
             speed: times real time; None: flat out.
             renderer: draws what cameras see.
+            steps: say when time may go on; None: always.
         """
         self._graph = graph
         self._start = start
@@ -68,10 +71,12 @@ class GazeboWorld:
         self._say = say
         self._window = window
         self._thread: threading.Thread | None = None
-        self._commands: deque[Callable[[], None]] = deque()
+        self._commands: deque[tuple[Callable[[], None], object]] = deque()
+        """Each with what ends its being under way."""
         self._ending = threading.Event()
         self._simulation: Simulation | None = None
         self._renderer: RendererName = renderer
+        self._steps = steps
         self._sensors: list[CameraSensor | MeasuringSensor] = []
         self._around: Surroundings | None = None
         self._plugin_nodes: list[Node] = []
@@ -90,6 +95,10 @@ class GazeboWorld:
 
     async def open(self, node: Node, world: str, *, paused: bool, env: Mapping[str, str]) -> None:
         """Read a world and let it run."""
+        with self._graph.loop.work.under_way():
+            await self._open(node, world, paused=paused, env=env)
+
+    async def _open(self, node: Node, world: str, *, paused: bool, env: Mapping[str, str]) -> None:
         if self._thread is not None:
             raise UsageError("a simulation runs already; a launch has one")
         self._env = {**self._env, **env}
@@ -120,7 +129,7 @@ class GazeboWorld:
 
     def post(self, call: Callable[[], None]) -> None:
         """Have a function called between two strides."""
-        self._commands.append(call)
+        self._commands.append((call, self._graph.loop.work.begin()))
 
     async def show(self, node: Node) -> int:
         """Open the page, once there is something to show, and keep it until cancelled."""
@@ -138,7 +147,8 @@ class GazeboWorld:
             return
         self._ending.set()
         thread.join(_END_S)
-        self._commands.clear()
+        while self._commands:
+            self._graph.loop.work.end(self._commands.popleft()[1])
         for nodes in self._nodes.values():
             for node in nodes:
                 self._graph.loop.spawn(node.shutdown())
@@ -158,6 +168,11 @@ class GazeboWorld:
         """The world as it is now."""
         assert self._simulation is not None, "open() comes first"
         return self._simulation
+
+    @property
+    def in_step(self) -> bool:
+        """Whether time waits for nodes, not they for it."""
+        return self._steps is not None
 
     @property
     def paused(self) -> bool:
@@ -214,10 +229,11 @@ class GazeboWorld:
     # -- inside
 
     def _work(self) -> None:
+        if self._steps is not None:
+            self._graph.loop.gather()
         try:
             while not self._ending.is_set():
-                for _ in range(len(self._commands)):
-                    self._commands.popleft()()
+                self._obey()
                 if self._simulation is None:
                     time.sleep(_IDLE_S)
                     continue
@@ -230,21 +246,43 @@ class GazeboWorld:
                 self._page.close()
                 self._page = None
 
+    def _obey(self) -> None:
+        for _ in range(len(self._commands)):
+            call, token = self._commands.popleft()
+            try:
+                call()
+            finally:
+                self._graph.loop.release()
+                self._graph.loop.work.end(token)
+
     def _go_on(self, simulation: Simulation) -> None:
-        if self._paused:
+        if self._paused or not (self._steps is None or self._steps.may_pass):
             self._pacer.restart()
             simulation.advance(simulation.time_ns)
+            self._graph.loop.release()
             self._ending.wait(_IDLE_S)
             return
         try:
-            simulation.advance(self._pacer.next_target(simulation.time_ns))
+            target_ns = self._pacer.next_target(simulation.time_ns)
+            if self._steps is None:
+                simulation.advance(target_ns)
+            else:
+                self._go_in_step(simulation, self._steps, self._steps.target_ns(target_ns))
         except SimulationUnstableError as error:
             self._stand_still(str(error))
         except Exception as error:  # a plugin's code may raise anything
             self._stand_still(f"{type(error).__name__}: {error}")
         self._clock.set(simulation.time_ns)
-        if self._pacer.speed is None:
+        if self._steps is None and self._pacer.speed is None:
             self._graph.loop.settle()  # who hears what when does not depend on how fast the machine is
+
+    def _go_in_step(self, simulation: Simulation, steps: Steps, until_ns: int) -> None:
+        """Go from instant to instant, and at each let the nodes do what it brings."""
+        while simulation.time_ns < until_ns and not self._paused and not self._ending.is_set():
+            simulation.stride(until_ns)
+            self._clock.set(simulation.time_ns)
+            steps.settle(self._obey, lambda: bool(self._commands) or self._ending.is_set(), self._ending.is_set)
+            steps.stepped(simulation.time_ns)
 
     def _stand_still(self, why: str) -> None:
         self._paused = True

@@ -92,13 +92,15 @@ def _run(read: ReadLaunch, options: LaunchOptions, stop: StopFlag) -> int:
 
     with LaunchSession(read, options) as session:
         running, clock = session.start(read.plan.nodes), session.clock
-        end_ns = None if options.duration_s is None else clock.now_ns() + round(options.duration_s * NS)
+        end_ns = (
+            None if options.duration_s is None or session.in_step else clock.now_ns() + round(options.duration_s * NS)
+        )
         over = False
         silent = SilentClock(clock, read.show.line)
         while not stop.wait(0.05) and not over and (end_ns is None or clock.now_ns() < end_ns):
             read.show.findings()
             silent.look()
-            over = running.over and not options.core_only
+            over = session.is_over or (running.over and not options.core_only)
         required_died = running.required_died
     if stop.is_set():
         return 130

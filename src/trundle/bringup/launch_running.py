@@ -1,7 +1,7 @@
 """The nodes of one launch under their supervisor, and what the terminal says of them."""
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Awaitable, Callable, Sequence
 
 from trundle.launch import LaunchNode
 from trundle.supervisor import Event, Patience, Supervisor
@@ -26,8 +26,8 @@ class RunningNodes:
         self.launched: list[Launched] = []
         """What became of each node, in the file's order."""
 
-    async def start(self) -> None:
-        """Start everything that can be started."""
+    async def start(self, let_start: Callable[[], Awaitable[None]] | None = None) -> None:
+        """Start everything that can be started, and wait for `let_start` after each node."""
         self._supervisor = Supervisor(self._tell, patience=self._patience)
         for number, node in enumerate(self._nodes, start=1):
             label = f"{node.full_name.strip('/')}-{number}"
@@ -37,6 +37,8 @@ class RunningNodes:
                 if not await self._supervisor.start(launched.job, self._starter.policy(node)):
                     launched = launched.failed()
             self.launched.append(launched)
+            if let_start is not None:
+                await let_start()
         self._waiting = asyncio.create_task(self._supervisor.wait())
 
     async def stop(self) -> None:

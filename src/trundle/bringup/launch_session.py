@@ -7,13 +7,14 @@ from pathlib import Path
 from typing import Self
 
 from trundle.launch import LaunchNode, LaunchPlan
-from trundle.nodes import Host, Simulator
-from trundle.ros import PROFILES, Clock, Node, Recorder, RecordOptions, follow_time
+from trundle.nodes import Executable, Host, Simulator, find_node
+from trundle.ros import PROFILES, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
 from trundle.supervisor import Patience
 from trundle.viewer import GraphPage
 
 from . import launch_print
 from .graph import Graph
+from .in_step import START_S, Steps
 from .launch_logs import log_folder
 from .launch_nodes import NodeStarter
 from .launch_options import LaunchOptions
@@ -21,6 +22,7 @@ from .launch_params import set_params
 from .launch_read import ReadLaunch
 from .launch_running import RunningNodes, what_runs
 
+NS = 1_000_000_000
 _START_S = 60.0
 """Starting programs takes its time on a busy machine."""
 _SILENCE_S = 5.0
@@ -43,6 +45,7 @@ class LaunchSession:
         self._options = options
         self._open_things = ExitStack()
         self._running: RunningNodes | None = None
+        self._steps: Steps | None = None
         try:
             self._open(any_port=any_port)
         except BaseException:
@@ -63,9 +66,14 @@ class LaunchSession:
             values = {**core, **{param.name: param.value for param in read.params}}
             print(launch_print.summary(read.plan, values), flush=True)
         graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
+        in_step = options.speed is None and _simulates(read.plan)
+        if in_step and not graph.loop.run(launcher.has_param("/use_sim_time")):
+            graph.loop.run(launcher.set_param("/use_sim_time", True))
         self.clock = graph.loop.run(follow_time(launcher))
-        if options.record is not None:
-            self._record(options.record)
+        recorder = None if options.record is None else self._record(options.record, in_step=in_step)
+        if in_step:
+            end_ns = None if options.duration_s is None else round(options.duration_s * NS)
+            self._steps = Steps(graph.loop, end_ns=end_ns, recorder=recorder, say=show.line)
         page = None
         if not options.headless:
             page = GraphPage(
@@ -84,14 +92,38 @@ class LaunchSession:
             all_required=options.all_required,
         )
 
-    def _record(self, file: Path) -> None:
-        """Write every topic into a bag."""
+    def _record(self, file: Path, *, in_step: bool) -> StepRecorder | None:
+        """Write every topic into a bag; return who does it where that is done in step with the simulation."""
         graph = self.graph
+        if in_step and not self._has_processes():
+            steps = StepRecorder(graph.loop, file)
+            self._open_things.callback(steps.close)
+            self._read.show.line(
+                f"{file} will be the same whenever this is run; /rosout and other programs are left out"
+            )
+            return steps
         node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
         graph.loop.run(follow_time(node))
         recorder = Recorder(node, RecordOptions(all_topics=True, path=file), say=node.log_debug)
         recorder.start()
         self._open_things.callback(recorder.stop)
+        return None
+
+    def _has_processes(self) -> bool:
+        """Whether a node of the launch is a program of its own."""
+        read = self._read
+        found = [find_node(n.package, n.type, read.packages.find_package, env=read.env) for n in read.plan.nodes]
+        return any(isinstance(each, Executable) for each in found)
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the time that a flat-out launch is given has passed, and all of it is recorded."""
+        return self._steps is not None and self._steps.over.is_set()
+
+    @property
+    def in_step(self) -> bool:
+        """Whether time waits for nodes."""
+        return self._steps is not None
 
     def _simulator(self, logs: Path) -> Simulator:
         from .gazebo_world import GazeboWorld  # a launch without Gazebo does not wait for the physics
@@ -107,6 +139,7 @@ class LaunchSession:
             window=None if options.headless else (options.host, options.view_port),
             speed=options.speed,
             renderer=options.renderer,
+            steps=self._steps,
         )
         self._open_things.callback(gazebo.close)
         return gazebo
@@ -116,7 +149,10 @@ class LaunchSession:
         loop, options = self.graph.loop, self._options
         patience = Patience(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
         running = self._running = RunningNodes(self.starter, nodes, patience=patience, quiet=options.quiet)
-        loop.run(running.start(), timeout_s=_START_S)
+        steps = self._steps
+        loop.run(running.start(None if steps is None else steps.let_start), timeout_s=_START_S + START_S)
+        if steps is not None:
+            steps.begin()
         self._read.show.findings()
         if running.launched and not options.quiet:
             print(what_runs(running.launched), flush=True)

@@ -54,6 +54,11 @@ class Simulator(Protocol):
     @property
     def paused(self) -> bool: ...
 
+    @property
+    def in_step(self) -> bool:
+        """Whether time waits for nodes, as it does flat out; they then act by it alone, that runs repeat."""
+        ...
+
     async def open(self, node: Node, world: str, *, paused: bool, env: Mapping[str, str]) -> None:
         """Read a world and let it run; `node` publishes its time, and its callbacks run on the thread.
 

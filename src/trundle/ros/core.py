@@ -43,6 +43,7 @@ class Core:
         self._profile = profile
         self._master = Master(on_shutdown=on_shutdown)
         self._rosout: Node | None = None
+        loop.work.ask_also(lambda: self._master.is_busy)
 
     @property
     def uri(self) -> str:

@@ -3,14 +3,17 @@
 import asyncio
 import logging
 import threading
+import time
 from collections.abc import Callable, Coroutine, Mapping
 from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from .messages import Messages
+from .work import Work
 
 if TYPE_CHECKING:
     from .node import Node
+    from .publisher import Publisher
 
 _T = TypeVar("_T")
 _log = logging.getLogger(__name__)
@@ -21,6 +24,10 @@ _OPENING_S, _ENDING_S = 1.0, 1.0
 _CALM_PASSES = 5
 """Passes of the loop without a delivery after which `settle` calls it quiet; coroutine callbacks that wait for
 nothing outside the process get this many steps."""
+_SPINS = 200
+"""Passes after which `rested` no longer hurries round."""
+_NAP_S = 0.001
+_GRACE_S = 5.0
 
 
 class GraphLoop:
@@ -36,6 +43,14 @@ class GraphLoop:
         """Nodes that have begun and not ended; touched on the loop only, as is `nodes`."""
         self.nodes: dict[str, Node] = {}
         """Address → node that listens there."""
+        self.on_publisher: list[Callable[[Publisher], None]] = []
+        """Called on the loop with each new publisher of its nodes."""
+        self.work = Work()
+        self._news: set[asyncio.Future[None]] = set()
+        self._gatherer: threading.Thread | None = None
+        self._gathered: list[Callable[[], object]] = []
+        self._calls = 0
+        """By which `rested` knows that there are more."""
         self._deliveries = 0
         """Batches of published messages being handed on, by which `settle` knows that there are more."""
         self._unsettled = False
@@ -78,6 +93,7 @@ class GraphLoop:
             TimeoutError: no answer in time; the coroutine is cancelled.
         """
         assert not self.is_this_thread, "run() would wait for itself; await the coroutine"
+        self.release()
         future = asyncio.run_coroutine_threadsafe(coroutine, self._loop)
         try:
             return future.result(timeout_s)
@@ -103,8 +119,15 @@ class GraphLoop:
         """Have the loop call a function, from any thread; ignored once the loop has ended."""
         self._unsettled = True
         if self.is_this_thread:
+            self._calls += 1
             self._loop.call_soon(function)
             return
+        if threading.current_thread() is self._gatherer:
+            self._gathered.append(function)
+            return
+        self._call_soon_from_elsewhere(function)
+
+    def _call_soon_from_elsewhere(self, function: Callable[[], object]) -> None:
         try:
             self._loop.call_soon_threadsafe(function)
         except RuntimeError:  # the loop is closed: nobody is left to hear of it
@@ -128,6 +151,53 @@ class GraphLoop:
         if self._unsettled:
             self.run(self._quiet(), timeout_s)
             self._unsettled = False
+
+    def gather(self) -> None:
+        """From now on, give the loop what this thread has for it only when `release` says so: all at once, in order."""
+        self._gatherer = threading.current_thread()
+
+    def release(self) -> None:
+        """Give the loop what this thread gathered."""
+        if self._gathered and threading.current_thread() is self._gatherer:
+            gathered, self._gathered = self._gathered, []
+            self._call_soon_from_elsewhere(lambda: [self.call_soon(function) for function in gathered])
+
+    def rest(self, timeout_s: float, *, unless: Callable[[], bool]) -> bool:
+        """Wait until nothing is under way; False: not in time, or `unless` came first."""
+        self.release()
+        if self._unsettled or self.work.is_busy:
+            if not self.run(self.rested(timeout_s, unless=unless), timeout_s + _GRACE_S):
+                return False
+            self._unsettled = False
+        return True
+
+    async def rested(
+        self, timeout_s: float, *, unless: Callable[[], bool] = lambda: False, passes: int = _CALM_PASSES
+    ) -> bool:
+        """As `rest`, on the loop, where nothing must happen for so many passes."""
+        due = time.monotonic() + timeout_s
+        calm, seen, spins = 0, self._calls, 0
+        while calm < passes:
+            spins += 1
+            await asyncio.sleep(0 if spins < _SPINS else _NAP_S)
+            if unless() or time.monotonic() > due:
+                return False
+            calm = 0 if self.work.is_busy or self._calls != seen else calm + 1
+            seen = self._calls
+        return True
+
+    async def news(self, timeout_s: float) -> None:
+        """Wait until `tell_news` is called, or so long."""
+        future: asyncio.Future[None] = self._loop.create_future()
+        self._news.add(future)
+        await asyncio.wait([future], timeout=timeout_s)
+        self._news.discard(future)
+
+    def tell_news(self) -> None:
+        """A node of this loop provides a service that was not there."""
+        for future in self._news:
+            if not future.done():
+                future.set_result(None)
 
     async def _quiet(self) -> None:
         calm, seen = 0, self._deliveries

@@ -78,6 +78,11 @@ class Master:
         """Where the master listens."""
         return self._server.port
 
+    @property
+    def is_busy(self) -> bool:
+        """Whether nodes are still to be told something."""
+        return self._notices.is_busy
+
     async def stop(self) -> None:
         """Stop listening; nodes are not told, as they can go on without a master."""
         await self._server.stop()

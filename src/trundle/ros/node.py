@@ -93,7 +93,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         self.watched: dict[str, list[ParamCallback]] = {}
         self._rosout: Publisher | None = None
         self._wants_rosout = rosout
-        self._actions: asyncio.Queue[_Action] = asyncio.Queue()
+        self._actions: asyncio.Queue[tuple[_Action, object]] = asyncio.Queue()
         self._listens = asyncio.Event()
         self._started = asyncio.Event()
         self._params_told = asyncio.Event()
@@ -157,6 +157,8 @@ class Node(NodeCalls, NodeLinks, NodeLog):
                 self, name, type_name, latch=latch, queue_size=queue_size, on_connect=on_connect, foreign=foreign
             )
             self._publishers[name] = publisher
+        for listener in self.loop.on_publisher:
+            self.loop.call_soon(lambda listener=listener: listener(publisher))
         self._do(lambda: self._tell("registerPublisher", name, type_name, self.uri))
         return publisher
 
@@ -211,7 +213,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         service = Service(self, full, type_name, handler)
         with self._lock:
             self._services[full] = service
-        self._do(lambda: self._tell("registerService", full, self._slave.service_uri, self.uri))
+        self._do(lambda: self._provide(full))
         return service
 
     def unregister_publisher(self, publisher: Publisher) -> None:
@@ -262,7 +264,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
 
         await self._started.wait()
         await asyncio.sleep(0)  # what other threads asked for before is in the queue now
-        self._actions.put_nowait(done)
+        self._actions.put_nowait((done, self.loop.work.begin()))
         await future
 
     async def linked(self) -> None:
@@ -323,17 +325,28 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         if self._is_down:
             return
         self.loop.members.add(self)
-        self._worker = asyncio.get_running_loop().create_task(self._work())
+        starting = self.loop.work.begin()
+        self._worker = asyncio.get_running_loop().create_task(self._work(starting))
+        self._worker.add_done_callback(lambda _: self.loop.work.end(starting))
         self._worker.add_done_callback(self._worker_ended)
 
     def _worker_ended(self, worker: "asyncio.Task[None]") -> None:
+        while not self._actions.empty():
+            self.loop.work.end(self._actions.get_nowait()[1])
         if not worker.cancelled() and (error := worker.exception()) is not None:
             print_log("fatal", f"{self.name} cannot go on: {error}", wall_ns=WallClock().now_ns(), sim_ns=None)
 
     def _do(self, action: _Action) -> None:
-        self.loop.call_soon(lambda: self._actions.put_nowait(action))
+        token = self.loop.work.begin()
+        self.loop.call_soon(lambda: self._queue(action, token))
 
-    async def _work(self) -> None:
+    def _queue(self, action: _Action, token: object) -> None:
+        if self._is_down if self._worker is None else self._worker.done():  # nobody is left to do it
+            self.loop.work.end(token)
+        else:
+            self._actions.put_nowait((action, token))
+
+    async def _work(self, starting: object) -> None:
         """Start, then work off the queue, one call to the master after the other."""
         try:
             await self._slave.start()
@@ -351,8 +364,13 @@ class Node(NodeCalls, NodeLinks, NodeLog):
             self.advertise_service("~get_loggers", "roscpp/GetLoggers", self._get_loggers)
             self.advertise_service("~set_logger_level", "roscpp/SetLoggerLevel", self._set_logger_level)
         self._started.set()
+        self.loop.work.end(starting)
         while True:
-            await self._insist(await self._actions.get())
+            action, token = await self._actions.get()
+            try:
+                await self._insist(action)
+            finally:
+                self.loop.work.end(token)
 
     async def _insist(self, action: _Action) -> None:
         """Do something at the master, as soon as there is one."""
@@ -373,6 +391,10 @@ class Node(NodeCalls, NodeLinks, NodeLog):
 
     async def _tell(self, method: str, *arguments: object) -> None:
         await self.ask(method, *arguments)
+
+    async def _provide(self, service: str) -> None:
+        await self.ask("registerService", service, self._slave.service_uri, self.uri)
+        self.loop.tell_news()
 
     async def _listen(self, topic: str, type_name: str) -> None:
         uris = await self.ask("registerSubscriber", topic, type_name, self.uri)

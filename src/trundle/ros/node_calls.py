@@ -18,6 +18,7 @@ ParamCallback: TypeAlias = Callable[[str, Any], None]
 _UNSET: Any = object()
 _MASTER_S = 5.0
 """How long the master may take for an answer."""
+_LOOK_S = 0.05
 
 
 class NodeCalls:
@@ -64,7 +65,8 @@ class NodeCalls:
             MasterError: the master answers with a failure.
         """
         try:
-            return await call_value(self.master_uri, method, self.name, *arguments, timeout_s=_MASTER_S)
+            with self.loop.work.under_way():
+                return await call_value(self.master_uri, method, self.name, *arguments, timeout_s=_MASTER_S)
         except (OSError, WireError) as error:
             raise MasterUnreachableError(self.master_uri, str(error) or "no answer in time") from None
         except FaultError as error:
@@ -169,8 +171,9 @@ class NodeCalls:
         except MasterError:
             raise ServiceError(f"no node provides the service {full}") from None
         try:
-            async with asyncio.timeout(timeout_s):
-                return await call_service(self.messages, self.name, uri, full, kind, request)
+            with self.loop.work.under_way():
+                async with asyncio.timeout(timeout_s):
+                    return await call_service(self.messages, self.name, uri, full, kind, request)
         except TimeoutError:
             raise ServiceError(f"{full} did not answer within {timeout_s:g} s") from None
 
@@ -187,6 +190,6 @@ class NodeCalls:
                     with contextlib.suppress(MasterError):
                         await self.ask("lookupService", full)
                         return
-                    await asyncio.sleep(0.05)
+                    await self.loop.news(_LOOK_S)
         except TimeoutError:
             raise ServiceError(f"no node provided the service {full} within {timeout_s:g} s") from None

@@ -33,6 +33,11 @@ class Notices:
             queue[:] = [(m, a) for m, a in queue if (m, a[:2]) != (method, arguments[:2])]
         queue.append((method, arguments))
 
+    @property
+    def is_busy(self) -> bool:
+        """Whether somebody is still to be told something."""
+        return bool(self._waiting)
+
     async def stop(self) -> None:
         """Drop what is still waiting."""
         for task in list(self._tasks):

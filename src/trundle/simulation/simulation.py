@@ -123,17 +123,29 @@ class Simulation:
         """
         target = -(-until_ns // self.step_ns)
         while self.steps < target:
-            self._drain()
-            hooks = [hook for hook in self._hooks if hook.wakes(self.steps, self.step_ns)]
-            for hook in hooks:
-                if hook.before is not None and hook.before_alarm.rings(self.steps):
-                    hook.before(self)
-            stop = min([target, self.steps + _LONGEST, *(hook.next_step for hook in hooks), *self._pushes.next_ends()])
-            self.engine.step(stop - self.steps)
-            self.steps = stop
-            self._pushes.end(self.engine, self.steps)
-            self._look(hooks)
+            self._stride(target)
         self._drain()
+
+    def stride(self, until_ns: int) -> None:
+        """Simulate up to the next instant at which a hook is called, or to a time [ns] if that comes first.
+
+        Raises:
+            SimulationUnstableError: as `advance`.
+        """
+        self._stride(-(-until_ns // self.step_ns))
+        self._drain()
+
+    def _stride(self, target: int) -> None:
+        self._drain()
+        hooks = [hook for hook in self._hooks if hook.wakes(self.steps, self.step_ns)]
+        for hook in hooks:
+            if hook.before is not None and hook.before_alarm.rings(self.steps):
+                hook.before(self)
+        stop = min([target, self.steps + _LONGEST, *(hook.next_step for hook in hooks), *self._pushes.next_ends()])
+        self.engine.step(stop - self.steps)
+        self.steps = stop
+        self._pushes.end(self.engine, self.steps)
+        self._look(hooks)
 
     def _look(self, hooks: list[ScheduledHook]) -> None:
         due = [hook.after for hook in hooks if hook.after is not None and hook.after_alarm.rings(self.steps)]

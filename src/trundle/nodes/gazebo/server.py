@@ -65,10 +65,12 @@ class GazeboServer:
         topics = StateTopics(node, simulator)
         self._advertise(simulator)
         while not node.closed.is_set():
-            # By the wall's clock: a paused world is still told of.
             if topics.wanted():
                 simulator.post(topics.publish)
-            await asyncio.sleep(topics.period_s)
+            if simulator.in_step and not simulator.paused:
+                await node.clock.sleep(topics.period_s)
+            else:  # by the wall's clock: a paused world is still told of
+                await asyncio.sleep(topics.period_s)
 
     def _advertise(self, simulator: Simulator) -> None:
         for advertise in (

@@ -143,7 +143,8 @@ class SpawnModel:
             raise UsageError("one of -urdf, -sdf is needed")
         match sources[0]:
             case "-file":
-                xml = await asyncio.to_thread(_read, texts["-file"])
+                with self._node.loop.work.under_way():
+                    xml = await asyncio.to_thread(_read, texts["-file"])
             case "-param":
                 xml = await self._parameter(texts["-param"])
             case "-stdin":

@@ -46,7 +46,8 @@ class MapServer:
         return 0
 
     async def _load(self, file: Path) -> None:
-        grid = await asyncio.to_thread(read_map, file)
+        with self._node.loop.work.under_way():
+            grid = await asyncio.to_thread(read_map, file)
         self._fields = grid_fields(grid, frame=self._frame, stamp_ns=self._node.clock.now_ns())
         height, width = grid.cells.shape
         self._node.log_info(f"Read a {width} X {height} map @ {grid.resolution_m:.3f} m/cell")

@@ -4,6 +4,7 @@ from .bag import BagConnection, BagError, BagMessage, BagReader, BagWriter, Chun
 from .files import create_bag, open_bag, recovered
 from .play import Player, PlayOptions
 from .record import Recorder, RecordOptions
+from .steps import StepRecorder
 
 __all__ = [
     "BagConnection",
@@ -16,6 +17,7 @@ __all__ = [
     "Player",
     "RecordOptions",
     "Recorder",
+    "StepRecorder",
     "UnindexedBagError",
     "create_bag",
     "open_bag",

@@ -1,0 +1,77 @@
+"""Records what nodes of this process publish, stamped and put in order by whoever lets time pass: to the byte."""
+
+import contextlib
+from pathlib import Path
+
+from ..loop import GraphLoop
+from ..messages import Message
+from ..publisher import Publisher
+from .bag import BagConnection, BagError, BagMessage
+from .files import create_bag
+
+_NAME = "/record"
+_BY_THE_WALL = ("/rosout", "/rosout_agg")
+"""What nodes say at their start carries the wall's time."""
+
+
+class StepRecorder:
+    """Hears each publisher of a loop from its birth on; messages of one instant go into the bag in a fixed order."""
+
+    is_raw = True
+
+    def __init__(self, loop: GraphLoop, path: Path) -> None:
+        """Open the file.
+
+        Raises:
+            BagError: it cannot be written.
+        """
+        self._path = path if path.suffix in (".bag", ".mcap") else path.with_name(f"{path.name}.bag")
+        self._active = self._path.with_name(f"{self._path.name}.active")
+        self._active.unlink(missing_ok=True)
+        self._writer = create_bag(self._active)
+        self._heard: list[tuple[Publisher, bytes]] = []
+        self.error: str | None = None
+        """Why recording broke off, if it did."""
+        loop.on_publisher.append(self._follow)
+
+    def receive(self, message: Message) -> None:
+        """Take a message object: never, as it wants bytes."""
+        raise AssertionError(message)
+
+    def receive_bytes(self, data: bytes, publisher: Publisher) -> None:
+        """Take a message, on the loop."""
+        self._heard.append((publisher, data))
+
+    def write(self, stamp_ns: int) -> None:
+        """Write what was heard since the last time; called while the loop rests."""
+        heard, self._heard = self._heard, []
+        if self.error is not None:
+            return
+        # A stable sort: the messages of one publisher stay as they came.
+        heard.sort(key=lambda each: (each[0].topic, each[0].caller))
+        try:
+            for publisher, data in heard:
+                self._writer.write(BagMessage(_connection(publisher), max(stamp_ns, 1), data))
+        except (OSError, BagError) as error:
+            self.error = str(error)
+
+    def close(self) -> None:
+        """Finish the file; what was not written yet came after the end."""
+        with contextlib.suppress(OSError):
+            self._writer.close()
+            self._active.replace(self._path)
+
+    def _follow(self, publisher: Publisher) -> None:
+        if publisher.topic not in _BY_THE_WALL:
+            publisher.attach(self, _NAME)
+
+
+def _connection(publisher: Publisher) -> BagConnection:
+    return BagConnection(
+        topic=publisher.topic,
+        type=publisher.type,
+        md5sum=publisher.md5sum,
+        definition=publisher.definition,
+        caller=publisher.caller,
+        latching=publisher.latch,
+    )
