@@ -23,6 +23,7 @@ from .launch_read import ReadLaunch
 from .launch_running import RunningNodes, what_runs
 
 NS = 1_000_000_000
+_WORLDS = frozenset(("gazebo_ros", type_) for type_ in ("gzserver", "gazebo", "debug", "gdbrun", "perf"))
 _START_S = 60.0
 """Starting programs takes its time on a busy machine."""
 _SILENCE_S = 5.0
@@ -66,7 +67,7 @@ class LaunchSession:
             values = {**core, **{param.name: param.value for param in read.params}}
             print(launch_print.summary(read.plan, values), flush=True)
         graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
-        in_step = options.speed is None and _simulates(read.plan)
+        in_step = options.speed is None and _has_world(read.plan)
         if in_step and not graph.loop.run(launcher.has_param("/use_sim_time")):
             graph.loop.run(launcher.set_param("/use_sim_time", True))
         self.clock = graph.loop.run(follow_time(launcher))
@@ -198,3 +199,8 @@ class SilentClock:
 
 def _simulates(plan: LaunchPlan) -> bool:
     return any(node.package == "gazebo_ros" for node in plan.nodes)
+
+
+def _has_world(plan: LaunchPlan) -> bool:
+    """Whether a node of it runs Gazebo's world, and so tells the time; a spawner alone may be for another's."""
+    return any((node.package, node.type) in _WORLDS for node in plan.nodes)
