@@ -58,7 +58,9 @@ def test_each_number_of_an_array_is_a_curve(graph: Any, bag: Path) -> None:
 
 
 def test_a_running_topic_is_drawn(graph: Any, tmp_path: Path) -> None:
-    publisher = graph.node("ticker").advertise("/speed", "std_msgs/Float32")
+    node = graph.node("ticker")
+    publisher = node.advertise("/speed", "std_msgs/Float32")
+    graph.ready(node)
 
     async def talk() -> None:
         while True:
