@@ -107,14 +107,17 @@ def test_a_screw_sinks_as_its_thread_lets_it(load: Load, version: str, tag: str,
     assert j.position < 0.0
 
 
-def test_gears_mesh_by_their_ratio(load: Load) -> None:
-    sim = load(
+@pytest.mark.parametrize("nested", [False, True])
+@pytest.mark.parametrize("turned", [False, True])
+def test_gears_mesh_by_their_ratio(load: Load, nested: bool, turned: bool) -> None:
+    # Turned: the large wheel is the parent of what it turns on, and its joint says how that turns against it.
+    ends = ("large", "base") if turned else ("base", "large")
+    gears = (
         link("base"),
         link("small", pose="1 0 0 0 0 0"),
         link("large", pose="2 0 0 0 0 0", inertia=0.04),
-        joint("post", "fixed", "world", "base"),
         joint("js", "revolute", "base", "small", axis("0 0 1")),
-        joint("jl", "revolute", "base", "large", axis("0 0 1")),
+        joint("jl", "revolute", *ends, axis("0 0 1"), pose="2 0 0 0 0 0" if turned else "0 0 0 0 0 0"),
         joint(
             "mesh",
             "gearbox",
@@ -124,12 +127,15 @@ def test_gears_mesh_by_their_ratio(load: Load) -> None:
             + axis("0 0 1", tag="axis2")
             + "<gearbox_ratio>0.5</gearbox_ratio><gearbox_reference_body>base</gearbox_reference_body>",
         ),
-        gravity=0.0,
+        joint("post", "fixed", "world", "base"),
     )
-    sim["m"].joint("js").set_effort(0.1)
+    sim = load('<model name="n">', *gears, "</model>", gravity=0.0) if nested else load(*gears, gravity=0.0)
+    prefix = "n::" if nested else ""
+    small, large = sim["m"].joint(f"{prefix}js"), sim["m"].joint(f"{prefix}jl")
+    small.set_effort(0.1)
     sim.run(1.0)
-    small, large = sim["m"].joint("js"), sim["m"].joint("jl")
-    assert large.position == pytest.approx(-0.5 * small.position, rel=1e-4)
+    assert sim["m"].link(f"{prefix}large").twist.angular[2] == pytest.approx(-0.5 * small.velocity, rel=1e-3)
+    assert large.position == pytest.approx((0.5 if turned else -0.5) * small.position, rel=1e-4)
     assert small.velocity == pytest.approx(0.1 / (0.01 + 0.25 * 0.04), rel=1e-3)
 
 

@@ -46,6 +46,7 @@ def _moved_joint(joint: Joint, inner: Model) -> Joint:
     def named(link: str) -> str:
         return link if link == WORLD else f"{inner.name}::{link}"
 
+    reference = joint.gearbox_reference_body
     return replace(
         joint,
         name=f"{inner.name}::{joint.name}",
@@ -53,6 +54,7 @@ def _moved_joint(joint: Joint, inner: Model) -> Joint:
         child=named(joint.child),
         axis=_turned(joint.axis, inner.world_from_model, inner.name),
         axis2=_turned(joint.axis2, inner.world_from_model, inner.name),
+        gearbox_reference_body=None if reference is None else named(reference),
     )
 
 

@@ -200,7 +200,8 @@ class JointMaker:
             if len(axes) == 1 and axes[0].axis is not None:
                 along = hold.direction(axes[0].axis)
                 wanted = gearbox.world_from_axes.direction(axis.direction)
-                return axes[0].engine_joint, math.copysign(sign, sum(a * b for a, b in zip(along, wanted, strict=True)))
+                agree = sum(a * b for a, b in zip(along, wanted, strict=True)) >= 0
+                return axes[0].engine_joint, sign if agree else -sign
         return None
 
 
