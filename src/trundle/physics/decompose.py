@@ -1,4 +1,4 @@
-"""Hollow bodies that move, as a few convex pieces: V-HACD's, kept on disk.
+"""Hollow bodies that move, as a few convex pieces: V-HACD's, or sheets along the surface; kept on disk.
 
 K. Mamou: Volumetric Hierarchical Approximate Convex Decomposition. Game Engine Gems 3, 2016. One thread and no limit of
 time, so that the same mesh has the same pieces everywhere; a few tenths of a second each.
@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from trundle.meshes import RawPart, keep, load_kept
 
-from .hulls import Hull, hull_of
+from .hulls import Hull, hull_of, off
+from .sheets import sheets_of
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
-_VERSION = 1
+_VERSION = 2
 """Raised where the same mesh becomes other pieces."""
 _MOST_FACES = 100_000
 _SETTINGS = {
@@ -30,6 +31,10 @@ _SETTINGS = {
     "minEdgeLength": 2,
     "findBestPlane": False,
 }
+_NEAR = 0.01
+"""Part of the mesh's size: pieces nearer to it than this are good."""
+_MOST_SHEETED = 20_000
+"""Faces."""
 _SWEEPS = 4
 _log = logging.getLogger(__name__)
 
@@ -59,23 +64,37 @@ def cut_up(points: _Points, faces: _Faces, hull: Hull, *, closed: bool) -> list[
 
 
 def _cut(points: _Points, faces: _Faces, hull: Hull, closed: bool) -> list[_Points]:
+    """Whichever is nearer to the mesh; voxels, which leave no hollow in a wall, unless sheets are so by far."""
+    size = float(np.ptp(points, axis=0).max())
+    voxels = _solids(_voxels(points, faces, size, closed=closed), hull)
+    from_voxels = off(points[faces], voxels, closed=closed) if len(voxels) > 1 else np.inf
+    if from_voxels > _NEAR * size and len(faces) <= _MOST_SHEETED:
+        sheets = _solids(sheets_of(points, faces, closed=closed), hull)
+        if 2 * off(points[faces], sheets, closed=closed) < from_voxels:
+            return _covering(hull, sheets)
+    return _covering(hull, voxels) if len(voxels) > 1 else []
+
+
+def _voxels(points: _Points, faces: _Faces, size: float, *, closed: bool) -> list[_Points]:
     from vhacdx import compute_vhacd  # few worlds need it
 
     # Its grid is made for bodies about as large as one.
-    middle, size = points.mean(axis=0), float(np.ptp(points, axis=0).max())
+    middle = points.mean(axis=0)
     numbered = np.column_stack([np.full(len(faces), 3), faces]).astype(np.uint32)
     # A wall without thickness must not be shrunk onto its surface: nothing would be left of it.
     found = compute_vhacd((points - middle) / size, numbered.ravel(), shrinkWrap=closed, **_SETTINGS)
-    solids = [solid for corners, _ in found if (solid := hull_of(_within(hull, corners * size + middle))) is not None]
-    if len(solids) < 2:
-        return []
-    return _covering(hull, solids)
+    return [corners * size + middle for corners, _ in found]
+
+
+def _solids(pieces: list[_Points], hull: Hull) -> list[Hull]:
+    return [solid for piece in pieces if (solid := hull_of(_within(hull, piece))) is not None]
 
 
 def _within(hull: Hull, corners: _Points) -> _Points:
     """Corners of a piece, those that stick out of the hull moved back onto it."""
     for _ in range(_SWEEPS):
-        for normal, offset in zip(hull.normals, hull.offsets, strict=True):
+        out = np.flatnonzero((corners @ hull.normals.T - hull.offsets).max(axis=0) > 0.0)
+        for normal, offset in zip(hull.normals[out], hull.offsets[out], strict=True):
             corners = corners - np.outer(np.maximum(corners @ normal - offset, 0.0), normal)
     return corners
 

@@ -11,6 +11,9 @@ _Numbers = NDArray[np.intp]
 _SAMPLES = 4000
 """Points that stand for a surface: a few hundredths of its size apart."""
 _PROBES = 250
+_SURVEY = 1000
+_TOUCH = 1e-9
+"""[m]"""
 _NEAREST = 8
 """Points of a surface whose triangles are looked at closely."""
 
@@ -66,13 +69,63 @@ def volume_of(triangles: _Points) -> float:
     return float(np.einsum("ij,ij->", np.cross(a, b), c)) / 6
 
 
+def area_of(triangles: _Points) -> float:
+    """[m²] Of a surface (F, 3, 3)."""
+    edges = triangles[:, 1:] - triangles[:, :1]
+    return float(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum()) / 2
+
+
 def distance(from_triangles: _Points, to_triangles: _Points) -> float:
     """[m] From the point of one surface (F, 3, 3) that is farthest from another (G, 3, 3), to that; about so."""
     probes, _ = spread(from_triangles, _PROBES)
+    return _farthest(probes, to_triangles)
+
+
+def _farthest(probes: _Points, to_triangles: _Points) -> float:
+    """[m] Of points (N, 3) from a surface; about so, zero without points."""
+    if not len(probes):
+        return 0.0
     samples, owners = spread(to_triangles, _SAMPLES)
     squares = (samples * samples).sum(axis=1) - 2 * probes @ samples.T
     nearest = np.argpartition(squares, min(_NEAREST, len(samples)) - 1, axis=1)[:, :_NEAREST]
     return float(_distances(probes[:, None], to_triangles[owners[nearest]]).min(axis=1).max())
+
+
+def off(triangles: _Points, solids: list[Hull], *, closed: bool) -> float:
+    """[m] How far what solids together look like is from a surface (F, 3, 3) at most, either way; about so."""
+    if not solids:
+        return np.inf
+    samples, _ = spread(triangles, _SURVEY)
+    missing = float(_over(solids, samples).max())
+    probes, owners = spread(np.concatenate([solid.triangles for solid in solids]), _SURVEY)
+    owner = np.repeat(np.arange(len(solids)), [len(solid.triangles) for solid in solids])[owners]
+    # Where one piece goes on as another, and what is inside the surface, is not to be seen.
+    hidden = np.zeros(len(probes), dtype=bool)
+    for i, solid in enumerate(solids):
+        hidden |= (owner != i) & (solid.heights(probes) < _TOUCH)
+    if closed:
+        hidden |= _turns_around(probes, triangles) > 0.5
+    return max(missing, 0.0, _farthest(probes[~hidden], triangles))
+
+
+def _over(solids: list[Hull], points: _Points) -> _Points:
+    """(N,) how far points (N, 3) are outside all of some solids; below zero: in one of them [m]."""
+    heights = np.full(len(points), np.inf)
+    for solid in solids:
+        np.minimum(heights, solid.heights(points), out=heights)
+    return heights
+
+
+def _turns_around(points: _Points, triangles: _Points) -> _Points:
+    """(N,) how many times a surface (F, 3, 3) goes around points (N, 3): the sum of solid angles (van Oosterom)."""
+    turns = np.zeros(len(points))
+    for i, point in enumerate(points):
+        a, b, c = np.moveaxis(triangles - point, 1, 0)
+        la, lb, lc = (np.linalg.norm(corner, axis=1) for corner in (a, b, c))
+        ab, bc, ca = ((u * v).sum(axis=1) for u, v in ((a, b), (b, c), (c, a)))
+        over = (a * np.cross(b, c)).sum(axis=1)
+        turns[i] = np.arctan2(over, la * lb * lc + ab * lc + bc * la + ca * lb).sum()
+    return turns / (2 * np.pi)
 
 
 def spread(triangles: _Points, count: int) -> tuple[_Points, _Numbers]:
@@ -100,3 +153,26 @@ def _distances(points: _Points, triangles: _Points) -> _Points:
     normals /= np.maximum(np.linalg.norm(normals, axis=-1, keepdims=True), np.finfo(float).tiny)
     sides = (normals[..., None, :] * np.cross(ends, arms)).sum(axis=-1)
     return np.where((sides > 0).all(axis=-1), np.abs((normals * arms[..., 0, :]).sum(axis=-1)), to_edges)
+
+
+def area_around(corners: _Points, normal: _Points) -> float:
+    """[m²] Of the convex polygon around points (N, 3), seen along a normal: Andrew's monotone chain."""
+    across = np.cross(normal, [1.0, 0.0, 0.0] if abs(normal[0]) < 0.9 else [0.0, 1.0, 0.0])
+    across /= np.linalg.norm(across)
+    flat = np.column_stack([corners @ across, corners @ np.cross(normal, across)])
+    flat = flat[np.lexsort((flat[:, 1], flat[:, 0]))]
+
+    def chain(points: list[list[float]]) -> list[list[float]]:
+        kept: list[list[float]] = []
+        for x, y in points:
+            while len(kept) > 1:
+                (x0, y0), (x1, y1) = kept[-2:]
+                if (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0) > 0:
+                    break
+                kept.pop()
+            kept.append([x, y])
+        return kept[:-1]
+
+    hull = np.array(chain(flat.tolist()) + chain(flat[::-1].tolist()))
+    x, y = hull.T
+    return abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .decompose import cut_up
-from .hulls import Hull, distance, hull_of, spread, volume_of
+from .hulls import area_around, distance, hull_of, off, volume_of
+from .sheets import sheets_of
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
@@ -32,9 +33,10 @@ _HOLLOW = 0.05
 """Part of its size by which the hull of something hollow may be away from it, and it is filled all the same."""
 _FULL = 1.1
 """Times its volume that a hull may have, and it is filled all the same."""
-_SAMPLES = 1000
 _MOST_CUT = 8
 """Parts of a mesh that are cut up, the largest first."""
+_MOST_FLAT = 2000
+"""Faces of something flat that is cut up."""
 _MOST_KNOWN = 256
 
 
@@ -115,29 +117,28 @@ def _filled(points: _Points, faces: _Faces) -> Pieces:
 def _taken_for(points: _Points, faces: _Faces, *, may_cut: bool) -> Pieces:
     """What stands for a hollow part: pieces, or its hull."""
     hull = hull_of(points)
-    if hull is None:  # flat
-        return Pieces([points], [])
     triangles, closed = points[faces], _is_closed(faces)
+    if hull is None:
+        return _flat(points, faces, triangles)
     own_volume = volume_of(triangles) if closed else 0.0
     times = hull.volume / own_volume if own_volume > 0 else None
     misfit = Misfit(times, distance(hull.triangles, triangles), is_filled=True)
     if may_cut and misfit.away > _HOLLOW * float(np.ptp(points, axis=0).max()) and not (times and times < _FULL):
         cut = cut_up(points, faces, hull, closed=closed) or []
         solids = [solid for piece in cut if (solid := hull_of(piece)) is not None]
-        volume, away = sum(solid.volume for solid in solids), _off(triangles, solids, closed=closed)
+        volume, away = sum(solid.volume for solid in solids), off(triangles, solids, closed=closed)
         if volume < hull.volume / _FULL and away < misfit.away:
             return Pieces(cut, [Misfit(volume / own_volume if times else None, away, is_filled=False)])
     return Pieces([points], [misfit])
 
 
-def _off(triangles: _Points, solids: list[Hull], *, closed: bool) -> float:
-    """[m] How far solids are from a surface (F, 3, 3) at most: it lies in them or outside, or they are its walls."""
-    if not solids:
-        return np.inf
-    if not closed:
-        return distance(np.concatenate([solid.triangles for solid in solids]), triangles)
-    samples, _ = spread(triangles, _SAMPLES)
-    return float(np.abs(np.min([solid.heights(samples) for solid in solids], axis=0)).max())
+def _flat(points: _Points, faces: _Faces, triangles: _Points) -> Pieces:
+    """One layer of it, or thin walls where it is not convex."""
+    walls = sheets_of(points, faces, closed=False) if len(faces) <= _MOST_FLAT else []
+    if len(walls) < 2:
+        return Pieces([points], [])
+    solids = [solid for wall in walls if (solid := hull_of(wall)) is not None]
+    return Pieces(walls, [Misfit(None, off(triangles, solids, closed=False), is_filled=False)])
 
 
 def _is_closed(faces: _Faces) -> bool:
@@ -222,32 +223,9 @@ def _slabs(points: _Points, faces: _Faces, own: _Points) -> list[_Points]:
             members = chosen[islands == island]
             normal = normals[members[0]]
             corners = points[np.unique(faces[members])]
-            if _hull_area(corners, normal) <= areas[members].sum() / 2 * 1.01:
+            if area_around(corners, normal) <= areas[members].sum() / 2 * 1.01:
                 slabs.append(np.concatenate([corners, corners - normal * thickness]))
             else:
                 triangles = points[faces[members]]
                 slabs += [np.concatenate([triangle, triangle - normal * thickness]) for triangle in triangles]
     return slabs
-
-
-def _hull_area(corners: _Points, normal: _Points) -> float:
-    """Of the convex polygon around points in a plane: Andrew's monotone chain."""
-    across = np.cross(normal, [1.0, 0.0, 0.0] if abs(normal[0]) < 0.9 else [0.0, 1.0, 0.0])
-    across /= np.linalg.norm(across)
-    flat = np.column_stack([corners @ across, corners @ np.cross(normal, across)])
-    flat = flat[np.lexsort((flat[:, 1], flat[:, 0]))]
-
-    def chain(points: list[list[float]]) -> list[list[float]]:
-        kept: list[list[float]] = []
-        for x, y in points:
-            while len(kept) > 1:
-                (x0, y0), (x1, y1) = kept[-2:]
-                if (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0) > 0:
-                    break
-                kept.pop()
-            kept.append([x, y])
-        return kept[:-1]
-
-    hull = np.array(chain(flat.tolist()) + chain(flat[::-1].tolist()))
-    x, y = hull.T
-    return abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
