@@ -1,6 +1,7 @@
 """What was found while reading, and where: sources, warnings and the error that ends a reading.
 
-A `Diagnostics` is passed in by whoever asked for the reading; there is no global log.
+A `Diagnostics` is passed in by whoever asked for the reading; there is no global log. Every command imports this, so
+nothing here is a dataclass: their module takes longer to load than light commands take to work.
 
     TrundleError
     ├── DescriptionError   a file says something nothing sensible can be made of
@@ -8,15 +9,13 @@ A `Diagnostics` is passed in by whoever asked for the reading; there is no globa
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
-from typing import Literal, TypeAlias, TypedDict
+from typing import Literal, NamedTuple, TypeAlias, TypedDict
 
 Severity: TypeAlias = Literal["error", "warning", "info"]
 _ORDER: dict[str, int] = {"error": 0, "warning": 1, "info": 2}
 
 
-@dataclass(frozen=True, slots=True)
-class Source:
+class Source(NamedTuple):
     """A place in a text: the file as the user named it and the line, counted from 1."""
 
     file: str
@@ -52,8 +51,7 @@ class DiagnosticJson(TypedDict):
     message: str
 
 
-@dataclass(frozen=True, slots=True)
-class Diagnostic:
+class Diagnostic(NamedTuple):
     """One finding."""
 
     severity: Severity
@@ -67,14 +65,14 @@ class Diagnostic:
         return {"severity": self.severity, "file": self.at.file, "line": self.at.line, "message": self.what}
 
 
-@dataclass(slots=True)
 class Diagnostics:
     """Collects findings in the order they were made, each once."""
 
-    strict: bool = False
-    """Make every warning an error: the reading ends at the first one."""
-    findings: list[Diagnostic] = field(default_factory=list[Diagnostic])
-    _seen: set[Diagnostic] = field(default_factory=set[Diagnostic], repr=False)
+    def __init__(self, *, strict: bool = False) -> None:
+        """Start with nothing found; `strict` makes every warning an error, and the reading ends at the first one."""
+        self.strict = strict
+        self.findings: list[Diagnostic] = []
+        self._seen: set[Diagnostic] = set()
 
     def warn(self, at: Source, what: str) -> None:
         """Name something wrong or unsupported; the sentence states what is done instead.

@@ -20,7 +20,7 @@ from xml.parsers.expat import ExpatError
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.packages import Packages
 
-from .xacro_expression import bounded_eval
+from .xacro_expression import BOUNDED, Evaluator
 
 
 class _Yaml(ModuleType):
@@ -43,9 +43,24 @@ def _import_xacro() -> tuple[Any, Any]:
 
 xacro, substitution_args = _import_xacro()
 
+
+def _bound_symbols(symbols: Any) -> None:
+    """Put what cannot grow without end in place of what can; `vars` would open every door that a name may not."""
+    spaces = (symbols, symbols["math"], symbols["python"])
+    for space, name in itertools.product(spaces, BOUNDED):
+        if name in space:
+            dict.__setitem__(space, name, BOUNDED[name])
+    dict.pop(symbols["python"], "vars")
+
+
+_bound_symbols(xacro._global_symbols)
+
+
 _REPEATED = re.compile(r"<class '[\w.]+'>: (.*?) \1")
 """How the package words an error of $(…): its class, then what it says, twice."""
-_MOST_ELEMENTS = 500_000
+_LONGEST = 400
+"""Characters of an error: it quotes the expression, and each that this one was part of."""
+_MOST_ELEMENTS = 50_000
 """What macros may expand to; the largest published robot has some 5,000."""
 _LOCK = threading.Lock()
 """The package keeps its state in module globals."""
@@ -58,6 +73,7 @@ _CORE = {
     "insert_block": "name",
 }
 """Indigo's bare tags, and the attribute that tells them from plain XML of the same name."""
+_BARE = re.compile(rf"<({'|'.join(_CORE)})\b".encode())
 _URDF = frozenset(
     [
         "robot",
@@ -127,6 +143,7 @@ def expand_xacro(path: Path, arguments: Mapping[str, str], *, packages: Packages
             raise DescriptionError(Source(_where(path).file, error.lineno), f"not well-formed XML: {error}") from None
         except Exception as error:  # xacro evaluates the file's own Python: anything may come out of it
             what = _REPEATED.sub(r"\1", " ".join(str(error).split())) or type(error).__name__
+            what = what if len(what) <= _LONGEST else f"{what[:_LONGEST]} …"
             raise DescriptionError(_where(path), what) from None
 
 
@@ -153,17 +170,20 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
         return Path(name).open(encoding="utf-8")
 
     package, arguments = xacro, substitution_args
-    names = ("parse", "handle_macro_call", "warning", "print_location", "safe_eval")
+    names = ("parse", "eval_all", "handle_macro_call", "warning", "print_location", "safe_eval", "eval_text")
     kept = {name: getattr(package, name) for name in names}
     own_find = arguments._eval_find
     package.parse = _parse_for(kept["parse"], packages, report)
+    package.eval_all = _eval_all_for(kept["eval_all"], path)
     package.handle_macro_call = _call_for(kept["handle_macro_call"], report, path)
-    package.safe_eval = bounded_eval
+    evaluate = Evaluator()
+    package.safe_eval = evaluate
+    package.eval_text = _eval_text_for(kept["eval_text"])
     package.warning = warn
     package.open = open_readable  # shadows the builtin that its load_yaml would open any file with
     package.print_location = lambda: None  # it writes to stderr where a warning was; `_where` says it
     arguments._eval_find = arguments._eval_dict["find"] = find
-    arguments.eval = _substitution_eval  # in its module, in place of the builtin one
+    arguments.eval = _substitution_eval(evaluate)  # in its module, in place of the builtin one
     package.all_includes.clear()
     try:
         yield
@@ -176,12 +196,22 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
         del package.open
 
 
-_HARMLESS = (abs, bool, dict, float, int, len, list, max, min, range, round, sorted, str, sum, tuple)
+def _eval_text_for(original: Callable[..., object]) -> Callable[..., object]:
+    """Most text of a file holds nothing to evaluate, and the package's lexer costs as much as all the rest."""
+
+    def eval_text(text: str, symbols: object) -> object:
+        return original(text, symbols) if "$" in text else text
+
+    return eval_text
 
 
-def _substitution_eval(expression: str, _: object, symbols: Any) -> object:
+_HARMLESS = (abs, bool, dict, float, int, len, list, max, min, round, sorted, str, sum, tuple)
+
+
+def _substitution_eval(evaluate: Evaluator) -> Callable[[str, object, Any], object]:
     """What `$(eval …)` means: the original lets it have every builtin."""
-    return bounded_eval(expression, {function.__name__: function for function in _HARMLESS}, symbols)
+    names = {**{function.__name__: function for function in _HARMLESS}, "range": BOUNDED["range"]}
+    return lambda expression, _, symbols: evaluate(expression, dict(names), symbols)
 
 
 def _parse_for(original: Callable[..., Any], packages: Packages, report: Diagnostics) -> Callable[..., Any]:
@@ -193,7 +223,8 @@ def _parse_for(original: Callable[..., Any], packages: Packages, report: Diagnos
                 raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
             # Blank lines before <?xml …?> stop expat, and no robot.
             document = xml.dom.minidom.parseString(data.lstrip()) if data.strip() else original(inp, filename)
-            _prefix_core_tags(document, filename, report)
+            if _BARE.search(data):
+                _prefix_core_tags(document, filename, report)
             return document
         return original(inp, filename)
 
@@ -214,12 +245,22 @@ def _prefix_core_tags(document: Any, filename: str, report: Diagnostics) -> None
         report.warn(Source(filename), f"<{tag}> without the prefix xacro: is Indigo's way; read as <xacro:{tag}>")
 
 
-def _call_for(original: Callable[..., bool], report: Diagnostics, path: Path) -> Callable[..., bool]:
-    calls = itertools.count()
+def _eval_all_for(original: Callable[..., None], path: Path) -> Callable[..., None]:
+    """Count what is gone through: every element, macro and block, each time it is put somewhere."""
+    elements = itertools.count()
 
+    def eval_all(node: Any, macros: Any, symbols: Any) -> None:
+        if next(elements) > _MOST_ELEMENTS:
+            raise DescriptionError(
+                _where(path), f"macros and blocks that expand to more than {_MOST_ELEMENTS} elements"
+            )
+        original(node, macros, symbols)
+
+    return eval_all
+
+
+def _call_for(original: Callable[..., bool], report: Diagnostics, path: Path) -> Callable[..., bool]:
     def handle_macro_call(node: Any, macros: Any, symbols: Any) -> bool:
-        if next(calls) > _MOST_ELEMENTS:
-            raise DescriptionError(_where(path), f"macros that expand to more than {_MOST_ELEMENTS} elements")
         name = str(node.tagName)
         if ":" not in name and name not in _URDF and name in macros:
             report.warn(_where(path), f"<{name}> calls a macro without the prefix xacro:; read as <xacro:{name}>")
