@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 _SHARED = Path(__file__).resolve().parents[2] / "shared"
 _CHROMIUM = Path("/usr/bin/chromium")
@@ -24,7 +25,11 @@ _SOFTWARE_GL = (
 
 
 def pytest_configure() -> None:
-    """Have the programs that tests start hear Ctrl-C, also where the tests run in the background of a script."""
+    """Have tests repeat, and the programs they start hear Ctrl-C, also in the background of a script."""
+    # A test says the same on each run and on a slow machine; `--hypothesis-profile default` looks further.
+    quiet = [HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
+    settings.register_profile("steady", deadline=None, derandomize=True, suppress_health_check=quiet)
+    settings.load_profile("steady")
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 

@@ -69,7 +69,7 @@ def test_a_running_topic_is_drawn(graph: Any, tmp_path: Path) -> None:
 
     talking = graph.loop.spawn(talk())
     target = tmp_path / "speed.svg"
-    assert graph.trundle("plot", "/speed/data", "--duration", "0.1", "-o", str(target)) == (0, "", "")
+    assert graph.trundle("plot", "/speed/data", "--duration", "0.5", "-o", str(target)) == (0, "", "")
     code, text, _ = graph.trundle("plot", "/speed/data", "--duration", "0.1")
     talking.cancel()
     assert code == 0

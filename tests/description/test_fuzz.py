@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from trundle.bringup.check_json import described
@@ -84,7 +84,7 @@ EDITS = st.lists(st.tuples(st.integers(0, 3), st.integers(0, 10_000), ODD), min_
 
 
 @pytest.mark.parametrize("original", [SDF, URDF], ids=["sdf", "urdf"])
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=150)
 @given(edits=EDITS)
 @example(edits=[(0, 0, "1.0")])
 def test_a_damaged_description_is_read_or_refused(

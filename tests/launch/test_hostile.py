@@ -50,7 +50,7 @@ def _elements(draw: st.DrawFn, depth: int = 0) -> str:
 
 
 @given(st.lists(_elements(), max_size=5))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 def test_anything_becomes_a_plan_or_a_sentence(elements: list[str]) -> None:
     text = f'<launch><arg name="a" default="1"/>{"".join(elements)}</launch>'
     with contextlib.suppress(DescriptionError):

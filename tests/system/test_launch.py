@@ -256,7 +256,7 @@ def test_a_launch_is_like_the_distribution_asked_for(
         '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>'
     )
     bag = tmp_path / "out.bag"
-    done = launch("p", "main.launch", "--headless", "--duration", "3", "--distro", distro, "--record", str(bag))
+    done = launch("p", "main.launch", "--headless", "--duration", "8", "--distro", distro, "--record", str(bag))
 
     assert done.returncode == 0
     assert f" * /rosdistro: {distro}\n" in done.stdout
