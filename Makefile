@@ -55,7 +55,8 @@ DEBIAN := chromium graphviz imagemagick ros-image-view ros-roscpp-msg ros-std-sr
 system:  ## what the fullest tests use, from Debian's packages
 	@if command -v apt-get >/dev/null; then \
 	  SUDO=$$([ "$$(id -u)" = 0 ] || echo sudo); \
-	  $$SUDO apt-get update -qq && $$SUDO env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends $(DEBIAN); \
+	  GET="apt-get -qq -o Acquire::Retries=3"; \
+	  $$SUDO $$GET update && $$SUDO env DEBIAN_FRONTEND=noninteractive $$GET install -y --no-install-recommends $(DEBIAN); \
 	else echo "make system knows Debian and Ubuntu only; make test skips what is not installed"; fi
 
 clean:  ## remove what make made
