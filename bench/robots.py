@@ -1,9 +1,13 @@
-"""One, ten and fifty RP2Ws: our simulation of the SDF beside a model that a MuJoCo user would write by hand.
+"""One, ten and fifty RP2Ws: our simulation of the SDF beside what a MuJoCo user would write by hand, with its defaults.
 
-The cost of a robot must not grow with the number of robots: the last rows divide steps by robots.
+Times are of this process' CPU, which others on the machine change least. The cost of a robot must not grow with the
+number of robots: rows for one of several divide steps by robots.
 """
 
+import resource
 import statistics
+import subprocess
+import sys
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -49,7 +53,26 @@ def run() -> list[Row]:
     for (what, count), cost in costs.items():
         ratio = cost / costs[what, 1]
         rows.append(Row(f"one of {count} RP2W {what}", cost, "µs a step", "one alone", ratio))
+    most = _COUNTS[-1]
+    start = time.process_time()
+    _ours(most, rolling=False)
+    took = time.process_time() - start
+    _by_hand(most, rolling=False)
+    ratio = took / (time.process_time() - start - took)
+    rows.append(Row(f"{most} RP2W, from the SDF to the first step", took, "CPU s", "MuJoCo by hand", ratio))
+    code = f"from bench.robots import print_peak; print_peak({most})"
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROBOT.parents[1], capture_output=True, text=True, check=True
+    )
+    peak = float(done.stdout)
+    rows.append(Row(f"{most} RP2W, peak memory", peak, "MB", "Gazebo 11's 612 MB", peak / 612))
     return rows
+
+
+def print_peak(count: int) -> None:
+    """Simulate some robots for two seconds, and print the largest resident memory of this process [MB]."""
+    _ours(count, rolling=True)(2000)
+    print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
 
 
 def _ours(count: int, *, rolling: bool) -> Callable[[int], None]:
@@ -83,7 +106,7 @@ def _by_hand(count: int, *, rolling: bool) -> Callable[[int], None]:
         for side in ("left", "right")
     )
     model = mujoco.MjModel.from_xml_string(
-        '<mujoco><compiler autolimits="true"/><option timestep="0.001" integrator="implicitfast" gravity="0 0 -9.8"/>'
+        '<mujoco><compiler autolimits="true"/><option timestep="0.001" gravity="0 0 -9.8"/>'
         f'<worldbody><geom type="plane" size="0 0 1"/>{robots}</worldbody><contact>{excludes}</contact>'
         + (f"<actuator>{motors}</actuator>" if rolling else "")
         + "</mujoco>"
@@ -127,6 +150,6 @@ def _mjcf(i: int, x: float, y: float) -> str:
 
 
 def _rate(work: Callable[[int], None], steps: int) -> float:
-    start = time.perf_counter()
+    start = time.process_time()
     work(steps)
-    return steps / (time.perf_counter() - start)
+    return steps / (time.process_time() - start)

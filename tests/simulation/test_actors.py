@@ -104,3 +104,26 @@ def test_two_simulations_of_one_world_have_each_actor_once(sim: Simulation) -> N
     assert [model.name for model in again.models] == ["m", "box", "walker"]
     again.run(1.0)
     assert again["box"].pose.position[0] == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("script", "at"),
+    [
+        ("", {1.0: 0.0, 1.99: 1.0, 3.0: 0.0}),
+        ("<loop>false</loop>", {1.0: 0.0, 2.5: 1.0}),
+        ("<delay_start>1</delay_start>", {0.9: -1.0, 2.0: 0.0, 3.5: -1.0, 5.0: 0.0}),
+        ("<auto_start>false</auto_start>", {1.5: 7.0}),
+    ],
+)
+def test_a_file_says_when_an_actor_goes_and_how_often(tmp_path: Path, script: str, at: dict[float, float]) -> None:
+    """From −1 to 1 m in two seconds."""
+    points = "".join(f"<waypoint><time>{t}</time><pose>{t - 1} 0 0 0 0 0</pose></waypoint>" for t in (0, 1, 2))
+    file = tmp_path / "w.sdf"
+    file.write_text(
+        '<sdf version="1.6"><world name="w"><actor name="a"><pose>7 0 0 0 0 0</pose><link name="l"/>'
+        f'<script>{script}<trajectory id="0" type="w">{points}</trajectory></script></actor></world></sdf>'
+    )
+    sim = trundle.load(str(file))
+    for time_s, x in at.items():
+        sim.advance(round(time_s * 1e9))
+        assert sim["a"].pose.position[0] == pytest.approx(x, abs=0.02)

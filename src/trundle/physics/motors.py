@@ -13,6 +13,7 @@ MOTOR_STIFFNESS = 10.0
 """1 would stop a joint by itself in one step, and droops under the robot's weight: a turn of 2.44 rad came out as 2.13.
 10 gives 2.41; 100 gives 2.44 and chatters where the effort limit is met (measured on the RP2W at 1 ms)."""
 _HUGE = 1e10
+_NO_MOTORS = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
 
 
 class Motors:
@@ -31,6 +32,7 @@ class Motors:
         self._data = data
         self._wake = wake
         self._orders: dict[int, tuple[float, ...]] = {}
+        self._plug()
 
     def set_effort(self, axis: int, effort: float) -> None:
         """Hold an effort [N·m or N] on an axis, as far as its limits let it, and switch its motor off.
@@ -96,14 +98,23 @@ class Motors:
         self._model.actuator_biasprm[actuator, 1:3] = (-position, -velocity)
         self._model.actuator_forcerange[actuator] = order[3:5]
         self._data.ctrl[actuator] = command
+        self._plug()
         self._wake(dof)
 
     def forget(self) -> None:
         """The arrays were changed by somebody else: the next order is a new one."""
         self._orders.clear()
+        self._plug()
 
     def switch_off(self) -> None:
         """Every motor."""
         self._model.actuator_gainprm[:] = 0
         self._model.actuator_biasprm[:] = 0
         self.forget()
+
+    def _plug(self) -> None:
+        """Spare the engine the motors while none does anything: a seventh of a step of what is at rest."""
+        model = self._model
+        is_on = bool(model.actuator_gainprm[:, 0].any() or model.actuator_biasprm[:, 1:3].any())
+        flags = model.opt.disableflags
+        model.opt.disableflags = flags & ~_NO_MOTORS if is_on else flags | _NO_MOTORS

@@ -93,6 +93,9 @@ def add_shape(
             turns = np.linspace(0.0, 2 * np.pi, _CONE_SIDES, endpoint=False)
             base = np.column_stack([radius * np.cos(turns), radius * np.sin(turns), np.full(_CONE_SIDES, -length / 2)])
             corners = np.vstack([base, [0.0, 0.0, length / 2]])
+            away = radius * (1 - np.cos(np.pi / _CONE_SIDES))
+            what = f"a cone; physics has it with {_CONE_SIDES} sides, a surface up to {away:.2g} m away"
+            report.info(collision.at, f"collision {collision.name!r}: {what}")
             return [(_add_hull(spec, body, collision, name, corners), Meets.ALL)]
         case Polyline(outlines, height):
             prisms = _add_prisms(spec, body, collision, name, report, outlines, height)
