@@ -1,11 +1,72 @@
-"""Worlds that change while they run: other names, and links that come free."""
+"""Worlds that change while they run: what may come and go, other names, and links that come free."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from itertools import count
 
+from trundle.diagnostics import UsageError
 from trundle.model import Joint, World
 from trundle.physics import Engine
 from trundle.spatial import Pose, Twist
+
+
+def free_name(world: World, name: str) -> str:
+    """The name, or where there is a model of that name with _0 added, else _1, …, as Gazebo does."""
+    taken = {model.name for model in world.models}
+    numbered = (f"{name}_{number}" for number in count())
+    return name if name not in taken else next(each for each in numbered if each not in taken)
+
+
+def refuse_taken(world: World, name: str) -> None:
+    """Make sure that a model can be called so.
+
+    Raises:
+        UsageError: one is, or it is no name.
+    """
+    if not name or any(there.name == name for there in world.models):
+        raise UsageError(f"there is a model {name!r} already" if name else "a model needs a name")
+
+
+def refuse_others(world: World, edited: World) -> None:
+    """Make sure that a world can go on as an edited one.
+
+    Raises:
+        UsageError: the time step, or what there is, is different.
+    """
+    if edited.physics.max_step_size_s != world.physics.max_step_size_s:
+        raise UsageError("the time step of a running simulation cannot be changed")
+    if _names_of(edited) != _names_of(world):
+        raise UsageError("an edited world has other models, links or joints; spawn and delete change those")
+
+
+def _names_of(world: World) -> list[tuple[str, list[str], list[str]]]:
+    return [(m.name, [link.name for link in m.links], [joint.name for joint in m.joints]) for m in world.models]
+
+
+def without_model(world: World, name: str) -> World:
+    """The world without a model, and without the joints that joined it with others."""
+
+    def joins(joint: Joint) -> bool:
+        return any(link.startswith(f"{name}::") for link in (joint.parent, joint.child))
+
+    return replace(
+        world,
+        models=tuple(model for model in world.models if model.name != name),
+        joints=tuple(joint for joint in world.joints if not joins(joint)),
+    )
+
+
+def without_joint(world: World, name: str) -> World:
+    """The world without a joint between models.
+
+    Raises:
+        UsageError: with the names there are.
+    """
+    names = [joint.name for joint in world.joints]
+    if name not in names:
+        there = ", ".join(map(repr, names)) or "none"
+        raise UsageError(f"no joint {name!r} between models; there are: {there}")
+    return replace(world, joints=tuple(joint for joint in world.joints if joint.name != name))
 
 
 def renamed(world: World, name: str, new: str) -> World:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from trundle.diagnostics import UsageError
 from trundle.model import Joint
-from trundle.spatial import Wrench
+from trundle.spatial import Pose, Wrench, cross
 
 from .handle import Handle
 
@@ -79,7 +79,16 @@ class JointHandle(Handle):
         Raises:
             UsageError: the joint closes a loop of links.
         """
-        return self._simulation.joint_reaction(self.index)
+        engine = self._simulation.engine
+        link, anchor, sign = engine.compiled.joint_hangs[self.index]
+        if link < 0:
+            name = engine.compiled.joint_names[self.index]
+            raise UsageError(f"joint {name!r} closes a loop of links, or holds none; its reaction is not known")
+        _, _, _, qw, qx, qy, qz = engine.reader.link_poses()[link].tolist()
+        arm = Pose(quaternion=(qw, qx, qy, qz)).direction(anchor)
+        fx, fy, fz, tx, ty, tz = (sign * each for each in engine.reactions()[link].tolist())
+        mx, my, mz = cross(arm, (fx, fy, fz))
+        return Wrench((fx, fy, fz), (tx - mx, ty - my, tz - mz))
 
     def set_effort(self, effort: float, *, axis: int = 0, duration_s: float | None = None) -> None:
         """Drive with this effort [N·m or N], within the effort and speed limits.

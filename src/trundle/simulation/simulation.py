@@ -8,7 +8,6 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import count
 from typing import TypeAlias
 
 from trundle.diagnostics import Diagnostics, UsageError
@@ -18,7 +17,16 @@ from trundle.spatial import Pose, Wrench
 
 from .actors import ActorWalk, with_actors
 from .attaching import attached
-from .changing import keep_free, renamed, renamed_in
+from .changing import (
+    free_name,
+    keep_free,
+    refuse_others,
+    refuse_taken,
+    renamed,
+    renamed_in,
+    without_joint,
+    without_model,
+)
 from .handles import ModelHandle, handles_of
 from .hooks import AfterStep, BeforeStep, Period, ScheduledHook
 from .joint_handle import JointHandle
@@ -186,19 +194,6 @@ class Simulation:
         """What touched what in the last step."""
         return self.engine.contacts()
 
-    def joint_reaction(self, joint: int) -> Wrench:
-        """See `JointHandle.reaction`; by the joint's index."""
-        engine = self.engine
-        link, anchor, sign = engine.compiled.joint_hangs[joint]
-        if link < 0:
-            name = engine.compiled.joint_names[joint]
-            raise UsageError(f"joint {name!r} closes a loop of links, or holds none; its reaction is not known")
-        _, _, _, qw, qx, qy, qz = engine.reader.link_poses()[link].tolist()
-        x, y, z = Pose(quaternion=(qw, qx, qy, qz)).direction(anchor)
-        fx, fy, fz, tx, ty, tz = engine.reactions()[link].tolist()
-        moved = (tx - (y * fz - z * fy), ty - (z * fx - x * fz), tz - (x * fy - y * fx))
-        return Wrench((sign * fx, sign * fy, sign * fz), (sign * moved[0], sign * moved[1], sign * moved[2]))
-
     def save(self) -> SavedSimulation:
         """Keep the state, to go back to it exactly."""
         return SavedSimulation(self.steps, self.engine.save(), self._pushes.ends.copy())
@@ -250,8 +245,8 @@ class Simulation:
             DescriptionError: the engine cannot simulate it; nothing has changed.
         """
         if allow_renaming:
-            model = replace(model, name=self._free_name(model.name))
-        self._refuse_taken(model.name)
+            model = replace(model, name=free_name(self.world, model.name))
+        refuse_taken(self.world, model.name)
         self._go_on_with(replace(self.world, models=(*self.world.models, model)))
         return self.models[-1]
 
@@ -262,10 +257,7 @@ class Simulation:
             UsageError: with the names there are.
         """
         gone = self[name]
-        models = tuple(model for model in self.world.models if model.name != name)
-        ends = [(joint, (joint.parent, joint.child)) for joint in self.world.joints]
-        joints = tuple(joint for joint, links in ends if not any(link.startswith(f"{name}::") for link in links))
-        self._go_on_with(replace(self.world, models=models, joints=joints))
+        self._go_on_with(without_model(self.world, name))
         gone.move_to(None, None)
         self.lines = {key: line for key, line in self.lines.items() if not key.startswith(f"{name}::")}
 
@@ -278,18 +270,9 @@ class Simulation:
         handle = self[name]
         if new == name:
             return
-        self._refuse_taken(new)
+        refuse_taken(self.world, new)
         self._go_on_with(renamed(self.world, name, new), was={new: handle})
         self.lines = {key.replace(f"{name}::", f"{new}::", 1): line for key, line in self.lines.items()}
-
-    def _refuse_taken(self, name: str) -> None:
-        if not name or any(there.name == name for there in self.world.models):
-            raise UsageError(f"there is a model {name!r} already" if name else "a model needs a name")
-
-    def _free_name(self, name: str) -> str:
-        taken = {model.name for model in self.world.models}
-        numbered = (f"{name}_{number}" for number in count())
-        return name if name not in taken else next(each for each in numbered if each not in taken)
 
     def attach(self, joint: Joint) -> JointHandle:
         """Join two links, or one and the world, where they are now; everything keeps its place.
@@ -310,10 +293,7 @@ class Simulation:
         Raises:
             UsageError: with the names there are.
         """
-        if not any(joint.name == name for joint in self.joints):
-            there = ", ".join(repr(joint.name) for joint in self.joints) or "none"
-            raise UsageError(f"no joint {name!r} between models; there are: {there}")
-        self._go_on_with(replace(self.world, joints=tuple(j for j in self.world.joints if j.name != name)))
+        self._go_on_with(without_joint(self.world, name))
 
     def fix_elsewhere(self, handle: ModelHandle, world_from_model: Pose) -> None:
         """Put a model that hangs from the world elsewhere; see `ModelHandle.set_pose`."""
@@ -330,10 +310,7 @@ class Simulation:
             UsageError: the time step, or what there is, is different.
             DescriptionError: the engine cannot simulate it; nothing has changed.
         """
-        if world.physics.max_step_size_s != self.world.physics.max_step_size_s:
-            raise UsageError("the time step of a running simulation cannot be changed")
-        if _names_of(world) != _names_of(self.world):
-            raise UsageError("an edited world has other models, links or joints; spawn and delete change those")
+        refuse_others(self.world, world)
         self._go_on_with(world)
 
     def on_change(self, call: Callable[[], None]) -> None:
@@ -400,7 +377,3 @@ class Simulation:
 
     def _until(self, duration_s: float | None) -> int | None:
         return None if duration_s is None else self.steps + max(1, round(duration_s * NS / self.step_ns))
-
-
-def _names_of(world: World) -> list[tuple[str, list[str], list[str]]]:
-    return [(m.name, [link.name for link in m.links], [joint.name for joint in m.joints]) for m in world.models]
