@@ -15,7 +15,7 @@ from trundle.diagnostics import Diagnostics, Source
 from trundle.model import CameraOptics, Link, Model, Sensor, World
 from trundle.render import Intrinsics, Picture
 from trundle.ros import Core, GraphLoop, Node, StaticTransformBroadcaster
-from trundle.sensors import CameraSensor, Scenery
+from trundle.sensors import CameraSensor, Scenery, Spot
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
@@ -65,7 +65,7 @@ def stage(monkeypatch: pytest.MonkeyPatch) -> Iterator[SimpleNamespace]:
     model = Model(name="bot", at=AT, links=(link,))
     world = World(name="w", at=AT, models=(model,))
     scenery = Scenery(Simulation(world, Diagnostics()), lambda _: Ramp())
-    camera = CameraSensor(model, link, sensor, optics, link_index=0, scenery=scenery, random=np.random.default_rng(0))
+    camera = CameraSensor(Spot(model, link, sensor, 0, np.random.default_rng(0)), optics, scenery=scenery)
     with GraphLoop() as loop:
         core = Core(loop, port=0)
         loop.run(core.start(), PATIENCE_S)

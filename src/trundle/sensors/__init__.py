@@ -15,6 +15,7 @@ from .logical_camera import LogicalCameraReading, LogicalCameraSensor
 from .magnetometer import MagnetometerReading, MagnetometerSensor
 from .mount import SIMULATED, mount_cameras
 from .mount_measuring import MeasuringSensor, mount_sensors
+from .mounted import Spot
 from .noise import NoiseSource
 from .range import RangeReading, RangeSensor, angles_of, directions_of
 from .scenery import Scenery
@@ -58,6 +59,7 @@ __all__ = [
     "SegmentationCameraSensor",
     "SonarReading",
     "SonarSensor",
+    "Spot",
     "Surroundings",
     "ThermalCameraSensor",
     "WirelessReading",

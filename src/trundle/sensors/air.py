@@ -3,13 +3,11 @@
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
-from trundle.model import AirPressure, AirSpeed, Atmosphere, Link, Model, Sensor
+from trundle.model import AirPressure, AirSpeed, Atmosphere
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose, Vector3
 
-from .mounted import MountedSensor
+from .mounted import MountedSensor, Spot
 from .noise import NoiseSource
 
 _GRAVITY = 9.80665
@@ -36,31 +34,18 @@ class PressureReading:
 class _InAir(MountedSensor[PressureReading]):
     """Reads a pressure, with noise."""
 
-    def __init__(
-        self,
-        model: Model,
-        link: Link,
-        sensor: Sensor,
-        *,
-        link_index: int,
-        air: Atmosphere,
-        random: np.random.Generator,
-    ) -> None:
+    def __init__(self, spot: Spot, *, air: Atmosphere) -> None:
         """Mount it; see `MountedSensor`.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: with its instrument.
-            link_index: of the link in `Snapshot.poses`.
+            spot: where it is.
             air: of the world.
-            random: for its noise.
         """
-        super().__init__(model, link, sensor, link_index=link_index)
-        assert isinstance(sensor.instrument, AirPressure | AirSpeed), f"{sensor.name!r} reads no pressure"
+        super().__init__(spot)
+        assert isinstance(spot.sensor.instrument, AirPressure | AirSpeed), f"{spot.sensor.name!r} reads no pressure"
         self.air = air
-        self._variance = sensor.instrument.pressure.stddev**2
-        self._noise = NoiseSource(sensor.instrument.pressure, random)
+        self._variance = spot.sensor.instrument.pressure.stddev**2
+        self._noise = NoiseSource(spot.sensor.instrument.pressure, spot.random)
 
     def pressure(self, snapshot: Snapshot) -> float:
         """What there is at this instant [Pa]."""

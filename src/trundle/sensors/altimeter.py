@@ -2,12 +2,10 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from trundle.model import Altimeter, Link, Model, Sensor
+from trundle.model import Altimeter
 from trundle.simulation import Snapshot
 
-from .mounted import MountedSensor
+from .mounted import MountedSensor, Spot
 from .noise import NoiseSource
 
 
@@ -25,31 +23,18 @@ class AltimeterReading:
 class AltimeterSensor(MountedSensor[AltimeterReading]):
     """Tells height and vertical speed of its point of the link."""
 
-    def __init__(
-        self,
-        model: Model,
-        link: Link,
-        sensor: Sensor,
-        *,
-        link_index: int,
-        start_height: float,
-        random: np.random.Generator,
-    ) -> None:
+    def __init__(self, spot: Spot, *, start_height: float) -> None:
         """Mount it; see `MountedSensor`.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: with its altimeter.
-            link_index: of the link in `Snapshot.poses`.
+            spot: where it is.
             start_height: where it was when its model came [m].
-            random: for its noise.
         """
-        super().__init__(model, link, sensor, link_index=link_index)
-        assert isinstance(sensor.instrument, Altimeter), f"{sensor.name!r} is no altimeter"
+        super().__init__(spot)
+        assert isinstance(spot.sensor.instrument, Altimeter), f"{spot.sensor.name!r} is no altimeter"
         self._start = start_height
-        self._height = NoiseSource(sensor.instrument.position, random)
-        self._speed = NoiseSource(sensor.instrument.velocity, random)
+        self._height = NoiseSource(spot.sensor.instrument.position, spot.random)
+        self._speed = NoiseSource(spot.sensor.instrument.velocity, spot.random)
 
     def take(self, snapshot: Snapshot) -> AltimeterReading:
         """How high it is at this instant."""

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.model import CameraOptics, Link, Model, Noise, Sensor
+from trundle.model import CameraOptics, Noise
 from trundle.render import Intrinsics, Picture
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
-from .mounted import MountedSensor
+from .mounted import MountedSensor, Spot
 from .scenery import Scenery
 from .view import PinholeView, view_of
 
@@ -53,31 +53,17 @@ class CameraReading:
 class CameraSensor(MountedSensor[CameraReading]):
     """A hook that takes a picture when it is due and somebody wants it."""
 
-    def __init__(
-        self,
-        model: Model,
-        link: Link,
-        sensor: Sensor,
-        optics: CameraOptics,
-        *,
-        link_index: int,
-        scenery: Scenery,
-        random: np.random.Generator,
-    ) -> None:
+    def __init__(self, spot: Spot, optics: CameraOptics, *, scenery: Scenery) -> None:
         """Mount a camera.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: that the camera is one of.
+            spot: where it is.
             optics: of this camera.
-            link_index: of the link in `Snapshot.poses`.
             scenery: shared by all cameras.
-            random: for its noise.
         """
-        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
+        super().__init__(spot, fastest_hz=FASTEST_HZ)
         self.optics = optics
-        self.link_from_camera: Pose = sensor.link_from_sensor @ optics.sensor_from_camera
+        self.link_from_camera: Pose = spot.sensor.link_from_sensor @ optics.sensor_from_camera
         self.intrinsics = Intrinsics(
             width_px=optics.width_px,
             height_px=optics.height_px,
@@ -86,7 +72,7 @@ class CameraSensor(MountedSensor[CameraReading]):
             far_m=optics.far_m,
         )
         self.view = view_of(optics, self.intrinsics)
-        self.random = random
+        self.random = spot.random
         self.images = 0
         """Pictures finished."""
         self.scenery = scenery

@@ -3,12 +3,11 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from trundle.model import Link, Model, Sensor
 from trundle.physics import Contact
 from trundle.simulation import Snapshot
 from trundle.spatial import Vector3, Wrench
 
-from .mounted import MountedSensor
+from .mounted import MountedSensor, Spot
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,21 +39,16 @@ class ContactReading:
 class ContactSensor(MountedSensor[ContactReading]):
     """Feels what touches some of its link's collisions, or all of them."""
 
-    def __init__(
-        self, model: Model, link: Link, sensor: Sensor, *, link_index: int, contacts: Callable[[], list[Contact]]
-    ) -> None:
+    def __init__(self, spot: Spot, *, contacts: Callable[[], list[Contact]]) -> None:
         """Mount a contact sensor; see `MountedSensor`.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: with the names of the collisions that feel.
-            link_index: of the link in `Snapshot.poses`.
+            spot: where it is.
             contacts: what touched what in the last step.
         """
-        super().__init__(model, link, sensor, link_index=link_index)
-        names = sensor.touching or tuple(collision.name for collision in link.collisions)
-        self._own = frozenset(f"{model.name}::{link.name}::{name}" for name in names)
+        super().__init__(spot)
+        names = spot.sensor.touching or tuple(collision.name for collision in spot.link.collisions)
+        self._own = frozenset(f"{spot.model.name}::{spot.link.name}::{name}" for name in names)
         self._contacts = contacts
 
     def take(self, snapshot: Snapshot) -> ContactReading:

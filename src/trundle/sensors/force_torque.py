@@ -3,13 +3,11 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numpy as np
-
-from trundle.model import ForceTorque, Joint, Link, Model, Sensor
+from trundle.model import ForceTorque, Joint
 from trundle.simulation import LinkHandle, Snapshot
 from trundle.spatial import Pose, Vector3, Wrench
 
-from .mounted import MountedSensor
+from .mounted import MountedSensor, Spot
 from .noise import NoiseSource, disturbed
 
 
@@ -25,39 +23,24 @@ class ForceTorqueReading:
 class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
     """Tells what parent and child of a joint do to one another."""
 
-    def __init__(
-        self,
-        model: Model,
-        link: Link,
-        sensor: Sensor,
-        *,
-        joint: Joint,
-        link_index: int,
-        parent: LinkHandle | None,
-        reaction: Callable[[], Wrench],
-        random: np.random.Generator,
-    ) -> None:
+    def __init__(self, spot: Spot, *, joint: Joint, parent: LinkHandle | None, reaction: Callable[[], Wrench]) -> None:
         """Mount it; see `MountedSensor`.
 
         Args:
-            model: whose it is.
-            link: the joint's child.
-            sensor: with its force_torque.
+            spot: where it is.
             joint: that it sits on.
-            link_index: of the child in `Snapshot.poses`.
             parent: the joint's; None: the world.
             reaction: what the parent does to the child, at the joint, world axes.
-            random: for its noise.
         """
-        super().__init__(model, link, sensor, link_index=link_index)
-        self.settings = sensor.force_torque or ForceTorque()
+        super().__init__(spot)
+        self.settings = spot.sensor.force_torque or ForceTorque()
         self.joint = joint
         self.place = joint.name
-        self.link_from_sensor = joint.child_from_joint @ sensor.link_from_sensor
+        self.link_from_sensor = joint.child_from_joint @ spot.sensor.link_from_sensor
         self._parent = parent
         self._reaction = reaction
-        self._forces = [NoiseSource(each, random) for each in self.settings.force]
-        self._torques = [NoiseSource(each, random) for each in self.settings.torque]
+        self._forces = [NoiseSource(each, spot.random) for each in self.settings.force]
+        self._torques = [NoiseSource(each, spot.random) for each in self.settings.torque]
 
     def take(self, snapshot: Snapshot) -> ForceTorqueReading:
         """What goes through the joint now."""

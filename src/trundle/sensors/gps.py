@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trundle.model import GpsNoise, Link, Model, Noise, Sensor, SphericalCoordinates
+from trundle.model import GpsNoise, Noise, SphericalCoordinates
 from trundle.simulation import Snapshot
 from trundle.spatial import Vector3
 
-from .mounted import MountedSensor
+from .mounted import MountedSensor, Spot
 from .noise import NoiseSource
 
 FASTEST_HZ = 10.0
@@ -35,32 +35,19 @@ class GpsReading:
 class GpsSensor(MountedSensor[GpsReading]):
     """Knows where its point of the link is on Earth, by the world's spherical coordinates."""
 
-    def __init__(
-        self,
-        model: Model,
-        link: Link,
-        sensor: Sensor,
-        *,
-        link_index: int,
-        origin: SphericalCoordinates,
-        random: np.random.Generator,
-    ) -> None:
+    def __init__(self, spot: Spot, *, origin: SphericalCoordinates) -> None:
         """Mount a receiver; see `MountedSensor`.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: with its noise.
-            link_index: of the link in `Snapshot.poses`.
+            spot: where it is.
             origin: where the world's origin is.
-            random: for its noise.
         """
-        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
-        noise = sensor.gps or GpsNoise()
+        super().__init__(spot, fastest_hz=FASTEST_HZ)
+        noise = spot.sensor.gps or GpsNoise()
         self.variances = (_variance(noise.horizontal), _variance(noise.vertical))
         """Horizontal and vertical [m²]."""
         self._origin = origin
-        self._noise = [NoiseSource(each, random) for each in (noise.horizontal, noise.horizontal, noise.vertical)]
+        self._noise = [NoiseSource(each, spot.random) for each in (noise.horizontal, noise.horizontal, noise.vertical)]
 
     def take(self, snapshot: Snapshot) -> GpsReading:
         """A fix at this instant."""

@@ -2,13 +2,11 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from trundle.model import ImuNoise, Link, Model, Sensor
+from trundle.model import ImuNoise
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose, Quaternion, Vector3
 
-from .mounted import NS, MountedSensor
+from .mounted import NS, MountedSensor, Spot
 from .noise import NoiseSource, disturbed
 
 
@@ -28,34 +26,20 @@ class ImuReading:
 class ImuSensor(MountedSensor[ImuReading]):
     """Feels how its point of the link moves, as the mean over the time since its last reading."""
 
-    def __init__(
-        self,
-        model: Model,
-        link: Link,
-        sensor: Sensor,
-        *,
-        link_index: int,
-        gravity: Vector3,
-        reference_from_world: Pose,
-        random: np.random.Generator,
-    ) -> None:
+    def __init__(self, spot: Spot, *, gravity: Vector3, reference_from_world: Pose) -> None:
         """Mount an imu; see `MountedSensor`.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: with its imu.
-            link_index: of the link in `Snapshot.poses`.
+            spot: where it is.
             gravity: of the world [m/s²].
             reference_from_world: turns orientations into the frame that they are told in.
-            random: for its noise.
         """
-        super().__init__(model, link, sensor, link_index=link_index)
-        noise = sensor.imu or ImuNoise()
+        super().__init__(spot)
+        noise = spot.sensor.imu or ImuNoise()
         self._gravity = gravity
         self._reference_from_world = reference_from_world
-        self._rates = [NoiseSource(each, random) for each in noise.angular_velocity]
-        self._accelerations = [NoiseSource(each, random) for each in noise.linear_acceleration]
+        self._rates = [NoiseSource(each, spot.random) for each in noise.angular_velocity]
+        self._accelerations = [NoiseSource(each, spot.random) for each in noise.linear_acceleration]
         self._before: tuple[int, Vector3] | None = None
         """When and with which velocity it last read."""
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.model import Link, LogicalCamera, Model, Sensor
+from trundle.model import LogicalCamera
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
-from .mounted import MountedSensor
+from .mounted import MountedSensor, Spot
 from .placing import moved, pose_of
 
 FASTEST_HZ = 30.0
@@ -53,22 +53,17 @@ class LogicalCameraSensor(MountedSensor[LogicalCameraReading]):
     As in Gazebo a model that others hide is in view, too; endless planes never are.
     """
 
-    def __init__(
-        self, model: Model, link: Link, sensor: Sensor, *, link_index: int, bodies: Callable[[], Sequence[Body]]
-    ) -> None:
+    def __init__(self, spot: Spot, *, bodies: Callable[[], Sequence[Body]]) -> None:
         """Mount it; see `MountedSensor`.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: with its logical_camera.
-            link_index: of the link in `Snapshot.poses`.
+            spot: where it is.
             bodies: there are.
         """
-        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
-        assert isinstance(sensor.instrument, LogicalCamera), f"{sensor.name!r} is no logical camera"
+        super().__init__(spot, fastest_hz=FASTEST_HZ)
+        assert isinstance(spot.sensor.instrument, LogicalCamera), f"{spot.sensor.name!r} is no logical camera"
         self._bodies = bodies
-        self._planes = _planes(sensor.instrument)
+        self._planes = _planes(spot.sensor.instrument)
 
     def take(self, snapshot: Snapshot) -> LogicalCameraReading:
         """What is in view at this instant."""

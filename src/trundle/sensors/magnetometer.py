@@ -2,13 +2,11 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from trundle.model import Link, Magnetometer, Model, Sensor
+from trundle.model import Magnetometer
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose, Vector3
 
-from .mounted import MountedSensor
+from .mounted import MountedSensor, Spot
 from .noise import NoiseSource, disturbed
 
 
@@ -24,30 +22,17 @@ class MagnetometerReading:
 class MagnetometerSensor(MountedSensor[MagnetometerReading]):
     """Turns the world's one magnetic field into its own axes."""
 
-    def __init__(
-        self,
-        model: Model,
-        link: Link,
-        sensor: Sensor,
-        *,
-        link_index: int,
-        world_field: Vector3,
-        random: np.random.Generator,
-    ) -> None:
+    def __init__(self, spot: Spot, *, world_field: Vector3) -> None:
         """Mount it; see `MountedSensor`.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: with its magnetometer.
-            link_index: of the link in `Snapshot.poses`.
+            spot: where it is.
             world_field: the same everywhere [T].
-            random: for its noise.
         """
-        super().__init__(model, link, sensor, link_index=link_index)
-        assert isinstance(sensor.instrument, Magnetometer), f"{sensor.name!r} is no magnetometer"
+        super().__init__(spot)
+        assert isinstance(spot.sensor.instrument, Magnetometer), f"{spot.sensor.name!r} is no magnetometer"
         self._field = world_field
-        self._noise = [NoiseSource(each, random) for each in sensor.instrument.field]
+        self._noise = [NoiseSource(each, spot.random) for each in spot.sensor.instrument.field]
 
     def take(self, snapshot: Snapshot) -> MagnetometerReading:
         """The field at this instant."""

@@ -17,6 +17,7 @@ from .depth_camera import DepthCameraSensor
 from .formats import FORMATS
 from .lens import fits
 from .mount_measuring import MEASURING
+from .mounted import Spot
 from .saving import PictureSaver, folder_for
 from .scenery import Scenery
 from .segmentation_camera import SegmentationCameraSensor
@@ -76,7 +77,7 @@ def mount_cameras(
                 _doubt_labels(sensor, kind, scenery, report)
                 for part, optics in enumerate(_made(sensor, report)):
                     random = np.random.default_rng([simulation.seed, number, part])
-                    camera = kind(owner, link, sensor, optics, link_index=index, scenery=scenery, random=random)
+                    camera = kind(Spot(owner, link, sensor, index, random), optics, scenery=scenery)
                     camera.follow(simulation[owner.name].link(link.name))
                     _save(camera, world.name, report)
                     cameras.append(camera)

@@ -7,9 +7,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from trundle.model import Link, Model, RangeScan, Sensor
+from trundle.model import Model, RangeScan, World
 from trundle.simulation import Simulation
-from trundle.spatial import Pose
 
 from .air import AirPressureSensor, AirSpeedSensor
 from .altimeter import AltimeterSensor
@@ -19,6 +18,7 @@ from .gps import GpsSensor
 from .imu import ImuSensor
 from .logical_camera import LogicalCameraSensor
 from .magnetometer import MagnetometerSensor
+from .mounted import Spot
 from .orientation import reference_from_world
 from .range import RangeSensor
 from .sonar import SonarSensor
@@ -43,21 +43,17 @@ MeasuringSensor: TypeAlias = (
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Spot:
-    """Where a sensor is to be mounted."""
+class _Site:
+    """Where a sensor is to be mounted, and what is around it."""
 
     simulation: Simulation
     around: Surroundings
-    model: Model
-    link: Link
-    sensor: Sensor
-    index: int
-    """Of the link."""
-    random: np.random.Generator
+    spot: Spot
 
-    def start(self) -> Pose:
-        """Where the sensor was when its model came."""
-        return self.model.world_from_model @ self.link.model_from_link @ self.sensor.link_from_sensor
+    @property
+    def world(self) -> World:
+        """That is simulated."""
+        return self.simulation.world
 
 
 def mount_sensors(
@@ -81,7 +77,7 @@ def mount_sensors(
                 make = _MAKERS.get(sensor.type)
                 if make is not None and wanted:
                     random = np.random.default_rng([simulation.seed, number])
-                    made = make(_Spot(simulation, around, owner, link, sensor, index, random))
+                    made = make(_Site(simulation, around, Spot(owner, link, sensor, index, random)))
                     made.follow(simulation[owner.name].link(link.name))
                     mounted.append(made)
             index += 1
@@ -102,119 +98,67 @@ def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[Meas
                 continue
             robot = simulation[model.name]
             handle = robot.joint(joint.name)
+            random = np.random.default_rng([simulation.seed, first, number])
             made = ForceTorqueSensor(
-                model,
-                model.link(joint.child),
-                sensor,
+                Spot(model, model.link(joint.child), sensor, indices[joint.child], random),
                 joint=joint,
-                link_index=indices[joint.child],
                 parent=robot.link(joint.parent) if joint.parent in indices else None,
                 reaction=lambda handle=handle: handle.reaction,
-                random=np.random.default_rng([simulation.seed, first, number]),
             )
             made.follow(robot.link(joint.child))
             mounted.append(made)
     return mounted
 
 
-def _air_pressure(at: _Spot) -> AirPressureSensor:
-    air = at.simulation.world.atmosphere
-    return AirPressureSensor(at.model, at.link, at.sensor, link_index=at.index, air=air, random=at.random)
-
-
-def _air_speed(at: _Spot) -> AirSpeedSensor:
-    world = at.simulation.world
-    made = AirSpeedSensor(at.model, at.link, at.sensor, link_index=at.index, air=world.atmosphere, random=at.random)
-    made.wind = world.wind
+def _air_speed(at: _Site) -> AirSpeedSensor:
+    made = AirSpeedSensor(at.spot, air=at.world.atmosphere)
+    made.wind = at.world.wind
     return made
 
 
-def _altimeter(at: _Spot) -> AltimeterSensor:
-    height = at.start().position[2]
-    return AltimeterSensor(at.model, at.link, at.sensor, link_index=at.index, start_height=height, random=at.random)
-
-
-def _contact(at: _Spot) -> ContactSensor:
-    return ContactSensor(at.model, at.link, at.sensor, link_index=at.index, contacts=at.simulation.contacts)
-
-
-def _gps(at: _Spot) -> GpsSensor:
-    origin = at.simulation.world.spherical_coordinates
-    return GpsSensor(at.model, at.link, at.sensor, link_index=at.index, origin=origin, random=at.random)
-
-
-def _imu(at: _Spot) -> ImuSensor:
-    world = at.simulation.world
-    reference = None if at.sensor.imu is None else at.sensor.imu.reference
+def _imu(at: _Site) -> ImuSensor:
+    settings = at.spot.sensor.imu
     told_from_world = reference_from_world(
-        reference,
-        at_start=at.start(),
-        gravity=world.physics.gravity,
-        heading_rad=math.radians(world.spherical_coordinates.heading_deg),
+        None if settings is None else settings.reference,
+        at_start=at.spot.start(),
+        gravity=at.world.physics.gravity,
+        heading_rad=math.radians(at.world.spherical_coordinates.heading_deg),
     )
-    return ImuSensor(
-        at.model,
-        at.link,
-        at.sensor,
-        link_index=at.index,
-        gravity=world.physics.gravity,
-        reference_from_world=told_from_world,
-        random=at.random,
-    )
+    return ImuSensor(at.spot, gravity=at.world.physics.gravity, reference_from_world=told_from_world)
 
 
-def _logical_camera(at: _Spot) -> LogicalCameraSensor:
-    return LogicalCameraSensor(at.model, at.link, at.sensor, link_index=at.index, bodies=lambda: at.around.bodies)
+def _range(at: _Site) -> RangeSensor:
+    sensor = at.spot.sensor
+    scan = sensor.scan or RangeScan()
+    rays = at.around.light_rays(scan.min_m) if sensor.type.startswith("gpu_") else at.around.rays
+    return RangeSensor(at.spot, rays=rays)
 
 
-def _magnetometer(at: _Spot) -> MagnetometerSensor:
-    field = at.simulation.world.magnetic_field
-    return MagnetometerSensor(at.model, at.link, at.sensor, link_index=at.index, world_field=field, random=at.random)
+def _wireless_receiver(at: _Site) -> WirelessSensor:
+    around = at.around
+    return WirelessSensor(at.spot, transmitters=lambda: around.beacons("wireless_transmitter"), rays=around.rays)
 
 
-def _range(at: _Spot) -> RangeSensor:
-    scan = at.sensor.scan or RangeScan()
-    rays = at.around.light_rays(scan.min_m) if at.sensor.type.startswith("gpu_") else at.around.rays
-    return RangeSensor(at.model, at.link, at.sensor, link_index=at.index, rays=rays, random=at.random)
+def _gps(at: _Site) -> GpsSensor:
+    return GpsSensor(at.spot, origin=at.world.spherical_coordinates)
 
 
-def _rfid(at: _Spot) -> RfidSensor:
-    return RfidSensor(at.model, at.link, at.sensor, link_index=at.index, tags=lambda: at.around.beacons("rfidtag"))
-
-
-def _sonar(at: _Spot) -> SonarSensor:
-    rays = at.around.foreign_rays(at.model, at.link)
-    return SonarSensor(at.model, at.link, at.sensor, link_index=at.index, rays=rays)
-
-
-def _wireless_receiver(at: _Spot) -> WirelessSensor:
-    return WirelessSensor(
-        at.model,
-        at.link,
-        at.sensor,
-        link_index=at.index,
-        transmitters=lambda: at.around.beacons("wireless_transmitter"),
-        rays=at.around.rays,
-        random=at.random,
-    )
-
-
-_MAKERS: Mapping[str, Callable[[_Spot], MeasuringSensor]] = {
-    "air_pressure": _air_pressure,
+_MAKERS: Mapping[str, Callable[[_Site], MeasuringSensor]] = {
+    "air_pressure": lambda at: AirPressureSensor(at.spot, air=at.world.atmosphere),
     "air_speed": _air_speed,
-    "altimeter": _altimeter,
-    "contact": _contact,
+    "altimeter": lambda at: AltimeterSensor(at.spot, start_height=at.spot.start().position[2]),
+    "contact": lambda at: ContactSensor(at.spot, contacts=at.simulation.contacts),
     "gps": _gps,
     "gpu_lidar": _range,
     "gpu_ray": _range,
     "imu": _imu,
     "lidar": _range,
-    "logical_camera": _logical_camera,
-    "magnetometer": _magnetometer,
+    "logical_camera": lambda at: LogicalCameraSensor(at.spot, bodies=lambda: at.around.bodies),
+    "magnetometer": lambda at: MagnetometerSensor(at.spot, world_field=at.world.magnetic_field),
     "navsat": _gps,
     "ray": _range,
-    "rfid": _rfid,
-    "sonar": _sonar,
+    "rfid": lambda at: RfidSensor(at.spot, tags=lambda: at.around.beacons("rfidtag")),
+    "sonar": lambda at: SonarSensor(at.spot, rays=at.around.foreign_rays(at.spot.model, at.spot.link)),
     "wireless_receiver": _wireless_receiver,
 }
 MEASURING = frozenset(_MAKERS) | {"force_torque", "rfidtag", "wireless_transmitter"}

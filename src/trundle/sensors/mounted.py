@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Generic, TypeVar
 
+import numpy as np
+
 from trundle.diagnostics import UsageError
 from trundle.model import Link, Model, Sensor
 from trundle.simulation import LinkHandle, Snapshot
@@ -27,29 +29,42 @@ def _period_ns(rate_hz: float) -> Fraction:
     return NS / (Fraction(rate_hz).limit_denominator(1_000_000) or Fraction(rate_hz))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Spot:
+    """Where a sensor is mounted."""
+
+    model: Model
+    link: Link
+    """That carries it."""
+    sensor: Sensor
+    link_index: int
+    """Of the link in `Snapshot.poses`."""
+    random: np.random.Generator
+    """Numbers of its own, for its noise."""
+
+    def start(self) -> Pose:
+        """Where the sensor was when its model came."""
+        return self.model.world_from_model @ self.link.model_from_link @ self.sensor.link_from_sensor
+
+
 class MountedSensor(Generic[Reading]):
     """A hook that measures when it is due and somebody wants it; one that nobody wants costs nothing."""
 
-    def __init__(
-        self, model: Model, link: Link, sensor: Sensor, *, link_index: int, fastest_hz: float | None = None
-    ) -> None:
+    def __init__(self, spot: Spot, *, fastest_hz: float | None = None) -> None:
         """Mount a sensor.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: as described.
-            link_index: of the link in `Snapshot.poses`.
+            spot: where it is.
             fastest_hz: where update_rate is 0; None: at every step.
         """
-        self.model = model
-        self.link = link
-        self.sensor = sensor
-        self._index = link_index
+        self.model = spot.model
+        self.link = spot.link
+        self.sensor = spot.sensor
+        self._index = spot.link_index
         self._handle: LinkHandle | None = None
-        self.place = link.name
+        self.place = spot.link.name
         """What its topics are called after: its link, or the joint it sits on."""
-        rate = sensor.update_rate_hz or fastest_hz
+        rate = spot.sensor.update_rate_hz or fastest_hz
         self.period_ns = 0 if rate is None else _period_ns(rate)
         self._listeners: list[_Listener[Reading]] = []
 

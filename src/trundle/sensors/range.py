@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.model import Link, Model, RangeScan, ScanAxis, Sensor
+from trundle.model import RangeScan, ScanAxis
 from trundle.simulation import Snapshot
 
-from .mounted import MountedSensor
+from .mounted import MountedSensor, Spot
 from .noise import NoiseSource
 from .placing import turned
 from .rays import Rays
@@ -32,32 +32,19 @@ class RangeReading:
 class RangeSensor(MountedSensor[RangeReading]):
     """Casts a fan of rays: against the collision shapes of other links, or on Gazebo's GPU against all visuals."""
 
-    def __init__(
-        self,
-        model: Model,
-        link: Link,
-        sensor: Sensor,
-        *,
-        link_index: int,
-        rays: Rays,
-        random: np.random.Generator,
-    ) -> None:
+    def __init__(self, spot: Spot, *, rays: Rays) -> None:
         """Mount a ray sensor; see `MountedSensor`.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: with its scan.
-            link_index: of the link in `Snapshot.poses`.
+            spot: where it is.
             rays: asks the engine.
-            random: for its noise.
         """
-        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
-        assert sensor.scan is not None, f"{sensor.name!r} has no scan"
-        self.scan = sensor.scan
+        super().__init__(spot, fastest_hz=FASTEST_HZ)
+        assert spot.sensor.scan is not None, f"{spot.sensor.name!r} has no scan"
+        self.scan = spot.sensor.scan
         self._rays = rays
-        self._noise = NoiseSource(sensor.scan.noise, random)
-        self._directions = directions_of(sensor.scan)
+        self._noise = NoiseSource(spot.sensor.scan.noise, spot.random)
+        self._directions = directions_of(spot.sensor.scan)
 
     def take(self, snapshot: Snapshot) -> RangeReading:
         """Look round from where the sensor is now."""

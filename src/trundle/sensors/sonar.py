@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.model import Link, Model, Sensor, Sonar
+from trundle.model import Sonar
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose, quaternion_from_rpy
 
-from .mounted import MountedSensor
+from .mounted import MountedSensor, Spot
 from .placing import turned
 from .rays import Rays
 
@@ -32,23 +32,20 @@ class SonarReading:
 class SonarSensor(MountedSensor[SonarReading]):
     """Looks through a cone by 217 rays; Gazebo lays a cone of triangles over the shapes, with the same answer."""
 
-    def __init__(self, model: Model, link: Link, sensor: Sensor, *, link_index: int, rays: Rays) -> None:
+    def __init__(self, spot: Spot, *, rays: Rays) -> None:
         """Mount a sonar; see `MountedSensor`.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: with its sonar.
-            link_index: of the link in `Snapshot.poses`.
+            spot: where it is.
             rays: asks the engine.
         """
-        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
-        assert isinstance(sensor.instrument, Sonar), f"{sensor.name!r} is no sonar"
-        self.settings = sensor.instrument
+        super().__init__(spot, fastest_hz=FASTEST_HZ)
+        assert isinstance(spot.sensor.instrument, Sonar), f"{spot.sensor.name!r} is no sonar"
+        self.settings = spot.sensor.instrument
         is_cone = self.settings.geometry == "cone"
         half = math.atan2(self.settings.radius, self.settings.max_m) if is_cone else _ALL_ROUND
         self.fov_rad = 2.0 * half
-        self.link_from_beam = sensor.link_from_sensor @ Pose(quaternion=quaternion_from_rpy(0.0, math.pi / 2, 0.0))
+        self.link_from_beam = spot.sensor.link_from_sensor @ Pose(quaternion=quaternion_from_rpy(0.0, math.pi / 2, 0.0))
         """Whose x axis is the sonar's: −z of the sensor's own frame."""
         self._directions = _cone(half)
         self._reach = self.settings.max_m / self._directions[:, 0] if is_cone else np.inf

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trundle.model import Link, Model, Sensor, Transceiver
+from trundle.model import Transceiver
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose, Vector3, normalized
 
-from .mounted import MountedSensor
+from .mounted import MountedSensor, Spot
 from .rays import Rays
 
 FASTEST_HZ = 10.0
@@ -63,34 +63,20 @@ class WirelessReading:
 class WirelessSensor(MountedSensor[WirelessReading]):
     """Hears transmitters by Gazebo's Hata-Okumura model: things between attenuate."""
 
-    def __init__(
-        self,
-        model: Model,
-        link: Link,
-        sensor: Sensor,
-        *,
-        link_index: int,
-        transmitters: Callable[[], Sequence[Beacon]],
-        rays: Rays,
-        random: np.random.Generator,
-    ) -> None:
+    def __init__(self, spot: Spot, *, transmitters: Callable[[], Sequence[Beacon]], rays: Rays) -> None:
         """Mount a receiver; see `MountedSensor`.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: with its transceiver.
-            link_index: of the link in `Snapshot.poses`.
+            spot: where it is.
             transmitters: there are.
             rays: asks the engine what is between.
-            random: for what is lost by chance.
         """
-        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
-        assert isinstance(sensor.instrument, Transceiver), f"{sensor.name!r} is no receiver"
-        self._settings = sensor.instrument
+        super().__init__(spot, fastest_hz=FASTEST_HZ)
+        assert isinstance(spot.sensor.instrument, Transceiver), f"{spot.sensor.name!r} is no receiver"
+        self._settings = spot.sensor.instrument
         self._transmitters = transmitters
         self._rays = rays
-        self._random = random
+        self._random = spot.random
 
     def take(self, snapshot: Snapshot) -> WirelessReading:
         """Who is heard at this instant."""
@@ -137,19 +123,14 @@ class RfidReading:
 class RfidSensor(MountedSensor[RfidReading]):
     """Tells the tags within five metres, whatever is between, as Gazebo does."""
 
-    def __init__(
-        self, model: Model, link: Link, sensor: Sensor, *, link_index: int, tags: Callable[[], Sequence[Beacon]]
-    ) -> None:
+    def __init__(self, spot: Spot, *, tags: Callable[[], Sequence[Beacon]]) -> None:
         """Mount a reader; see `MountedSensor`.
 
         Args:
-            model: whose it is.
-            link: that carries it.
-            sensor: as described.
-            link_index: of the link in `Snapshot.poses`.
+            spot: where it is.
             tags: there are.
         """
-        super().__init__(model, link, sensor, link_index=link_index, fastest_hz=FASTEST_HZ)
+        super().__init__(spot, fastest_hz=FASTEST_HZ)
         self._tags = tags
 
     def take(self, snapshot: Snapshot) -> RfidReading:
