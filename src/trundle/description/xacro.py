@@ -30,15 +30,21 @@ class _Yaml(ModuleType):
         return getattr(import_module("yaml"), name)
 
 
+class _CommandLine(ModuleType):
+    """In the place of the package's own, which is never asked."""
+
+    process_args = None
+
+
 def _import_xacro() -> tuple[Any, Any]:
-    absent = "yaml" not in sys.modules
-    if absent:
-        sys.modules["yaml"] = _Yaml("yaml")
+    stand_ins = {each.__name__: each for each in (_Yaml("yaml"), _CommandLine("xacro.cli"))}
+    absent = stand_ins.keys() - sys.modules.keys()
+    sys.modules.update({name: stand_ins[name] for name in absent})
     try:
         return import_module("xacro"), import_module("xacro.substitution_args")
     finally:
-        if absent:
-            del sys.modules["yaml"]
+        for name in absent:
+            del sys.modules[name]
 
 
 xacro, substitution_args = _import_xacro()
@@ -56,7 +62,7 @@ def _bound_symbols(symbols: Any) -> None:
 _bound_symbols(xacro._global_symbols)
 
 
-_REPEATED = re.compile(r"<class '[\w.]+'>: (.*?) \1")
+_REPEATED = r"<class '[\w.]+'>: (.*?) \1"
 """How the package words an error of $(…): its class, then what it says, twice."""
 _LONGEST = 400
 """Characters of an error: it quotes the expression, and each that this one was part of."""
@@ -73,7 +79,7 @@ _CORE = {
     "insert_block": "name",
 }
 """Indigo's bare tags, and the attribute that tells them from plain XML of the same name."""
-_BARE = re.compile(rf"<({'|'.join(_CORE)})\b".encode())
+_BARE = tuple(f"<{tag}".encode() for tag in _CORE)
 _URDF = frozenset(
     [
         "robot",
@@ -112,7 +118,6 @@ _URDF = frozenset(
     ]
 )
 """Element names that stay what they are even where a macro has the same name."""
-_ENTITY = re.compile(rb"<!(DOCTYPE|ENTITY)")
 
 
 def expand_xacro(path: Path, arguments: Mapping[str, str], *, packages: Packages, report: Diagnostics) -> str:
@@ -142,7 +147,7 @@ def expand_xacro(path: Path, arguments: Mapping[str, str], *, packages: Packages
         except ExpatError as error:
             raise DescriptionError(Source(_where(path).file, error.lineno), f"not well-formed XML: {error}") from None
         except Exception as error:  # xacro evaluates the file's own Python: anything may come out of it
-            what = _REPEATED.sub(r"\1", " ".join(str(error).split())) or type(error).__name__
+            what = re.sub(_REPEATED, r"\1", " ".join(str(error).split())) or type(error).__name__
             what = what if len(what) <= _LONGEST else f"{what[:_LONGEST]} …"
             raise DescriptionError(_where(path), what) from None
 
@@ -219,11 +224,11 @@ def _parse_for(original: Callable[..., Any], packages: Packages, report: Diagnos
         if filename is not None:
             packages.check_readable(Path(filename), Source(filename), told="xacro:include")
             data = Path(filename).read_bytes() if Path(filename).is_file() else b""
-            if _ENTITY.search(data):
+            if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
                 raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
             # Blank lines before <?xml …?> stop expat, and no robot.
             document = xml.dom.minidom.parseString(data.lstrip()) if data.strip() else original(inp, filename)
-            if _BARE.search(data):
+            if any(start in data for start in _BARE):
                 _prefix_core_tags(document, filename, report)
             return document
         return original(inp, filename)

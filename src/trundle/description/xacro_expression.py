@@ -29,7 +29,7 @@ _GROWING = frozenset(
     ["center", "expandtabs", "format", "format_map", "join", "ljust", "replace", "rjust", "translate", "zfill"]
 )
 """Methods of text whose result may be much longer than what they are given."""
-_WIDE = re.compile(r"\d{5}|\*|\{[^{}]*\{|__")
+_WIDE = r"\d{5}|\*|\{[^{}]*\{|__"
 """In a format: a width beyond all sense, or from elsewhere, or a way to what no name may reach."""
 
 
@@ -205,7 +205,7 @@ def _shift(left: Any, right: Any) -> Any:
 
 
 def _check_format(text: str | bytes) -> None:
-    if _WIDE.search(text if isinstance(text, str) else text.decode("latin-1")):
+    if re.search(_WIDE, text if isinstance(text, str) else text.decode("latin-1")):
         raise ExpressionTooLargeError(f"the format {text[:50]!r} is not supported")
 
 
