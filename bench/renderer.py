@@ -77,7 +77,8 @@ def _pictures(name: str, scene: Scene, eyes: Sequence[Pose], lens: Intrinsics) -
 
 
 def _scans(name: str, scene: Scene, beams: int, height: int) -> Row:
-    yaw, pitch = np.meshgrid(np.linspace(-np.pi, np.pi, beams), np.linspace(-0.3, 0.3, height))
+    rows = np.linspace(-0.3, 0.3, height) if height > 1 else np.zeros(1)
+    yaw, pitch = np.meshgrid(np.linspace(-np.pi, np.pi, beams), rows)
     ways = np.stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)], axis=-1).reshape(-1, 3)
     ours, eye = NativeRenderer(scene), Pose((0.0, 0.0, 0.5))
     poses = scenes.poses_at(scene, 0)

@@ -31,6 +31,17 @@ std::array<float, 3> corner_of(const Triangles& mesh, int32_t face, int corner) 
   return {mesh.places[0][vertex], mesh.places[1][vertex], mesh.places[2][vertex]};
 }
 
+BvhFace face_of(const Triangles& mesh, int32_t face) {
+  const auto a = corner_of(mesh, face, 0), b = corner_of(mesh, face, 1), c = corner_of(mesh, face, 2);
+  BvhFace made;
+  for (int i = 0; i < 6; ++i) {
+    const int x = i % 3, y = (i + 1) % 3, z = (i + 2) % 3;
+    made.corner[i] = a[x], made.edges[0][i] = b[x] - a[x], made.edges[1][i] = c[x] - a[x];
+    made.normal[i] = (float)(((double)b[y] - a[y]) * ((double)c[z] - a[z]) - ((double)b[z] - a[z]) * ((double)c[y] - a[y]));
+  }
+  return made;
+}
+
 // A box, and below it either triangles, `count` from `first` on, or two boxes: the next one and `first`.
 struct Pair {
   Box box;
@@ -161,13 +172,7 @@ Bvh make_bvh(const Triangles& mesh) {
     largest = std::max({largest, -builder.nodes[0].box.low[axis], builder.nodes[0].box.high[axis]});
   Joiner joiner{builder.nodes, 4e-6f * largest, {}};
   joiner.join(0);
-  for (const int32_t face : builder.order) {
-    const std::array<std::array<float, 3>, 3> p = {corner_of(mesh, face, 0), corner_of(mesh, face, 1),
-                                                   corner_of(mesh, face, 2)};
-    for (int i = 0; i < 3; ++i) bvh.corners.push_back(p[0][i]);
-    for (int edge = 1; edge < 3; ++edge)
-      for (int i = 0; i < 3; ++i) bvh.corners.push_back(p[edge][i] - p[0][i]);
-  }
+  for (const int32_t face : builder.order) bvh.faces.push_back(face_of(mesh, face));
   bvh.nodes = std::move(joiner.nodes);
   return bvh;
 }

@@ -9,8 +9,8 @@ namespace trundle {
 
 struct Bvh {
   std::vector<BvhNode> nodes;
-  std::vector<float> corners;  // 9 for each triangle: a corner, and the edges to the two others
-  BvhView view() const { return {nodes.data(), corners.data()}; }
+  std::vector<BvhFace> faces;
+  BvhView view() const { return {nodes.data(), faces.data()}; }
 };
 
 // Of what is never empty: a mesh with faces.

@@ -89,7 +89,7 @@ void pack(const int32_t* words, int32_t count, uint8_t* bytes) {
   for (; i + 4 <= count; i += 4, bytes += 12) {
     const auto a = (uint32_t)words[i], b = (uint32_t)words[i + 1], c = (uint32_t)words[i + 2], d = (uint32_t)words[i + 3];
     const uint32_t packed[3] = {a | b << 24, b >> 8 | c << 16, c >> 16 | d << 8};
-    std::memcpy(bytes, packed, sizeof packed);
+    for (int k = 0; k < 3; ++k) std::memcpy(bytes + 4 * k, packed + k, 4);  // all twelve at once would go by way of memory
   }
   for (; i < count; ++i, bytes += 3)
     for (int channel = 0; channel < 3; ++channel) bytes[channel] = (uint8_t)(words[i] >> (8 * channel));

@@ -42,9 +42,14 @@ struct BvhNode {
   int32_t first[kWidest], count[kWidest];
 };
 
+// A corner, the two edges from there, and what is at right angles to both: x, y and z twice, to be multiplied crosswise.
+struct BvhFace {
+  float corner[6], edges[2][6], normal[6];
+};
+
 struct BvhView {
   const BvhNode* nodes;
-  const float* corners;
+  const BvhFace* faces;
 };
 
 // An image and its halves, down to one pixel; it repeats.

@@ -17,6 +17,18 @@ bool is_finite(const std::array<float, 3>& numbers) {
 
 void copy(const std::array<float, 3>& from, float* to) { std::copy(from.begin(), from.end(), to); }
 
+// How far from a point its faces reach [m].
+double farthest(const Triangles& mesh, const Vec3& from) {
+  double square = 0.0;
+  for (const int32_t* corner : mesh.corners)
+    for (int32_t face = 0; face < mesh.face_count; ++face) {
+      double away = 0.0;
+      for (int axis = 0; axis < 3; ++axis) away += std::pow(mesh.places[axis][corner[face]] - from[axis], 2);
+      square = std::max(square, away);
+    }
+  return std::sqrt(square);
+}
+
 Look look_of(const LookSpec& spec, const std::vector<Image>& textures) {
   Look look{};
   copy(spec.ambient, look.ambient), copy(spec.diffuse, look.diffuse);
@@ -116,16 +128,23 @@ Renderer::Bounds Renderer::bounds_of(const ShapeSpec& shape) const {
     case Kind::kBox:
     case Kind::kEllipsoid: bounds.high = {x, y, z}; break;
   }
-  double square = 0.0;
   for (int i = 0; i < 3; ++i) {
     bounds.low[i] = -bounds.high[i];
     if (shape.kind == Kind::kMesh)
       bounds.low[i] = scene_.meshes[shape.mesh].low[i], bounds.high[i] = scene_.meshes[shape.mesh].high[i];
-    const double half = 0.5 * (bounds.high[i] - bounds.low[i]);
-    bounds.middle[i] = bounds.low[i] + half;
-    square += half * half;
+    bounds.middle[i] = bounds.low[i] + 0.5 * (bounds.high[i] - bounds.low[i]);
   }
-  bounds.radius = std::sqrt(square) * 1.0001 + 1e-4;
+  double radius = 0.0;
+  switch (shape.kind) {
+    case Kind::kMesh: radius = farthest(triangles_[shape.mesh], bounds.middle); break;
+    case Kind::kSphere: radius = x; break;
+    case Kind::kCylinder: radius = std::hypot(x, y); break;
+    case Kind::kCapsule: radius = x + y; break;
+    case Kind::kEllipsoid: radius = std::max({x, y, z}); break;
+    case Kind::kPlane:
+    case Kind::kBox: radius = std::hypot(bounds.high[0], bounds.high[1], bounds.high[2]);
+  }
+  bounds.radius = radius * 1.0001 + 1e-4;
   return bounds;
 }
 
