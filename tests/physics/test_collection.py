@@ -1,5 +1,7 @@
 """Every published model and world that loads is simulated for two seconds and stays sound."""
 
+import gzip
+import json
 import re
 from pathlib import Path
 
@@ -10,7 +12,8 @@ import trundle
 from trundle.diagnostics import DescriptionError
 from trundle.simulation import Simulation
 
-REPOSITORIES = Path(__file__).resolve().parents[3] / "shared/corpus/repos"
+COLLECTION = Path(__file__).resolve().parents[3] / "shared/corpus"
+REPOSITORIES = COLLECTION / "repos"
 KINDS = ("*.sdf", "*.world", "*.urdf")
 NO_XML = r"not well-formed XML: Start tag expected"
 NO_DESCRIPTION = r"<urdf> starts neither an SDF"
@@ -61,3 +64,23 @@ def test_what_is_published_stays_sound(repository: str) -> None:
         sim.run(2.0)  # raises where it runs away
         assert np.isfinite(sim.snapshot().poses).all(), path
         assert np.isfinite(sim.snapshot().twists).all(), path
+
+
+def robots() -> dict[str, list[str]]:
+    """Repository → what xacro and Gazebo 11 make robots of there: names of their texts, each once."""
+    manifest = COLLECTION / "manifest.json"
+    rows = json.loads(manifest.read_text())["urdf"] if manifest.is_file() else []
+    known: dict[str, str] = {row["sha"]: row["repo"] for row in rows if row["accept_gz11"] and row["how"] != "raw urdf"}
+    return {repo: [sha for sha in known if known[sha] == repo] for repo in sorted(set(known.values()))}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("repository", robots())
+def test_robots_made_with_xacro_stay_sound(repository: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(REPOSITORIES))
+    for sha in robots()[repository]:
+        file = tmp_path / f"{sha}.urdf"
+        file.write_bytes(gzip.decompress((COLLECTION / "refs/urdf" / f"{sha}.urdf.gz").read_bytes()))
+        sim = trundle.load(str(file))
+        sim.run(2.0)
+        assert np.isfinite(sim.snapshot().poses).all(), sha
