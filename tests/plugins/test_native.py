@@ -10,7 +10,7 @@ from trundle.bringup.plugins import load_plugins
 from trundle.model import Box, Cylinder, Link
 from trundle.plugins.bounds import bounding_box
 from trundle.simulation import Simulation
-from trundle.spatial import Twist
+from trundle.spatial import Twist, Vector3
 
 BODY = "<inertial><mass>{}</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
 WHEEL = """<link name="{name}"><pose>{x} {y} 0.1 -1.5707963 0 0</pose><inertial><mass>1</mass><inertia><ixx>0.005</ixx>
@@ -78,6 +78,66 @@ def test_a_wing_lifts_by_its_angle_and_the_square_of_its_speed(tmp_path: Path, s
     vx, _, vz = sim["m"].links[0].twist.linear
     assert vz * 1000 / 0.01 == pytest.approx(lift, rel=1e-2, abs=1e-9)
     assert (speed - vx) * 1000 / 0.01 == pytest.approx(drag, rel=1e-2, abs=1e-9)
+
+
+PRESSURE = 0.5 * 1.2041 * 10.0**2
+
+
+def degrees(angle: float) -> tuple[float, float]:
+    return math.cos(math.radians(angle)), math.sin(math.radians(angle))
+
+
+@pytest.mark.parametrize(
+    ("more", "way", "force"),
+    [
+        # Sinking at 30 degrees: beyond a stall at 0.3 rad, lift 4 · 0.3 − (0.5236 − 0.3), drag 0.1 · 0.3 + 0.2236.
+        (
+            "<alpha_stall>0.3</alpha_stall><cla_stall>-1</cla_stall><cda>0.1</cda>",
+            (degrees(30)[0], 0.0, -degrees(30)[1]),
+            (
+                0.9764 * degrees(30)[1] - 0.2536 * degrees(30)[0],
+                0.0,
+                0.9764 * degrees(30)[0] + 0.2536 * degrees(30)[1],
+            ),
+        ),
+        # Climbing as steeply, it is pushed down.
+        ("<cda>0</cda>", (degrees(30)[0], 0.0, degrees(30)[1]), (2.0944 * 0.5, 0.0, -2.0944 * degrees(30)[0])),
+        # Half of it from the side: half the pressure, and half of that for the sweep.
+        ("<a0>0.1</a0><cda>0</cda>", (*degrees(45), 0.0), (0.0, 0.0, 0.4 * 0.5 * 0.5)),
+        # Backwards, α is none but a0.
+        ("<a0>0.1</a0><cda>0</cda>", (-1.0, 0.0, 0.0), (0.0, 0.0, -0.4)),
+        # A flap that is down by 0.2 rad.
+        (
+            "<cda>0</cda><control_joint_name>flap</control_joint_name>"
+            "<control_joint_rad_to_cl>-2</control_joint_rad_to_cl>",
+            (1.0, 0.0, 0.0),
+            (0.0, 0.0, -0.4),
+        ),
+        # A rod that is blown on from its left side, aslant.
+        (
+            "<cda>0</cda><radial_symmetry>true</radial_symmetry>",
+            (degrees(30)[0], degrees(30)[1], 0.0),
+            (2.0944 * 0.5, -2.0944 * degrees(30)[0], 0.0),
+        ),
+    ],
+    ids=["stalled", "climbing", "swept", "backwards", "flap", "round"],
+)
+def test_a_wing_in_every_wind(tmp_path: Path, more: str, way: Vector3, force: Vector3) -> None:
+    """Forces over the pressure of air, in the world; area 1 m², cla 4."""
+    flap = (
+        f'<link name="flap">{BODY.format(0.001)}</link><joint name="flap" type="revolute"><parent>a</parent>'
+        "<child>flap</child><axis><xyz>0 1 0</xyz></axis></joint>"
+    )
+    plugin = f'<plugin name="p" filename="libLiftDragPlugin.so"><link_name>a</link_name><cla>4</cla>{more}</plugin>'
+    sim = load(tmp_path, f'<link name="a">{BODY.format(1e6)}</link>{flap}{plugin}', gravity="0 0 0")
+    x, y, z = (10.0 * each for each in way)
+    sim["m"].set_twist(Twist((x, y, z)))
+    sim["m"].joint("flap").set_position(0.2)
+    sim.run(0.01)
+
+    there = sim["m"].link("a").twist.linear
+    measured = [(after - before) * 1e6 / 0.01 / PRESSURE for after, before in zip(there, (x, y, z), strict=True)]
+    assert measured == pytest.approx(force, rel=2e-3, abs=2e-3)
 
 
 def test_two_wings_on_one_link_lift_together(tmp_path: Path) -> None:

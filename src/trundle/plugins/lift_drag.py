@@ -5,7 +5,7 @@ from typing import Self
 
 from trundle.model import PluginTag
 from trundle.ros import Node
-from trundle.simulation import LinkHandle, ModelHandle, Simulation
+from trundle.simulation import JointHandle, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Vector3, Wrench, cross, normalized
 
 from .plugin import Plugin
@@ -20,11 +20,15 @@ class LiftDrag(Plugin):
     Parameters, with Gazebo's defaults: <a0> 0, <cla> 1, <cda> 0.01, <alpha_stall> π/2, <cla_stall> 0, <cda_stall> 1,
     <cp> 0 0 0 and <forward> 1 0 0, <upward> 0 0 1 in the link's frame, <area> 1 m², <air_density> 1.2041 kg/m³. Its
     pitching moment (<cma>, <cma_stall>) is always zero there, and so here. Up to the stall the lift coefficient is
-    cla · α and the drag coefficient |cda · α|; beyond it they go on with the stall's slopes.
+    cla · α and the drag coefficient |cda · α|; beyond it they go on with the stall's slopes. Both lose what the air
+    blows along the span: the square of the sweep's cosine is left. A wing that flies backwards is one that flies
+    forwards: α is within a quarter turn. The position of <control_joint_name> adds <control_joint_rad_to_cl> (4) times
+    itself to the lift coefficient. With <radial_symmetry> a rod has its upward side against whatever blows across it.
     """
 
-    def __init__(self, link: LinkHandle, tag: PluginTag, sim: Simulation) -> None:
+    def __init__(self, link: LinkHandle, flap: JointHandle | None, tag: PluginTag, sim: Simulation) -> None:
         self._link = link
+        self._flap = flap
         parameters, report = tag.node, sim.report
 
         def number(name: str, default: float) -> float:
@@ -40,7 +44,9 @@ class LiftDrag(Plugin):
         self._area, self._density = number("area", 1.0), number("air_density", 1.2041)
         self._centre = parameters.vector("cp", default=(0.0, 0.0, 0.0), report=report)
         self._forward, self._upward = direction("forward", (1.0, 0.0, 0.0)), direction("upward", (0.0, 0.0, 1.0))
-        for name in ("link_name", "cma", "cma_stall"):
+        self._flap_lift = number("control_joint_rad_to_cl", 4.0)
+        self._is_round = parameters.flag("radial_symmetry", default=False, report=report)
+        for name in ("link_name", "control_joint_name", "cma", "cma_stall"):
             parameters.find(name)
         parameters.report_unread(report)
 
@@ -48,7 +54,8 @@ class LiftDrag(Plugin):
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
         """See `Plugin.load`."""
         del node
-        return cls(model.link(tag.node.string("link_name")), tag, sim)
+        flap = tag.node.string("control_joint_name")
+        return cls(model.link(tag.node.string("link_name")), model.joint(flap) if flap else None, tag, sim)
 
     def before_step(self, sim: Simulation) -> None:
         """Push by the speed of now."""
@@ -58,6 +65,8 @@ class LiftDrag(Plugin):
         arm = (at[0] - pose.position[0], at[1] - pose.position[1], at[2] - pose.position[2])
         velocity = _add(twist.linear, cross(twist.angular, arm))
         forward, upward = pose.direction(self._forward), pose.direction(self._upward)
+        if self._is_round:
+            upward = normalized(cross(forward, cross(forward, velocity))) or upward
         span = normalized(cross(forward, upward))
         if span is None or _length(velocity) <= _SLOWEST:
             return
@@ -68,9 +77,13 @@ class LiftDrag(Plugin):
             return
         lift_direction = cross(span, across)
         alpha = self._alpha0 + math.atan2(-_dot(across, upward), _dot(across, forward))
+        alpha = math.remainder(alpha, math.pi)
+        unswept = (speed / _length(velocity)) ** 2
+        flapped = 0.0 if self._flap is None else self._flap_lift * self._flap.position
         pressure = 0.5 * self._density * speed * speed * self._area
-        lift = _times(normalized(lift_direction) or upward, self._lift_coefficient(alpha) * pressure)
-        drag = _times(drag_direction, self._drag_coefficient(alpha) * pressure)
+        lifting = self._lift_coefficient(alpha) * unswept + flapped
+        lift = _times(normalized(lift_direction) or upward, lifting * pressure)
+        drag = _times(drag_direction, self._drag_coefficient(alpha) * unswept * pressure)
         self._link.add_wrench(Wrench(force=_add(lift, drag)), at=at)
 
     def _lift_coefficient(self, alpha: float) -> float:
