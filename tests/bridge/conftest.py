@@ -1,45 +1,29 @@
 """Whole paths: an SDF file goes in, ROS messages come out."""
 
-import time
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from tests.graphs import PATIENCE_S, running_graph, until
 
 import trundle
 from trundle.bridge import camera_topics, sensor_topics
 from trundle.render import NativeRenderer
-from trundle.ros import Core, GraphLoop, Node, StaticTransformBroadcaster, Transform
+from trundle.ros import StaticTransformBroadcaster, Transform
 from trundle.sensors import mount_cameras, mount_sensors
 from trundle.simulation import Simulation
 
-PATIENCE_S = 20.0
-
-
-def until(condition: Callable[[], object]) -> None:
-    """Wait for something that is bound to happen."""
-    end = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.002)
-
 
 @pytest.fixture
-def graph(monkeypatch: pytest.MonkeyPatch) -> Iterator[SimpleNamespace]:
+def graph() -> Iterator[SimpleNamespace]:
     """A graph of its own with two nodes: one that publishes and one that listens."""
-    for variable in ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE"):
-        monkeypatch.delenv(variable, raising=False)
-    with GraphLoop() as loop:
-        core = Core(loop, port=0)
-        loop.run(core.start(), PATIENCE_S)
-        loop.run(core.ready(), PATIENCE_S)
-        node, ear = (Node(name, loop=loop, master_uri=core.uri) for name in ("sim", "ear"))
-        yield SimpleNamespace(loop=loop, node=node, ear=ear)
+    with running_graph() as running:
+        node, ear = running.node("sim"), running.node("ear")
+        yield SimpleNamespace(loop=running.loop, node=node, ear=ear)
         for one in (ear, node):
-            loop.run(one.shutdown(), PATIENCE_S)
-        loop.run(core.stop(), PATIENCE_S)
+            running.loop.run(one.shutdown(), PATIENCE_S)
 
 
 Hear = Callable[..., Any]

@@ -1,26 +1,25 @@
 """Pictures and calibrations as ROS nodes receive them."""
 
 import math
-import time
 from collections.abc import Iterator
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
+from tests.graphs import PATIENCE_S, running_graph, until
 
 from trundle.bridge import CameraTopics
 from trundle.bridge.camera import CAMERA_FROM_OPTICAL
 from trundle.diagnostics import Diagnostics, Source
 from trundle.model import CameraOptics, Link, Model, Sensor, World
 from trundle.render import Intrinsics, Picture
-from trundle.ros import Core, GraphLoop, Node, StaticTransformBroadcaster
+from trundle.ros import StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, Scenery, Spot
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
 AT = Source("robot.sdf", 1)
-PATIENCE_S = 60.0
 
 
 class Ramp:
@@ -47,18 +46,9 @@ def snapshot(time_ns: int) -> Snapshot:
     return Snapshot(time_ns=time_ns, instant=one_link, first_axes=np.zeros(0, dtype=np.intp))
 
 
-def until(condition: Any) -> None:
-    end = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.002)
-
-
 @pytest.fixture
-def stage(monkeypatch: pytest.MonkeyPatch) -> Iterator[SimpleNamespace]:
+def stage() -> Iterator[SimpleNamespace]:
     """A camera on a robot given alone, on a graph of its own."""
-    for variable in ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE"):
-        monkeypatch.delenv(variable, raising=False)
     optics = CameraOptics(width_px=4, height_px=3, horizontal_fov_rad=1.0)
     sensor = Sensor(name="my eye", type="camera", at=AT, link_from_sensor=Pose((0.1, 0.0, 0.2)), cameras=(optics,))
     link = Link(name="head", at=AT, sensors=(sensor,))
@@ -66,18 +56,13 @@ def stage(monkeypatch: pytest.MonkeyPatch) -> Iterator[SimpleNamespace]:
     world = World(name="w", at=AT, models=(model,))
     scenery = Scenery(Simulation(world, Diagnostics()), lambda _: Ramp())
     camera = CameraSensor(Spot(model, link, sensor, 0, np.random.default_rng(0)), optics, scenery=scenery)
-    with GraphLoop() as loop:
-        core = Core(loop, port=0)
-        loop.run(core.start(), PATIENCE_S)
-        loop.run(core.ready(), PATIENCE_S)
-        node = Node("sim", loop=loop, master_uri=core.uri)
-        viewer = Node("viewer", loop=loop, master_uri=core.uri)
+    with running_graph() as running:
+        node, viewer = running.node("sim"), running.node("viewer")
         topics = CameraTopics(node, StaticTransformBroadcaster(node), camera, world)
-        loop.run(node.ready(), PATIENCE_S)
-        yield SimpleNamespace(camera=camera, viewer=viewer, loop=loop, topics=topics)
+        running.ready(node)
+        yield SimpleNamespace(camera=camera, viewer=viewer, loop=running.loop, topics=topics)
         for one in (viewer, node):
-            loop.run(one.shutdown(), PATIENCE_S)
-        loop.run(core.stop(), PATIENCE_S)
+            running.loop.run(one.shutdown(), PATIENCE_S)
 
 
 def test_a_camera_without_subscribers_is_not_wanted(stage: SimpleNamespace) -> None:

@@ -1,29 +1,18 @@
 """A world behind /gazebo on a graph of its own."""
 
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.graphs import PATIENCE_S, running_graph, until
 
 from trundle.bringup.gazebo_world import GazeboWorld
 from trundle.bringup.graph import Graph
 from trundle.diagnostics import Diagnostics
 from trundle.nodes import Host
 from trundle.nodes.gazebo import GazeboServer
-from trundle.ros import Core, GraphLoop, Message, Node
-
-PATIENCE_S = 60.0
-"""How long anything may take on a busy machine before a test gives up."""
-
-
-def until(condition: Callable[[], object]) -> None:
-    """Wait for something that the simulation's thread brings about."""
-    end = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.01)
+from trundle.ros import GraphLoop, Message, Node
 
 
 class Gazebo:
@@ -95,13 +84,10 @@ class Gazebo:
 @pytest.fixture
 def bare_gazebo(tmp_path: Path) -> Iterator[Gazebo]:
     """Not started yet, so that parameters can be set before."""
-    with GraphLoop() as loop:
-        core = Core(loop, port=0)
-        loop.run(core.start())
-        running = Gazebo(loop, core.uri, tmp_path)
-        yield running
-        running.world.close()
-        loop.run(core.stop(), timeout_s=PATIENCE_S)
+    with running_graph() as running:
+        gazebo = Gazebo(running.loop, running.core.uri, tmp_path)
+        yield gazebo
+        gazebo.world.close()
 
 
 @pytest.fixture

@@ -1,40 +1,22 @@
 """A ROS graph for the commands that look at one."""
 
 import subprocess
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pytest
+from tests import graphs
+from tests.graphs import PATIENCE_S as PATIENCE_S
 
 from trundle.cli import main
-from trundle.ros import Core, GraphLoop, Node
-
-PATIENCE_S = 60.0
 
 
 @dataclass
-class Graph:
+class Graph(graphs.Graph):
     """A running master that ROS_MASTER_URI names, and nodes on it."""
 
-    loop: GraphLoop
-    core: Core
     capsys: pytest.CaptureFixture[str]
-
-    def node(self, name: str, **options: Any) -> Node:
-        return Node(name, loop=self.loop, master_uri=self.core.uri, **options)
-
-    def ready(self, *nodes: Node) -> None:
-        for node in nodes:
-            self.loop.run(node.ready(), PATIENCE_S)
-
-    def until(self, condition: Callable[[], object]) -> None:
-        end = time.monotonic() + PATIENCE_S
-        while not condition():
-            assert time.monotonic() < end, "waited in vain"
-            time.sleep(0.002)
 
     def trundle(self, *arguments: str) -> tuple[int, str, str]:
         """Run a command in this process: exit code, standard output, standard error."""
@@ -45,15 +27,9 @@ class Graph:
 
 @pytest.fixture
 def graph(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Iterator[Graph]:
-    for variable in ("ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE"):
-        monkeypatch.delenv(variable, raising=False)
-    with GraphLoop() as loop:
-        core = Core(loop, port=0)
-        loop.run(core.start(), PATIENCE_S)
-        loop.run(core.ready(), PATIENCE_S)
-        monkeypatch.setenv("ROS_MASTER_URI", core.uri)
-        yield Graph(loop, core, capsys)
-        loop.run(core.stop(), PATIENCE_S)
+    with graphs.running_graph() as running:
+        monkeypatch.setenv("ROS_MASTER_URI", running.core.uri)
+        yield Graph(running.loop, running.core, capsys)
 
 
 @pytest.fixture

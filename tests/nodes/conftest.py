@@ -1,12 +1,12 @@
 """A graph of its own for each test, stand-ins that run on it, and a node that talks with them."""
 
 import asyncio
-import time
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
 from typing import Any
 
 import pytest
+from tests.graphs import PATIENCE_S, running_graph, until
 
 from trundle.names import parse_arguments
 from trundle.nodes import Host, Replacement, run_stand_in
@@ -15,8 +15,6 @@ from trundle.ros import Core, GraphLoop, Message, Messages, Node, Publisher
 
 _FAREWELL_S = 0.1
 """What processes that ended sent last is taken in before the loop ends: a connection half accepted would leak."""
-PATIENCE_S = 60.0
-"""How long anything may take on a busy machine before a test gives up."""
 
 
 class Stage:
@@ -71,10 +69,7 @@ class Stage:
 
     def until(self, condition: Callable[[], object]) -> None:
         """Wait for something that the graph brings about."""
-        end = time.monotonic() + PATIENCE_S
-        while not condition():
-            assert time.monotonic() < end, "waited in vain"
-            time.sleep(0.005)
+        until(condition)
 
     def stop(self) -> None:
         """Cancel every stand-in, and wait for each."""
@@ -104,13 +99,8 @@ def messages() -> Messages:
 
 
 @pytest.fixture
-def stage(messages: Messages, monkeypatch: pytest.MonkeyPatch) -> Iterator[Stage]:
-    for variable in ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE"):
-        monkeypatch.delenv(variable, raising=False)
-    with GraphLoop(messages=messages) as loop:
-        core = Core(loop, port=0)
-        loop.run(core.start(), PATIENCE_S)
-        running = Stage(loop, core)
+def stage(messages: Messages) -> Iterator[Stage]:
+    with running_graph(messages) as graph:
+        running = Stage(graph.loop, graph.core)
         yield running
         running.stop()
-        loop.run(core.stop(), PATIENCE_S)

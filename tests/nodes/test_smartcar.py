@@ -5,14 +5,14 @@ import os
 import re
 import shlex
 import threading
-import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import pytest
 import yaml
+from tests.graphs import until
 
 from trundle.description import expand_xacro
 from trundle.diagnostics import Diagnostics
@@ -52,12 +52,6 @@ class Smartcar:
     def forget(self) -> None:
         with self.news:
             self.heard.clear()
-
-    def wait_until(self, condition: Callable[[], object]) -> None:
-        end = time.monotonic() + TIMEOUT_S
-        while not condition():
-            assert time.monotonic() < end, "waited in vain"
-            time.sleep(0.01)
 
 
 async def set_up(plan: LaunchPlan, params: Any, loop: GraphLoop, uri: str, events: list[Event]) -> Supervisor:
@@ -142,7 +136,7 @@ def test_every_node_publishes_subscribes_and_provides_what_the_original_does(sma
         links = {key: state[key.split()[1]] for key in wanted}
         return {key: sorted(name for name, nodes in links[key] if key.split()[0] in nodes) for key in wanted}
 
-    smartcar.wait_until(lambda: sum(map(len, got().values())) >= sum(map(len, wanted.values())))
+    until(lambda: sum(map(len, got().values())) >= sum(map(len, wanted.values())))
     assert got() == wanted
 
 
@@ -195,7 +189,7 @@ def test_wheels_are_on_tf_where_the_original_puts_them(smartcar: Smartcar) -> No
     def of_wheels() -> list[Any]:
         return [m.transforms for m in smartcar.wait_for("/tf") if len(m.transforms) == 4]
 
-    smartcar.wait_until(of_wheels)
+    until(of_wheels)
     got = of_wheels()[0]
     assert [t.child_frame_id for t in got] == [t["child_frame_id"] for t in wanted]
     for mine, theirs in zip(got, wanted, strict=True):
@@ -211,7 +205,7 @@ def test_both_joint_state_publishers_say_what_the_originals_say(smartcar: Smartc
         return {tuple(message.name) for message in smartcar.wait_for("/joint_states")}
 
     wheels = ("left_front_wheel_joint", "right_front_wheel_joint", "left_back_wheel_joint", "right_back_wheel_joint")
-    smartcar.wait_until(lambda: len(names()) > 1)
+    until(lambda: len(names()) > 1)
     assert names() == {wheels, ("base_l_wheel_joint", "base_r_wheel_joint")}
 
 
@@ -220,7 +214,7 @@ def test_extra_frames_keep_their_slashes(smartcar: Smartcar) -> None:
         return {(t.header.frame_id, t.child_frame_id) for m in smartcar.wait_for("/tf") for t in m.transforms}
 
     wanted = {("/base_link", "/left_front_link"), ("/base_link", "/right_front_link"), ("odom", "base_link")}
-    smartcar.wait_until(lambda: wanted <= frames())
+    until(lambda: wanted <= frames())
 
 
 def test_the_car_drives_and_never_stops_by_itself(smartcar: Smartcar) -> None:

@@ -1,0 +1,49 @@
+"""A ROS graph of its own for a test: a loop, a master at a free port, and nodes on it."""
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from trundle.ros import Core, GraphLoop, Messages, Node
+
+PATIENCE_S = 60.0
+"""How long anything may take on a busy machine before a test gives up."""
+
+
+def until(condition: Callable[[], object]) -> None:
+    """Wait for something that another thread brings about."""
+    end = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.002)
+
+
+@dataclass
+class Graph:
+    """A running master with nodes."""
+
+    loop: GraphLoop
+    core: Core
+
+    def node(self, name: str, **options: Any) -> Node:
+        return Node(name, loop=self.loop, master_uri=self.core.uri, **options)
+
+    def ready(self, *nodes: Node) -> None:
+        """Wait until all that the nodes asked for is known to the master."""
+        for node in nodes:
+            self.loop.run(node.ready(), PATIENCE_S)
+
+    def until(self, condition: Callable[[], object]) -> None:
+        until(condition)
+
+
+@contextmanager
+def running_graph(messages: Messages | None = None) -> Iterator[Graph]:
+    with GraphLoop(messages=messages) as loop:
+        core = Core(loop, port=0)
+        loop.run(core.start(), PATIENCE_S)
+        loop.run(core.ready(), PATIENCE_S)
+        yield Graph(loop, core)
+        loop.run(core.stop(), PATIENCE_S)
