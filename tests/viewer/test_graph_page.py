@@ -3,7 +3,7 @@
 import io
 import queue
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +15,17 @@ from PIL import Image
 
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
-from trundle.ros import Core, GraphLoop, Message, Node, Transform, TransformBroadcaster
+from trundle.ros import (
+    Core,
+    GraphLoop,
+    Message,
+    Node,
+    Option,
+    Options,
+    ReconfigureServer,
+    Transform,
+    TransformBroadcaster,
+)
 from trundle.viewer import GraphPage
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
@@ -152,6 +162,51 @@ def test_sliders_that_a_node_offers_move_its_joints(scenery: Scenery, browser_pa
     slider.press("Home")
 
     assert moved.get(timeout=_PATIENCE_S) == ("head_joint", -1.0)
+
+
+_PAD = """navigator.getGamepads = () => window.pad ? [window.pad] : [];
+window.plug = (axes, buttons) => { window.pad = {
+    id: "a pad", connected: true, axes, buttons: buttons.map(value => ({ value })) }; };"""
+
+
+def test_a_joystick_is_moved_by_hand_and_by_a_pad(scenery: Scenery, browser_page: Any) -> None:
+    moved: queue.SimpleQueue[tuple[list[float], list[int]]] = queue.SimpleQueue()
+    browser_page.add_init_script(_PAD)
+    scenery.loop.call_soon(lambda: scenery.page.offer_joystick(lambda a, b: moved.put((list(a), list(b)))))
+    frame = browser_page.frame_locator('iframe[title="joystick"]')
+    stick = frame.get_by_label("left stick")
+    stick.wait_for()
+    box = stick.bounding_box()
+    browser_page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    browser_page.mouse.down()
+    browser_page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 2)
+
+    _until(moved, lambda axes, _: axes[1] == 1.0)
+    browser_page.mouse.up()
+    _until(moved, lambda axes, _: axes[1] == 0.0)
+    frame.locator("body").evaluate("() => window.plug([0.5, 0, 0, 0], [1])")
+    _until(moved, lambda axes, buttons: axes[0] == -0.5 and buttons[0] == 1)
+
+
+def test_options_of_a_node_are_changed(scenery: Scenery, browser_page: Any) -> None:
+    asked: queue.SimpleQueue[Options] = queue.SimpleQueue()
+
+    def apply(values: Options) -> Options:
+        asked.put(values)
+        return values
+
+    ReconfigureServer(scenery.robot, [Option(name="rate", value=5.0), Option(name="eager", value=False)], apply)
+    scenery.loop.call_soon(scenery.page.offer_options)
+    browser_page.get_by_text("/robot", exact=True).wait_for()
+    browser_page.get_by_label("eager").check()
+    assert asked.get(timeout=_PATIENCE_S) == {"rate": 5.0, "eager": True}
+
+
+def _until(
+    moved: "queue.SimpleQueue[tuple[list[float], list[int]]]", reached: Callable[[list[float], list[int]], bool]
+) -> None:
+    while not reached(*moved.get(timeout=_PATIENCE_S)):
+        pass
 
 
 def test_show_ends_when_the_page_dies(scenery: Scenery) -> None:

@@ -307,7 +307,7 @@ class GazeboWorld:
         self._around = self._around or Surroundings(simulation)
         sensors = mount_sensors(simulation, model=model, around=self._around)
         for sensor in (*cameras, *sensors):
-            simulation.add_hook(sensor, period_ns=sensor.period_ns, wanted=sensor.wanted)
+            sensor.start(simulation)
         world = simulation.world
         silent = attach_sensor_plugins(cameras, self._node, self._report)
         camera_topics(self._node, self._still, silent, world)

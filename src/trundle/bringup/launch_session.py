@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Self
 
 from trundle.launch import LaunchNode, LaunchPlan
-from trundle.nodes import Executable, Host, Simulator, find_node
+from trundle.nodes import WORLDS, Executable, Host, Simulator, find_node
 from trundle.ros import PROFILES, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
 from trundle.supervisor import Patience
 from trundle.viewer import GraphPage
@@ -23,7 +23,6 @@ from .launch_read import ReadLaunch
 from .launch_running import RunningNodes, what_runs
 
 NS = 1_000_000_000
-_WORLDS = frozenset(("gazebo_ros", type_) for type_ in ("gzserver", "gazebo", "debug", "gdbrun", "perf"))
 _START_S = 60.0
 """Starting programs takes its time on a busy machine."""
 _SILENCE_S = 5.0
@@ -203,4 +202,4 @@ def _simulates(plan: LaunchPlan) -> bool:
 
 def _has_world(plan: LaunchPlan) -> bool:
     """Whether a node of it runs Gazebo's world, and so tells the time; a spawner alone may be for another's."""
-    return any((node.package, node.type) in _WORLDS for node in plan.nodes)
+    return any((node.package, node.type) in WORLDS for node in plan.nodes)

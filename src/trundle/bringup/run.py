@@ -81,7 +81,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             cameras.clear()
             sensors.clear()
         for sensor in (*cameras, *sensors):
-            simulation.add_hook(sensor, period_ns=sensor.period_ns, wanted=sensor.wanted)
+            sensor.start(simulation)
         show.findings()
         ros = None
         if options.ros:

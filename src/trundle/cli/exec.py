@@ -6,8 +6,12 @@ import re
 import shlex
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from trundle.diagnostics import UsageError
+
+if TYPE_CHECKING:
+    from trundle.viewer import GraphPage
 
 EXAMPLES = """
   trundle exec --list                                 which nodes there are without ROS
@@ -65,7 +69,7 @@ def _stand_in(args: argparse.Namespace, stand_in: object) -> int:
     import yaml
 
     from trundle.names import parse_arguments
-    from trundle.nodes import Host, Replacement, run_stand_in
+    from trundle.nodes import WINDOWS, Host, Replacement, run_stand_in
     from trundle.ros import GraphLoop, Node, master_uri_from_env
 
     assert isinstance(stand_in, Replacement)
@@ -81,4 +85,19 @@ def _stand_in(args: argparse.Namespace, stand_in: object) -> int:
             params={name: yaml.safe_load(text) for name, text in words.params.items()},
             host=words.host,
         )
-        return loop.run(run_stand_in(stand_in, node, list(words.rest), Host()), None)
+        page = _page() if (args.package, args.executable) in WINDOWS else None
+        try:
+            return loop.run(run_stand_in(stand_in, node, list(words.rest), Host(display=page)), None)
+        finally:
+            if page is not None:
+                page.close()
+
+
+def _page() -> "GraphPage":
+    """The window of a node that has one."""
+    from trundle.diagnostics import Diagnostics
+    from trundle.packages import Packages
+    from trundle.viewer import GraphPage
+
+    packages = Packages(os.environ, start=Path.cwd())
+    return GraphPage(packages=packages, report=Diagnostics(), say=lambda text: print(text, flush=True))

@@ -5,7 +5,7 @@ STAND_INS: dict[tuple[str, str], str] = {
     ("arbotix_controllers", "gripper_controller.py"): "trundle.nodes.arbotix:GripperController",
     ("arbotix_python", "arbotix_driver"): "trundle.nodes.arbotix:ArbotixDriver",
     ("arbotix_python", "arbotix_driver.py"): "trundle.nodes.arbotix:ArbotixDriver",
-    ("arbotix_python", "arbotix_gui"): "trundle.nodes.windows:RqtWindow",
+    ("arbotix_python", "arbotix_gui"): "trundle.nodes.windows:Window",
     ("arbotix_python", "driver.py"): "trundle.nodes.arbotix:ArbotixDriver",
     ("controller_manager", "controller_manager"): "trundle.nodes.controller_manager:ControllerManagerTool",
     ("controller_manager", "spawner"): "trundle.nodes.controller_manager:Spawner",
@@ -15,6 +15,8 @@ STAND_INS: dict[tuple[str, str], str] = {
         "depthimage_to_laserscan",
         "depthimage_to_laserscan",
     ): "trundle.nodes.depthimage_to_laserscan:DepthImageToLaserScan",
+    ("dynamic_reconfigure", "dynparam"): "trundle.nodes.dynparam:Dynparam",
+    ("dynamic_reconfigure", "reconfigure_gui"): "trundle.nodes.windows:ReconfigureWindow",
     ("gazebo_ros", "debug"): "trundle.nodes.gazebo:GazeboServer",
     ("gazebo_ros", "gazebo"): "trundle.nodes.gazebo:GazeboServer",
     ("gazebo_ros", "gdbrun"): "trundle.nodes.gazebo:GazeboServer",
@@ -44,17 +46,17 @@ STAND_INS: dict[tuple[str, str], str] = {
     ("rosparam", "rosparam"): "trundle.nodes.tools:Rosparam",
     ("rosservice", "rosservice"): "trundle.nodes.tools:Rosservice",
     ("rostopic", "rostopic"): "trundle.nodes.tools:Rostopic",
-    ("rqt_console", "rqt_console"): "trundle.nodes.windows:RqtWindow",
-    ("rqt_graph", "rqt_graph"): "trundle.nodes.windows:RqtWindow",
-    ("rqt_gui", "rqt_gui"): "trundle.nodes.windows:RqtWindow",
-    ("rqt_image_view", "rqt_image_view"): "trundle.nodes.windows:RqtWindow",
-    ("rqt_joint_trajectory_controller", "rqt_joint_trajectory_controller"): "trundle.nodes.windows:RqtWindow",
-    ("rqt_plot", "rqt_plot"): "trundle.nodes.windows:RqtWindow",
-    ("rqt_reconfigure", "rqt_reconfigure"): "trundle.nodes.windows:RqtWindow",
-    ("rqt_robot_monitor", "rqt_robot_monitor"): "trundle.nodes.windows:RqtWindow",
-    ("rqt_robot_steering", "rqt_robot_steering"): "trundle.nodes.windows:RqtWindow",
-    ("rqt_tf_tree", "rqt_tf_tree"): "trundle.nodes.windows:RqtWindow",
-    ("rqt_topic", "rqt_topic"): "trundle.nodes.windows:RqtWindow",
+    ("rqt_console", "rqt_console"): "trundle.nodes.windows:Window",
+    ("rqt_graph", "rqt_graph"): "trundle.nodes.windows:Window",
+    ("rqt_gui", "rqt_gui"): "trundle.nodes.windows:Window",
+    ("rqt_image_view", "rqt_image_view"): "trundle.nodes.windows:RqtImageView",
+    ("rqt_joint_trajectory_controller", "rqt_joint_trajectory_controller"): "trundle.nodes.windows:Window",
+    ("rqt_plot", "rqt_plot"): "trundle.nodes.windows:Window",
+    ("rqt_reconfigure", "rqt_reconfigure"): "trundle.nodes.windows:ReconfigureWindow",
+    ("rqt_robot_monitor", "rqt_robot_monitor"): "trundle.nodes.windows:Window",
+    ("rqt_robot_steering", "rqt_robot_steering"): "trundle.nodes.windows:Window",
+    ("rqt_tf_tree", "rqt_tf_tree"): "trundle.nodes.windows:Window",
+    ("rqt_topic", "rqt_topic"): "trundle.nodes.windows:Window",
     ("rviz", "rviz"): "trundle.nodes.rviz:Rviz",
     ("teleop_twist_joy", "teleop_node"): "trundle.nodes.teleop_twist_joy:TeleopTwistJoy",
     ("teleop_twist_keyboard", "teleop_twist_keyboard.py"): "trundle.nodes.teleop_twist_keyboard:TeleopTwistKeyboard",
@@ -75,6 +77,16 @@ STAND_INS: dict[tuple[str, str], str] = {
     ("twist_mux", "twist_mux"): "trundle.nodes.twist_mux:TwistMux",
 }
 """(package, type) → "module:Class"."""
+
+WORLDS = frozenset(("gazebo_ros", type_) for type_ in ("gzserver", "gazebo", "debug", "gdbrun", "perf"))
+"""Those that open a world, and so tell the time."""
+
+WINDOWS = frozenset(
+    key
+    for key in STAND_INS
+    if key[0] in ("image_view", "joint_state_publisher_gui", "joy", "rviz") or key[0].startswith("rqt_")
+) | {("turtlesim", "turtlesim_node"), ("dynamic_reconfigure", "reconfigure_gui")}
+"""Those that are seen: each opens the page."""
 
 OURS_ALWAYS = frozenset({"gazebo_ros"})
 """Packages whose programs would start another simulator: ours stands in even where the original is installed."""

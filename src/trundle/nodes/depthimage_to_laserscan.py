@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.ros import Message, Node, Settings
+from trundle.ros import Message, Node, Option, Options, ReconfigureServer, Settings
 
 from .host import Host
 
@@ -77,12 +77,29 @@ class DepthImageToLaserScan:
         self._nearest_m, self._farthest_m = settings.number("range_min", 0.45), settings.number("range_max", 10.0)
         self._frame = settings.text("output_frame_id", settings.text("output_frame", "camera_depth_frame"))
         self._scan = node.advertise("scan", "sensor_msgs/LaserScan", queue_size=10)
+        ReconfigureServer(node, self._options(), self._reconfigure)
         topic = node.resolve("image")
         info = f"{topic.rpartition('/')[0]}/camera_info"
         node.subscribe(info, "sensor_msgs/CameraInfo", self._calibrate, queue_size=1)
         node.subscribe("image", "sensor_msgs/Image", self._take, queue_size=1)
         await node.closed.wait()
         return 0
+
+    def _options(self) -> list[Option]:
+        """As the original's Depth.cfg."""
+        return [
+            Option(name="scan_height", value=self._rows, lower=1, upper=500, description="Rows that are looked at"),
+            Option(name="scan_time", value=self._scan_time_s, lower=0.0, upper=1.0, description="Of a scan [s]"),
+            Option(name="range_min", value=self._nearest_m, lower=0.0, upper=10.0, description="Nearest [m]"),
+            Option(name="range_max", value=self._farthest_m, lower=0.0, upper=10.0, description="Farthest [m]"),
+            Option(name="output_frame_id", value=self._frame, description="Frame of the scan"),
+        ]
+
+    def _reconfigure(self, values: Options) -> Options:
+        self._rows, self._scan_time_s = int(values["scan_height"]), float(values["scan_time"])
+        self._nearest_m, self._farthest_m = float(values["range_min"]), float(values["range_max"])
+        self._frame = str(values["output_frame_id"])
+        return values
 
     def _calibrate(self, info: Message) -> None:
         k = [float(value) for value in info.K]

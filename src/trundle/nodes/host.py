@@ -29,6 +29,18 @@ class Display(Protocol):
         """Let the user move joints; `move` takes a joint's name and position, on any thread."""
         ...
 
+    def show_image(self, topic: str) -> None:
+        """Have the page show the images of a topic, beside those of an rviz configuration."""
+        ...
+
+    def offer_options(self) -> None:
+        """Let the user change the options of every node that has some, as rqt_reconfigure does."""
+        ...
+
+    def offer_joystick(self, move: Callable[[Sequence[float], Sequence[int]], None]) -> None:
+        """Let the user move a joystick, on the page or a real one; `move` takes axes and buttons as `joy` has them."""
+        ...
+
     async def show(self, node: Node, *, config: str | None, fixed_frame: str | None) -> int:
         """Show until the page is closed for good or the call is cancelled; return an exit code.
 

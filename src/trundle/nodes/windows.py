@@ -2,26 +2,44 @@
 
 from trundle.ros import Message, Node
 
-from .host import Host
+from .host import Display, Host
 
 
-class ImageView:
-    """image_view/image_view: listens to `image`, and says once what it sees; pictures are on the page."""
+class Window:
+    """Any program of rqt: the launch's page, or nothing without one."""
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
-        del arguments
         self._node = node
+        self._arguments = arguments
         self._display = host.display
+
+    async def run(self) -> int:
+        """Show until the page is closed for good."""
+        if self._display is not None:
+            self._prepare(self._display)
+            return await self._display.show(self._node, config=None, fixed_frame=None)
+        await self._node.closed.wait()
+        return 0
+
+    def _prepare(self, display: Display) -> None:
+        """Ask for what the window is about."""
+
+
+class ImageView(Window):
+    """image_view/image_view: the pictures of `image`; says once what they are."""
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        super().__init__(node, arguments, host)
         self._seen = False
 
     async def run(self) -> int:
-        """Look until cancelled."""
-        node = self._node
-        images = node.subscribe("image", "sensor_msgs/Image", self._take, queue_size=1)
-        where = "" if self._display is None else "; the page shows the images that an rviz configuration names"
-        node.log_info(f"listening to {images.topic}{where}")
-        await node.closed.wait()
-        return 0
+        """Look until the page is closed for good."""
+        images = self._node.subscribe("image", "sensor_msgs/Image", self._take, queue_size=1)
+        self._node.log_info(f"listening to {images.topic}")
+        return await super().run()
+
+    def _prepare(self, display: Display) -> None:
+        display.show_image(self._node.resolve("image"))
 
     def _take(self, image: Message) -> None:
         if not self._seen:
@@ -29,17 +47,17 @@ class ImageView:
         self._seen = True
 
 
-class RqtWindow:
-    """Any program of rqt: the launch's page, or nothing without one."""
+class RqtImageView(Window):
+    """rqt_image_view: the pictures of the topic that it is given."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
-        del arguments
-        self._node = node
-        self._display = host.display
+    def _prepare(self, display: Display) -> None:
+        for word in self._arguments:
+            if not word.startswith("-"):
+                display.show_image(self._node.resolve(word))
 
-    async def run(self) -> int:
-        """Show until the page is closed for good."""
-        if self._display is not None:
-            return await self._display.show(self._node, config=None, fixed_frame=None)
-        await self._node.closed.wait()
-        return 0
+
+class ReconfigureWindow(Window):
+    """rqt_reconfigure and reconfigure_gui: the options of every node that has some."""
+
+    def _prepare(self, display: Display) -> None:
+        display.offer_options()

@@ -47,6 +47,8 @@ if TYPE_CHECKING:
     from .profile import NOETIC, PROFILES, Profile
     from .proxy import MasterProxy, blocking_call
     from .publisher import Publisher
+    from .reconfigure import Option, Options, OptionValue, ReconfigureServer
+    from .reconfigure_client import find_reconfigurable, read_options, set_options
     from .service import Service, probe_service
     from .settings import SettingError, Settings
     from .subscription import Subscription
@@ -78,6 +80,9 @@ _HOMES = {
     "Node": "node",
     "ParameterError": "errors",
     "ParameterTree": "parameters",
+    "Option": "reconfigure",
+    "OptionValue": "reconfigure",
+    "Options": "reconfigure",
     "PROFILES": "profile",
     "PlayOptions": "bags",
     "Player": "bags",
@@ -85,6 +90,7 @@ _HOMES = {
     "Profile": "profile",
     "Publisher": "publisher",
     "RawMessage": "messages",
+    "ReconfigureServer": "reconfigure",
     "RecordOptions": "bags",
     "Recorder": "bags",
     "RosError": "errors",
@@ -107,13 +113,16 @@ _HOMES = {
     "blocking_call": "proxy",
     "create_bag": "bags",
     "field_value": "printing",
+    "find_reconfigurable": "reconfigure_client",
     "follow_time": "clock",
     "master_uri_from_env": "network",
     "ns_of": "clock",
     "open_bag": "bags",
     "probe_service": "service",
+    "read_options": "reconfigure_client",
     "recovered": "bags",
     "set_leaves": "parameters",
+    "set_options": "reconfigure_client",
 }
 __getattr__ = opened_on_use(__name__, _HOMES)
 
@@ -140,6 +149,9 @@ __all__ = [
     "MessageView",
     "Messages",
     "Node",
+    "Option",
+    "OptionValue",
+    "Options",
     "ParameterError",
     "ParameterTree",
     "PlayOptions",
@@ -148,6 +160,7 @@ __all__ = [
     "Profile",
     "Publisher",
     "RawMessage",
+    "ReconfigureServer",
     "RecordOptions",
     "Recorder",
     "RosError",
@@ -170,11 +183,14 @@ __all__ = [
     "blocking_call",
     "create_bag",
     "field_value",
+    "find_reconfigurable",
     "follow_time",
     "master_uri_from_env",
     "ns_of",
     "open_bag",
     "probe_service",
+    "read_options",
     "recovered",
     "set_leaves",
+    "set_options",
 ]

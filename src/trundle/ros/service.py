@@ -7,6 +7,7 @@ import struct
 from collections.abc import Awaitable, Callable
 from typing import TYPE_CHECKING, Any
 
+from .delivery import delivered
 from .errors import MessageError, RosError, ServiceError, WireError
 from .http import host_and_port
 from .messages import Message, Messages, ServiceType
@@ -113,31 +114,11 @@ class Service:
             return b"\x00" + frame(f"error processing request: {error}".encode())
 
     async def _handle(self, request: Message) -> Any:
-        deliver = self._node.deliver
-        if deliver is None or inspect.iscoroutinefunction(self._handler):
-            result = self._handler(request)
-            return await result if inspect.isawaitable(result) else result
-        loop = asyncio.get_running_loop()
-        future: asyncio.Future[Any] = loop.create_future()
-
-        def settle(result: Any, error: Exception | None) -> None:
-            if future.done():
-                return
-            if error is None:
-                future.set_result(result)
-            else:
-                future.set_exception(error)
-
-        def work() -> None:
-            """Called by whoever runs the callbacks, in any thread."""
-            try:
-                result, error = self._handler(request), None
-            except Exception as failure:  # travels to the client
-                result, error = None, failure
-            self._node.loop.call_soon(lambda: settle(result, error))
-
-        deliver(work)
-        return await future
+        node = self._node
+        if inspect.iscoroutinefunction(self._handler):
+            return await self._handler(request)
+        result = await delivered(node.deliver, node.loop, lambda: self._handler(request))
+        return await result if inspect.isawaitable(result) else result
 
 
 async def call_service(

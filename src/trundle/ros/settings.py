@@ -17,7 +17,7 @@ class Settings:
     def __init__(self, tree: object, where: str) -> None:
         """`where` is the namespace's global name, for messages; anything but a mapping counts as empty."""
         self._tree: Mapping[str, Any] = tree if isinstance(tree, Mapping) else {}
-        self._where = where.rstrip("/")
+        self.where = where.rstrip("/")
 
     def names(self) -> list[str]:
         """What is set directly in here, in order."""
@@ -25,7 +25,7 @@ class Settings:
 
     def section(self, name: str) -> "Settings":
         """A namespace within."""
-        return Settings(self._tree.get(name), f"{self._where}/{name}")
+        return Settings(self._tree.get(name), f"{self.where}/{name}")
 
     def number(self, name: str, default: float | None = None) -> float:
         """A finite number.
@@ -40,14 +40,14 @@ class Settings:
             except ValueError:
                 value = math.nan
             if not math.isfinite(value):
-                raise SettingError(f"parameter {self._where}/{name}: {self._tree.get(name)!r} is not a number")
+                raise SettingError(f"parameter {self.where}/{name}: {self._tree.get(name)!r} is not a number")
         return float(value)
 
     def rate_hz(self, name: str, default: float | None = None) -> float:
         """A number greater than zero."""
         value = self.number(name, default)
         if value <= 0.0:
-            raise SettingError(f"parameter {self._where}/{name}: a rate is > 0 Hz, got {value:g}")
+            raise SettingError(f"parameter {self.where}/{name}: a rate is > 0 Hz, got {value:g}")
         return value
 
     def flag(self, name: str, *, default: bool) -> bool:
@@ -55,31 +55,31 @@ class Settings:
         value = self._get(name, default)
         if isinstance(value, bool | int | float):
             return bool(value)
-        raise SettingError(f"parameter {self._where}/{name}: {value!r} is neither true nor false")
+        raise SettingError(f"parameter {self.where}/{name}: {value!r} is neither true nor false")
 
     def text(self, name: str, default: str | None = None) -> str:
         """A text."""
         value = self._get(name, default)
         if not isinstance(value, str):
-            raise SettingError(f"parameter {self._where}/{name}: {value!r} is not a text")
+            raise SettingError(f"parameter {self.where}/{name}: {value!r} is not a text")
         return value
 
     def texts(self, name: str) -> list[str]:
         """A list of texts; absent is empty."""
         value = self._tree.get(name, [])
         if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
-            raise SettingError(f"parameter {self._where}/{name}: {value!r} is not a list of texts")
+            raise SettingError(f"parameter {self.where}/{name}: {value!r} is not a list of texts")
         return value
 
     def items(self, name: str) -> list[Any]:
         """A list of anything; absent is empty."""
         value = self._tree.get(name, [])
         if not isinstance(value, list):
-            raise SettingError(f"parameter {self._where}/{name}: {value!r} is not a list")
+            raise SettingError(f"parameter {self.where}/{name}: {value!r} is not a list")
         return cast("list[Any]", value)
 
     def _get(self, name: str, default: Any) -> Any:
         value = self._tree.get(name, default)
         if value is None:
-            raise SettingError(f"parameter {self._where}/{name} is not set")
+            raise SettingError(f"parameter {self.where}/{name} is not set")
         return value

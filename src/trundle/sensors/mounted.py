@@ -9,7 +9,7 @@ import numpy as np
 
 from trundle.diagnostics import UsageError
 from trundle.model import Link, Model, Sensor
-from trundle.simulation import LinkHandle, Snapshot
+from trundle.simulation import LinkHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Vector3, cross
 
 from .placing import pose_of
@@ -66,7 +66,24 @@ class MountedSensor(Generic[Reading]):
         """What its topics are called after: its link, or the joint it sits on."""
         rate = spot.sensor.update_rate_hz or fastest_hz
         self.period_ns = 0 if rate is None else _period_ns(rate)
+        self._simulation: Simulation | None = None
         self._listeners: list[_Listener[Reading]] = []
+
+    @property
+    def rate_hz(self) -> float:
+        """How often it measures; 0: at every step."""
+        return float(NS / self.period_ns) if self.period_ns else 0.0
+
+    def start(self, simulation: Simulation) -> None:
+        """Be called by a simulation, at its rate."""
+        self._simulation = simulation
+        simulation.add_hook(self, period_ns=self.period_ns, wanted=self.wanted)
+
+    def set_rate(self, rate_hz: float) -> None:
+        """Measure so often from now on."""
+        self.period_ns = _period_ns(rate_hz)
+        if self._simulation is not None:
+            self._simulation.retime_hook(self, self.period_ns)
 
     @property
     def name(self) -> str:

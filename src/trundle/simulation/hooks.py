@@ -73,6 +73,10 @@ class ScheduledHook:
         self.before: Callable[[Simulation], None] | None = getattr(hook, "before_step", None)
         self.after: Callable[[Snapshot], None] | None = getattr(hook, "after_step", None)
         assert self.before or self.after, f"{hook!r} has neither before_step nor after_step"
+        self.retime(period_ns, step_ns, now_ns=now_ns)
+
+    def retime(self, period_ns: Period, step_ns: int, *, now_ns: int) -> None:
+        """Count a period from now."""
         self._period_ns = max(period_ns, step_ns)
         self.before_alarm = Alarm(period_ns, step_ns, start_ns=now_ns)
         self.after_alarm = Alarm(period_ns, step_ns, start_ns=now_ns + self._period_ns)

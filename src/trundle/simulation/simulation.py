@@ -174,6 +174,12 @@ class Simulation:
         """
         self._hooks.append(ScheduledHook(hook, period_ns, self.step_ns, now_ns=self.time_ns, wanted=wanted))
 
+    def retime_hook(self, hook: object, period_ns: Period) -> None:
+        """Call a hook from now on at another period [ns]; it keeps its turn among the others."""
+        for scheduled in self._hooks:
+            if scheduled.hook is hook:
+                scheduled.retime(period_ns, self.step_ns, now_ns=self.time_ns)
+
     def remove_hook(self, hook: object) -> None:
         """Call a hook no more."""
         self._hooks = [scheduled for scheduled in self._hooks if scheduled.hook is not hook]

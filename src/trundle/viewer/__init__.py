@@ -9,7 +9,7 @@ while True:
 from .content import MOST_LINE_POINTS, CameraView, DrawnLine, FrameInfo, JointSlider, ViewerScene, ViewerState
 from .errors import ViewerError
 from .graph_page import GraphPage
-from .requests import Drive, Pause, Play, Request, Reset, SetFixedFrame, SetJoint, SetSpeed, Step
+from .requests import Drive, MoveJoystick, Pause, Play, Request, Reset, SetFixedFrame, SetJoint, SetSpeed, Step
 from .robot_scene import robot_scene
 from .rviz import DEFAULT_CONFIG, RvizConfig, RvizDisplay, choose_fixed_frame, read_rviz_config
 from .viewer import Viewer
@@ -23,6 +23,7 @@ __all__ = [
     "FrameInfo",
     "GraphPage",
     "JointSlider",
+    "MoveJoystick",
     "Pause",
     "Play",
     "Request",

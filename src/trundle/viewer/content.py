@@ -46,6 +46,25 @@ class JointSlider:
     position: float = 0.0
 
 
+@dataclass(frozen=True, slots=True)
+class PanelOption:
+    """Something to tick, to write or to count: an option of a node."""
+
+    name: str
+    value: bool | int | float | str
+    lower: float
+    upper: float
+    hint: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class OptionGroup:
+    """The options of one node."""
+
+    name: str
+    options: tuple[PanelOption, ...]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ViewerScene:
     """Everything of the page that stays the same while things move."""
@@ -62,6 +81,10 @@ class ViewerScene:
     """Offer play, pause, step, reset and speed."""
     drive: bool = False
     """Offer a pad and keys that steer a robot."""
+    options: tuple[OptionGroup, ...] = ()
+    """Nodes whose options may be changed."""
+    joystick: bool = False
+    """Offer a joystick to move, and read a real one."""
     root_frame: str = "world"
     """The frame in which every pose of the state is given."""
     fixed_frame: str | None = None

@@ -12,7 +12,7 @@ from trundle.render import Scene
 from trundle.ros import TransformBuffer
 from trundle.spatial import Pose
 
-from .content import CameraView, FrameInfo, JointSlider, ViewerScene, ViewerState
+from .content import CameraView, FrameInfo, JointSlider, OptionGroup, ViewerScene, ViewerState
 from .poses import Array
 from .rviz import RvizConfig
 
@@ -67,6 +67,8 @@ def graph_scene(
     collisions: Scene | None = None,
     sliders: Sequence[JointSlider] = (),
     images: Sequence[str] = (),
+    options: tuple[OptionGroup, ...] = (),
+    joystick: bool = False,
 ) -> ViewerScene:
     """Lay out the page: what rviz's displays show, with joints and images beside it."""
     tf, odometry = config.enabled("TF"), config.enabled("Odometry")
@@ -82,6 +84,8 @@ def graph_scene(
         cameras=tuple(CameraView(topic, None) for topic in images),
         joints=tuple(sliders),
         drive=True,
+        options=options,
+        joystick=joystick,
         root_frame=tree.root,
         fixed_frame=tree.fixed_frame,
         follow_body=0 if robot.bodies else None,

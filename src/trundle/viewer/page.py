@@ -22,6 +22,7 @@ import viser
 from .content import ViewerState
 from .display import Display
 from .framing import Extent
+from .joystick import JoystickServer
 from .mailbox import Mailbox
 from .panel import Panel
 from .requests import Request
@@ -38,8 +39,10 @@ _DARK = 0.4
 class Page:
     """A server and the scene it shows now."""
 
-    def __init__(self, server: viser.ViserServer, mouth: "Mouth") -> None:
+    def __init__(self, server: viser.ViserServer, mouth: "Mouth", host: str) -> None:
         self._server = server
+        self._host = host
+        self._joystick: JoystickServer | None = None
         self._mouth = mouth
         self._display: Display | None = None
         self._state: ViewerState | None = None
@@ -76,11 +79,23 @@ class Page:
             server.gui.main_panel.dock_right()
             self._stage = Stage(server, scene)
             self._panel = Panel(
-                server, scene, self._display, send=self._mouth.say, redraw=self._dirty.set, aim=self._aim
+                server,
+                scene,
+                self._display,
+                send=self._mouth.say,
+                redraw=self._dirty.set,
+                aim=self._aim,
+                joystick_url=self._joystick_url,
             )
         self._state = None
         self.tick()
         return True
+
+    def _joystick_url(self) -> str:
+        """Serve the joystick's frame, once."""
+        if self._joystick is None:
+            self._joystick = JoystickServer(self._host, self._mouth.say)
+        return self._joystick.url
 
     def tick(self) -> None:
         """Draw the newest state and images, if there are any."""
@@ -179,10 +194,10 @@ def main() -> None:
     if serve.port and server.get_port() != serve.port:  # somebody was faster: viser has moved on
         mouth.say(Refused(f"cannot serve the viewer at {serve.host}:{serve.port}: the port was just taken"))
         os._exit(0)
-    page = Page(server, mouth)
+    reachable = "127.0.0.1" if serve.host in ("0.0.0.0", "") else serve.host
+    page = Page(server, mouth, reachable)
     while not page.show(show):
         show = pickle.load(sys.stdin.buffer)
-    reachable = "127.0.0.1" if serve.host in ("0.0.0.0", "") else serve.host
     mouth.say(Served(f"http://{f'[{reachable}]' if ':' in reachable else reachable}:{server.get_port()}"))
     shows: queue.SimpleQueue[Show] = queue.SimpleQueue()
     threading.Thread(target=_listen, args=(shows,), daemon=True).start()

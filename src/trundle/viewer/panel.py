@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from .content import JointSlider, ViewerScene, ViewerState
 from .display import Display
 from .drive import DrivePad
+from .options import add_options
 from .requests import Pause, Play, Request, Reset, SetFixedFrame, SetJoint, SetSpeed, Step
 
 _SPEEDS = {"¼ ×": 0.25, "½ ×": 0.5, "1 ×": 1.0, "2 ×": 2.0, "5 ×": 5.0, "max": math.inf}
@@ -38,6 +39,7 @@ class Panel:
         send: Callable[[Request], None],
         redraw: Callable[[], None],
         aim: Callable[[viser.ClientHandle, bool], None],
+        joystick_url: Callable[[], str],
     ) -> None:
         self._server = server
         self._scene = scene
@@ -52,6 +54,13 @@ class Panel:
             self._add_playback()
         if scene.drive:
             DrivePad(server, send)
+        if scene.joystick:
+            with server.gui.add_folder("Joystick"):
+                server.gui.add_html(
+                    f'<iframe src="{joystick_url()}" allow="gamepad" title="joystick" '
+                    'style="width:100%;height:150px;border:0"></iframe>'
+                )
+        add_options(server, scene.options, send)
         self._images = self._add_cameras()
         self._sliders = self._add_joints()
         self._add_views()

@@ -62,4 +62,24 @@ class SetFixedFrame:
     name: str
 
 
-Request: TypeAlias = Play | Pause | Step | Reset | SetSpeed | SetJoint | Drive | SetFixedFrame
+@dataclass(frozen=True, slots=True)
+class SetOption:
+    """An option of a node was changed."""
+
+    group: str
+    name: str
+    value: bool | int | float | str
+
+
+@dataclass(frozen=True, slots=True)
+class MoveJoystick:
+    """Where a joystick is now, in the order of the usual pad's driver on Linux."""
+
+    axes: tuple[float, ...]
+    """−1 to 1; left and forwards are positive."""
+    buttons: tuple[int, ...]
+
+
+Request: TypeAlias = (
+    Play | Pause | Step | Reset | SetSpeed | SetJoint | Drive | SetFixedFrame | SetOption | MoveJoystick
+)

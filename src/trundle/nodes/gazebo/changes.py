@@ -8,6 +8,7 @@ from typing import Any
 from trundle.diagnostics import UsageError
 from trundle.model import Inertial, Joint, JointAxis, Light, Link, Model
 from trundle.ros import Message, Node
+from trundle.spatial import Vector3
 
 from ..host import Simulator
 from .entities import find_joint, find_light, find_link
@@ -30,6 +31,15 @@ def advertise_changes(node: Node, simulator: Simulator) -> None:
         node.advertise_service(f"~{name}", f"gazebo_msgs/{kind}", answered(work, done))
 
 
+def set_physics(simulator: Simulator, *, gravity: Vector3, rate_hz: float) -> None:
+    """Have other gravity [m/s²], and so many steps a second of the wall; as in Gazebo, 0 is as many as there can be."""
+    world = simulator.simulation.world
+    physics = replace(world.physics, gravity=gravity, real_time_update_rate_hz=rate_hz)
+    simulator.edit(replace(world, physics=physics))
+    if rate_hz != world.physics.real_time_update_rate_hz:
+        simulator.set_speed(rate_hz * physics.max_step_size_s or None)
+
+
 class _Changes:
     def __init__(self, simulator: Simulator) -> None:
         self._simulator = simulator
@@ -45,10 +55,7 @@ class _Changes:
         gravity, rate = vector_of(request.gravity), float(request.max_update_rate)
         if not all(math.isfinite(value) for value in (*gravity, rate)) or rate < 0.0:
             raise UsageError("gravity and max_update_rate must be finite, the rate not below 0")
-        physics = replace(world.physics, gravity=gravity, real_time_update_rate_hz=rate)
-        self._simulator.edit(replace(world, physics=physics))
-        # As in Gazebo: so many steps a second of the wall, 0 as many as there can be.
-        self._simulator.set_speed(rate * physics.max_step_size_s or None)
+        set_physics(self._simulator, gravity=gravity, rate_hz=rate)
         return {}
 
     def of_link(self, request: Message) -> dict[str, Any]:

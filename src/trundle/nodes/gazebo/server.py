@@ -10,6 +10,7 @@ from .changes import advertise_changes
 from .efforts import advertise_efforts
 from .models import advertise_models
 from .properties import advertise_properties
+from .reconfigure import advertise_options
 from .states import StateTopics, advertise_states
 from .timing import advertise_timing
 
@@ -80,6 +81,7 @@ class GazeboServer:
             advertise_changes,
             advertise_efforts,
             advertise_timing,
+            advertise_options,
         ):
             advertise(self._node, simulator)
 

@@ -42,8 +42,9 @@ class TurtleSim:
     """Starts with turtle1 in the middle; `spawn` brings more."""
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
-        del arguments, host
+        del arguments
         self._node = node
+        self._display = host.display
         self._turtles: dict[str, _Registered] = {}
         self._background = _BACKGROUND
         self._picture = Picture(_BACKGROUND)
@@ -62,7 +63,18 @@ class TurtleSim:
         node.advertise_service("kill", "turtlesim/Kill", self._kill)
         node.log_info(f"Starting turtlesim with node name {node.name}; its window is {image.topic}")
         self._start()
-        rate, count = Rate(node, _RATE_HZ), 0
+        window = None
+        if self._display is not None:
+            self._display.show_image(image.topic)
+            window = node.loop.spawn(self._display.show(node, config=None, fixed_frame=None))
+        try:
+            return await self._move_all(image)
+        finally:
+            if window is not None:
+                window.cancel()
+
+    async def _move_all(self, image: Publisher) -> int:
+        rate, count = Rate(self._node, _RATE_HZ), 0
         while True:
             await rate.sleep()
             for name, registered in list(self._turtles.items()):

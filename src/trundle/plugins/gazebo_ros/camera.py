@@ -1,15 +1,18 @@
 """libgazebo_ros_camera.so: pictures and their calibration, where the plugin says."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from trundle.bridge import calibration_of, image_maker
 from trundle.diagnostics import Diagnostics
 from trundle.model import PluginTag
-from trundle.ros import Node
+from trundle.ros import Node, Option, Options, ReconfigureServer
 from trundle.sensors import CameraReading, CameraSensor
 
 from .place import ignore, namespace_of, topic_in
 from .sensor import Outlet, frame_of
+
+_FASTEST_HZ = 1000.0
 
 
 def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
@@ -33,13 +36,39 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
         infos.publish(reading, lambda: calibration)
 
     sensor.listen(publish, wanted=lambda: pictures.wanted() or infos.wanted())
+    offer_rate(sensor, node, tag, (pictures, infos), rate_hz)
+
+
+def offer_rate(
+    sensor: CameraSensor, node: Node, tag: PluginTag, outlets: Sequence[Outlet], plugin_rate_hz: float
+) -> None:
+    """Let users change how often pictures are taken, as dynamic_reconfigure's `imager_rate` of the camera.
+
+    Of a multicamera's pictures, which share one clock, the rate stays.
+    """
+    if sensor.optics.name:
+        return
+    rates = [rate for rate in (sensor.rate_hz, plugin_rate_hz) if rate > 0.0]
+
+    def apply(values: Options) -> Options:
+        rate_hz = float(values["imager_rate"])
+        sensor.set_rate(rate_hz)
+        for outlet in outlets:
+            outlet.throttle.set_rate(0.0)
+        return values
+
+    option = Option(name="imager_rate", value=min(rates), lower=0.1, upper=_FASTEST_HZ, description="Pictures a second")
+    ReconfigureServer(node, [option], apply, namespace=topic_in(_space(sensor, tag), "").rstrip("/"))
 
 
 def camera_topic(sensor: CameraSensor, tag: PluginTag, parameter: str, default: str) -> str:
     """A topic below the robot's namespace and the camera's name; a multicamera's have a name each."""
+    return topic_in(_space(sensor, tag), tag.node.string(parameter, default=default))
+
+
+def _space(sensor: CameraSensor, tag: PluginTag) -> str:
     name = tag.node.string("cameraName").strip("/")
-    space = "/".join(part for part in (namespace_of(tag, sensor.model.name), name, sensor.optics.name) if part)
-    return topic_in(space, tag.node.string(parameter, default=default))
+    return "/".join(part for part in (namespace_of(tag, sensor.model.name), name, sensor.optics.name) if part)
 
 
 def told_calibration(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> dict[str, object]:

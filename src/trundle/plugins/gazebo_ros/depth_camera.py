@@ -8,7 +8,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor, DepthCameraSensor
 
-from .camera import camera_topic, told_calibration
+from .camera import camera_topic, offer_rate, told_calibration
 from .place import ignore
 from .sensor import Outlet, frame_of
 
@@ -65,6 +65,7 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
 
     outlets = (pictures, infos, depths, depth_infos, points)
     sensor.listen(publish, wanted=lambda: any(each.wanted() for each in outlets))
+    offer_rate(sensor, node, tag, outlets, rate_hz)
 
 
 def _millimetres(reading: CameraReading) -> dict[str, object]:

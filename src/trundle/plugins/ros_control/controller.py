@@ -4,8 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Protocol, Self
 
-from trundle.control import ToolboxPid
-from trundle.ros import Node, Publisher, Service, SettingError, Settings, Subscription
+from trundle.ros import Message, Node, Publisher, ReconfigureServer, Service, SettingError, Settings, Subscription
 from trundle.simulation import ModelHandle
 
 from .hardware import Hardware, JointHardware
@@ -50,22 +49,6 @@ class Site:
         return names
 
 
-def read_pid(settings: Settings) -> ToolboxPid:
-    """Gains p, i, d, i_clamp (or i_clamp_min and i_clamp_max, whose smaller magnitude counts) and antiwindup.
-
-    Raises:
-        SettingError: p is missing, or one is no number.
-    """
-    clamps = [abs(settings.number(name)) for name in ("i_clamp_min", "i_clamp_max") if name in settings.names()]
-    return ToolboxPid(
-        p=settings.number("p"),
-        i=settings.number("i", 0.0),
-        d=settings.number("d", 0.0),
-        i_clamp=min(clamps) if clamps else abs(settings.number("i_clamp", 0.0)),
-        antiwindup=settings.flag("antiwindup", default=False),
-    )
-
-
 class Controller(Protocol):
     """Made stopped; all is called on the simulation's thread."""
 
@@ -98,13 +81,24 @@ class Controller(Protocol):
         ...
 
 
+def group_command(message: Message, count: int, node: Node) -> list[float]:
+    """A std_msgs/Float64MultiArray for so many joints; empty where it is of no use, which is said."""
+    values = [float(value) for value in message.data]
+    if len(values) != count:
+        node.log_error(
+            f"Dimension of command ({len(values)}) does not match number of joints ({count})! Not executing!"
+        )
+        return []
+    return values if all(map(math.isfinite, values)) else []
+
+
 class Ends:
     """What a controller has on the graph, to be taken off again."""
 
     def __init__(self) -> None:
-        self._ends: list[Publisher | Subscription | Service] = []
+        self._ends: list[Publisher | Subscription | Service | ReconfigureServer] = []
 
-    def add(self, *ends: Publisher | Subscription | Service) -> None:
+    def add(self, *ends: Publisher | Subscription | Service | ReconfigureServer) -> None:
         """Remember."""
         self._ends.extend(ends)
 

@@ -5,7 +5,7 @@ from typing import ClassVar, Self
 
 from trundle.ros import Message
 
-from .controller import Ends, Site
+from .controller import Ends, Site, group_command
 from .transmissions import Interface
 
 
@@ -93,14 +93,7 @@ class ForwardGroup:
         self._ends.close()
 
     def _take(self, message: Message) -> None:
-        values = [float(value) for value in message.data]
-        if len(values) != len(self._joints):
-            self._node.log_error(
-                f"Dimension of command ({len(values)}) does not match number of joints ({len(self._joints)})! "
-                "Not executing!"
-            )
-        elif all(map(math.isfinite, values)):
-            self._wanted = values
+        self._wanted = group_command(message, len(self._joints), self._node) or self._wanted
 
 
 class EffortForward(ForwardController):

@@ -6,7 +6,8 @@ from typing import Any, ClassVar, Self
 
 from trundle.ros import ActionOutcome, ActionServer, Message
 
-from .controller import Site, read_pid
+from .controller import Ends, Site
+from .gains import tunable_pid
 from .transmissions import Interface
 
 
@@ -24,9 +25,10 @@ class GripperController:
         self._node = site.node
         self._joint = site.joint(settings.text("joint"), self.interface)
         self.claims: dict[Interface | str, list[str]] = {self.interface: [self._joint.name]}
+        self._ends = Ends()
         self._pid = None
         if self.interface == "EffortJointInterface":
-            self._pid = read_pid(settings.section("gains").section(self._joint.name))
+            self._pid = tunable_pid(site.node, settings.section("gains").section(self._joint.name), self._ends)
         self._tolerance = abs(settings.number("goal_tolerance", 0.01))
         self._slow = abs(settings.number("stall_velocity_threshold", 0.001))
         self._stall_ns = round(settings.number("stall_timeout", 1.0) * 1e9)
@@ -79,6 +81,7 @@ class GripperController:
         """Leave the graph."""
         self._settle("aborted", reached=False)
         self._server.close()
+        self._ends.close()
 
     async def _asked(self, goal: Message) -> ActionOutcome:
         """Close or open; on the loop."""

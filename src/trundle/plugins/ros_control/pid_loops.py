@@ -7,7 +7,8 @@ from typing import ClassVar, Self
 from trundle.control import ToolboxPid
 from trundle.ros import Message, Settings
 
-from .controller import Ends, Site, read_pid
+from .controller import Ends, Site, group_command
+from .gains import tunable_pid
 from .hardware import JointHardware
 from .transmissions import Interface
 
@@ -52,11 +53,11 @@ class PidController:
     def __init__(self, site: Site) -> None:
         joint = site.joint(site.settings.text("joint"), self.interface)
         self.claims: dict[Interface | str, list[str]] = {self.interface: [joint.name]}
-        self._loop = _Loop(joint, read_pid(site.settings.section("pid")), self.of_speed)
+        self._ends = Ends()
+        self._loop = _Loop(joint, tunable_pid(site.node, site.settings.section("pid"), self._ends), self.of_speed)
         self._updates = 0
         self._state = site.node.advertise(f"{site.name}/state", "control_msgs/JointControllerState", queue_size=1)
         commands = site.node.subscribe(f"{site.name}/command", "std_msgs/Float64", self._take, queue_size=1)
-        self._ends = Ends()
         self._ends.add(self._state, commands)
 
     @classmethod
@@ -112,16 +113,15 @@ class EffortGroupPosition:
     """effort_controllers/JointGroupPositionController: `joints`, each by the gains `<joint>/pid`."""
 
     def __init__(self, site: Site) -> None:
-        self._node = site.node
+        self._node, self._ends = site.node, Ends()
         self._loops = [
-            _Loop(site.joint(name, "EffortJointInterface"), read_pid(_gains(site.settings, name)), of_speed=False)
+            _Loop(site.joint(name, "EffortJointInterface"), self._pid(site.settings, name), of_speed=False)
             for name in site.joint_setting()
         ]
         self.claims: dict[Interface | str, list[str]] = {
             "EffortJointInterface": [loop.joint.name for loop in self._loops]
         }
         kind = "std_msgs/Float64MultiArray"
-        self._ends = Ends()
         self._ends.add(site.node.subscribe(f"{site.name}/command", kind, self._take, queue_size=1))
 
     @classmethod
@@ -151,19 +151,12 @@ class EffortGroupPosition:
         self._ends.close()
 
     def _take(self, message: Message) -> None:
-        values = [float(value) for value in message.data]
-        if len(values) != len(self._loops):
-            self._node.log_error(
-                f"Dimension of command ({len(values)}) does not match number of joints ({len(self._loops)})! "
-                "Not executing!"
-            )
-        elif all(map(math.isfinite, values)):
-            for loop, value in zip(self._loops, values, strict=True):
-                loop.wanted = value
+        values = group_command(message, len(self._loops), self._node)
+        for loop, value in zip(self._loops, values, strict=False):
+            loop.wanted = value
 
-
-def _gains(settings: Settings, joint: str) -> Settings:
-    return settings.section(joint).section("pid")
+    def _pid(self, settings: Settings, joint: str) -> ToolboxPid:
+        return tunable_pid(self._node, settings.section(joint).section("pid"), self._ends)
 
 
 class EffortPosition(PidController):

@@ -10,7 +10,8 @@ from trundle.simulation import ModelHandle, Simulation
 from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
-from .controller import read_pid
+from .controller import Ends
+from .gains import tunable_pid
 from .hardware import JointHardware
 from .manager import ControllerManager
 from .transmissions import read_transmissions
@@ -46,6 +47,7 @@ class GazeboRosControl(Plugin):
             node.subscribe(f"{self._namespace}/{stop_topic}", "std_msgs/Bool", lambda m: self._stop(m.data))
         parameters.find(_OLD_INDIGO)
         parameters.report_unread(report)
+        self._ends = Ends()
         self._hardware: dict[str, JointHardware] = {}
         self._manager: ControllerManager | None = None
         self._last_ns = sim.time_ns
@@ -116,7 +118,8 @@ class GazeboRosControl(Plugin):
                     self._node.log_warn(f"joint {driven.name!r} cannot move; its transmission is left out")
                     continue
                 own = settings.section(driven.name)
-                pid = read_pid(own) if "p" in own.names() and driven.interface != "EffortJointInterface" else None
+                is_pushed = "p" in own.names() and driven.interface != "EffortJointInterface"
+                pid = tunable_pid(self._node, own, self._ends) if is_pushed else None
                 joint = JointHardware(handle, driven.interface, pid, lag_s=lag_s)
                 joint.read()
                 joint.command = joint.position if driven.interface == "PositionJointInterface" else 0.0

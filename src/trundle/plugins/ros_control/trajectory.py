@@ -7,7 +7,8 @@ from typing import Any, ClassVar, Self
 from trundle.control import ToolboxPid
 from trundle.ros import ActionOutcome, ActionServer, Message, ns_of
 
-from .controller import Cadence, Ends, Site, read_pid
+from .controller import Cadence, Ends, Site
+from .gains import tunable_pid
 from .hardware import JointHardware
 from .trajectory_goal import Course, GoalError, Tolerances, read_course, read_tolerances
 from .transmissions import Interface
@@ -33,10 +34,11 @@ class TrajectoryController:
         self._joints = [site.joint(name, self.interface) for name in site.joint_setting()]
         names = [joint.name for joint in self._joints]
         self.claims: dict[Interface | str, list[str]] = {self.interface: names}
+        self._ends = Ends()
         self._pids: list[ToolboxPid] = []
         if self.interface != "PositionJointInterface":
             gains = settings.section("gains")
-            self._pids = [read_pid(gains.section(name)) for name in names]
+            self._pids = [tunable_pid(node, gains.section(name), self._ends) for name in names]
         forward = settings.section("velocity_ff")
         self._forward = [forward.number(name, 0.0) for name in names]
         self._usual = read_tolerances(settings.section("constraints"), names)
@@ -50,7 +52,6 @@ class TrajectoryController:
         self._is_running = False
         self._state = node.advertise(f"{site.name}/state", "control_msgs/JointTrajectoryControllerState", queue_size=1)
         kind = "trajectory_msgs/JointTrajectory"
-        self._ends = Ends()
         self._ends.add(
             self._state,
             node.subscribe(f"{site.name}/command", kind, self._take, queue_size=1),

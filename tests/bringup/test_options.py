@@ -1,0 +1,75 @@
+"""What runs in the simulator has options for dynamic_reconfigure: physics, camera rates, PID gains."""
+
+from itertools import pairwise
+from typing import Any
+
+import pytest
+from tests.bringup.conftest import PATIENCE_S, Gazebo, until
+from tests.bringup.controlled import Robot, driven, standing
+
+from trundle.ros import Option, find_reconfigurable, ns_of, read_options, set_options
+
+CAMERA = """<sdf version="1.6"><model name="mast"><static>1</static><link name="l">
+<sensor name="eye" type="camera"><update_rate>50</update_rate><camera><horizontal_fov>1</horizontal_fov>
+<image><width>16</width><height>12</height></image><clip><near>0.1</near><far>20</far></clip></camera>
+<plugin name="p" filename="libgazebo_ros_camera.so"><robotNamespace>r</robotNamespace><cameraName>front</cameraName>
+</plugin></sensor></link></model></sdf>"""
+BALL = """<sdf version="1.6"><model name="ball"><link name="l"><pose>0 0 1 0 0 0</pose>
+<inertial><mass>1</mass></inertial></link></model></sdf>"""
+LIFT = driven(
+    "lift",
+    "prismatic",
+    "EffortJointInterface",
+    axis="0 0 1",
+    limit='<limit lower="-1" upper="1" effort="500" velocity="9"/>',
+)
+
+
+def options(gazebo: Gazebo, name: str) -> dict[str, Option]:
+    found = gazebo.loop.run(read_options(gazebo.client, name, timeout_s=PATIENCE_S), PATIENCE_S)
+    return {option.name: option for option in found}
+
+
+def change(gazebo: Gazebo, name: str, **values: Any) -> None:
+    gazebo.loop.run(set_options(gazebo.client, name, values, timeout_s=PATIENCE_S), PATIENCE_S)
+
+
+def test_gravity_is_turned_off_and_the_step_stays(gazebo: Gazebo) -> None:
+    assert gazebo.spawn(BALL, "ball").success
+    assert options(gazebo, "/gazebo")["gravity_z"].value == pytest.approx(-9.8)
+    change(gazebo, "/gazebo", gravity_z=0.0, time_step=0.1)
+    gazebo.call("unpause_physics")
+    gazebo.until_s(0.2)
+
+    assert gazebo.state("ball").pose.position.z == pytest.approx(0.0, abs=1e-6)
+    now = options(gazebo, "/gazebo")
+    assert (now["gravity_z"].value, now["time_step"].value) == (0.0, 0.001)
+    assert gazebo.call("get_physics_properties", "gazebo_msgs/GetPhysicsProperties").gravity.z == 0.0
+
+
+def test_a_camera_takes_pictures_at_the_rate_it_is_set_to(gazebo: Gazebo) -> None:
+    assert gazebo.spawn(CAMERA, "mast").success
+    assert options(gazebo, "/r/front")["imager_rate"].value == pytest.approx(50.0)
+    change(gazebo, "/r/front", imager_rate=200)
+    heard = gazebo.hear("/r/front/image_raw", "sensor_msgs/Image")
+    gazebo.call("unpause_physics")
+    until(lambda: len(heard) > 10)
+
+    gaps = [ns_of(b.header.stamp) - ns_of(a.header.stamp) for a, b in pairwise(heard)]
+    assert min(gaps) == 5_000_000
+
+
+def test_gains_are_changed_while_they_are_in_use(gazebo: Gazebo) -> None:
+    pid = {"p": 300.0, "i": 0.0, "d": 60.0}
+    controller = {"type": "effort_controllers/JointPositionController", "joint": "lift", "pid": pid}
+    robot = Robot(gazebo, standing(LIFT), {"lift": controller})
+    try:
+        robot.spawn("lift")
+        robot.command("lift", 0.5)
+        until(lambda: robot.joint("lift").position[0] == pytest.approx(0.5 - 9.8 / 300.0, abs=1e-3))
+        assert "/r/lift/pid" in gazebo.loop.run(find_reconfigurable(gazebo.client), PATIENCE_S)
+        change(gazebo, "/r/lift/pid", p=3000.0, d=200.0)
+        until(lambda: robot.joint("lift").position[0] == pytest.approx(0.5 - 9.8 / 3000.0, abs=5e-4))
+        assert gazebo.loop.run(gazebo.client.get_param("/r/lift/pid/p")) == 3000.0
+    finally:
+        robot.close()

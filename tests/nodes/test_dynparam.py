@@ -1,0 +1,66 @@
+"""dynamic_reconfigure/dynparam from the command line, on a node of ours that has options."""
+
+from pathlib import Path
+
+import pytest
+
+NODE = "/depthimage_to_laserscan"
+
+
+@pytest.fixture
+def dynparam(stage):
+    stage.start("depthimage_to_laserscan/depthimage_to_laserscan", scan_height=3)
+    names = iter(range(100))
+
+    def run(arguments: str, **params: object) -> int:
+        return stage.start("dynamic_reconfigure/dynparam", arguments, name=f"d{next(names)}", **params).result(60.0)
+
+    stage.loop.run(stage.client.wait_for_service(f"{NODE}/set_parameters"), 60.0)
+    return run
+
+
+def test_list_get_set_dump_and_load(dynparam, stage, capsys, tmp_path: Path) -> None:
+    assert dynparam("list") == 0
+    assert dynparam(f"set {NODE} range_max 5") == 0
+    assert dynparam(f"dump {NODE} {tmp_path / 'a.yaml'}") == 0
+    assert dynparam(f'set {NODE} {{"scan_height":7,"range_max":3.5}}') == 0
+    assert dynparam(f"get {NODE}") == 0
+    assert dynparam(f"load {NODE} {tmp_path / 'a.yaml'}") == 0
+    assert dynparam("set_from_parameters " + NODE, range_min=0.25) == 0
+
+    out = capsys.readouterr().out
+    assert out.startswith(f"{NODE}\n")
+    assert "'scan_height': 7" in out
+    assert "'range_max': 3.5" in out
+    now = stage.loop.run(stage.client.get_param(NODE))
+    assert (now["scan_height"], now["range_max"], now["range_min"]) == (3, 5.0, 0.25)
+
+
+def test_what_the_original_dumps_is_read(dynparam, stage, tmp_path: Path) -> None:
+    """It writes an object of Python, with its groups."""
+    file = tmp_path / "a.yaml"
+    file.write_text(
+        "!!python/object/new:dynamic_reconfigure.encoding.Config\ndictitems:\n  scan_height: 9\n"
+        "  groups: !!python/object/new:dynamic_reconfigure.encoding.Config\n    dictitems: {id: 0}\n    state: []\n"
+        "state: []\n"
+    )
+    assert dynparam(f"load {NODE} {file}") == 0
+    assert stage.loop.run(stage.client.get_param(f"{NODE}/scan_height")) == 9
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (f"set {NODE} speed 1", "don't know parameter: speed; there are: scan_height"),
+        (f"set {NODE} scan_height x", "'x' is no int"),
+        ("get -t 0.2 /nobody", "/nobody told no options within 0.2 s"),
+        (f"load {NODE} /no/such.yaml", "No such file"),
+    ],
+)
+def test_what_is_wrong_is_said(dynparam, capfd, words: str, said: str) -> None:
+    assert dynparam(words) == 1
+    assert said in "".join(capfd.readouterr())
+
+
+def test_wrong_usage_is_two(dynparam) -> None:
+    assert dynparam("fly") == 2
