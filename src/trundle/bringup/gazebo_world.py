@@ -25,6 +25,7 @@ from .pace import Pacer
 from .page import Page
 from .plugins import attach_sensor_plugins, load_plugins, load_world_plugins
 from .renderers import RENDERERS, RendererName
+from .state_logs import WorldRecorder
 
 _IDLE_S = 0.01
 _LOOK_S = 0.5
@@ -87,14 +88,21 @@ class GazeboWorld:
         self._clock_hz = ClockTopic.RATE_HZ
         self._pacer = Pacer(speed)
         self._page: Page | None = None
+        self._record: Path | None = None
+        self._recorder: WorldRecorder | None = None
         self._node: Node | None = None
         self._still: StaticTransformBroadcaster | None = None
         self._paused = False
 
     # -- any thread
 
-    async def open(self, node: Node, world: str, *, paused: bool, env: Mapping[str, str]) -> None:
+    async def open(
+        self, node: Node, world: str, *, paused: bool, env: Mapping[str, str], record: str | None = None
+    ) -> None:
         """Read a world and let it run."""
+        self._record = (
+            None if record is None else Path(record).expanduser() if record else self._folder.parent / "gazebo"
+        )
         with self._graph.loop.work.under_way():
             await self._open(node, world, paused=paused, env=env)
 
@@ -245,6 +253,9 @@ class GazeboWorld:
             if self._page is not None:
                 self._page.close()
                 self._page = None
+            if self._recorder is not None:
+                self._recorder.close()
+                self._recorder = None
 
     def _obey(self) -> None:
         for _ in range(len(self._commands)):
@@ -295,6 +306,9 @@ class GazeboWorld:
         simulation.add_hook(clock, period_ns=clock.period_ns, wanted=clock.wanted)
         self._simulation, self._around = simulation, None
         self._sensors = []
+        if self._record is not None:
+            self._recorder = WorldRecorder(simulation, self._record, self._say)
+            simulation.add_hook(self._recorder, period_ns=self._recorder.period_ns)
         self._mount(simulation)
         self._load_plugins(simulation, None)
 

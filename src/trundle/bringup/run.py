@@ -9,11 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeAlias
 
-from trundle.description import write_sdf, written_uri
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
 from trundle.sensors import mount_cameras, mount_sensors
-from trundle.simulation import Simulation, SimulationUnstableError, StateRecorder, with_actors
+from trundle.simulation import Simulation, SimulationUnstableError, with_actors
 
 from .exposure import warn_of_exposure
 from .outcome import Outcome
@@ -24,7 +23,8 @@ from .renderers import RENDERERS, RendererName
 from .ros_side import RosSide
 from .showing import Showing
 from .signals import StopFlag, stop_flag
-from .stage import Stage, set_stage
+from .stage import set_stage
+from .state_logs import begin_state_log
 
 OnInstability: TypeAlias = Literal["pause", "reset", "exit"]
 _MOST_RESETS = 10
@@ -88,7 +88,8 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             ros = open_things.enter_context(RosSide.open(simulation, stage, cameras, sensors, env, host=options.host))
             show.line(ros.story)
         if options.record is not None:
-            recorder = _record(options.record, simulation, stage, report)
+            recorder = begin_state_log(options.record, simulation, stage.written, report)
+            simulation.add_hook(recorder, period_ns=recorder.period_ns)
             open_things.callback(recorder.close)
         make_node = None if ros is None else ros.make_node
         load_plugins(simulation, make_node, env, say=show.line)
@@ -110,15 +111,6 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             report=report,
             interrupted=stop.is_set(),
         )
-
-
-def _record(path: Path, simulation: Simulation, stage: Stage, report: Diagnostics) -> StateRecorder:
-    compiled = simulation.engine.compiled
-    sdf = write_sdf(stage.written, is_world=True, uri_of=written_uri, report=report)
-    recorder = StateRecorder(path, links=compiled.link_names, joints=compiled.joint_names, sdf=sdf)
-    recorder.after_step(simulation.snapshot())
-    simulation.add_hook(recorder, period_ns=recorder.period_ns)
-    return recorder
 
 
 def _drive(

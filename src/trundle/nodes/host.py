@@ -71,10 +71,17 @@ class Simulator(Protocol):
         """Whether time waits for nodes, as it does flat out; they then act by it alone, that runs repeat."""
         ...
 
-    async def open(self, node: Node, world: str, *, paused: bool, env: Mapping[str, str]) -> None:
-        """Read a world and let it run; `node` publishes its time, and its callbacks run on the thread.
+    async def open(
+        self, node: Node, world: str, *, paused: bool, env: Mapping[str, str], record: str | None = None
+    ) -> None:
+        """Read a world and let it run.
 
-        `env` are variables beside the launch's own, such as GAZEBO_MODEL_PATH.
+        Args:
+            node: publishes its time; its callbacks run on the thread.
+            world: a file of the launch, or one that is found where Gazebo looks.
+            paused: whether time stands still at first.
+            env: variables beside the launch's own, such as GAZEBO_MODEL_PATH.
+            record: folder for state logs, "" for the usual one; None: none are written.
 
         Raises:
             TrundleError: no such world, one that cannot be read, or there is one already.

@@ -22,8 +22,6 @@ _TAKES_A_VALUE = frozenset(
     }
 )
 _UNSUPPORTED = {
-    "-r": "recording",
-    "--record": "recording",
     "-p": "playing a log",
     "--play": "playing a log",
     "-s": "a server plugin",
@@ -46,11 +44,11 @@ class GazeboServer:
         if simulator is None:
             node.log_fatal("nothing is simulated here")
             return 1
-        world, paused = self._read_arguments()
+        world, paused, record = self._read_arguments()
         if not await node.has_param("/use_sim_time"):
             await node.set_param("/use_sim_time", True)
         try:
-            await simulator.open(node, world, paused=paused, env=self._env)
+            await simulator.open(node, world, paused=paused, env=self._env, record=record)
         except TrundleError as error:
             node.log_fatal(str(error))
             return 1
@@ -85,19 +83,24 @@ class GazeboServer:
         ):
             advertise(self._node, simulator)
 
-    def _read_arguments(self) -> tuple[str, bool]:
-        """The world, and whether it starts paused; what has no effect is named."""
-        world, paused = _EMPTY_WORLD, False
+    def _read_arguments(self) -> tuple[str, bool, str | None]:
+        """The world, whether it starts paused, and where to record it; what has no effect is named."""
+        world, paused, record = _EMPTY_WORLD, False, None
         words = iter(self._arguments)
         for word in words:
-            option, equals, _ = word.partition("=")
-            value = next(words, "") if option in _TAKES_A_VALUE and not equals else ""
+            option, equals, value = word.partition("=")
+            if option in _TAKES_A_VALUE and not equals:
+                value = next(words, "")
             if option in ("-u", "--pause"):
                 paused = True
+            elif option in ("-r", "--record"):
+                record = record or ""
+            elif option == "--record_path":
+                record = value
             elif option in _UNSUPPORTED:
                 self._node.log_warn(f"gzserver {word} {value}: {_UNSUPPORTED[option]} is not supported")
             elif option in ("-e", "--physics") and value not in ("ode", ""):
                 self._node.log_info(f"physics engine {value!r} is asked for; MuJoCo is what there is")
             elif not word.startswith("-"):
                 world = word
-        return world, paused
+        return world, paused, record

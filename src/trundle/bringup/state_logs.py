@@ -1,0 +1,72 @@
+"""State logs of a simulation, for `trundle play`."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from trundle.description import write_sdf, written_uri
+from trundle.diagnostics import Diagnostics
+from trundle.model import World
+from trundle.simulation import Simulation, Snapshot, StateRecorder
+
+
+def begin_state_log(path: Path, simulation: Simulation, world: World, report: Diagnostics) -> StateRecorder:
+    """Begin a log with where everything is now; `world` is what whoever plays it sees.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    compiled = simulation.engine.compiled
+    sdf = write_sdf(world, is_world=True, uri_of=written_uri, report=report)
+    recorder = StateRecorder(path, links=compiled.link_names, joints=compiled.joint_names, sdf=sdf)
+    recorder.after_step(simulation.snapshot())
+    return recorder
+
+
+class WorldRecorder:
+    """A hook that logs a world whose models come and go: each time they have, the next file begins."""
+
+    period_ns = StateRecorder.period_ns
+
+    def __init__(self, simulation: Simulation, folder: Path, say: Callable[[str], None]) -> None:
+        """Record into `state.log`, then `state-2.log` and so on.
+
+        Args:
+            simulation: recorded.
+            folder: is made; files of earlier recordings are written anew.
+            say: is told of each file, and when no more can be written.
+        """
+        self._simulation = simulation
+        self._folder = folder
+        self._say = say
+        self._files = 0
+        self._names: object = None
+        self._recorder: StateRecorder | None = None
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Write where everything is."""
+        compiled = self._simulation.engine.compiled
+        names = (compiled.link_names, compiled.joint_names)
+        try:
+            if names != self._names:
+                self._names = names
+                self._begin()
+            elif self._recorder is not None:
+                self._recorder.after_step(snapshot)
+        except OSError as error:
+            self.close()
+            self._say(f"recording ends: {self._folder}: {error.strerror}")
+
+    def close(self) -> None:
+        """End the file."""
+        if self._recorder is not None:
+            self._recorder.close()
+            self._recorder = None
+
+    def _begin(self) -> None:
+        self.close()
+        self._files += 1
+        self._folder.mkdir(parents=True, exist_ok=True)
+        path = self._folder / ("state.log" if self._files == 1 else f"state-{self._files}.log")
+        simulation = self._simulation
+        self._recorder = begin_state_log(path, simulation, simulation.world, simulation.report)
+        self._say(f"recording into {path}; trundle play shows it")
