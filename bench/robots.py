@@ -23,7 +23,7 @@ from trundle.spatial import Pose
 
 ROBOT = Path(__file__).parents[1] / "examples/rp2w"
 _COUNTS = (1, 10, 50)
-_PAIRS = 5
+_PAIRS = 15
 _SPEED = 2.0
 """[rad/s] Of driven wheels."""
 _BOXES = (
@@ -41,7 +41,7 @@ def run() -> list[Row]:
     for rolling in (False, True):
         what = "rolling" if rolling else "at rest"
         for count in _COUNTS:
-            steps = 20_000 // count
+            steps = 8_000 // count
             ours, theirs = _ours(count, rolling=rolling), _by_hand(count, rolling=rolling)
             ours(1024)
             theirs(1024)
