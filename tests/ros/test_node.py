@@ -2,6 +2,7 @@
 
 import asyncio
 import queue
+import sys
 import threading
 from typing import Any
 
@@ -19,13 +20,16 @@ from trundle.ros import (
     follow_time,
     probe_service,
 )
+from trundle.ros.nearby import address_nearby
 
 STRING = "std_msgs/String"
 
 
-@pytest.fixture(params=["same process", "sockets"])
-def pair(request: pytest.FixtureRequest, graph: Any, far: Any) -> tuple[Any, Any]:
+@pytest.fixture(params=["same process", "nearby", "TCP"])
+def pair(request: pytest.FixtureRequest, graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch) -> tuple[Any, Any]:
     """A talking and a listening node."""
+    if request.param == "TCP":
+        monkeypatch.setattr("trundle.ros.subscription.address_nearby", lambda _: None)
     return graph.node("talker"), (graph if request.param == "same process" else far).node("listener")
 
 
@@ -339,3 +343,50 @@ def test_a_node_finds_the_parameters_it_was_made_with(graph: Any) -> None:
     nodes = [graph.node(f"n{i}", params={"rate": i, "mode": "fast"}) for i in range(10)]
     assert [graph.loop.run(node.get_param("~rate", None)) for node in nodes] == list(range(10))
     assert graph.loop.run(graph.node("other", params={"x": 1}).has_param("~x"))
+
+
+def test_nodes_of_one_machine_take_the_shorter_way(graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    if not sys.platform.startswith("linux"):
+        pytest.skip("sockets without files exist on Linux only")
+    talker = graph.node("talker")
+    talker.advertise("/a", "std_msgs/String", latch=True).publish({"data": "hello"})
+    graph.ready(talker)
+    got: list[str] = []
+    for name, offered in (
+        ("near", address_nearby),
+        ("stranger", lambda _: "\0trundle-gone"),
+        ("plain", lambda _: None),
+    ):
+        monkeypatch.setattr("trundle.ros.subscription.address_nearby", offered)
+        far.node(name).subscribe("/a", "std_msgs/String", lambda m: got.append(m.data))
+        graph.until(lambda name=name: any(link[1] == f"/{name}" for link in talker.connections()))
+    graph.until(lambda: got == ["hello"] * 3)
+    kinds = {peer: kind for _, peer, _, kind, topic, *_ in talker.connections() if topic == "/a"}
+    assert kinds == {"/near": "UNIXROS", "/stranger": "TCPROS", "/plain": "TCPROS"}
+
+
+def test_a_message_of_another_thread_keeps_its_place(graph: Any, far: Any) -> None:
+    """It is sent at once when nothing waits, in turn otherwise; newcomers and slow readers change that."""
+    publisher = graph.node("talker").advertise("/a", "std_msgs/UInt8MultiArray", queue_size=None)
+    got: list[int] = []
+    far.node("reader").subscribe(
+        "/a", "std_msgs/UInt8MultiArray", lambda m: got.append(int.from_bytes(bytes(m.data[:4]))), queue_size=None
+    )
+    graph.until(lambda: publisher.subscribers == 1)
+    for i in range(600):
+        if i == 200:
+            near = graph.node("near").subscribe("/a", "std_msgs/UInt8MultiArray", lambda _: None)
+            graph.until(lambda: publisher.subscribers == 2)
+        if i == 400:
+            near.unregister()
+        publisher.publish({"data": i.to_bytes(4) + bytes(200_000 if i % 3 else 5)})
+    graph.until(lambda: len(got) >= 600)
+    assert got == list(range(600))
+
+
+def test_an_answer_longer_than_the_kernel_holds_comes_whole(graph: Any, far: Any) -> None:
+    text = "x" * 20_000_000
+    provider = graph.node("talker")
+    provider.advertise_service("/long", "std_srvs/Trigger", lambda _: {"message": text})
+    graph.ready(provider)
+    assert far.loop.run(far.node("asker").call_service("/long", "std_srvs/Trigger"), PATIENCE_S).message == text

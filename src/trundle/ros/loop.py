@@ -86,6 +86,11 @@ class GraphLoop:
         """Whether the caller runs on the loop."""
         return threading.current_thread() is self._thread
 
+    @property
+    def is_waited_for(self) -> bool:
+        """Whether the caller is a thread that gains if it does a thing itself rather than ask the loop."""
+        return threading.current_thread() not in (self._thread, self._gatherer)
+
     def run(self, coroutine: Coroutine[Any, Any, _T], timeout_s: float | None = 30.0) -> _T:
         """Run a coroutine on the loop and wait for its answer, from another thread.
 

@@ -27,6 +27,7 @@ Message: TypeAlias = Any
 
 ANY_TYPE = "*"
 _SEPARATOR = "=" * 80 + "\nMSG: "
+_LONG_BYTES = 64 * 1024
 _BUILTIN = {"builtin_interfaces/msg/Time": "time", "builtin_interfaces/msg/Duration": "duration"}
 
 
@@ -231,7 +232,8 @@ class Messages:
         """As the store's own `serialize_ros1`, which leaves no room: a picture would be copied for its length."""
         store = self._store
         kind = store.get_msgdef(key)
-        data = memoryview(bytearray(room + kind.getsize_ros1(0, message, store)))
+        size = room + kind.getsize_ros1(0, message, store)
+        data = memoryview(bytearray(size)) if size < _LONG_BYTES else _untouched(size)
         end = kind.serialize_ros1(data, room, message, store)
         assert end == len(data)
         return data
@@ -344,6 +346,13 @@ class Messages:
             else:
                 lines.append(f"{self.md5(_ros(reference))} {name}")
         return "\n".join(lines)
+
+
+def _untouched(size: int) -> memoryview:
+    """Memory as it comes: to clear a picture's takes as long as to write it."""
+    from numpy import empty, uint8
+
+    return empty(size, uint8).data
 
 
 def fields_of(store: "Typestore", key: str) -> list[tuple[str, Any]]:

@@ -1,5 +1,6 @@
 """A topic as its publisher sees it: links to subscribers here and elsewhere, a queue for each."""
 
+import threading
 from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
@@ -64,6 +65,8 @@ class Publisher:
         self._lost = 0
         """Messages that were replaced before the loop came round to them."""
         self._flushes = False
+        self._turn = threading.Lock()
+        """Held while a thread other than the loop's sends, and while somebody joins and gets what is latched."""
         self._latched: Any = None
         self._sequence = 0
         self.published = 0
@@ -102,6 +105,8 @@ class Publisher:
             if header is not None and hasattr(header, "seq"):
                 self._sequence += 1
                 header.seq = self._sequence
+        if self._send_at_once(message):
+            return
         self._lost += len(self._outbox) == self._queue_size
         self._outbox.append(message)
         self._flush_soon()
@@ -152,10 +157,11 @@ class Publisher:
                 "message_definition": self.definition,
             }
         )
-        self._links[link] = peer
+        with self._turn:
+            self._links[link] = peer
+            if self._latched is not None and (framed := self._framed(self._latched)) is not None:
+                link.send_all([framed], self._queue_size)
         self._count()
-        if self._latched is not None and (framed := self._framed(self._latched)) is not None:
-            link.send_all([framed], self._queue_size)
 
     def catch_up(self) -> None:
         """Go on after all subscribers were too slow."""
@@ -172,10 +178,12 @@ class Publisher:
         """Take a subscription of this process."""
         if subscriber in self._local:
             return
-        self._local[subscriber] = name
+        with self._turn:
+            self._local[subscriber] = name
+            latched = self._latched
         self._count()
-        if self._latched is not None:
-            self._hand_over(self._latched, subscriber, None)
+        if latched is not None:
+            self._hand_over(latched, subscriber, None)
 
     def detach(self, subscriber: LocalSubscriber) -> None:
         """Forget a subscription of this process."""
@@ -193,7 +201,7 @@ class Publisher:
     def connections(self) -> list[list[Any]]:
         """Links as getBusInfo tells them."""
         remote = [
-            [_number(link), name, "o", "TCPROS", self.topic, True, link.description]
+            [_number(link), name, "o", link.kind, self.topic, True, link.description]
             for link, name in self._links.items()
         ]
         return remote + [
@@ -202,7 +210,7 @@ class Publisher:
 
     def statistics(self) -> list[Any]:
         """Bytes and messages as getBusStats tells them."""
-        links = [[_number(link), link.bytes_sent, link.frames_sent, True] for link in self._links]
+        links = [[_number(link), link.bytes_sent, link.frames_sent - 1, True] for link in self._links]
         return [self.topic, sum(link.bytes_sent for link in self._links), links]
 
     @property
@@ -214,6 +222,32 @@ class Publisher:
         before, self._wanted = self._wanted, len(self._links) + len(self._local)
         if self._wanted > before and self._on_connect is not None:
             self._on_connect(self)
+
+    def _send_at_once(self, message: Any) -> bool:
+        """Spare the loop a message that goes to other processes only; False: nothing is done.
+
+        Waking the loop's thread takes longer than sending.
+        """
+        if (
+            self._local
+            or not self._links
+            or not self._node.loop.is_waited_for
+            or not self._turn.acquire(blocking=False)
+        ):
+            return False
+        try:
+            links = list(self._links)
+            if self._local or self._flushes or self._outbox or any(link.is_behind for link in links):
+                return False
+            if self.latch:
+                self._latched = message
+            self.published += 1
+            if (framed := self._framed(message)) is not None:
+                for link in links:
+                    link.send_all([framed], self._queue_size)
+            return True
+        finally:
+            self._turn.release()
 
     def _flush(self) -> None:
         frames: list[bytes | memoryview] = []

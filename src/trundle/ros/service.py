@@ -38,7 +38,7 @@ class Service:
         self.kind: ServiceType = node.messages.service(type_name)
         self._node = node
         self._handler = handler
-        self._links: dict[FrameProtocol, asyncio.Queue[bytes]] = {}
+        self._links: dict[FrameProtocol, asyncio.Queue[bytes | memoryview | None]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
     def unregister(self) -> None:
@@ -68,14 +68,14 @@ class Service:
         if header.get("probe") == "1":
             link.close("only asked")
             return
-        requests: asyncio.Queue[bytes] = asyncio.Queue(_MAX_WAITING)
+        requests: asyncio.Queue[bytes | memoryview | None] = asyncio.Queue(_MAX_WAITING)
         self._links[link] = requests
         persistent = header.get("persistent", "0").lower() in ("1", "true")
         task = asyncio.get_running_loop().create_task(self._answer_all(link, requests, persistent))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-    def request(self, link: FrameProtocol, data: bytes) -> None:
+    def request(self, link: FrameProtocol, data: bytes | memoryview) -> None:
         """Take a request."""
         try:
             self._links[link].put_nowait(data)
@@ -84,7 +84,9 @@ class Service:
 
     def release(self, link: FrameProtocol) -> None:
         """Forget a connection that has ended."""
-        self._links.pop(link, None)
+        if (requests := self._links.pop(link, None)) is not None:
+            with contextlib.suppress(asyncio.QueueFull):  # one that is busy looks at the connection itself
+                requests.put_nowait(None)
 
     def close(self) -> None:
         """Drop every client."""
@@ -93,14 +95,17 @@ class Service:
         for link in list(self._links):
             link.close("the service is no longer provided")
 
-    async def _answer_all(self, link: FrameProtocol, requests: "asyncio.Queue[bytes]", persistent: bool) -> None:
-        while link.transport is not None:
-            answer = await self._answer(await requests.get())
+    async def _answer_all(
+        self, link: FrameProtocol, requests: "asyncio.Queue[bytes | memoryview | None]", persistent: bool
+    ) -> None:
+        while link.transport is not None and (request := await requests.get()) is not None:
+            answer = await self._answer(request)
             link.send_all([answer], None)
             if not persistent:
-                link.close("answered")
+                link.finish("answered")
+                return
 
-    async def _answer(self, data: bytes) -> bytes:
+    async def _answer(self, data: bytes | memoryview) -> bytes:
         """Answer one request: a byte that says whether it went well, then the response or the error's text."""
         try:
             response = await self._handle(self._node.messages.deserialize(data, self.kind.request))

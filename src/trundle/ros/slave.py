@@ -5,6 +5,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from .loop import close_server
+from .nearby import UNIXROS, listen_nearby
 from .network import ServerAddress
 from .publisher import Publisher
 from .rpc_server import RpcServer, UnknownMethodError
@@ -26,21 +27,26 @@ class Slave:
         self._node = node
         self._address = address
         self._rpc = RpcServer(self._dispatch)
-        self._server: asyncio.Server | None = None
+        self._servers: list[asyncio.Server] = []
+        self._nearby: list[str] = []
+        """Where nodes of this machine connect faster, if there is such a place."""
         self._links: set[_Inbound] = set()
         self._newcomers: dict[_Inbound, None] = {}
         self.uri = ""
         self.tcp_port = 0
 
     async def start(self) -> None:
-        """Listen at two free ports."""
+        """Listen at two free ports, and nearby."""
         await self._rpc.start(self._address.bind, 0)
         self.uri = f"http://{self._address.at(self._rpc.port)}/"
         loop = asyncio.get_running_loop()
-        self._server = await loop.create_server(
-            lambda: _Inbound(self._node, self._links, self._newcomers), self._address.bind, 0, backlog=_BACKLOG
-        )
-        self.tcp_port = self._server.sockets[0].getsockname()[1]
+        server = await loop.create_server(self._inbound, self._address.bind, 0, backlog=_BACKLOG)
+        self._servers.append(server)
+        self.tcp_port = server.sockets[0].getsockname()[1]
+        if (found := listen_nearby()) is not None:
+            listening, name = found
+            self._servers.append(await loop.create_server(self._inbound, sock=listening, backlog=_BACKLOG))
+            self._nearby = [name]
 
     @property
     def service_uri(self) -> str:
@@ -49,11 +55,14 @@ class Slave:
 
     async def stop(self) -> None:
         """Stop listening and drop every peer."""
-        if self._server is not None:
-            await close_server(self._server)
+        for server in self._servers:
+            await close_server(server)
         for link in list(self._links):
             link.close("the node shuts down")
         await self._rpc.stop()
+
+    def _inbound(self) -> "_Inbound":
+        return _Inbound(self._node, self._links, self._newcomers)
 
     def _dispatch(self, method: str, arguments: list[Any]) -> Any:
         match method, arguments:
@@ -88,10 +97,15 @@ class Slave:
     def _request_topic(self, topic: str, protocols: list[Any]) -> Any:
         if self._node.publisher(topic) is None:
             return 0, f"Not a publisher of [{topic}]", []
-        if not any(isinstance(p, list) and p and p[0] == "TCPROS" for p in protocols):
+        wanted = [p[0] for p in protocols if isinstance(p, list) and p]
+        if "TCPROS" not in wanted:
             return 0, "no supported protocol implementations", []
         host = self._address.advertise
-        return 1, f"ready on {host}:{self.tcp_port}", ["TCPROS", host, self.tcp_port]
+        return (
+            1,
+            f"ready on {host}:{self.tcp_port}",
+            ["TCPROS", host, self.tcp_port, *(self._nearby if UNIXROS in wanted else [])],
+        )
 
 
 class _Inbound(FrameProtocol):
@@ -133,7 +147,7 @@ class _Inbound(FrameProtocol):
             return
         self._target.accept(self, header)
 
-    def frame_received(self, data: bytes) -> None:
+    def frame_received(self, data: bytes | memoryview) -> None:
         from .service import Service
 
         if isinstance(self._target, Service):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from .errors import MessageError, RosError, WireError
 from .messages import ANY_TYPE, Message, RawMessage
+from .nearby import UNIXROS, address_nearby
 from .rpc_client import call
 from .tcpros import FrameProtocol, check_md5
 from .xmlrpc import FaultError
@@ -126,7 +127,7 @@ class Subscription:
         result: list[list[Any]] = []
         for uri, link in self._links.items():
             remote = isinstance(link, FrameProtocol)
-            kind, text = ("TCPROS", link.description) if remote else ("INTRAPROCESS", "")
+            kind, text = (link.kind, link.description) if remote else ("INTRAPROCESS", "")
             result.append([id(link) % 2**31, uri, "i", kind, self.topic, True, text])
         return result
 
@@ -135,7 +136,7 @@ class Subscription:
         links = [link for link in self._links.values() if isinstance(link, FrameProtocol)]
         return [self.topic, [[id(link) % 2**31, link.bytes_received, -1, self.dropped, True] for link in links]]
 
-    def take(self, data: bytes, header: Mapping[str, str]) -> None:
+    def take(self, data: bytes | memoryview, header: Mapping[str, str]) -> None:
         """Take a message as bytes, with what its publisher said when it connected.
 
         Raises:
@@ -149,7 +150,7 @@ class Subscription:
                 type=header.get("type", ANY_TYPE),
                 md5sum=header.get("md5sum", ANY_TYPE),
                 definition=header.get("message_definition", ""),
-                data=data,
+                data=bytes(data),
                 caller=header.get("callerid", ""),
                 latching=header.get("latching") == "1",
             )
@@ -190,17 +191,16 @@ class Subscription:
 
     async def _connect(self, uri: str) -> None:
         """Hold a TCPROS link until it breaks or the task is cancelled."""
-        answer = await call(uri, "requestTopic", self._node.name, self.topic, [["TCPROS"]])
+        answer = await call(uri, "requestTopic", self._node.name, self.topic, [["TCPROS"], [UNIXROS]])
         match answer:
-            case [1, _, ["TCPROS", str(host), int(port)]]:
+            case [1, _, ["TCPROS", str(host), int(port), *more]]:
                 pass
             case _:
                 raise WireError(f"it does not offer TCPROS: {str(answer)[:100]}")
         if not self.is_raw:  # not on the loop: the first message of a type would hold up all others
             await asyncio.to_thread(self._node.messages.prepare, self.type)
         async with asyncio.timeout(_CONNECT_S):
-            link = _SubscriberLink(self, self._request())
-            await asyncio.get_running_loop().create_connection(lambda: link, host, port)
+            link = await self._open(host, port, address_nearby(more))
         self._links[uri] = link
         try:
             reason = await link.ended
@@ -209,6 +209,15 @@ class Subscription:
             link.close("no longer subscribed")
         if link.header is None or "error" in link.header:
             raise WireError(reason)
+
+    async def _open(self, host: str, port: int, nearby: str | None) -> "_SubscriberLink":
+        link, loop = _SubscriberLink(self, self._request()), asyncio.get_running_loop()
+        if nearby is not None:
+            with contextlib.suppress(OSError):  # not so near, or gone
+                await loop.create_unix_connection(lambda: link, nearby)
+                return link
+        await loop.create_connection(lambda: link, host, port)
+        return link
 
     def _request(self) -> dict[str, str]:
         header = {
@@ -280,7 +289,7 @@ class _SubscriberLink(FrameProtocol):
         if header.get("tcp_nodelay") == "1":
             self.set_nodelay()
 
-    def frame_received(self, data: bytes) -> None:
+    def frame_received(self, data: bytes | memoryview) -> None:
         try:
             self._subscription.take(data, self.header or {})
         except MessageError as error:

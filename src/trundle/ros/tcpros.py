@@ -1,13 +1,18 @@
 """TCPROS as bytes: connection headers and length-prefixed frames, both bounded."""
 
 import asyncio
+import contextlib
+import os
 import socket
-import struct
+import threading
 from collections import deque
 from collections.abc import Mapping, Sequence
+from itertools import islice
 from typing import cast
 
 from .errors import WireError
+from .frames import LENGTH, FrameCutter
+from .nearby import UNIXROS
 
 MAX_HEADER_BYTES = 4 * 1024 * 1024
 """A header holds a message definition; the longest in a desktop installation is below 100 kB."""
@@ -15,10 +20,11 @@ MAX_MESSAGE_BYTES = 1_000_000_000
 """roscpp drops a connection that announces more ("a message of over a gigabyte was predicted")."""
 HANDSHAKE_S = 15.0
 """How long a peer may take for its header."""
-_LENGTH = struct.Struct("<I")
-LENGTH_BYTES = _LENGTH.size
-_JOINED_BYTES = 64 * 1024
-"""Frames are joined up to this size, since each call costs; larger ones cost more to copy."""
+LENGTH_BYTES = LENGTH.size
+_MOST_KERNEL_BYTES = 4 * 1024 * 1024
+"""As much as TCP may take by Linux's own settings."""
+_AT_ONCE = 200
+"""Frames given to the kernel in one call, which takes at most IOV_MAX (1024)."""
 
 
 def encode_header(fields: Mapping[str, str]) -> bytes:
@@ -26,7 +32,7 @@ def encode_header(fields: Mapping[str, str]) -> bytes:
     parts: list[bytes] = []
     for name, value in fields.items():
         item = f"{name}={value}".encode()
-        parts += (_LENGTH.pack(len(item)), item)
+        parts += (LENGTH.pack(len(item)), item)
     return frame(b"".join(parts))
 
 
@@ -41,7 +47,7 @@ def decode_header(data: bytes) -> dict[str, str]:
     while offset < len(data):
         if offset + 4 > len(data):
             raise WireError("a connection header ends within a length")
-        (size,) = _LENGTH.unpack_from(data, offset)
+        (size,) = LENGTH.unpack_from(data, offset)
         item = data[offset + 4 : offset + 4 + size]
         if len(item) != size:
             raise WireError("a connection header is shorter than it says")
@@ -55,12 +61,12 @@ def decode_header(data: bytes) -> dict[str, str]:
 
 def frame(data: bytes | bytearray | memoryview) -> bytes:
     """Put the length in front."""
-    return b"".join((_LENGTH.pack(len(data)), data))
+    return b"".join((LENGTH.pack(len(data)), data))
 
 
 def fill_frame(data: memoryview) -> memoryview:
     """Write the length into the room left for it in front; what comes out is read-only."""
-    _LENGTH.pack_into(data, 0, len(data) - LENGTH_BYTES)
+    LENGTH.pack_into(data, 0, len(data) - LENGTH_BYTES)
     return data.toreadonly()
 
 
@@ -69,10 +75,10 @@ def check_md5(wanted: str, ours: str) -> bool:
     return wanted in ("*", ours)
 
 
-class FrameProtocol(asyncio.Protocol):
+class FrameProtocol(asyncio.BufferedProtocol):
     """A connection that splits what the peer sends into frames; the first one is its header.
 
-    Memory grows with what has arrived, never with what is announced.
+    Everything happens on the loop, but frames are sent from any thread.
     """
 
     def __init__(self) -> None:
@@ -81,12 +87,20 @@ class FrameProtocol(asyncio.Protocol):
         self.bytes_received = 0
         self.bytes_sent = 0
         self.frames_sent = 0
+        """Our header is the first."""
         self.dropped = 0
         """Frames thrown away because the peer reads too slowly."""
-        self._buffer = bytearray()
+        self._frames = FrameCutter(MAX_HEADER_BYTES)
         self._deadline: asyncio.TimerHandle | None = None
         self._queue: deque[bytes | memoryview] = deque()
-        self._may_write = True
+        self._rest: memoryview | None = None
+        """Of a frame that the kernel took a part of."""
+        self._writing = threading.Lock()
+        """Held while the two change, and while the socket is written to or let go."""
+        self._socket = self._waiting_socket = -1
+        self._is_near = False
+        self._kernel_bytes = 0
+        self._ending: str | None = None
 
     # what subclasses fill in
 
@@ -96,7 +110,7 @@ class FrameProtocol(asyncio.Protocol):
     def header_received(self, header: dict[str, str]) -> None:
         """Called with the peer's header; a WireError ends the connection."""
 
-    def frame_received(self, data: bytes) -> None:
+    def frame_received(self, data: bytes | memoryview) -> None:
         """Called with each frame after the header; a WireError ends the connection."""
 
     def drained(self) -> None:
@@ -109,32 +123,32 @@ class FrameProtocol(asyncio.Protocol):
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self.transport = cast(asyncio.Transport, transport)
-        self._deadline = asyncio.get_running_loop().call_later(HANDSHAKE_S, self._too_slow)
+        self._loop = asyncio.get_running_loop()
+        sock = transport.get_extra_info("socket")
+        self._socket, self._is_near = sock.fileno(), sock.family == socket.AF_UNIX
+        self._deadline = self._loop.call_later(HANDSHAKE_S, self._too_slow)
         self.connected()
 
-    def data_received(self, data: bytes) -> None:
-        self.bytes_received += len(data)
-        self._buffer += data
-        offset = 0
+    def get_buffer(self, sizehint: int) -> memoryview:
+        del sizehint
+        return self._frames.room()
+
+    def buffer_updated(self, nbytes: int) -> None:
+        self.bytes_received += nbytes
         try:
-            while self.transport is not None and len(self._buffer) - offset >= 4:
-                (size,) = _LENGTH.unpack_from(self._buffer, offset)
-                if size > (MAX_HEADER_BYTES if self.header is None else MAX_MESSAGE_BYTES):
-                    raise WireError(f"a frame of {size} bytes is announced, more than is accepted")
-                if len(self._buffer) - offset - 4 < size:
-                    break
-                content = bytes(memoryview(self._buffer)[offset + 4 : offset + 4 + size])
-                offset += 4 + size
+            for content in self._frames.cut(nbytes):
                 self._take(content)
-            del self._buffer[:offset]
+                if self.transport is None:
+                    break
         except WireError as error:
             self.close(str(error))
 
-    def _take(self, content: bytes) -> None:
+    def _take(self, content: bytes | memoryview) -> None:
         if self.header is not None:
             self.frame_received(content)
             return
-        self.header = decode_header(content)
+        self.header = decode_header(bytes(content))
+        self._frames.limit = MAX_MESSAGE_BYTES
         if self._deadline is not None:
             self._deadline.cancel()
         self.header_received(self.header)
@@ -142,82 +156,144 @@ class FrameProtocol(asyncio.Protocol):
     def connection_lost(self, exc: Exception | None) -> None:
         self._end(str(exc) if exc is not None else "the peer closed the connection")
 
-    def pause_writing(self) -> None:
-        self._may_write = False
-
-    def resume_writing(self) -> None:
-        self._may_write = True
-        # Not from here: asyncio 3.11 ends a connection twice when a write fails inside this call.
-        asyncio.get_running_loop().call_soon(self._send_waiting)
-
     # for users
 
     def send_header(self, fields: Mapping[str, str]) -> None:
         """Send our header."""
-        if self.transport is not None:
-            self.transport.write(encode_header(fields))
+        self.send_all([encode_header(fields)], None)
 
     def send_all(self, frames: Sequence[bytes | memoryview], queue_size: int | None) -> None:
-        """Send framed messages; if the peer reads too slowly, at most `queue_size` wait and the oldest go."""
-        if not self.is_behind:
-            if sum(map(len, frames)) <= _JOINED_BYTES:
-                self._write(b"".join(frames), len(frames))
-            else:
-                for each in frames:
-                    self._write(each, 1)
-            return
-        self._queue.extend(frames)
-        while queue_size is not None and len(self._queue) > queue_size:
-            self._queue.popleft()
-            self.dropped += 1
+        """Send framed messages, from any thread; never blocks.
+
+        If the peer reads too slowly, at most `queue_size` wait and the oldest go.
+        """
+        with self._writing:
+            if self.transport is None:
+                return
+            was_behind = self.is_behind
+            self._queue.extend(frames)
+            if not was_behind:
+                self._write()
+            while queue_size is not None and len(self._queue) > queue_size:
+                self._queue.popleft()
+                self.dropped += 1
+            if was_behind or not self.is_behind:
+                return
+        with contextlib.suppress(RuntimeError):  # the loop has ended
+            self._loop.call_soon_threadsafe(self._wait_until_writable)
 
     @property
     def is_behind(self) -> bool:
         """Whether something waits for a peer that reads too slowly."""
-        return not self._may_write or bool(self._queue)
+        return self._rest is not None or bool(self._queue)
 
     def refuse(self, reason: str) -> None:
         """Answer a header with an error and end the connection."""
         self.send_header({"error": reason})
         self.close(reason)
 
+    def finish(self, reason: str) -> None:
+        """End the connection as soon as the peer has all that was sent."""
+        self._ending = reason
+        if not self.is_behind:
+            self.close(reason)
+
     def close(self, reason: str = "closed") -> None:
-        """End the connection; a peer that reads still gets what was written."""
+        """End the connection."""
         if self.transport is not None:
             transport = self.transport
             self._end(reason)
-            if self._may_write:
-                transport.close()
-            else:
-                transport.abort()
+            transport.close()
 
     def set_nodelay(self) -> None:
         """Send small messages at once."""
-        if self.transport is not None:
-            sock = self.transport.get_extra_info("socket")
-            if sock is not None and sock.family in (socket.AF_INET, socket.AF_INET6):
-                sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        if self.transport is not None and not self._is_near:
+            self.transport.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+
+    @property
+    def kind(self) -> str:
+        """The protocol's name."""
+        return UNIXROS if self._is_near else "TCPROS"
 
     @property
     def description(self) -> str:
-        """The connection as rosnode reads it."""
-        if self.transport is None:
+        """The connection as rosnode reads it; one without ports needs no words."""
+        if self.transport is None or self._is_near:
             return ""
         local, peer = self.transport.get_extra_info("sockname"), self.transport.get_extra_info("peername")
         number = self.transport.get_extra_info("socket").fileno()
         return f"TCPROS connection on port {local[1]} to [{peer[0]}:{peer[1]} on socket {number}]"
 
-    def _send_waiting(self) -> None:
-        while self._queue and self._may_write:
-            self._write(self._queue.popleft(), 1)
-        if not self.is_behind:
-            self.drained()
+    def _write(self) -> None:
+        """Give the kernel as much as it takes."""
+        while self.is_behind:
+            if self._is_near and self._queue and len(self._queue[0]) > self._kernel_bytes:
+                self._widen(len(self._queue[0]))
+            rest = () if self._rest is None else (self._rest,)
+            try:
+                sent = os.writev(self._socket, [*rest, *islice(self._queue, _AT_ONCE)])
+            except BlockingIOError:
+                return
+            except OSError:  # the connection is broken
+                self._queue.clear()
+                self._rest = None
+                with contextlib.suppress(RuntimeError):  # the loop has ended
+                    self._loop.call_soon_threadsafe(self._abort)
+                return
+            self.bytes_sent += sent
+            self._let_go(sent)
+            if self._rest is not None:
+                return
 
-    def _write(self, data: bytes | memoryview, frames: int) -> None:
-        if self.transport is not None and not self.transport.is_closing():
-            self.bytes_sent += len(data)
-            self.frames_sent += frames
-            self.transport.write(data)
+    def _widen(self, size: int) -> None:
+        """Have the kernel take a whole long frame at once; it does so by itself for TCP only."""
+        assert self.transport is not None
+        self._kernel_bytes = size
+        with contextlib.suppress(OSError):
+            wanted = min(2 * size, _MOST_KERNEL_BYTES)
+            sock = self.transport.get_extra_info("socket")
+            if wanted > sock.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF):
+                sock.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, wanted)
+
+    def _let_go(self, sent: int) -> None:
+        if self._rest is not None:
+            if sent < len(self._rest):
+                self._rest = self._rest[sent:]
+                return
+            sent -= len(self._rest)
+            self._rest = None
+        while sent:
+            frame = self._queue.popleft()
+            self.frames_sent += 1
+            if sent < len(frame):
+                self._rest = memoryview(frame)[sent:]
+                return
+            sent -= len(frame)
+
+    def _wait_until_writable(self) -> None:
+        if self.transport is not None and self.is_behind and self._waiting_socket < 0:
+            self._waiting_socket = os.dup(self._socket)  # a loop keeps the number itself for its transport
+            self._loop.add_writer(self._waiting_socket, self._writable)
+
+    def _writable(self) -> None:
+        with self._writing:
+            self._write()
+        if not self.is_behind:
+            self._wait_no_more()
+            if self._ending is None:
+                self.drained()
+            else:
+                self.close(self._ending)
+
+    def _wait_no_more(self) -> None:
+        if self._waiting_socket >= 0:
+            self._loop.remove_writer(self._waiting_socket)
+            os.close(self._waiting_socket)
+            self._waiting_socket = -1
+
+    def _abort(self) -> None:
+        if self.transport is not None:
+            self.transport.abort()
 
     def _too_slow(self) -> None:
         self.close("no connection header came in time")
@@ -225,9 +301,11 @@ class FrameProtocol(asyncio.Protocol):
     def _end(self, reason: str) -> None:
         if self.transport is None:
             return
-        self.transport = None
-        self._buffer.clear()
-        self._queue.clear()
+        with self._writing:  # who writes now is done with the socket before it closes
+            self.transport = None
+            self._queue.clear()
+            self._rest = None
+        self._wait_no_more()
         if self._deadline is not None:
             self._deadline.cancel()
         self.closed(reason)

@@ -1,0 +1,37 @@
+"""A shorter way between Trundle's programs on one machine: Unix sockets, several times as fast as TCP over loopback.
+
+A subscriber offers UNIXROS after TCPROS; a publisher that knows it puts a name behind the host and port it answers
+anyway. What travels is the same. Where that fails, as between two machines, TCP is used.
+"""
+
+import secrets
+import socket
+import sys
+from collections.abc import Sequence
+
+UNIXROS = "UNIXROS"
+_PREFIX = "trundle-"
+"""Nobody can lead us to a socket of another program."""
+
+
+def listen_nearby() -> tuple[socket.socket, str] | None:
+    """Make a socket to listen at, with its name; None where the system has no names without files."""
+    if sys.platform != "linux":
+        return None
+    name = _PREFIX + secrets.token_hex(16)
+    listening = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    try:
+        listening.bind(f"\0{name}")
+    except OSError:  # a sandbox may forbid it
+        listening.close()
+        return None
+    return listening, name
+
+
+def address_nearby(offered: Sequence[object]) -> str | None:
+    """Return where to connect, out of what a publisher says after host and port."""
+    match offered:
+        case [str(name), *_] if name.startswith(_PREFIX) and name.isascii() and sys.platform == "linux":
+            return f"\0{name}"
+        case _:
+            return None
