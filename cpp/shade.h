@@ -13,6 +13,11 @@ inline I to_byte(F share) {
   return to_int(max(min(share * 255.0f + 0.5f, splat(255.0f)), F{}));  // in this order, NaN is 255
 }
 
+inline F3 full(const F3& colour) {
+  const F one = splat(1.0f);
+  return {min(colour.x, one), min(colour.y, one), min(colour.z, one)};
+}
+
 inline F between(F value) { return max(min(value, splat(1.0f)), F{}); }
 
 // What share of the four texels around a point lies open to the light, weighed by how near they are.
@@ -139,8 +144,9 @@ void shade_solid(const View& view, const Solid& solid, const Lighting& lighting,
       const F none = F{};
       Lit lit = {{none, none, none}, {none, none, none}};
       for (int i = 0; i < lighting.light_count; ++i) add_light(lighting.lights[i], look, point, n, back, lit);
-      lit.diffuse = splat(lighting.ambient) * splat(look.ambient) + lit.diffuse * splat(look.diffuse);
-      lit.specular = lit.specular * splat(look.specular);
+      // As Ogre's shaders: all that a surface sends back is at most white, and then tinted by its texture.
+      lit.diffuse = full(splat(lighting.ambient) * splat(look.ambient) + lit.diffuse * splat(look.diffuse) + splat(look.emissive));
+      lit.specular = full(lit.specular * splat(look.specular));
       if (look.texture) {
         Layout layout;
         if constexpr (kind == Kind::kMesh) {
@@ -154,7 +160,7 @@ void shade_solid(const View& view, const Solid& solid, const Lighting& lighting,
         const F across = depth * most, facing = max(dot(n, back), splat(0.05f));
         lit.diffuse = lit.diffuse * texel_at(*look.texture, layout, layout.squared_scale * (across * across) / facing);
       }
-      F3 colour = lit.diffuse + lit.specular + splat(look.emissive);
+      F3 colour = lit.diffuse + lit.specular;
       if (lighting.fog.kind != FogKind::kNone) {
         const F clear = clear_share(lighting.fog, depth);
         colour = colour * clear + splat(lighting.fog.colour) * (1.0f - clear);

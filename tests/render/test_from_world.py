@@ -176,6 +176,17 @@ def test_a_mesh_that_cannot_be_read_is_left_out_aloud(tmp_path: Path) -> None:
     assert "lost.dae" in said
 
 
+def test_a_mesh_of_little_but_lines_is_named(tmp_path: Path) -> None:
+    (tmp_path / "lines.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 3 + "f 1 2 4\n")
+    report = Diagnostics()
+    scene = scene_of(world(visual(geometry=MeshFile(uri="lines.obj", path=tmp_path / "lines.obj"))), report)
+
+    assert len(scene.shapes) == 1
+    assert report.warnings == [
+        "w.sdf:3: warning: lines.obj: 3 of its 4 triangles have no area; only the others are drawn"
+    ]
+
+
 def test_the_focal_length_is_that_of_gazebo_ros() -> None:
     # camera_info of a 320 px wide camera of 1.047 rad in Gazebo: K[0] = 277.19.
     assert Intrinsics(width_px=320, height_px=240, horizontal_fov_rad=1.047).focal_px == pytest.approx(277.19, abs=0.01)

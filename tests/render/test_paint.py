@@ -100,6 +100,14 @@ def test_a_colour_tints_the_image(quarters: Path) -> None:
     assert corners(tinted)[3] == [128, 128, 0]
 
 
+def test_light_beyond_white_shows_the_image_and_no_more(quarters: Path) -> None:
+    mesh = square(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)))
+    grey = quarters.with_name("grey.png")
+    Image.new("RGB", (8, 8), (100, 150, 200)).save(grey)
+    for bright in ({"ambient": (5.0, 5.0, 5.0, 1.0)}, {"emissive": WHITE}):
+        assert corners(seen(mesh, grey, FROM_PLUS_X, **bright))[0] == [100, 150, 200]
+
+
 def test_a_scale_makes_the_image_larger_about_its_middle(quarters: Path) -> None:
     mesh = square(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)))
     halved = seen(mesh, quarters, FROM_PLUS_X, texture_scale=(0.5, 1.0))

@@ -51,6 +51,12 @@ class Mesh:
     """(M, 3, 3) which way the surface faces at each corner of each face, of any length, for light that runs smoothly
     over edges; zeros, or None, where faces are flat."""
 
+    def faces_without_area(self) -> int:
+        """How many faces have corners on one line, or one place."""
+        a, b, c = (self.vertices[self.faces[:, corner]] for corner in range(3))
+        with np.errstate(over="ignore", invalid="ignore"):
+            return int((~np.cross(b - a, c - a).any(axis=1)).sum())
+
     def scaled(self, scale: tuple[float, float, float]) -> "Mesh":
         """The mesh stretched along its axes; a mirrored one keeps its outside outside."""
         if scale == (1.0, 1.0, 1.0):

@@ -184,6 +184,11 @@ def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeome
     except MeshError as error:
         report.warn(at, f"{error}; the shape is left out")
         return None
+    empty = mesh.faces_without_area()
+    if 2 * empty > len(mesh.faces):
+        report.warn(
+            at, f"{path.name}: {empty} of its {len(mesh.faces)} triangles have no area; only the others are drawn"
+        )
     for name in sorted({part.lost_texture for part in mesh.parts if part.lost_texture is not None}):
         report.info(
             Source(str(path)), f"its texture {name!r} is nowhere in the model's folder; a plain colour is drawn"
