@@ -1,6 +1,6 @@
 """Every reader of files, on damaged ones: what comes out is a result or one sentence.
 
-Descriptions themselves are damaged in tests/description, launch files in tests/launch, bags in tests/ros.
+Descriptions themselves are damaged in tests/description, bags in tests/ros; tests/launch and test_ogre make up files.
 """
 
 import contextlib
@@ -15,11 +15,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 from tests.meshes.test_parts import MTL, OBJ, collada
+from tests.meshes.test_skin import BVH
+from tests.skinned import bending_column
 
 from trundle.description import expand_xacro
 from trundle.diagnostics import Diagnostics, TrundleError
-from trundle.meshes import load_mesh, read_heights
+from trundle.launch import read_launch
+from trundle.meshes import load_mesh, load_motion, load_skin, mean_colour, read_heights
 from trundle.packages import Packages, model_file, needs
+from trundle.render.textures import load_texture
 from trundle.viewer import read_rviz_config
 
 XACRO = """<?xml version="1.0"?><robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
@@ -91,6 +95,43 @@ def _exported(kind: str) -> Callable[[Path], bytes]:
     return write
 
 
+def _skin(path: Path) -> None:
+    load_skin(path)
+    load_motion(path)
+
+
+LAUNCH = """<launch><arg name="a" default="$(eval 2 - 1)"/><group ns="g" if="$(arg a)"><node pkg="p" type="t" name="n"
+args="$(anon x)"><param name="q" value="$(optenv HOME /)" type="str"/><remap from="a" to="b"/></node></group>
+<rosparam subst_value="true">{k: deg(90), l: [1, !!float 2, rad(pi)]}</rosparam></launch>"""
+YAML = """robot: &r {wheels: [1, 2.5, -.inf], turn: deg(90), lean: rad(pi / 2), on: yes}
+again: {<<: *r, date: 2020-01-01, text: "a\\tb", none: ~}
+"""
+
+
+def _launch(path: Path) -> None:
+    packages = Packages({}, start=path)
+    read_launch(path, packages=packages, report=Diagnostics(), env={"HOME": "/"})
+
+
+def _yaml(path: Path) -> None:
+    (path.parent / "p.launch").write_text(f'<launch><rosparam file="{path}" subst_value="true"/></launch>')
+    _launch(path.parent / "p.launch")
+
+
+def _picture(kind: str) -> Callable[[Path], bytes]:
+    def write(_: Path) -> bytes:
+        buffer = io.BytesIO()
+        Image.fromarray(np.arange(192, dtype=np.uint8).reshape(8, 8, 3)).save(buffer, kind)
+        return buffer.getvalue()
+
+    return write
+
+
+def _texture(path: Path) -> None:
+    mean_colour(path)
+    load_texture(path.read_bytes())
+
+
 def _heights(_: Path) -> bytes:
     buffer = io.BytesIO()
     Image.fromarray(np.arange(81, dtype=np.uint8).reshape(9, 9)).save(buffer, "PNG")
@@ -107,6 +148,12 @@ CASES: dict[str, tuple[Callable[[Path], bytes], Callable[[Path], object]]] = {
     "m.stl": (_exported("stl"), load_mesh),
     "m.glb": (_exported("glb"), load_mesh),
     "h.png": (_heights, read_heights),
+    "s.dae": (lambda _: bending_column().encode(), _skin),
+    "m.bvh": (lambda _: BVH.encode(), load_motion),
+    "t.png": (_picture("PNG"), _texture),
+    "t.jpg": (_picture("JPEG"), _texture),
+    "l.launch": (lambda _: LAUNCH.encode(), _launch),
+    "p.yaml": (lambda _: YAML.encode(), _yaml),
 }
 """File → what is in it, and what reads it."""
 

@@ -47,6 +47,9 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
         raise DescriptionError(Source(name, 1), "the file is empty")
     # Tutorials and xacro templates often carry blank lines before <?xml …?>, which Gazebo and ROS accept.
     blank_lines = data[: len(data) - len(data.lstrip())].count(b"\n")
+    if report is not None and not _says_or_is_unicode(data):
+        report.warn(Source(name, 1), "bytes that are no UTF-8 in a file that names no encoding; read as Latin-1")
+        data = data.decode("latin-1").encode()
     parser = _parser()
     try:
         root = etree.fromstring(data.lstrip(), parser)
@@ -98,6 +101,17 @@ def _with_quotes(tag: re.Match[bytes]) -> bytes:
         return (space or b" ") + name + equals + quoted
 
     return _ATTRIBUTE.sub(mended, tag[0])
+
+
+def _says_or_is_unicode(data: bytes) -> bool:
+    """Whether a document names its encoding, or needs to name none."""
+    if b"encoding" in data[:200].split(b"?>")[0] or data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return True
+    try:
+        data.decode()
+    except UnicodeDecodeError:
+        return False
+    return True
 
 
 def _deep(data: bytes, deepest: int) -> etree._Element | None:  # pyright: ignore[reportPrivateUsage]

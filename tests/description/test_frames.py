@@ -51,6 +51,10 @@ def model(folder: Path, body: str, report: Diagnostics | None = None) -> Model:
             '<link name="a"/><joint name="j" type="fixed"><parent>a</parent><child>x::y</child></joint>',
             "no link 'x::y'",
         ),
+        (
+            '<link name="a"/><link name="b"/><joint name="j" type="planar"><parent>a</parent><child>b</child></joint>',
+            "no type 'planar'; types: continuous, revolute, prismatic, fixed, ball",
+        ),
     ],
 )
 def test_what_gazebo_lets_pass_is_named_and_let_pass(tmp_path: Path, body: str, warning: str) -> None:

@@ -273,3 +273,47 @@ def test_a_plugin_on_a_link_that_was_lumped_means_the_lump_and_an_offset(tmp_pat
     report = Diagnostics()
     assert plugin.vector("xyzOffset", default=(0, 0, 0), report=report) == pytest.approx((1.0, 2.5, 3.0))
     assert plugin.vector("rpyOffset", default=(0, 0, 0), report=report) == pytest.approx((0.0, 0.0, math.pi / 2))
+
+
+BODY = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+
+
+def test_a_ring_that_no_joint_leads_to_is_left_out_of_a_urdf(tmp_path: Path) -> None:
+    ring = "".join(
+        f'<joint name="{parent}{child}" type="fixed"><parent link="{parent}"/><child link="{child}"/></joint>'
+        for parent, child in ("bc", "cb")
+    )
+    links = "".join(f'<link name="{name}">{BODY}</link>' for name in "abc")
+    report = Diagnostics()
+
+    robot = read(tmp_path, f'<robot name="r">{links}{ring}</robot>', report, name="x.urdf").robot
+
+    assert robot is not None
+    assert ([link.name for link in robot.links], robot.joints) == (["a"], ())
+    assert "links 'b', 'c' form a ring" in report.warnings[0]
+
+
+def test_a_gazebo_block_for_nothing_says_so(tmp_path: Path) -> None:
+    report = Diagnostics()
+    text = f'<robot name="r"><link name="a">{BODY}</link><gazebo reference="b"><mu1>1</mu1><x/></gazebo></robot>'
+
+    read(tmp_path, text, report, name="x.urdf")
+
+    assert [line.partition(": warning: ")[2] for line in report.warnings] == [
+        "<mu1> for 'b' in <gazebo> means no link or joint there is; it is ignored",
+        "<x> for 'b' in <gazebo> means no link or joint there is; it is ignored",
+    ]
+
+
+@pytest.mark.parametrize("name", ["x.sdf", "x.urdf"])
+def test_bytes_of_no_encoding_are_latin_1(tmp_path: Path, name: str) -> None:
+    """TinyXML minded no bytes, and German comments are in many files."""
+    robot = f'<robot name="r"><!-- Räder --><link name="a">{BODY}</link></robot>'
+    text = '<sdf version="1.6"><!-- Räder --><model name="r"><link name="a"/></model></sdf>'
+    (tmp_path / name).write_bytes((robot if name == "x.urdf" else text).encode("latin-1"))
+    report = Diagnostics()
+
+    world = load(str(tmp_path / name), report, packages=Packages({}, start=tmp_path)).world
+
+    assert [link.name for link in world.models[0].links] == ["a"]
+    assert ["read as Latin-1" in line for line in report.warnings] == [True]

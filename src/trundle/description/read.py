@@ -58,7 +58,7 @@ def load_text(text: str, *, name: str, folder: Path, packages: Packages, report:
     Raises:
         DescriptionError: of which nothing sensible can be made.
     """
-    root = parse_xml(text, name=name, deepest=DEEPEST)
+    root = parse_xml(text, name=name, report=report, deepest=DEEPEST)
     if root.tag != "robot":
         return load_sdf(root, folder / name, packages, report)
     if _XACRO in text:
@@ -110,7 +110,8 @@ def load_urdf(text: str, name: str, path: Path, packages: Packages, report: Diag
     from .urdf import lower_robot, read_urdf_text
 
     robot = read_urdf_text(text, name=name, report=report)
-    world = lower_robot(robot, parse_xml(text, name=name), folder=path.parent, packages=packages, report=report)
+    root = parse_xml(text, name=name, report=report)
+    world = lower_robot(robot, root, folder=path.parent, packages=packages, report=report)
     return Loaded(kind="urdf", world=world, robot=robot, urdf=text)
 
 

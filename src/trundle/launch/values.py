@@ -107,7 +107,10 @@ def load_yaml(text: str) -> ParamValue:
     """
     if len(text) > _MAX_YAML_BYTES:
         raise ValueError(f"{len(text)} characters of YAML; the most read is {_MAX_YAML_BYTES}")
-    loader = _Loader(text)
+    try:
+        loader = _Loader(text)  # looks at every character
+    except yaml.YAMLError as error:
+        raise ValueError(f"invalid YAML: {_one_line(error)}") from None
     try:
         node = loader.get_single_node()
         if node is None:

@@ -33,7 +33,8 @@ def read_bvh(text: str) -> Motion:
         raise MeshError(str(error)) from None
     width = sum(map(len, channels))
     count = min(count, len(numbers) // max(width, 1), _MOST_FRAMES)
-    if not (count > 0 and width > 0 and step_s > 0.0 and np.isfinite(numbers).all()):
+    are_finite = all(np.isfinite(values).all() for values in (step_s, numbers, *(bone.rest for bone in bones)))
+    if not (count > 0 and width > 0 and step_s > 0.0 and are_finite):
         raise MeshError("holds no motion")
     frames = np.split(
         numbers[: count * width].reshape(count, width), np.cumsum([len(c) for c in channels])[:-1], axis=1

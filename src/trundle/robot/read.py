@@ -50,7 +50,19 @@ def read_robot(root: XmlNode, report: Diagnostics) -> Robot:
         root.all(tag)
     root.attributes()
     root.report_unread(report)
-    return Robot(name=name, at=root.at, root=_root(root, links, joints), links=tuple(links), joints=tuple(joints))
+    first = _root(root, links, joints)
+    reached = _reached(first, joints)
+    ring = [link for link in links if link.name not in reached]
+    if ring:
+        names = ", ".join(repr(link.name) for link in ring[:5])
+        report.warn(ring[0].at, f"links {names} form a ring that no joint leads to; as urdfdom does, they are left out")
+    return Robot(
+        name=name,
+        at=root.at,
+        root=first,
+        links=tuple(link for link in links if link.name in reached),
+        joints=tuple(joint for joint in joints if joint.child in reached),
+    )
 
 
 def _root(node: XmlNode, links: list[RobotLink], joints: list[RobotJoint]) -> str:
@@ -82,19 +94,20 @@ def _root(node: XmlNode, links: list[RobotLink], joints: list[RobotJoint]) -> st
         raise DescriptionError(
             node.at, f"more than one root link: {', '.join(map(repr, roots))}; joints must join them"
         )
-    reached = {roots[0]}
+    return roots[0]
+
+
+def _reached(root: str, joints: list[RobotJoint]) -> set[str]:
+    """The root and every link below it."""
     below: dict[str, list[str]] = {}
     for joint in joints:
         below.setdefault(joint.parent, []).append(joint.child)
-    pending = [roots[0]]
+    reached, pending = {root}, [root]
     while pending:
-        for child in below.get(pending.pop(), []):
-            reached.add(child)
-            pending.append(child)
-    ring = [name for name in names if name not in reached]
-    if ring:
-        raise DescriptionError(parents[ring[0]].at, f"links {', '.join(map(repr, ring[:5]))} form a ring")
-    return roots[0]
+        children = below.get(pending.pop(), [])
+        reached.update(children)
+        pending += children
+    return reached
 
 
 def _read_link(node: XmlNode, materials: Materials, report: Diagnostics) -> RobotLink:

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from typing import TypeAlias
 
-from trundle.diagnostics import DescriptionError
 from trundle.model import UNLIMITED, Joint, JointAxis, JointType, Mimic
 from trundle.spatial import Pose, Vector3, normalized
 from trundle.xmlnode import XmlNode
@@ -17,6 +16,8 @@ from .sensor import read_sensor
 
 _WITHOUT_AXIS = frozenset({JointType.FIXED, JointType.BALL})
 _TWO_AXES = frozenset({JointType.UNIVERSAL, JointType.REVOLUTE2, JointType.GEARBOX})
+TYPES = {"continuous": JointType.REVOLUTE} | {each.value: each for each in JointType}
+"""By the word a file has for it."""
 FrameOf: TypeAlias = Callable[[str], Pose | None]
 """model_from_frame by name; "" is the joint's own frame."""
 
@@ -41,13 +42,10 @@ def read_joint(
         frame: for `expressed_in`.
         graph: for the poses of its sensors.
         context: the file.
-
-    Raises:
-        DescriptionError: no type, or one that no SDF has.
     """
     report = context.report
     name = node.required_attribute("name")
-    type_ = _read_type(node, name)
+    type_ = TYPES[node.required_attribute("type")]
     axis, axis2 = node.find("axis"), node.find("axis2")
     joint = Joint(
         name=name,
@@ -68,17 +66,6 @@ def read_joint(
         report.info(physics.at, f"joint {name!r}: <physics> tunes Gazebo's engines; it is ignored")
     node.report_unread(report)
     return joint
-
-
-def _read_type(node: XmlNode, name: str) -> JointType:
-    text = node.required_attribute("type")
-    if text == "continuous":
-        return JointType.REVOLUTE
-    try:
-        return JointType(text)
-    except ValueError:
-        known = ", ".join(t.value for t in JointType)
-        raise DescriptionError(node.at, f"joint {name!r}: no type {text!r}; types: continuous, {known}") from None
 
 
 def _thread_pitch(node: XmlNode, context: Context) -> float:

@@ -10,7 +10,7 @@ from trundle.xmlnode import XmlNode
 from .context import Context, read_pose
 from .frames import MODEL, WORLD, FrameGraph
 from .include import open_include, read_included_model
-from .joint import read_joint
+from .joint import TYPES, read_joint
 from .link import read_link
 from .marks import is_label, labelled
 from .merge import Merged, merged
@@ -146,9 +146,17 @@ class WrittenJoint:
         self._ends = [_end(node, tag) for tag in ("parent", "child")]
         # Before SDF 1.7 a joint may be called like a link, and then it is no frame to refer to.
         self._frame = f"joint {self._name}" if self._name in graph else self._name
-        self.is_sound = self._frame not in graph and self._joins_two(graph)
+        self.is_sound = self._frame not in graph and self._has_known_type(graph) and self._joins_two(graph)
         if not self.is_sound:
             node.mark_all_read()
+
+    def _has_known_type(self, graph: FrameGraph) -> bool:
+        type_ = self._node.required_attribute("type")
+        if type_ in TYPES:
+            return True
+        why = f"joint {self._name!r}: no type {type_!r}; types: {', '.join(TYPES)}"
+        graph.report.warn(self._node.at, f"{why}; as in Gazebo the joint is left out")
+        return False
 
     def _joins_two(self, graph: FrameGraph) -> bool:
         who = f"joint {self._name!r}"

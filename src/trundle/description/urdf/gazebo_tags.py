@@ -3,6 +3,7 @@
 The readers of SDF are loaded by the robots that hold some.
 """
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from trundle.diagnostics import DescriptionError
@@ -155,14 +156,15 @@ class GazeboTags:
                 for node in self._all(reference, tag):
                     self._context.report.info(node.at, f"<{tag}> tunes Gazebo's engines; it is ignored")
 
-    def report_unread(self) -> None:
-        """Name what nobody asked for."""
+    def report_unread(self, known: Collection[str]) -> None:
+        """Name what nobody asked for; `known` are the links and joints there are."""
         for (reference, tag), nodes in self._nodes.items():
-            if (reference, tag) in self._read:
+            if (reference, tag) in self._read and (reference in known or not reference):
                 continue
             whom = f"{reference!r}" if reference else "the robot"
+            why = "is not supported" if reference in known or not reference else "means no link or joint there is"
             for node in nodes:
-                self._context.report.warn(node.at, f"<{tag}> for {whom} in <gazebo> is not supported; it is ignored")
+                self._context.report.warn(node.at, f"<{tag}> for {whom} in <gazebo> {why}; it is ignored")
 
     def _all(self, reference: str, tag: str) -> list[XmlNode]:
         self._read.add((reference, tag))

@@ -116,7 +116,7 @@ class _Lowering:
         static, self_collide, wind = (
             self.tags.flag("", name) or False for name in ("static", "self_collide", "enable_wind")
         )
-        self.tags.report_unread()
+        self.tags.report_unread({*self.links, *(joint.name for joint in self.robot.joints)})
         return Model(
             name=self.robot.name,
             at=self.robot.at,

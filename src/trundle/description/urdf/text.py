@@ -11,4 +11,4 @@ def read_urdf_text(text: str, *, name: str, report: Diagnostics) -> Robot:
     Raises:
         DescriptionError: no XML, or no robot that urdfdom would take.
     """
-    return read_robot(parse_xml(text, name=name), report)
+    return read_robot(parse_xml(text, name=name, report=report), report)
