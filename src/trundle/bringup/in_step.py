@@ -38,9 +38,15 @@ class Steps:
         self.over = threading.Event()
         """Set when the end is reached and everything up to it is written."""
 
-    async def let_start(self) -> None:
-        """Wait, on the loop, until what was started so far has come to rest; in all, for half a minute at most."""
-        if not await self._loop.rested(max(0.0, self._due - time.monotonic()), passes=_STARTING_PASSES):
+    async def let_start(self, is_ending: Callable[[], bool]) -> None:
+        """Wait, on the loop, until what was started so far has come to rest; in all, for half a minute at most.
+
+        Args:
+            is_ending: whether to come back at once.
+        """
+        remaining_s = max(0.0, self._due - time.monotonic())
+        has_rested = await self._loop.rested(remaining_s, unless=is_ending, passes=_STARTING_PASSES)
+        if not has_rested and not is_ending():
             self._give_up()
 
     def begin(self) -> None:

@@ -91,7 +91,7 @@ def _run(read: ReadLaunch, options: LaunchOptions, stop: StopFlag) -> int:
     from .launch_session import LaunchSession, SilentClock
 
     with LaunchSession(read, options) as session:
-        running, clock = session.start(read.plan.nodes), session.clock
+        running, clock = session.start(read.plan.nodes, is_ending=stop.is_set), session.clock
         end_ns = (
             None if options.duration_s is None or session.in_step else clock.now_ns() + round(options.duration_s * NS)
         )

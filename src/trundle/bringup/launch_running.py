@@ -26,10 +26,14 @@ class RunningNodes:
         self.launched: list[Launched] = []
         """What became of each node, in the file's order."""
 
-    async def start(self, let_start: Callable[[], Awaitable[None]] | None = None) -> None:
-        """Start everything that can be started, and wait for `let_start` after each node."""
+    async def start(
+        self, is_ending: Callable[[], bool], let_start: Callable[[Callable[[], bool]], Awaitable[None]] | None = None
+    ) -> None:
+        """Start everything that can be started, unless the end comes first; wait for `let_start` after each node."""
         self._supervisor = Supervisor(self._tell, patience=self._patience)
         for number, node in enumerate(self._nodes, start=1):
+            if is_ending():
+                break
             label = f"{node.full_name.strip('/')}-{number}"
             launched = self._starter.prepare(node, label, show=_show_output)
             if launched.job is not None:
@@ -38,7 +42,7 @@ class RunningNodes:
                     launched = launched.failed()
             self.launched.append(launched)
             if let_start is not None:
-                await let_start()
+                await let_start(is_ending)
         self._waiting = asyncio.create_task(self._supervisor.wait())
 
     async def stop(self) -> None:

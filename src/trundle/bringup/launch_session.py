@@ -144,13 +144,13 @@ class LaunchSession:
         self._open_things.callback(gazebo.close)
         return gazebo
 
-    def start(self, nodes: Sequence[LaunchNode]) -> RunningNodes:
-        """Start nodes, and say what runs."""
+    def start(self, nodes: Sequence[LaunchNode], *, is_ending: Callable[[], bool] = lambda: False) -> RunningNodes:
+        """Start nodes, unless the end comes first, and say what runs."""
         loop, options = self.graph.loop, self._options
         patience = Patience(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
         running = self._running = RunningNodes(self.starter, nodes, patience=patience, quiet=options.quiet)
         steps = self._steps
-        loop.run(running.start(None if steps is None else steps.let_start), timeout_s=_START_S + START_S)
+        loop.run(running.start(is_ending, None if steps is None else steps.let_start), timeout_s=_START_S + START_S)
         if steps is not None:
             steps.begin()
         self._read.show.findings()
