@@ -74,6 +74,15 @@ def test_a_ten_hertz_controller_in_a_twenty_hertz_loop_falls_short() -> None:
     assert 6.8 < len(node.sent("/odom")) / 30.0 < 9.5
 
 
+def test_the_smartcars_topics_come_as_often_as_in_the_recording_of_the_original() -> None:
+    """It has /odom and its tf at 7.67 Hz, /joint_states at 12.06, /diagnostics at 0.97, however uneven its loop."""
+    jitter = random.Random(1)
+    node = drive(SMARTCAR, seconds=60.0, late_ns=lambda: jitter.randrange(0, 900_000))
+    rates = {topic: len(node.sent(topic)) / 60.0 for topic in ("/odom", "/tf", "/joint_states", "/diagnostics")}
+    wanted = {"/odom": 7.67, "/tf": 7.67, "/joint_states": 12.06, "/diagnostics": 0.97}
+    assert rates == {topic: pytest.approx(rate, rel=0.15) for topic, rate in wanted.items()}
+
+
 @pytest.mark.parametrize("phase_ms", range(0, 150, 10))
 def test_ten_seconds_of_a_command_end_alike_wherever_in_the_cycle_it_comes(phase_ms: int) -> None:
     """Within 5 cm of the real driver's −0.938…−0.949, 0.770…0.800 (docs/decisions/0006)."""

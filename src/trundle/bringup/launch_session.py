@@ -103,6 +103,7 @@ class LaunchSession:
             )
             return steps
         node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
+        self._open_things.callback(lambda: graph.loop.run(node.shutdown(), timeout_s=_START_S))
         graph.loop.run(follow_time(node))
         recorder = Recorder(node, RecordOptions(all_topics=True, path=file), say=node.log_debug)
         recorder.start()
