@@ -4,8 +4,10 @@ import math
 
 import pytest
 
+from trundle.nodes import Host
 from trundle.nodes.turtlesim.picture import SIZE_M, SIZE_PX, Picture
 from trundle.nodes.turtlesim.turtle import Turtle
+from trundle.ros import Node
 
 
 def test_the_plane_is_as_large_as_the_originals() -> None:
@@ -104,3 +106,31 @@ def test_without_a_terminal_the_key_reader_says_so(stage, capsys) -> None:
         return said.count("no terminal to read keys from") == 2
 
     stage.until(both)
+
+
+class _Page:
+    """Notes what a node asks of the page."""
+
+    def __init__(self) -> None:
+        self.images: list[str] = []
+        self.driven: list[str] = []
+        self.shown = 0
+
+    def show_image(self, topic: str) -> None:
+        self.images.append(topic)
+
+    def drive_on(self, topic: str) -> None:
+        self.driven.append(topic)
+
+    async def show(self, node: Node, *, config: str | None, fixed_frame: str | None) -> int:
+        assert config is fixed_frame is None
+        self.shown += 1
+        await node.closed.wait()
+        return 0
+
+
+def test_its_picture_is_on_the_page_and_the_pad_drives_it(stage) -> None:
+    page = _Page()
+    stage.start("turtlesim/turtlesim_node", host=Host(display=page))  # pyright: ignore[reportArgumentType]
+    stage.until(lambda: page.shown)
+    assert (page.images, page.driven) == (["/turtlesim_node/image"], ["/turtle1/cmd_vel"])

@@ -133,7 +133,9 @@ def test_the_pad_publishes_cmd_vel_until_it_is_stopped(scenery: Scenery, browser
     def hear(message: Message) -> None:
         heard.put((message.linear.x, message.angular.z))
 
-    scenery.robot.subscribe("/cmd_vel", "geometry_msgs/Twist", hear)
+    for topic in ("/turtle1/cmd_vel", "/later/cmd_vel"):  # the first stays
+        scenery.loop.call_soon(lambda topic=topic: scenery.page.drive_on(topic))
+    scenery.robot.subscribe("/turtle1/cmd_vel", "geometry_msgs/Twist", hear)
     browser_page.get_by_role("button", name="Forward", exact=True).click()
     assert {heard.get(timeout=_PATIENCE_S) for _ in range(3)} == {(0.5, 0.0)}
 

@@ -29,6 +29,10 @@ class Display(Protocol):
         """Let the user move joints; `move` takes a joint's name and position, on any thread."""
         ...
 
+    def drive_on(self, topic: str) -> None:
+        """Have the page's pad drive what listens there; the first topic that is asked for stays."""
+        ...
+
     def show_image(self, topic: str) -> None:
         """Have the page show the images of a topic, beside those of an rviz configuration."""
         ...

@@ -62,7 +62,8 @@ class TeleopTwistKeyboard:
     """[m/s], [rad/s] where no parameter says."""
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
-        del arguments, host
+        del arguments
+        self._display = host.display
         self._node = node
 
     async def run(self) -> int:
@@ -83,6 +84,8 @@ class TeleopTwistKeyboard:
             header = {"stamp": node.clock.now_ns(), "frame_id": frame}
             commands.publish({"header": header, "twist": twist} if stamped else twist)
 
+        if self._display is not None and not stamped:
+            self._display.drive_on(commands.topic)
         keyboard = Keyboard(node)
         if not keyboard.there:
             node.log_warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")

@@ -16,6 +16,7 @@ from .rviz import read_rviz_config
 from .shown_graph import ShownGraph
 from .viewer import Viewer
 
+_CMD_VEL = "/cmd_vel"
 _PERIOD_S = 1 / 30
 
 
@@ -54,6 +55,7 @@ class GraphPage:
         self._sliders: tuple[JointSlider, ...] = ()
         self._move: Callable[[str, float], None] | None = None
         self._pictures: list[str] = []
+        self._drive_topic = ""
         self._wants_options = False
         self._joysticks: list[Callable[[Sequence[float], Sequence[int]], None]] = []
         self._stale = True
@@ -68,6 +70,10 @@ class GraphPage:
         self._sliders = tuple(JointSlider(s.name, s.lower, s.upper, s.position) for s in sliders)
         self._move = move
         self._stale = True
+
+    def drive_on(self, topic: str) -> None:
+        """Have the pad publish there; the first topic that is asked for stays."""
+        self._drive_topic = self._drive_topic or topic
 
     def show_image(self, topic: str) -> None:
         """Show the images of a topic, beside those of an rviz configuration."""
@@ -152,7 +158,7 @@ class GraphPage:
             case SetFixedFrame(name):
                 shown.fixed_frame = name
             case Drive(linear, angular):
-                shown.drive(linear, angular)
+                shown.drive(linear, angular, on=self._drive_topic or _CMD_VEL)
             case SetOption() as option:
                 shown.set_option(option)
             case MoveJoystick(axes, buttons):

@@ -120,10 +120,13 @@ class ShownGraph:
         self.title = robot.name
         self._robot_is_new = True
 
-    def drive(self, linear: float, angular: float) -> None:
-        """Publish a velocity now, and again until another comes."""
+    def drive(self, linear: float, angular: float, *, on: str) -> None:
+        """Publish a velocity on a topic now, and again until another comes."""
+        if self._cmd_vel is not None and self._cmd_vel.topic != on:
+            self._cmd_vel.unregister()
+            self._cmd_vel = None
         if self._cmd_vel is None:
-            self._cmd_vel = self.node.advertise("/cmd_vel", "geometry_msgs/Twist", queue_size=1)
+            self._cmd_vel = self.node.advertise(on, "geometry_msgs/Twist", queue_size=1)
         self._command = (linear, angular)
         self._drive_due = 0.0
         self.keep_driving()

@@ -66,6 +66,7 @@ class TurtleSim:
         window = None
         if self._display is not None:
             self._display.show_image(image.topic)
+            self._display.drive_on(node.resolve("turtle1/cmd_vel"))
             window = node.loop.spawn(self._display.show(node, config=None, fixed_frame=None))
         try:
             return await self._move_all(image)

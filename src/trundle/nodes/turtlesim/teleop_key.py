@@ -12,8 +12,9 @@ class TurtleTeleopKey:
     """Publishes one command a key press."""
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
-        del arguments, host
+        del arguments
         self._node = node
+        self._display = host.display
 
     async def run(self) -> int:
         """Read keys until q, or until cancelled."""
@@ -21,6 +22,8 @@ class TurtleTeleopKey:
         settings = Settings(await node.get_param("~", {}), node.name)
         linear, angular = settings.number("scale_linear", 2.0), settings.number("scale_angular", 2.0)
         commands = node.advertise("turtle1/cmd_vel", "geometry_msgs/Twist", queue_size=1)
+        if self._display is not None:
+            self._display.drive_on(commands.topic)
         keyboard = Keyboard(node)
         if not keyboard.there:
             node.log_warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
