@@ -5,8 +5,9 @@ from typing import Any
 import pytest
 from tests.nodes.conftest import PATIENCE_S
 
+from trundle.nodes import Host
 from trundle.nodes.twist_mux import Source, allowed, read_sources
-from trundle.ros import SettingError
+from trundle.ros import Node, SettingError
 
 TWIST = "geometry_msgs/Twist"
 S = 1_000_000_000
@@ -85,6 +86,33 @@ def test_a_virtual_joystick_drives_while_its_button_is_held(stage) -> None:
     stick.publish({"axes": [0.5, 0.5], "buttons": [1]})
     stage.until(lambda: heard[-1].linear.x != 0.0)
     assert all(m.linear.x for m in heard[count:])  # one stop, then silence
+
+
+class _Page:
+    """Keeps the function that moves the joystick."""
+
+    def __init__(self) -> None:
+        self.moves: list[Any] = []
+
+    def offer_joystick(self, move: Any) -> None:
+        self.moves.append(move)
+
+    async def show(self, node: Node, *, config: str | None, fixed_frame: str | None) -> int:
+        assert config is fixed_frame is None
+        await node.closed.wait()
+        return 0
+
+
+def test_a_joystick_of_the_page_is_told_when_it_has_moved(stage) -> None:
+    page = _Page()
+    stage.start("joy/joy_node", deadzone=0.1, host=Host(display=page))  # pyright: ignore[reportArgumentType]
+    heard: list[Any] = stage.listen("/joy", "sensor_msgs/Joy")
+    stage.until(lambda: page.moves and stage.connected("/joy") and stage.linked("/joy"))
+    for x, told in ((0.05, 0.0), (0.5, 0.5), (0.25, 0.25)):  # the first is within the dead zone
+        for _ in range(2):  # the second says nothing new
+            stage.loop.call_soon(lambda x=x: page.moves[0]((x, 1.0), (1, 0)))
+        stage.until(lambda told=told: heard and heard[-1].axes[0] == told)
+    assert [list(message.axes) for message in heard] == [[0.0, 1.0], [0.5, 1.0], [0.25, 1.0]]
 
 
 def test_axes_by_name(stage) -> None:
