@@ -1,10 +1,14 @@
 """Expressions of a hostile xacro file end soon, and in a sentence."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from trundle.description import expand_xacro
+from trundle.description.xacro import xacro
 from trundle.description.xacro_expression import Evaluator
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.packages import Packages
@@ -33,6 +37,28 @@ def expand(folder: Path, body: str) -> str:
 )
 def test_honest_expressions_have_their_values(expression: str, value: object) -> None:
     assert Evaluator()(expression, {"range": range, "len": len}) == value
+
+
+_OPERANDS = ["2", "0.5", "-3", "x", "y", "s", "'ab'", "[1, x]", "f(2)", "len(s)", "s.upper()", "'%s' % x", "max(x, 1)"]
+_EXPRESSIONS = st.recursive(
+    st.sampled_from(_OPERANDS),
+    lambda inner: st.tuples(inner, st.sampled_from(["+", "-", "*", "/", "//", "%", "<", "==", "and"]), inner).map(
+        lambda three: f"({' '.join(three)})"
+    ),
+    max_leaves=5,
+)
+
+
+@given(_EXPRESSIONS)
+def test_any_expression_means_what_it_means_to_xacro(expression: str) -> None:
+    def value_by(evaluate: Any) -> object:
+        symbols = {"x": 3, "y": 0.25, "s": "a_b", "f": float, "len": len, "max": max}
+        try:
+            return repr(evaluate(expression, symbols))
+        except Exception as error:
+            return type(error)
+
+    assert value_by(Evaluator()) == value_by(xacro.safe_eval)
 
 
 @pytest.mark.parametrize(
