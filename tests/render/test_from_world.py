@@ -1,6 +1,7 @@
 """What of a world is drawn, where, and in which colour."""
 
 from dataclasses import replace
+from io import BytesIO
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ from trundle import render
 from trundle.diagnostics import Diagnostics, Source
 from trundle.meshes import Mesh
 from trundle.model import (
+    GREY,
     Box,
     Collision,
     Cone,
@@ -24,6 +26,7 @@ from trundle.model import (
     Polyline,
     SceneSettings,
     Sphere,
+    TerrainLayer,
     Visual,
     World,
 )
@@ -202,6 +205,31 @@ def test_cones_polylines_and_terrain_are_drawn(tmp_path: Path) -> None:
         assert isinstance(shape.geometry, Mesh)
         tops[shape.name] = shape.geometry.vertices[:, 2].max()
     assert tops == pytest.approx({"cone": 0.5, "tower": 2.0, "hill": 1.5})
+
+
+def test_terrain_is_painted_with_its_layers_by_height(tmp_path: Path) -> None:
+    Image.linear_gradient("L").transpose(Image.Transpose.ROTATE_90).save(tmp_path / "ramp.png")
+    for name, colour in (("low", "red"), ("high", "lime")):
+        Image.new("RGB", (8, 8), colour).save(tmp_path / f"{name}.png")
+    layers = (
+        TerrainLayer(size=1.0, diffuse=tmp_path / "low.png"),
+        TerrainLayer(size=1.0, diffuse=tmp_path / "high.png", from_height=1.0, fade=2.0),
+        TerrainLayer(diffuse=tmp_path / "ramp.png.txt", from_height=0.0),
+    )
+    ramp = Heightmap(path=tmp_path / "ramp.png", uri="ramp.png", size=(40.0, 40.0, 4.0), layers=layers)
+    report = Diagnostics()
+    (shape,) = scene_of(world(replace(visual("hill", ramp), material=GREY)), report).shapes
+
+    assert isinstance(shape.texture, bytes)
+    with Image.open(BytesIO(shape.texture)) as image:
+        middle = image.height // 2
+        seen = [image.getpixel((int(share * image.width), middle)) for share in (0.1, 0.5, 0.9)]
+    assert seen[0] == (255, 0, 0)
+    assert seen[1] == pytest.approx((127, 128, 0), abs=3)
+    assert seen[2] == (0, 255, 0)
+    assert report.warnings == [
+        "w.sdf:3: warning: heightmap texture ramp.png.txt: it cannot be read; the layer is left out"
+    ]
 
 
 def test_terrain_without_its_image_is_left_out_aloud(tmp_path: Path) -> None:

@@ -3,10 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
-import numpy as np
-
 from trundle.diagnostics import Diagnostics, Source
-from trundle.meshes import Mesh, MeshError, cone_mesh, load_mesh, prism_mesh, read_heights, terrain_mesh
+from trundle.meshes import Mesh, MeshError, cone_mesh, load_mesh, prism_mesh
 from trundle.model import (
     GREY,
     Collision,
@@ -25,13 +23,12 @@ from trundle.model import (
 from .roads import road_shapes
 from .scene import Scene, SceneLight, SceneSkin, Shape, ShapeGeometry
 from .skins import skin_shapes
+from .terrain import painted_terrain
 
 _COLLISION: Rgba = (1.0, 0.55, 0.1, 0.45)
 _SKY: tuple[Rgba, Rgba] = ((0.86, 0.91, 0.96, 1.0), (0.30, 0.52, 0.82, 1.0))
 _MOST_CORNERS = 1000
 """Of a polyline: cutting it up takes time by their cube."""
-_MOST_SAMPLES = 257
-"""Of each side of a terrain, as it is drawn."""
 _BARELY_THERE = 0.02
 """Opacity below which a visual is not drawn at all."""
 
@@ -153,16 +150,6 @@ def _prism(
     return prism
 
 
-def _terrain(terrain: Heightmap, at: Source, report: Diagnostics) -> Mesh | None:
-    assert terrain.path is not None
-    try:
-        mesh = terrain_mesh(read_heights(terrain.path, most=_MOST_SAMPLES), terrain.size)
-    except MeshError as error:
-        report.warn(at, f"heightmap {terrain.uri!r}: {error}; it is not drawn")
-        return None
-    return replace(mesh, vertices=mesh.vertices + np.array(terrain.position, dtype=np.float32))
-
-
 def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeometry | None:
     match geometry:
         case MeshFile(path=None) | Empty():
@@ -174,7 +161,7 @@ def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeome
         case Polyline(outlines, height):
             return _prism(outlines, height, at, report)
         case Heightmap():
-            return _terrain(geometry, at, report)
+            return painted_terrain(geometry, at, report)
         case MeshFile(path=path):
             assert path is not None  # caught above
         case _:
