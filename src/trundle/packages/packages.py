@@ -29,12 +29,15 @@ class Packages:
         """
         start = start.absolute()
         self._environment = environment
+        self._start = start
         self._ros = RosPackages(environment, start, None if known is None else known._ros)
         self._gazebo = GazeboPaths(environment, start, self._ros)
         self._own = own_package(start) or (start if start.is_dir() else start.parent)
 
     def around(self, file: Path) -> "Packages":
         """The same, searched around another file."""
+        if file.absolute() == self._start:
+            return self
         return Packages(self._environment, start=file, known=self)
 
     def find_package(self, name: str) -> Path | None:
