@@ -25,11 +25,13 @@ from trundle.ros.nearby import address_nearby
 STRING = "std_msgs/String"
 
 
-@pytest.fixture(params=["same process", "nearby", "TCP"])
+@pytest.fixture(params=["same process", "nearby", "TCP", "TCP without writev"])
 def pair(request: pytest.FixtureRequest, graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch) -> tuple[Any, Any]:
     """A talking and a listening node."""
-    if request.param == "TCP":
+    if request.param.startswith("TCP"):
         monkeypatch.setattr("trundle.ros.subscription.address_nearby", lambda _: None)
+    if "writev" in request.param:
+        monkeypatch.delattr("os.writev")
     return graph.node("talker"), (graph if request.param == "same process" else far).node("listener")
 
 

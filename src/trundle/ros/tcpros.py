@@ -23,6 +23,7 @@ HANDSHAKE_S = 15.0
 LENGTH_BYTES = LENGTH.size
 _MOST_KERNEL_BYTES = 4 * 1024 * 1024
 """As much as TCP may take by Linux's own settings."""
+_UNIX = getattr(socket, "AF_UNIX", None)
 _AT_ONCE = 200
 """Frames given to the kernel in one call, which takes at most IOV_MAX (1024)."""
 
@@ -97,7 +98,11 @@ class FrameProtocol(asyncio.BufferedProtocol):
         """Of a frame that the kernel took a part of."""
         self._writing = threading.Lock()
         """Held while the two change, and while the socket is written to or let go."""
-        self._socket = self._waiting_socket = -1
+        self._socket = -1
+        self._twin: socket.socket | None = None
+        """Sends where the system has no writev, as Windows."""
+        self._waiting: socket.socket | None = None
+        """Looks whether the kernel takes more."""
         self._is_near = False
         self._kernel_bytes = 0
         self._ending: str | None = None
@@ -125,7 +130,9 @@ class FrameProtocol(asyncio.BufferedProtocol):
         self.transport = cast(asyncio.Transport, transport)
         self._loop = asyncio.get_running_loop()
         sock = transport.get_extra_info("socket")
-        self._socket, self._is_near = sock.fileno(), sock.family == socket.AF_UNIX
+        self._socket, self._is_near = sock.fileno(), sock.family == _UNIX
+        if not hasattr(os, "writev"):
+            self._twin = sock.dup()
         self._deadline = self._loop.call_later(HANDSHAKE_S, self._too_slow)
         self.connected()
 
@@ -231,7 +238,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
                 self._widen(len(self._queue[0]))
             rest = () if self._rest is None else (self._rest,)
             try:
-                sent = os.writev(self._socket, [*rest, *islice(self._queue, _AT_ONCE)])
+                sent = self._give([*rest, *islice(self._queue, _AT_ONCE)])
             except BlockingIOError:
                 return
             except OSError:  # the connection is broken
@@ -244,6 +251,9 @@ class FrameProtocol(asyncio.BufferedProtocol):
             self._let_go(sent)
             if self._rest is not None:
                 return
+
+    def _give(self, parts: list[bytes | memoryview]) -> int:
+        return os.writev(self._socket, parts) if self._twin is None else self._twin.send(parts[0])
 
     def _widen(self, size: int) -> None:
         """Have the kernel take a whole long frame at once; it does so by itself for TCP only."""
@@ -271,9 +281,11 @@ class FrameProtocol(asyncio.BufferedProtocol):
             sent -= len(frame)
 
     def _wait_until_writable(self) -> None:
-        if self.transport is not None and self.is_behind and self._waiting_socket < 0:
-            self._waiting_socket = os.dup(self._socket)  # a loop keeps the number itself for its transport
-            self._loop.add_writer(self._waiting_socket, self._writable)
+        if self.transport is not None and self.is_behind and self._waiting is None:
+            # A loop keeps the socket itself for its transport.
+            waiting: socket.socket = self.transport.get_extra_info("socket").dup()
+            self._waiting = waiting
+            self._loop.add_writer(waiting, self._writable)
 
     def _writable(self) -> None:
         with self._writing:
@@ -286,10 +298,10 @@ class FrameProtocol(asyncio.BufferedProtocol):
                 self.close(self._ending)
 
     def _wait_no_more(self) -> None:
-        if self._waiting_socket >= 0:
-            self._loop.remove_writer(self._waiting_socket)
-            os.close(self._waiting_socket)
-            self._waiting_socket = -1
+        if self._waiting is not None:
+            self._loop.remove_writer(self._waiting)
+            self._waiting.close()
+            self._waiting = None
 
     def _abort(self) -> None:
         if self.transport is not None:
@@ -305,6 +317,8 @@ class FrameProtocol(asyncio.BufferedProtocol):
             self.transport = None
             self._queue.clear()
             self._rest = None
+            if self._twin is not None:
+                self._twin.close()
         self._wait_no_more()
         if self._deadline is not None:
             self._deadline.cancel()
