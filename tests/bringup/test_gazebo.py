@@ -236,6 +236,24 @@ def test_a_second_server_is_refused_and_leaves_the_first_alone(gazebo: Gazebo, c
     assert gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties").success
 
 
+def test_topics_of_a_model_go_with_it_unless_another_has_them_too(gazebo: Gazebo) -> None:
+    imu = "<sensor name='s' type='imu'><topic>{}</topic><update_rate>100</update_rate></sensor>"
+    model = "<sdf version='1.6'><model name='m'><static>1</static><link name='l'>{}</link></model></sdf>"
+
+    def topics() -> set[str]:
+        return set(dict(gazebo.loop.run(gazebo.client.ask("getPublishedTopics", "/")))) & {"/own", "/both"}
+
+    gazebo.spawn(model.format(imu.format("/own") + imu.format("/both").replace("'s'", "'t'")), "one")
+    gazebo.spawn(model.format(imu.format("/both")), "two", x=1.0)
+    until(lambda: topics() == {"/own", "/both"})
+    gazebo.call("delete_model", "gazebo_msgs/DeleteModel", model_name="one")
+    until(lambda: topics() == {"/both"})
+
+    heard = gazebo.hear("/both", "sensor_msgs/Imu")
+    gazebo.call("unpause_physics")
+    until(lambda: heard)
+
+
 def test_noise_goes_on_as_models_come_and_go(gazebo: Gazebo) -> None:
     """A sensor that began anew with each spawned model would draw its first numbers again."""
     noise = "<noise type='gaussian'><mean>0</mean><stddev>1</stddev></noise>"

@@ -53,10 +53,13 @@ def test_a_camera_takes_pictures_at_the_rate_it_is_set_to(gazebo: Gazebo) -> Non
     change(gazebo, "/r/front", imager_rate=200)
     heard = gazebo.hear("/r/front/image_raw", "sensor_msgs/Image")
     gazebo.call("unpause_physics")
-    until(lambda: len(heard) > 10)
 
-    gaps = [ns_of(b.header.stamp) - ns_of(a.header.stamp) for a, b in pairwise(heard)]
-    assert min(gaps) == 5_000_000
+    def shortest() -> int:  # a busy machine drops pictures
+        gaps = [ns_of(b.header.stamp) - ns_of(a.header.stamp) for a, b in pairwise(list(heard))]
+        return min(gaps, default=1_000_000_000)
+
+    until(lambda: shortest() <= 5_000_000)
+    assert shortest() == 5_000_000
 
 
 def test_gains_are_changed_while_they_are_in_use(gazebo: Gazebo) -> None:

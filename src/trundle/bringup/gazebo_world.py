@@ -8,23 +8,23 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from trundle.bridge import ClockTopic, camera_topics, clock_rate_hz, sensor_topics
+from trundle.bridge import ClockTopic, clock_rate_hz
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import World
 from trundle.packages import Packages
-from trundle.ros import NOETIC, Node, SimClock, StaticTransformBroadcaster
-from trundle.sensors import CameraSensor, MeasuringSensor, Surroundings, mount_cameras, mount_sensors
+from trundle.ros import NOETIC, Node, SimClock
 from trundle.simulation import ModelHandle, Simulation, SimulationUnstableError
 from trundle.spatial import Pose
 
 from .gazebo_models import read_spawned
+from .gazebo_sensors import GazeboSensors
 from .graph import Graph
 from .in_step import Steps
 from .pace import Pacer
 from .page import Page
-from .plugins import attach_sensor_plugins, load_plugins, load_world_plugins
-from .renderers import RENDERERS, RendererName
+from .plugins import load_plugins, load_world_plugins
+from .renderers import RendererName
 from .state_logs import WorldRecorder
 
 _IDLE_S = 0.01
@@ -78,8 +78,7 @@ class GazeboWorld:
         self._simulation: Simulation | None = None
         self._renderer: RendererName = renderer
         self._steps = steps
-        self._sensors: list[CameraSensor | MeasuringSensor] = []
-        self._around: Surroundings | None = None
+        self._sensors: GazeboSensors | None = None
         self._plugin_nodes: list[Node] = []
         """Of the models whose plugins are being loaded."""
         self._nodes: dict[str, list[Node]] = {}
@@ -91,7 +90,6 @@ class GazeboWorld:
         self._record: Path | None = None
         self._recorder: WorldRecorder | None = None
         self._node: Node | None = None
-        self._still: StaticTransformBroadcaster | None = None
         self._paused = False
 
     # -- any thread
@@ -111,7 +109,7 @@ class GazeboWorld:
             raise UsageError("a simulation runs already; a launch has one")
         self._env = {**self._env, **env}
         self._packages = Packages(self._env, start=self._start)
-        self._node, self._still, self._paused = node, StaticTransformBroadcaster(node), paused
+        self._node, self._paused = node, paused
         self._clock_hz = await clock_rate_hz(node)
         loaded = await asyncio.to_thread(load, world, self._report, packages=self._packages)
         if loaded.kind != "world":
@@ -178,6 +176,11 @@ class GazeboWorld:
         return self._simulation
 
     @property
+    def _measuring(self) -> GazeboSensors:
+        assert self._sensors is not None, "open() comes first"
+        return self._sensors
+
+    @property
     def in_step(self) -> bool:
         """Whether time waits for nodes, not they for it."""
         return self._steps is not None
@@ -202,7 +205,8 @@ class GazeboWorld:
         )
         pose = world_from_model @ model.world_from_model
         handle = simulation.spawn(replace(model, name=name, world_from_model=pose))
-        self._mount(simulation, name)
+        self._measuring.mount(name)
+        self._show_anew()
         self._load_plugins(simulation, [handle])
 
     def delete(self, name: str) -> None:
@@ -211,10 +215,7 @@ class GazeboWorld:
         simulation.delete(name)
         for node in self._nodes.pop(name, []):
             self._graph.loop.run(node.shutdown(), timeout_s=_CALL_S)
-        gone = [sensor for sensor in self._sensors if sensor.model.name == name]
-        self._sensors = [sensor for sensor in self._sensors if sensor not in gone]
-        for sensor in gone:
-            simulation.remove_hook(sensor)
+        self._measuring.unmount(name)
         self._show_anew()
 
     def edit(self, world: World) -> None:
@@ -304,34 +305,17 @@ class GazeboWorld:
         simulation = Simulation(world, self._report)
         clock = ClockTopic(self._node, rate_hz=self._clock_hz)
         simulation.add_hook(clock, period_ns=clock.period_ns, wanted=clock.wanted)
-        self._simulation, self._around = simulation, None
-        self._sensors = []
+        self._simulation = simulation
         if self._record is not None:
             self._recorder = WorldRecorder(simulation, self._record, self._say)
             simulation.add_hook(self._recorder, period_ns=self._recorder.period_ns)
-        self._mount(simulation)
+        self._sensors = GazeboSensors(simulation, self._node, self._renderer, self._report)
+        self._sensors.mount()
         self._load_plugins(simulation, None)
-
-    def _mount(self, simulation: Simulation, model: str | None = None) -> None:
-        """Have the sensors of the world, or of a model that came, measure; those that are there go on."""
-        assert self._node is not None
-        assert self._still is not None
-        beside = [sensor for sensor in self._sensors if isinstance(sensor, CameraSensor)]
-        cameras = mount_cameras(simulation, RENDERERS[self._renderer], model=model, beside=beside)
-        self._around = self._around or Surroundings(simulation)
-        sensors = mount_sensors(simulation, model=model, around=self._around)
-        for sensor in (*cameras, *sensors):
-            sensor.start(simulation)
-        world = simulation.world
-        silent = attach_sensor_plugins(cameras, self._node, self._report)
-        camera_topics(self._node, self._still, silent, world)
-        sensor_topics(self._node, self._still, attach_sensor_plugins(sensors, self._node, self._report), world)
-        self._sensors += [*cameras, *sensors]
-        self._show_anew()
 
     def _show_anew(self) -> None:
         if self._page is not None:
-            self._page.replace(self.simulation, self._sensors)
+            self._page.replace(self.simulation, self._measuring.all)
         self._pacer.restart()
 
     def _load_plugins(self, simulation: Simulation, models: list[ModelHandle] | None) -> None:
@@ -358,7 +342,7 @@ class GazeboWorld:
             return
         host, port = window
         try:
-            self._page = Page.open(self.simulation, self._sensors, None, host=host, port=port)
+            self._page = Page.open(self.simulation, self._measuring.all, None, host=host, port=port)
         except TrundleError as error:
             node.log_error(str(error))
             self._window = None

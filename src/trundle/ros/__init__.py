@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from .messages import Message, Messages, RawMessage, ServiceType
     from .network import master_uri_from_env
     from .node import Node
+    from .noted import End
     from .parameters import ParameterTree, set_leaves
     from .printing import MessagePrinter, field_value
     from .profile import NOETIC, PROFILES, Profile
@@ -66,6 +67,7 @@ _HOMES = {
     "BagWriter": "bags",
     "Clock": "clock",
     "Core": "core",
+    "End": "noted",
     "GraphLoop": "loop",
     "Master": "master",
     "MasterError": "errors",
@@ -138,6 +140,7 @@ __all__ = [
     "BagWriter",
     "Clock",
     "Core",
+    "End",
     "GraphLoop",
     "Master",
     "MasterError",

@@ -8,6 +8,7 @@ import asyncio
 import contextlib
 import threading
 from collections.abc import Awaitable, Callable, Mapping
+from contextlib import AbstractContextManager
 from typing import Any, TextIO
 
 from trundle.names import canonical_name, join_names, resolve_name
@@ -21,6 +22,7 @@ from .network import master_uri_from_env, server_address
 from .node_calls import NodeCalls, ParamCallback
 from .node_links import NodeLinks
 from .node_log import NodeLog
+from .noted import End, Noted
 from .profile import NOETIC
 from .publisher import Publisher
 from .service import Service, ServiceCallback
@@ -90,6 +92,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         self._subscriptions: dict[str, list[Subscription]] = {}
         self._publisher_uris: dict[str, list[str]] = {}
         self._services: dict[str, Service] = {}
+        self._noted = Noted()
         self.watched: dict[str, list[ParamCallback]] = {}
         self._rosout: Publisher | None = None
         self._wants_rosout = rosout
@@ -152,11 +155,13 @@ class Node(NodeCalls, NodeLinks, NodeLog):
             if there is not None:
                 if there.type != type_name:
                     raise MessageError(f"{self.name} publishes {name} as {there.type}, not as {type_name}")
+                self._noted.add(there)
                 return there
             publisher = Publisher(
                 self, name, type_name, latch=latch, queue_size=queue_size, on_connect=on_connect, foreign=foreign
             )
             self._publishers[name] = publisher
+        self._noted.add(publisher)
         for listener in self.loop.on_publisher:
             self.loop.call_soon(lambda listener=listener: listener(publisher))
         self._do(lambda: self._tell("registerPublisher", name, type_name, self.uri))
@@ -193,6 +198,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         )
         with self._lock:
             self._subscriptions.setdefault(name, []).append(subscription)
+        self._noted.add(subscription)
         self._do(lambda: self._listen(name, type_name))
         return subscription
 
@@ -213,8 +219,13 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         service = Service(self, full, type_name, handler)
         with self._lock:
             self._services[full] = service
+        self._noted.add(service)
         self._do(lambda: self._provide(full))
         return service
+
+    def noting(self) -> AbstractContextManager[list[End]]:
+        """Note what this thread has the node advertise, subscribe or provide meanwhile."""
+        return self._noted.gather()
 
     def unregister_publisher(self, publisher: Publisher) -> None:
         """Stop publishing a topic."""

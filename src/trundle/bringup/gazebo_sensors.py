@@ -1,0 +1,60 @@
+"""The sensors of the world behind /gazebo, and their topics, as models come and go."""
+
+from trundle.bridge import camera_topics, sensor_topics
+from trundle.diagnostics import Diagnostics
+from trundle.ros import End, Node, StaticTransformBroadcaster
+from trundle.sensors import CameraSensor, MeasuringSensor, Surroundings, mount_cameras, mount_sensors
+from trundle.simulation import Simulation
+
+from .plugins import attach_sensor_plugins
+from .renderers import RENDERERS, RendererName
+
+
+class GazeboSensors:
+    """Everything that measures, on the simulation's thread."""
+
+    def __init__(self, simulation: Simulation, node: Node, renderer: RendererName, report: Diagnostics) -> None:
+        """Have nothing measure yet."""
+        self._simulation = simulation
+        self._node = node
+        self._still = StaticTransformBroadcaster(node)
+        self._renderer: RendererName = renderer
+        self._report = report
+        self._around = Surroundings(simulation)
+        self._ends: dict[str, list[End]] = {}
+        """Model → topics and services of its sensors."""
+        self.all: list[CameraSensor | MeasuringSensor] = []
+        """In the order in which they came."""
+
+    def mount(self, model: str | None = None) -> None:
+        """Have the sensors of every model, or of one that came, measure; those that are there go on."""
+        simulation = self._simulation
+        beside = [sensor for sensor in self.all if isinstance(sensor, CameraSensor)]
+        cameras = mount_cameras(simulation, RENDERERS[self._renderer], model=model, beside=beside)
+        sensors = mount_sensors(simulation, model=model, around=self._around)
+        for sensor in (*cameras, *sensors):
+            sensor.start(simulation)
+        self.all += [*cameras, *sensors]
+        for owner in dict.fromkeys(sensor.model.name for sensor in (*cameras, *sensors)):
+            with self._node.noting() as self._ends[owner]:
+                self._speak(
+                    [camera for camera in cameras if camera.model.name == owner],
+                    [sensor for sensor in sensors if sensor.model.name == owner],
+                )
+
+    def unmount(self, model: str) -> None:
+        """Have a model that is gone measure no more, and end its topics but those that others have, too."""
+        gone = [sensor for sensor in self.all if sensor.model.name == model]
+        self.all = [sensor for sensor in self.all if sensor not in gone]
+        for sensor in gone:
+            self._simulation.remove_hook(sensor)
+        ends = self._ends.pop(model, [])
+        shared = {id(end) for others in self._ends.values() for end in others}
+        for end in ends:
+            if id(end) not in shared:
+                end.unregister()
+
+    def _speak(self, cameras: list[CameraSensor], sensors: list[MeasuringSensor]) -> None:
+        world = self._simulation.world
+        camera_topics(self._node, self._still, attach_sensor_plugins(cameras, self._node, self._report), world)
+        sensor_topics(self._node, self._still, attach_sensor_plugins(sensors, self._node, self._report), world)
