@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from trundle.meshes import RawPart, keep, load_kept
 
-from .hulls import Hull, hull_of, off
+from .hulls import Hull, area_of, hull_of, off, volume_of
 from .sheets import sheets_of
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
-_VERSION = 2
+_VERSION = 3
 """Raised where the same mesh becomes other pieces."""
 _MOST_FACES = 100_000
 _SETTINGS = {
@@ -35,6 +35,8 @@ _NEAR = 0.01
 """Part of the mesh's size: pieces nearer to it than this are good."""
 _MOST_SHEETED = 20_000
 """Faces."""
+_THIN = 0.03
+"""Part of its size that half a wall's thickness is at most where sheets may do better than voxels."""
 _SWEEPS = 4
 _log = logging.getLogger(__name__)
 
@@ -68,11 +70,15 @@ def _cut(points: _Points, faces: _Faces, hull: Hull, closed: bool) -> list[_Poin
     size = float(np.ptp(points, axis=0).max())
     voxels = _solids(_voxels(points, faces, size, closed=closed), hull)
     from_voxels = off(points[faces], voxels, closed=closed) if len(voxels) > 1 else np.inf
-    if from_voxels > _NEAR * size and len(faces) <= _MOST_SHEETED:
+    if from_voxels > _NEAR * size and len(faces) <= _MOST_SHEETED and (not closed or _is_thin(points[faces], size)):
         sheets = _solids(sheets_of(points, faces, closed=closed), hull)
         if 2 * off(points[faces], sheets, closed=closed) < from_voxels:
             return _covering(hull, sheets)
     return _covering(hull, voxels) if len(voxels) > 1 else []
+
+
+def _is_thin(triangles: _Points, size: float) -> bool:
+    return volume_of(triangles) < _THIN * size * area_of(triangles)
 
 
 def _voxels(points: _Points, faces: _Faces, size: float, *, closed: bool) -> list[_Points]:

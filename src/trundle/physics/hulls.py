@@ -75,20 +75,27 @@ def area_of(triangles: _Points) -> float:
     return float(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum()) / 2
 
 
-def distance(from_triangles: _Points, to_triangles: _Points) -> float:
-    """[m] From the point of one surface (F, 3, 3) that is farthest from another (G, 3, 3), to that; about so."""
-    probes, _ = spread(from_triangles, _PROBES)
-    return _farthest(probes, to_triangles)
+def distance(
+    from_triangles: _Points, to_triangles: _Points, *, probes: int = _PROBES, samples: int = _SAMPLES
+) -> float:
+    """[m] From the point of one surface (F, 3, 3) that is farthest from another (G, 3, 3), to that; about so.
+
+    Args:
+        from_triangles: that are looked at.
+        to_triangles: that are near or far.
+        probes: points of the first that are tried.
+        samples: points that stand for the second.
+    """
+    points, _ = spread(from_triangles, probes)
+    return float(_distances_to(points, to_triangles, samples).max())
 
 
-def _farthest(probes: _Points, to_triangles: _Points) -> float:
-    """[m] Of points (N, 3) from a surface; about so, zero without points."""
-    if not len(probes):
-        return 0.0
-    samples, owners = spread(to_triangles, _SAMPLES)
+def _distances_to(probes: _Points, triangles: _Points, count: int = _SAMPLES) -> _Points:
+    """(N,) [m] from points (N, 3) to a surface; about so."""
+    samples, owners = spread(triangles, count)
     squares = (samples * samples).sum(axis=1) - 2 * probes @ samples.T
     nearest = np.argpartition(squares, min(_NEAREST, len(samples)) - 1, axis=1)[:, :_NEAREST]
-    return float(_distances(probes[:, None], to_triangles[owners[nearest]]).min(axis=1).max())
+    return _distances(probes[:, None], triangles[owners[nearest]]).min(axis=1)
 
 
 def off(triangles: _Points, solids: list[Hull], *, closed: bool) -> float:
@@ -103,9 +110,12 @@ def off(triangles: _Points, solids: list[Hull], *, closed: bool) -> float:
     hidden = np.zeros(len(probes), dtype=bool)
     for i, solid in enumerate(solids):
         hidden |= (owner != i) & (solid.heights(probes) < _TOUCH)
-    if closed:
-        hidden |= _turns_around(probes, triangles) > 0.5
-    return max(missing, 0.0, _farthest(probes[~hidden], triangles))
+    probes = probes[~hidden]
+    away = _distances_to(probes, triangles)
+    for i in np.argsort(-away, kind="stable"):
+        if away[i] <= missing or not (closed and _is_inside(probes[i], triangles)):
+            return max(missing, float(away[i]), 0.0)
+    return max(missing, 0.0)
 
 
 def _over(solids: list[Hull], points: _Points) -> _Points:
@@ -116,16 +126,13 @@ def _over(solids: list[Hull], points: _Points) -> _Points:
     return heights
 
 
-def _turns_around(points: _Points, triangles: _Points) -> _Points:
-    """(N,) how many times a surface (F, 3, 3) goes around points (N, 3): the sum of solid angles (van Oosterom)."""
-    turns = np.zeros(len(points))
-    for i, point in enumerate(points):
-        a, b, c = np.moveaxis(triangles - point, 1, 0)
-        la, lb, lc = (np.linalg.norm(corner, axis=1) for corner in (a, b, c))
-        ab, bc, ca = ((u * v).sum(axis=1) for u, v in ((a, b), (b, c), (c, a)))
-        over = (a * np.cross(b, c)).sum(axis=1)
-        turns[i] = np.arctan2(over, la * lb * lc + ab * lc + bc * la + ca * lb).sum()
-    return turns / (2 * np.pi)
+def _is_inside(point: _Points, triangles: _Points) -> bool:
+    """Whether a surface (F, 3, 3) goes around a point (3,): by the sum of solid angles (van Oosterom)."""
+    a, b, c = np.moveaxis(triangles - point, 1, 0)
+    la, lb, lc = (np.linalg.norm(corner, axis=1) for corner in (a, b, c))
+    ab, bc, ca = ((u * v).sum(axis=1) for u, v in ((a, b), (b, c), (c, a)))
+    over = (a * np.cross(b, c)).sum(axis=1)
+    return float(np.arctan2(over, la * lb * lc + ab * lc + bc * la + ca * lb).sum()) > np.pi
 
 
 def spread(triangles: _Points, count: int) -> tuple[_Points, _Numbers]:

@@ -20,6 +20,8 @@ _STEEPEST = 0.7
 """Cosine between the normals of a sheet's faces and its own."""
 _WASTE = 1.02
 """Times its faces' area that the polygon around them may have without a closer look."""
+_PROBES, _SAMPLES = 64, 1000
+"""Points by which walls are tried; what comes of them is measured with more."""
 _THICK = 0.01
 """Part of its size that what has no thickness is thick, and"""
 _THINNEST, _THICKEST = 1e-3, 0.01
@@ -119,4 +121,7 @@ class _Surface:
 
     def _is_near(self, wall: _Points, bend: float) -> bool:
         solid = hull_of(wall)
-        return solid is None or distance(solid.triangles, self._points[self._faces]) <= bend + self._thickness
+        if solid is None:
+            return True
+        away = distance(solid.triangles, self._points[self._faces], probes=_PROBES, samples=_SAMPLES)
+        return away <= bend + self._thickness
