@@ -7,7 +7,7 @@ import pytest
 from tests.bringup.conftest import PATIENCE_S, Gazebo, until
 
 from trundle.nodes.gazebo import GazeboServer, SpawnModel
-from trundle.ros import Message, Node
+from trundle.ros import Message, Node, ns_of
 
 _BALL = """<sdf version="1.6"><model name="as_written"><pose>0 0 1 0 0 0</pose><link name="link">
 <inertial><mass>2</mass><inertia><ixx>0.02</ixx><iyy>0.02</iyy><izz>0.02</izz></inertia></inertial>
@@ -252,6 +252,29 @@ def test_topics_of_a_model_go_with_it_unless_another_has_them_too(gazebo: Gazebo
     heard = gazebo.hear("/both", "sensor_msgs/Imu")
     gazebo.call("unpause_physics")
     until(lambda: heard)
+
+
+def test_metrics_tell_how_often_sensors_measure(gazebo: Gazebo) -> None:
+    camera = "<camera><horizontal_fov>1</horizontal_fov><image><width>8</width><height>6</height></image></camera>"
+    sensors = "".join(
+        f"<sensor name='{name}' type='{kind}'><always_on>1</always_on><update_rate>{rate}</update_rate>{more}</sensor>"
+        for name, kind, rate, more in (("turn", "imu", 100, ""), ("eye", "camera", 20, camera))
+    )
+    gazebo.spawn(
+        f"<sdf version='1.6'><model name='m'><static>1</static><link name='l'>{sensors}</link></model></sdf>", "m"
+    )
+    heard = gazebo.hear("/gazebo/performance_metrics", "gazebo_msgs/PerformanceMetrics")
+    gazebo.call("unpause_physics")
+    until(lambda: len(heard) > 1)
+
+    first, second = heard[:2]
+    told = {sensor.name: sensor for sensor in second.sensors}
+    assert second.real_time_factor > 0
+    assert told["turn"].fps == -1
+    seconds = (ns_of(second.header.stamp) - ns_of(first.header.stamp)) / 1e9
+    for name, rate_hz in (("turn", 100), ("eye", 20)):
+        assert told[name].sim_update_rate * seconds == pytest.approx(rate_hz * seconds, abs=1.01)
+    assert told["eye"].fps == told["eye"].real_update_rate > 0
 
 
 def test_noise_goes_on_as_models_come_and_go(gazebo: Gazebo) -> None:

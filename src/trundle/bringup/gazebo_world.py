@@ -4,7 +4,7 @@ import asyncio
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +14,7 @@ from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import World
 from trundle.packages import Packages
 from trundle.ros import NOETIC, Node, SimClock
+from trundle.sensors import CameraSensor, MeasuringSensor
 from trundle.simulation import ModelHandle, Simulation, SimulationUnstableError
 from trundle.spatial import Pose
 
@@ -174,6 +175,11 @@ class GazeboWorld:
         """The world as it is now."""
         assert self._simulation is not None, "open() comes first"
         return self._simulation
+
+    @property
+    def sensors(self) -> Sequence[CameraSensor | MeasuringSensor]:
+        """Everything in it that measures."""
+        return self._measuring.all
 
     @property
     def _measuring(self) -> GazeboSensors:

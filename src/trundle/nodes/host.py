@@ -9,6 +9,7 @@ from trundle.spatial import Pose
 
 if TYPE_CHECKING:
     from trundle.model import World
+    from trundle.sensors import CameraSensor, MeasuringSensor
     from trundle.simulation import Simulation
 
 
@@ -65,6 +66,11 @@ class Simulator(Protocol):
     @property
     def simulation(self) -> "Simulation":
         """The world in motion."""
+        ...
+
+    @property
+    def sensors(self) -> "Sequence[CameraSensor | MeasuringSensor]":
+        """Everything there that measures."""
         ...
 
     @property

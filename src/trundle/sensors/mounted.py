@@ -67,6 +67,8 @@ class MountedSensor(Generic[Reading]):
         rate = spot.sensor.update_rate_hz or fastest_hz
         self.period_ns = 0 if rate is None else _period_ns(rate)
         self._simulation: Simulation | None = None
+        self.readings = 0
+        """Taken so far."""
         self._listeners: list[_Listener[Reading]] = []
 
     @property
@@ -118,6 +120,7 @@ class MountedSensor(Generic[Reading]):
     def after_step(self, snapshot: Snapshot) -> None:
         """Measure, and tell those who want to know."""
         reading = self.take(snapshot)
+        self.readings += 1
         for listener in self._listeners:
             if listener.wanted():
                 listener.call(reading)

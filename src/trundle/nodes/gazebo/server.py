@@ -8,6 +8,7 @@ from trundle.ros import Node
 from ..host import Host, Simulator
 from .changes import advertise_changes
 from .efforts import advertise_efforts
+from .metrics import MetricsTopic
 from .models import advertise_models
 from .properties import advertise_properties
 from .reconfigure import advertise_options
@@ -61,11 +62,13 @@ class GazeboServer:
     async def _serve(self, simulator: Simulator) -> None:
         node = self._node
         node.deliver = simulator.post
-        topics = StateTopics(node, simulator)
+        topics, metrics = StateTopics(node, simulator), MetricsTopic(node, simulator)
         self._advertise(simulator)
         while not node.closed.is_set():
             if topics.wanted():
                 simulator.post(topics.publish)
+            if metrics.due():
+                simulator.post(metrics.publish)
             if simulator.in_step and not simulator.paused:
                 await node.clock.sleep(topics.period_s)
             else:  # by the wall's clock: a paused world is still told of
