@@ -20,6 +20,8 @@ from .substitution import Substitution
 
 _MAX_INCLUDE_DEPTH = 64
 """A file that includes itself ends here; no honest launch nests a tenth as deep."""
+_MOST_TOLD = 8
+"""How many files an error names that one included the other."""
 
 
 def read_launch(
@@ -228,7 +230,13 @@ class _Reader:
         passed.declared = set()
         if not is_file(file):
             raise DescriptionError(node.at, f"no launch file {file!r} to include")
-        self._launch(read_xml(Path(file)), passed, depth=depth + 1)
+        try:
+            self._launch(read_xml(Path(file)), passed, depth=depth + 1)
+        except DescriptionError as error:
+            way = f"; included at {node.at}"
+            if depth >= _MOST_TOLD or error.what.endswith(way):
+                raise
+            raise DescriptionError(error.at, error.what + way) from None
         if unused := sorted(given - passed.declared):
             known = ", ".join(map(repr, sorted(passed.declared))) or "none"
             raise DescriptionError(node.at, f"{file!r} has no argument {unused[0]!r}; its arguments: {known}")
