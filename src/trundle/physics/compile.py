@@ -23,7 +23,7 @@ from .shapes import Meets, ShapeEntry, add_shape
 from .starting import start_positions
 from .surfaces import Touch
 from .tree import WORLD, Hold, Place, Tree
-from .wheels import TREAD, add_tread, is_wheel, without_tread
+from .wheels import add_tread, is_wheel, without_tread
 
 _KINEMATIC_MASS = 1e6
 """How many times heavier a kinematic link is than written: nothing that the file has moves it."""
@@ -164,8 +164,6 @@ class Compiler:
             tread = add_tread(body, collision, collision.geometry, f"{name}::tread")
             self._keep(tread, f"{name}::tread", place, collision, Meets.PLANES | Meets.STANDING)
             wheel = without_tread(collision, collision.geometry)
-            what = f"a wheel rolls on the ellipsoid inscribed in it; the cylinder itself is {TREAD * 1e3:g} mm smaller"
-            self.report.info(collision.at, f"collision {collision.name!r}: {what}")
         for geom, meets in add_shape(self.spec, body, wheel, name, self.report, fixed=fixed):
             self._keep(geom, geom.name, place, collision, meets)
 
