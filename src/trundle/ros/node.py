@@ -1,21 +1,21 @@
 """A node: what it publishes, subscribes and provides, and its word with the master.
 
-Registering returns at once, from any thread; a queue of calls to the master is worked off on the loop, and goes on
-trying while no master answers. Whatever needs an answer is a coroutine of the loop.
+Registering returns at once, from any thread. Whatever needs an answer is a coroutine of the loop.
 """
 
 import asyncio
 import contextlib
 import threading
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from typing import Any, TextIO
 
 from trundle.names import canonical_name, join_names, resolve_name
 
 from .clock import Clock, WallClock
-from .errors import MasterError, MasterUnreachableError, MessageError, ParameterError, ServiceError
-from .log import LEVELS, Level, print_log
+from .errands import Errands
+from .errors import MasterUnreachableError, MessageError, ServiceError
+from .log import LEVELS, Level
 from .loop import GraphLoop
 from .messages import ANY_TYPE, Message
 from .network import master_uri_from_env, server_address
@@ -31,9 +31,7 @@ from .subscription import Callback, Subscription
 
 _FAREWELL_S = 1.0
 """How long unregistering may take: a whole program must end within two seconds of Ctrl-C."""
-_RETRY_S = 0.5
 _LINK_S = 0.01
-_Action = Callable[[], Awaitable[None]]
 
 
 class Node(NodeCalls, NodeLinks, NodeLog):
@@ -96,14 +94,12 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         self.watched: dict[str, list[ParamCallback]] = {}
         self._rosout: Publisher | None = None
         self._wants_rosout = rosout
-        self._actions: asyncio.Queue[tuple[_Action, object]] = asyncio.Queue()
+        self._errands = Errands(loop, log=self)
         self._listens = asyncio.Event()
-        self._started = asyncio.Event()
         self._params_told = asyncio.Event()
-        self._worker: asyncio.Task[None] | None = None
         self._on_shutdown: list[Callable[[str], None]] = []
         self._is_down = False
-        self._waits_for_master = False
+        self._has_begun = False
         self.loop.call_soon(self._begin)
 
     # -- who it is
@@ -164,7 +160,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         self._noted.add(publisher)
         for listener in self.loop.on_publisher:
             self.loop.call_soon(lambda listener=listener: listener(publisher))
-        self._do(lambda: self._tell("registerPublisher", name, type_name, self.uri))
+        self._errands.add(lambda: self._tell("registerPublisher", name, type_name, self.uri))
         return publisher
 
     def subscribe(
@@ -199,7 +195,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         with self._lock:
             self._subscriptions.setdefault(name, []).append(subscription)
         self._noted.add(subscription)
-        self._do(lambda: self._listen(name, type_name))
+        self._errands.add(lambda: self._listen(name, type_name))
         return subscription
 
     def advertise_service(self, name: str, type_name: str, handler: ServiceCallback) -> Service:
@@ -220,7 +216,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         with self._lock:
             self._services[full] = service
         self._noted.add(service)
-        self._do(lambda: self._provide(full))
+        self._errands.add(lambda: self._provide(full))
         return service
 
     def noting(self) -> AbstractContextManager[list[End]]:
@@ -234,7 +230,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
                 return
             del self._publishers[publisher.topic]
         self.loop.call_soon(publisher.close)
-        self._do(lambda: self._tell("unregisterPublisher", publisher.topic, self.uri))
+        self._errands.add(lambda: self._tell("unregisterPublisher", publisher.topic, self.uri))
 
     def unregister_subscription(self, subscription: Subscription) -> None:
         """Stop listening; the master is told when nothing in this node listens to the topic any more."""
@@ -247,7 +243,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
                 del self._subscriptions[subscription.topic]
         self.loop.call_soon(subscription.close)
         if not others:
-            self._do(lambda: self._tell("unregisterSubscriber", subscription.topic, self.uri))
+            self._errands.add(lambda: self._tell("unregisterSubscriber", subscription.topic, self.uri))
 
     def unregister_service(self, service: Service) -> None:
         """Stop providing a service."""
@@ -256,7 +252,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
                 return
             del self._services[service.name]
         self.loop.call_soon(service.close)
-        self._do(lambda: self._tell("unregisterService", service.name, self._slave.service_uri))
+        self._errands.add(lambda: self._tell("unregisterService", service.name, self._slave.service_uri))
 
     async def params_told(self) -> None:
         """Wait until the parameters this node was made with are set, or nobody is there to take them."""
@@ -267,16 +263,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
 
     async def ready(self) -> None:
         """Wait until everything asked for so far is registered at the master."""
-        future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
-
-        async def done() -> None:
-            if not future.done():
-                future.set_result(None)
-
-        await self._started.wait()
-        await asyncio.sleep(0)  # what other threads asked for before is in the queue now
-        self._actions.put_nowait((done, self.loop.work.begin()))
-        await future
+        await self._errands.done()
 
     async def linked(self) -> None:
         """Wait until every subscription hears the publishers there are, or knows that they do not answer."""
@@ -294,10 +281,9 @@ class Node(NodeCalls, NodeLinks, NodeLog):
             await self.closed.wait()
             return
         self._is_down = True
-        if self._worker is not None:
+        if self._has_begun:
             await self._listens.wait()  # a server caught half made would stay open
-            self._worker.cancel()
-            await asyncio.gather(self._worker, return_exceptions=True)
+        await self._errands.end()
         if self.uri:
             with contextlib.suppress(TimeoutError):
                 async with asyncio.timeout(_FAREWELL_S):
@@ -335,30 +321,11 @@ class Node(NodeCalls, NodeLinks, NodeLog):
     def _begin(self) -> None:
         if self._is_down:
             return
+        self._has_begun = True
         self.loop.members.add(self)
-        starting = self.loop.work.begin()
-        self._worker = asyncio.get_running_loop().create_task(self._work(starting))
-        self._worker.add_done_callback(lambda _: self.loop.work.end(starting))
-        self._worker.add_done_callback(self._worker_ended)
+        self._errands.begin(self._start)
 
-    def _worker_ended(self, worker: "asyncio.Task[None]") -> None:
-        while not self._actions.empty():
-            self.loop.work.end(self._actions.get_nowait()[1])
-        if not worker.cancelled() and (error := worker.exception()) is not None:
-            print_log("fatal", f"{self.name} cannot go on: {error}", wall_ns=WallClock().now_ns(), sim_ns=None)
-
-    def _do(self, action: _Action) -> None:
-        token = self.loop.work.begin()
-        self.loop.call_soon(lambda: self._queue(action, token))
-
-    def _queue(self, action: _Action, token: object) -> None:
-        if self._is_down if self._worker is None else self._worker.done():  # nobody is left to do it
-            self.loop.work.end(token)
-        else:
-            self._actions.put_nowait((action, token))
-
-    async def _work(self, starting: object) -> None:
-        """Start, then work off the queue, one call to the master after the other."""
+    async def _start(self) -> None:
         try:
             await self._slave.start()
         finally:
@@ -367,38 +334,20 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         if self._address.warning:
             self.log_warn(self._address.warning)
         for name, value in self._params.items():
-            await self._insist(lambda name=name, value=value: self.set_param(f"~{name}", value))
+            await self._errands.insist(lambda name=name, value=value: self._set_own(name, value))
         self._params_told.set()
         if self._wants_rosout and self.name != "/rosout":  # that one would gather its own log for ever
             self._rosout = self.advertise("/rosout", "rosgraph_msgs/Log", queue_size=100)
         if self._wants_rosout:
             self.advertise_service("~get_loggers", "roscpp/GetLoggers", self._get_loggers)
             self.advertise_service("~set_logger_level", "roscpp/SetLoggerLevel", self._set_logger_level)
-        self._started.set()
-        self.loop.work.end(starting)
-        while True:
-            action, token = await self._actions.get()
-            try:
-                await self._insist(action)
-            finally:
-                self.loop.work.end(token)
 
-    async def _insist(self, action: _Action) -> None:
-        """Do something at the master, as soon as there is one."""
-        while True:
-            try:
-                await action()
-            except MasterUnreachableError as error:
-                self._params_told.set()  # whoever waits for them learns the reason by asking
-                if not self._waits_for_master:
-                    self._waits_for_master = True
-                    self.log_warn(f"{error}; {self.name} goes on trying")
-                await asyncio.sleep(_RETRY_S)
-                continue
-            except (MasterError, ParameterError) as error:
-                self.log_error(str(error))
-            self._waits_for_master = False
-            return
+    async def _set_own(self, name: str, value: Any) -> None:
+        try:
+            await self.set_param(f"~{name}", value)
+        except MasterUnreachableError:
+            self._params_told.set()  # whoever waits for them learns the reason by asking
+            raise
 
     async def _tell(self, method: str, *arguments: object) -> None:
         await self.ask(method, *arguments)
