@@ -150,7 +150,18 @@ def test_spawn_model_spawns_from_a_parameter_and_unpauses(gazebo: Gazebo) -> Non
 
 
 @pytest.mark.parametrize(
-    "words", ["-urdf -param nothing -model a", "-urdf -model a", "-sdf -file /no/where -model a", "-colour red", "-x"]
+    "words",
+    [
+        "-urdf -param nothing -model a",
+        "-urdf -model a",
+        "-sdf -file /no/where -model a",
+        "-colour red",
+        "-x",
+        "-urdf -sdf -param p -model a",
+        "-urdf -param p",
+        "-trimesh -param p -model a",
+        "-trimesh -file /no/where -model a -trimesh_mass 1",
+    ],
 )
 def test_spawn_model_says_what_is_wrong_and_ends_with_1(gazebo: Gazebo, words: str, capsys) -> None:
     node = Node("/spawn", loop=gazebo.loop, master_uri=gazebo.client.master_uri)

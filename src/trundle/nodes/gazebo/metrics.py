@@ -11,8 +11,9 @@ from trundle.sensors import CameraSensor
 from ..host import Simulator
 
 _PERIOD_S = 1.0
+"""Ours: how often Gazebo tells of itself, which gazebo_ros passes on, was not found in a source."""
 _NO_PICTURES = -1.0
-"""What gazebo_ros says in place of pictures a second of what is no camera."""
+"""Of what makes none: gazebo_ros says this where Gazebo tells no `fps` (GazeboRosApiPlugin::onPerformanceMetrics)."""
 
 
 @dataclass(frozen=True, slots=True)

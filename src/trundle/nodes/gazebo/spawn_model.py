@@ -1,71 +1,21 @@
 """gazebo_ros/spawn_model: asks /gazebo for a model, from a file, a parameter or the model folders."""
 
 import asyncio
+import re
 import sys
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.ros import Message, Node, ParameterError, RosError
-from trundle.spatial import Pose
 
 from ..host import Host
 from .messages import pose_fields
+from .spawn_words import SpawnRequest
+from .trimesh import trimesh_sdf
 
-_NUMBERS = {"-x": "x", "-y": "y", "-z": "z", "-R": "roll", "-P": "pitch", "-Y": "yaw"}
-_TEXTS = frozenset(
-    {"-file", "-param", "-database", "-model", "-wait", "-reference_frame", "-gazebo_namespace", "-robot_namespace"}
-)
 _TIMEOUT_S = 60.0
-
-
-@dataclass(slots=True)
-class _Request:
-    """The command line."""
-
-    kind: Literal["urdf", "sdf"] | None = None
-    texts: dict[str, str] = field(default_factory=dict[str, str])
-    numbers: dict[str, float] = field(default_factory=dict[str, float])
-    joints: dict[str, float] = field(default_factory=dict[str, float])
-    flags: set[str] = field(default_factory=set[str])
-
-    @classmethod
-    def read(cls, words: list[str]) -> "_Request":
-        """Sort the words.
-
-        Raises:
-            UsageError: one that is not known, or misses its value.
-        """
-        request = cls()
-        rest = iter(words)
-        try:
-            for given in rest:
-                word = "-" + given.lstrip("-")  # argparse takes both
-                if word in ("-urdf", "-sdf"):
-                    request.kind = "urdf" if word == "-urdf" else "sdf"
-                elif word in ("-gazebo", "-trimesh"):
-                    raise UsageError(f"{given}: this form is gone since 2014; write SDF (-sdf) or URDF (-urdf)")
-                elif word in _NUMBERS:
-                    request.numbers[_NUMBERS[word]] = float(next(rest))
-                elif word == "-J":
-                    name = next(rest)
-                    request.joints[name] = float(next(rest))
-                elif word in _TEXTS:
-                    request.texts[word] = next(rest)
-                elif word in ("-unpause", "-package_to_model", "-b", "-bond", "-stdin", "-static"):
-                    request.flags.add(word)
-                elif word not in ("-v", "-verbose"):
-                    raise UsageError(f"no option {given!r}")
-        except StopIteration:
-            raise UsageError(f"{words[-1]} needs a value") from None
-        except ValueError as error:
-            raise UsageError(f"a number is needed: {error}") from None
-        return request
-
-    @property
-    def pose(self) -> Pose:
-        return Pose.from_rpy(*(self.numbers.get(name, 0.0) for name in ("x", "y", "z", "roll", "pitch", "yaw")))
+_MESH = re.compile(r"""(<\s*mesh\s[^>]*?\bfilename\s*=\s*["'])package://""")
 
 
 class SpawnModel:
@@ -80,24 +30,24 @@ class SpawnModel:
         """Spawn; 1 where that fails, as in the original."""
         node = self._node
         try:
-            request = _Request.read(self._arguments)
-            if "-model" not in request.texts:
-                raise UsageError("-model NAME is missing")
+            request = SpawnRequest.read(self._arguments)
+            if request.is_old:
+                node.log_warn("Deprecated: the -gazebo tag is now -sdf")
             gazebo = request.texts.get("-gazebo_namespace", "/gazebo").rstrip("/")
             await self._wait_for(request.texts.get("-wait"), gazebo)
             await self._spawn(request, gazebo)
         except (TrundleError, RosError) as error:
             node.log_error(f"spawn_model: {error}")
             return 1
-        if request.flags & {"-b", "-bond"}:
+        if "-b" in request.flags:
             await self._stay(request.texts["-model"], gazebo)
         return 0
 
-    async def _spawn(self, request: _Request, gazebo: str) -> None:
+    async def _spawn(self, request: SpawnRequest, gazebo: str) -> None:
         node, texts = self._node, request.texts
         xml, kind = await self._model(request)
         if "-package_to_model" in request.flags:
-            xml = xml.replace("package://", "model://")
+            xml = _MESH.sub(r"\1model://", xml)
         service = f"{gazebo}/spawn_{kind}_model"
         node.log_info(f"Waiting for service {service}")
         await node.wait_for_service(service, _TIMEOUT_S)
@@ -132,16 +82,14 @@ class SpawnModel:
         if "-unpause" in request.flags:
             await node.call_service(f"{gazebo}/unpause_physics", "std_srvs/Empty")
 
-    async def _model(self, request: _Request) -> tuple[str, Literal["urdf", "sdf"]]:
+    async def _model(self, request: SpawnRequest) -> tuple[str, Literal["urdf", "sdf"]]:
         """The model's text, and of which kind it is."""
         texts = request.texts
-        sources = [source for source in ("-file", "-param", "-database") if source in texts]
-        sources += ["-stdin"] if "-stdin" in request.flags else []
-        if len(sources) != 1:
-            raise UsageError(f"one of -file, -param, -database, -stdin is needed; got {' '.join(sources) or 'none'}")
-        if request.kind is None and sources != ["-database"]:
-            raise UsageError("one of -urdf, -sdf is needed")
-        match sources[0]:
+        source = request.source
+        if request.kind == "trimesh":
+            with self._node.loop.work.under_way():
+                return await asyncio.to_thread(trimesh_sdf, texts["-file"], request.trimesh), "sdf"
+        match source:
             case "-file":
                 with self._node.loop.work.under_way():
                     xml = await asyncio.to_thread(_read, texts["-file"])

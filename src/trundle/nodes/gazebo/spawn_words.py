@@ -1,0 +1,106 @@
+"""The command line of gazebo_ros/spawn_model, of every distribution."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from trundle.diagnostics import UsageError
+from trundle.spatial import Pose
+
+Kind: TypeAlias = Literal["urdf", "sdf", "trimesh"]
+
+_NUMBERS = {"-x": "x", "-y": "y", "-z": "z", "-R": "roll", "-P": "pitch", "-Y": "yaw"}
+_KINDS: dict[str, Kind] = {"-urdf": "urdf", "-sdf": "sdf", "-gazebo": "sdf", "-trimesh": "trimesh"}
+_SOURCES = ("-file", "-param", "-database", "-stdin")
+_TEXTS = frozenset({*_SOURCES[:3], "-model", "-wait", "-reference_frame", "-gazebo_namespace", "-robot_namespace"})
+_FLAGS = frozenset({"-stdin", "-unpause", "-package_to_model", "-b"})
+_OTHERWISE = {"-namespace": "-robot_namespace", "-bond": "-b"}
+"""Other words for the same; the first was read up to Kinetic."""
+_TRIMESH = "-trimesh_"
+
+
+@dataclass(slots=True)
+class SpawnRequest:
+    """What is to be spawned, and how."""
+
+    kind: Kind | None = None
+    is_old: bool = False
+    """Whether SDF was asked for by its name before Hydro, -gazebo."""
+    texts: dict[str, str] = field(default_factory=dict[str, str])
+    trimesh: dict[str, str] = field(default_factory=dict[str, str])
+    """What -trimesh_mass and its like say, by what follows `trimesh_`."""
+    numbers: dict[str, float] = field(default_factory=dict[str, float])
+    joints: dict[str, float] = field(default_factory=dict[str, float])
+    flags: set[str] = field(default_factory=set[str])
+
+    @classmethod
+    def read(cls, words: list[str]) -> "SpawnRequest":
+        """Sort the words.
+
+        Raises:
+            UsageError: one that is not known, misses its value or contradicts another, or no model is named.
+        """
+        request = cls()
+        rest = _parted(words)
+        try:
+            for word in rest:
+                request._take(word, rest)
+        except StopIteration:
+            raise UsageError(f"{words[-1]} needs a value") from None
+        except ValueError as error:
+            raise UsageError(f"a number is needed: {error}") from None
+        if "-model" not in request.texts:
+            raise UsageError("-model NAME is missing")
+        return request
+
+    def _take(self, given: str, rest: Iterator[str]) -> None:
+        word = "-" + given.lstrip("-")  # --x, which no distribution has, is a slip that is easily understood
+        word = _OTHERWISE.get(word, word)
+        if word in _KINDS:
+            if self.kind not in (None, _KINDS[word]):
+                raise UsageError(f"{given}: the model is {self.kind} already; one of -urdf, -sdf is needed")
+            self.kind, self.is_old = _KINDS[word], self.is_old or word == "-gazebo"
+        elif word in _NUMBERS:
+            self.numbers[_NUMBERS[word]] = float(next(rest))
+        elif word == "-J":
+            name = next(rest)
+            self.joints[name] = float(next(rest))
+        elif word in _TEXTS:
+            self.texts[word] = next(rest)
+        elif word.startswith(_TRIMESH):
+            self.trimesh[word.removeprefix(_TRIMESH)] = next(rest)
+        elif word in _FLAGS:
+            self.flags.add(word)
+        else:
+            raise UsageError(f"no option {given!r}")
+
+    @property
+    def source(self) -> str:
+        """Which option says where the model comes from.
+
+        Raises:
+            UsageError: none or several, or not of which kind it is.
+        """
+        sources = [source for source in _SOURCES if source in self.texts or source in self.flags]
+        if len(sources) != 1:
+            raise UsageError(f"one of {', '.join(_SOURCES)} is needed; got {' '.join(sources) or 'none'}")
+        if self.kind is None and sources != ["-database"]:
+            raise UsageError("one of -urdf, -sdf is needed")
+        if self.kind == "trimesh" and sources != ["-file"]:
+            raise UsageError("-trimesh takes the mesh from -file")
+        return sources[0]
+
+    @property
+    def pose(self) -> Pose:
+        """Where it is to be."""
+        return Pose.from_rpy(*(self.numbers.get(name, 0.0) for name in ("x", "y", "z", "roll", "pitch", "yaw")))
+
+
+def _parted(words: list[str]) -> Iterator[str]:
+    """The words, those of the form -x=1 as two."""
+    for word in words:
+        option, equals, value = word.partition("=")
+        if equals and option in {*_NUMBERS, *_TEXTS}:
+            yield from (option, value)
+        else:
+            yield word
