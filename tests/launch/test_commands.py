@@ -12,7 +12,7 @@ from trundle.launch import read_launch_text, resolve_params
 
 
 class NoPackages:
-    def find_package(self, _name: str, /) -> Path | None:
+    def find_folder(self, _name: str, /) -> Path | None:
         return None
 
     def why_not_found(self, name: str, /) -> str:

@@ -14,7 +14,7 @@ from trundle.launch import LaunchPlan, read_launch, read_launch_text
 class OnePackage:
     """Every package is the same folder."""
 
-    def find_package(self, name: str, /) -> Path | None:
+    def find_folder(self, name: str, /) -> Path | None:
         return Path(__file__).parent if name == "p" else None
 
     def why_not_found(self, name: str, /) -> str:

@@ -15,7 +15,7 @@ class Folders:
     def __init__(self, folders: Mapping[str, Path] | None = None) -> None:
         self._folders = dict(folders or {})
 
-    def find_package(self, name: str, /) -> Path | None:
+    def find_folder(self, name: str, /) -> Path | None:
         return self._folders.get(name)
 
     def why_not_found(self, name: str, /) -> str:

@@ -17,7 +17,7 @@ class OneFolder:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
-    def find_package(self, name: str, /) -> Path | None:
+    def find_folder(self, name: str, /) -> Path | None:
         path = self._folder / name
         return path if path.is_dir() else None
 
@@ -110,7 +110,7 @@ def test_the_corpus_has_the_nodes_and_parameter_names_of_the_real_loader(shared:
     class Corpus:
         """Packages of the corpus whose name is there once."""
 
-        def find_package(self, name: str, /) -> Path | None:
+        def find_folder(self, name: str, /) -> Path | None:
             found = folders.get(name, set())
             return next(iter(found)) if len(found) == 1 else None
 

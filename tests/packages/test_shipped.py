@@ -9,7 +9,9 @@ from trundle.description import load
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.launch import read_launch
 from trundle.model import Box, Cylinder
+from trundle.nodes import catalog
 from trundle.packages import Packages, model_file, refuse_template
+from trundle.plugins.ros_control.catalog import CONTROLLERS
 
 HERE = Path(__file__).parent
 PACKAGES = Packages({"HOME": "/nobody"}, start=HERE)
@@ -79,6 +81,33 @@ def test_the_tutorials_display_launch_is_there_for_others_to_include(tmp_path: P
     )
 
     assert [node.type for node in plan.nodes][1:] == ["robot_state_publisher", "rviz"]
+
+
+def test_every_stock_package_with_a_stand_in_can_be_found_where_none_is_installed(tmp_path: Path) -> None:
+    """An argument's default that nobody reads must not stop a launch; a file that is asked for is missing by name."""
+    plugins = {"gazebo_plugins", "gazebo_ros_control", "hector_gazebo_plugins", "velodyne_gazebo_plugins"}
+    nodes = {package for package, _ in catalog.STAND_INS}
+    names = {kind.partition("/")[0] for kind in CONTROLLERS} | nodes | plugins | {"xacro"}
+    assert [name for name in sorted(names) if PACKAGES.find_folder(name) is None] == []
+    assert PACKAGES.find_package("rviz") is None
+    launch = tmp_path / "show.launch"
+    launch.write_text(
+        """<launch><arg name="view" default="$(find rviz)/default.rviz"/>
+        <node pkg="rviz" type="rviz" name="rviz" args="-d $(arg view)"/></launch>"""
+    )
+    (node,) = read_launch(launch, packages=PACKAGES, report=Diagnostics(), arguments={}, env={}).nodes
+    assert node.arguments.endswith("/rviz/default.rviz")
+
+    launch.write_text('<launch>\n<rosparam file="$(find joint_state_publisher)/a.yaml"/></launch>')
+    with pytest.raises(DescriptionError, match=r"show\.launch:2: error: .*no file .*joint_state_publisher/a\.yaml"):
+        read_launch(launch, packages=PACKAGES, report=Diagnostics(), arguments={}, env={})
+
+
+def test_an_installed_package_comes_before_the_stock_one(tmp_path: Path) -> None:
+    (tmp_path / "rviz").mkdir()
+    (tmp_path / "rviz/package.xml").write_text("<package><name>rviz</name></package>")
+
+    assert Packages({"ROS_PACKAGE_PATH": str(tmp_path)}, start=HERE).find_folder("rviz") == tmp_path / "rviz"
 
 
 class TestModelConfig:

@@ -162,7 +162,7 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
     """Put our functions in the official package's place, for as long as one file takes."""
 
     def find(name: str) -> str:
-        folder = packages.find_package(name)
+        folder = packages.find_folder(name)
         if folder is None:
             raise LookupError(f"$(find {name}): {packages.why_not_found(name)}")
         return str(folder)

@@ -7,8 +7,8 @@ from typing import Protocol
 class PackageFinder(Protocol):
     """Knows where packages live."""
 
-    def find_package(self, name: str, /) -> Path | None:
-        """Return the folder of a package, or None."""
+    def find_folder(self, name: str, /) -> Path | None:
+        """Return what `$(find name)` stands for, or None."""
         ...
 
     def why_not_found(self, name: str, /) -> str:

@@ -94,12 +94,12 @@ class Substitution:
         return scope.anonymous.setdefault(name, self.anonymous(name))
 
     def _find(self, name: str, at: Source) -> str:
-        folder = self.packages.find_package(name)
+        folder = self.packages.find_folder(name)
+        if name == "xacro" and (folder is None or not folder.is_dir()):
+            # Trundle expands xacro itself; `$(find xacro)/xacro` only has to stay recognisable, and one word.
+            return "xacro"
         if folder is not None:
             return str(folder)
-        if name == "xacro":
-            # Trundle expands xacro itself; `$(find xacro)/xacro` only has to stay recognisable.
-            return "xacro"
         raise DescriptionError(at, self.packages.why_not_found(name))
 
     def _eval(self, text: str, scope: Scope, at: Source) -> str:

@@ -10,6 +10,7 @@ from trundle.diagnostics import DescriptionError, Source, UsageError
 from .confinement import Confinement
 from .gazebo_paths import SHIPPED, GazeboPaths
 from .ros_packages import RosPackages
+from .stock import STOCK
 from .workspace import own_package
 
 ALLOW_OUTSIDE = "TRUNDLE_ALLOW_OUTSIDE"
@@ -43,6 +44,10 @@ class Packages:
     def find_package(self, name: str) -> Path | None:
         """The folder of a ROS package, or None."""
         return self._ros.find(name)
+
+    def find_folder(self, name: str) -> Path | None:
+        """What `$(find name)` stands for: of a stock package that is not installed, a folder that is not there."""
+        return self._ros.find(name) or (SHIPPED / "ros" / name if name in STOCK else None)
 
     def ros_packages(self) -> Mapping[str, Path]:
         """Every ROS package there is, by name."""

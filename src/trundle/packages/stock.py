@@ -1,0 +1,25 @@
+"""The stock ROS packages whose programs, plugins or controllers Trundle stands in for.
+
+Launch files `$(find)` them for an argument's default, a command or a file; where none is installed, each is a folder
+with nothing in it, so that only the file that is truly asked for is missing.
+"""
+
+_TOOLS = (
+    "gazebo_ros_pkgs rosbag roscpp roslaunch roslib rosmaster rosmsg rosnode rosout rosparam rospy rosservice rostopic"
+)
+_NODES = """
+    arbotix_controllers arbotix_python controller_manager depthimage_to_laserscan dynamic_reconfigure image_view
+    joint_state_publisher joint_state_publisher_gui joy map_server nodelet pointcloud_to_laserscan
+    robot_state_publisher rqt_console rqt_graph rqt_gui rqt_image_view rqt_joint_trajectory_controller rqt_plot
+    rqt_reconfigure rqt_robot_monitor rqt_robot_steering rqt_tf_tree rqt_topic rviz teleop_twist_joy
+    teleop_twist_keyboard tf tf2_ros topic_tools turtlebot3_teleop turtlebot_teleop turtlesim twist_mux
+"""
+_PLUGINS = """
+    gazebo_plugins gazebo_ros_control hector_gazebo_plugins roboticsgroup_gazebo_plugins
+    roboticsgroup_upatras_gazebo_plugins velodyne_gazebo_plugins xacro
+"""
+_CONTROLLERS = """
+    diff_drive_controller effort_controllers gripper_action_controller joint_state_controller
+    joint_trajectory_controller position_controllers velocity_controllers
+"""
+STOCK = frozenset(f"{_TOOLS} {_NODES} {_PLUGINS} {_CONTROLLERS}".split())
