@@ -89,7 +89,11 @@ def test_the_principal_moments_are_those_of_the_matrix(
 
 
 def test_checking_a_plain_robot_loads_no_engine(tmp_path: Path) -> None:
-    (tmp_path / "x.sdf").write_text(f"<sdf version='1.7'><world name='w'>{CART}</world></sdf>")
+    wheel = (
+        "<collision name='c'><pose>0 0 0 1.5707963 0 0</pose><geometry><cylinder/></geometry></collision></link><joint"
+    )
+    car = CART.replace("</link>\n<joint", wheel).replace("<limit><lower>-1</lower><upper>1</upper></limit>", "")
+    (tmp_path / "x.sdf").write_text(f"<sdf version='1.7'><world name='w'>{car}</world></sdf>")
     code = (
         "import sys; from trundle.cli import main; main(['check', 'x.sdf']);"
         "print(sorted({'mujoco', 'numpy', 'viser', 'PIL'} & set(sys.modules)))"
@@ -98,6 +102,8 @@ def test_checking_a_plain_robot_loads_no_engine(tmp_path: Path) -> None:
         [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True, timeout=120
     )
     assert done.stdout.splitlines()[-1] == "[]"
+    assert is_unremarkable(world(car))
+    assert "rolls on the ellipsoid inscribed in it, a surface up to 0.1 mm away" in done.stdout
 
 
 @pytest.mark.slow

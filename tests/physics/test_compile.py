@@ -11,6 +11,7 @@ from trundle.diagnostics import Diagnostics, Source
 from trundle.model import (
     Box,
     Collision,
+    Cylinder,
     Geometry,
     Inertial,
     Joint,
@@ -25,7 +26,7 @@ from trundle.model import (
     Surface,
     World,
 )
-from trundle.physics import CompiledWorld, compile_world
+from trundle.physics import CompiledWorld, compile_world, name_wheels
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Wrench
 
@@ -316,6 +317,25 @@ def test_a_block_fixed_to_the_world_may_stand_in_the_floor() -> None:
     )
     sim.run(0.1)
     assert sim["m"].link("a").pose.position == pytest.approx((0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize(("turns_about", "is_wheel"), [((0.0, 0.0, 1.0), True), ((1.0, 0.0, 0.0), False)])
+def test_the_wheels_that_are_named_are_those_that_roll_on_a_tread(
+    turns_about: tuple[float, float, float], is_wheel: bool
+) -> None:
+    disc = link("disc", geometry=Cylinder(0.1, 0.05))
+    car = model(link("base"), disc, joints=(hinge("base", "disc", JointAxis(direction=turns_about)),))
+    world, report = World(name="w", at=AT, models=(car,)), Diagnostics()
+
+    name_wheels(world, report)
+
+    compiled = compile_world(world, Diagnostics()).model
+    names = [compiled.geom(i).name for i in range(compiled.ngeom)]
+    assert [str(finding.at) for finding in report.findings] == ["inline.sdf:1"] * is_wheel
+    assert ("m::disc::c::tread" in names) is is_wheel
+    if is_wheel:
+        assert compiled.geom("m::disc::c::tread").size.tolist() == [0.1, 0.1, 0.025]
+        assert compiled.geom("m::disc::c").size[:2].tolist() == pytest.approx([0.1 - 1e-4, 0.025])
 
 
 def test_a_joint_held_at_an_angle_stands_there() -> None:

@@ -8,6 +8,7 @@ from trundle.description import Loaded
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import World, flattened
 from trundle.packages import Packages
+from trundle.physics import name_wheels
 
 from .described_file import load_described
 from .doubts import name_doubts
@@ -67,16 +68,17 @@ def check_description(file: str, *, packages: Packages, start: Path, report: Dia
     flat = flattened(loaded.world)
     name_doubts(loaded, report)
     _name_silent_sensors(flat, report)
-    if not is_unremarkable(flat):
-        _compile(flat, report)
+    _name_what_physics_does(flat, report)
     return FoundDescription(loaded, flat)
 
 
-def _compile(flat: World, report: Diagnostics) -> None:
-    from trundle.physics import compile_world  # slow to load, and most robots need none of its mending
-
+def _name_what_physics_does(flat: World, report: Diagnostics) -> None:
     try:
-        compile_world(flat, report)
+        if not is_unremarkable(flat):
+            from trundle.physics import compile_world  # slow to load, and most robots need none of its mending
+
+            compile_world(flat, report)
+        name_wheels(flat, report)
     except DescriptionError as error:
         report.error(error)
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 import mujoco
 
 from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.model import Collision, Cylinder, Heightmap, Plane, World, flattened
+from trundle.model import Collision, Heightmap, Plane, World, flattened
 from trundle.spatial import Pose
 
 from .contacts import add_contacts, soften
@@ -23,7 +23,7 @@ from .shapes import Meets, ShapeEntry, add_shape
 from .starting import start_positions
 from .surfaces import Touch
 from .tree import WORLD, Hold, Place, Tree
-from .wheels import add_tread, is_wheel, without_tread
+from .wheels import tread_of, without_tread
 
 _KINEMATIC_MASS = 1e6
 """How many times heavier a kinematic link is than written: nothing that the file has moves it."""
@@ -157,15 +157,17 @@ class Compiler:
         if collision.surface.surface_radius > 0 and collision.surface.patch_radius <= 0:
             what = "torsional friction by surface_radius is left out; patch_radius is simulated"
             self.report.warn(collision.at, f"collision {collision.name!r}: {what}")
-        body, wheel = self.bodies[place.name], collision
         name = self._shape_name(f"{place.name}::{collision.name}")
-        hold = self.tree.held.get(place.name)
-        if isinstance(collision.geometry, Cylinder) and hold is not None and is_wheel(hold, place, collision):
-            tread = add_tread(body, collision, collision.geometry, f"{name}::tread")
-            self._keep(tread, f"{name}::tread", place, collision, Meets.PLANES | Meets.STANDING)
-            wheel = without_tread(collision, collision.geometry)
-        for geom, meets in add_shape(self.spec, body, wheel, name, self.report, fixed=fixed):
-            self._keep(geom, geom.name, place, collision, meets)
+        parts = [(collision, name, Meets.ALL)]
+        tread = tread_of(collision, place, self.tree)
+        if tread is not None:
+            on = Meets.PLANES | Meets.STANDING
+            rolling = replace(collision, geometry=tread)
+            parts = [(rolling, f"{name}::tread", on), (without_tread(collision), name, Meets.ALL)]
+        for part, part_name, on in parts:
+            body = self.bodies[place.name]
+            for geom, meets in add_shape(self.spec, body, part, part_name, self.report, fixed=fixed):
+                self._keep(geom, geom.name, place, collision, meets & on)
 
     def _keep(
         self,

@@ -1,4 +1,4 @@
-"""Wheels that steer.
+"""Wheels that steer: geometry alone, so that `check` can say which there are without the engine.
 
 A cylinder touches a floor along a line, which has no stable turning: by rigid Coulomb friction two driven wheels that
 should turn a robot by 5.0 rad turn it by 4.5. A wheel therefore rolls on a tread, the ellipsoid inscribed in its
@@ -7,25 +7,31 @@ cylinder, which touches in the middle of its width; the cylinder, a tenth of a m
 
 from dataclasses import replace
 
-import mujoco
+from trundle.diagnostics import Diagnostics
+from trundle.model import Collision, Cylinder, Ellipsoid, JointType, World
 
-from trundle.model import Collision, Cylinder, JointType
-
-from .tree import Hold, Place
+from .tree import Hold, Place, Tree
 
 TREAD = 1e-4
 """[m] How far the tread stands out of the cylinder."""
-SMALLEST = 1e-3
+_SMALLEST = 1e-3
 """[m] Radius under which a cylinder is left as it is."""
 
 
-def is_wheel(hold: Hold, place: Place, collision: Collision) -> bool:
-    """Whether a cylinder turns about its own axis."""
-    geometry, joint = collision.geometry, hold.joint
+def tread_of(collision: Collision, place: Place, tree: Tree) -> Ellipsoid | None:
+    """What a cylinder that turns about its own axis rolls on; None of all else."""
+    geometry, hold = collision.geometry, tree.held.get(place.name)
+    if hold is None or not isinstance(geometry, Cylinder) or geometry.radius < _SMALLEST:
+        return None
+    if not _turns_about_itself(hold, place, collision):
+        return None
+    return Ellipsoid((geometry.radius, geometry.radius, max(geometry.length / 2, TREAD)))
+
+
+def _turns_about_itself(hold: Hold, place: Place, collision: Collision) -> bool:
+    joint = hold.joint
     axis = {JointType.REVOLUTE: joint.axis, JointType.REVOLUTE2: joint.axis2}.get(joint.type)
     if axis is None:
-        return False
-    if not isinstance(geometry, Cylinder) or geometry.radius < SMALLEST:
         return False
     world_from_cylinder = place.at_zero @ collision.link_from_collision
     along = world_from_cylinder.inverse().direction(hold.direction(axis))
@@ -33,15 +39,26 @@ def is_wheel(hold: Hold, place: Place, collision: Collision) -> bool:
     return abs(along[2]) > 0.9999 and max(abs(x), abs(y)) < TREAD
 
 
-def add_tread(body: mujoco.MjsBody, collision: Collision, cylinder: Cylinder, name: str) -> mujoco.MjsGeom:
-    """Add the ellipsoid."""
-    pose = collision.link_from_collision
-    tread = body.add_geom(name=name, pos=pose.position, quat=pose.quaternion, group=3)
-    tread.type = mujoco.mjtGeom.mjGEOM_ELLIPSOID
-    tread.size = [cylinder.radius, cylinder.radius, max(cylinder.length / 2, TREAD)]
-    return tread
-
-
-def without_tread(collision: Collision, cylinder: Cylinder) -> Collision:
+def without_tread(collision: Collision) -> Collision:
     """What is left for the cylinder itself."""
-    return replace(collision, geometry=replace(cylinder, radius=cylinder.radius - TREAD))
+    assert isinstance(collision.geometry, Cylinder)
+    return replace(collision, geometry=replace(collision.geometry, radius=collision.geometry.radius - TREAD))
+
+
+def name_wheels(world: World, report: Diagnostics) -> None:
+    """Report every wheel, and how far its surface is from the cylinder that the file has.
+
+    Args:
+        world: without nested models.
+        report: takes a note for each.
+
+    Raises:
+        DescriptionError: two models, or two links or joints of one, share a name.
+    """
+    tree = Tree.of(world, Diagnostics())
+    for place in tree.places.values():
+        for collision in place.link.collisions:
+            if tread_of(collision, place, tree) is not None:
+                what = "a wheel; in physics it rolls on the ellipsoid inscribed in it"
+                away = f"a surface up to {TREAD * 1e3:g} mm away"
+                report.info(collision.at, f"collision {collision.name!r}: {what}, {away}")
