@@ -57,7 +57,7 @@ def lay_out(simulation: Simulation, cameras: list[CameraSensor], *, drive: bool)
         playback=True,
         drive=drive,
         root_frame=WORLD_FRAME,
-        follow_body=_first_moving_link(simulation),
+        follow_body=_link_of_robot(simulation),
     )
     snapshot = simulation.snapshot()
     first = ViewerState(time_ns=snapshot.time_ns, body_poses=snapshot.poses)
@@ -94,9 +94,15 @@ def joint_indices(simulation: Simulation, joints: list[tuple[str, str]]) -> list
     return [order[key] for key in joints]
 
 
-def _first_moving_link(simulation: Simulation) -> int | None:
-    links = [(model, link) for model in simulation.world.models for link in model.links]
-    return next((i for i, (model, _) in enumerate(links) if not model.static), None)
+def _link_of_robot(simulation: Simulation) -> int | None:
+    """The first link of the moving model with the most joints, of equals the first: a ball or a door is no robot."""
+    joints: dict[int, int] = {}
+    first = 0
+    for model in simulation.world.models:
+        if not model.static and model.links:
+            joints[first] = len(model.joints)
+        first += len(model.links)
+    return max(joints, key=joints.__getitem__, default=None)
 
 
 def drawn_lines(simulation: Simulation) -> tuple[DrawnLine, ...]:
