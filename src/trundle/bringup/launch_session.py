@@ -21,6 +21,7 @@ from .launch_options import LaunchOptions
 from .launch_params import set_params
 from .launch_read import ReadLaunch
 from .launch_running import RunningNodes, what_runs
+from .told_time import ToldTime
 
 NS = 1_000_000_000
 _START_S = 60.0
@@ -66,14 +67,19 @@ class LaunchSession:
             values = {**core, **{param.name: param.value for param in read.params}}
             print(launch_print.summary(read.plan, values), flush=True)
         graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
-        in_step = options.speed is None and _has_world(read.plan)
-        if in_step and not graph.loop.run(launcher.has_param("/use_sim_time")):
+        programs = self._programs()
+        tells_time = options.speed is None and not programs and self._may_tell_time(launcher)
+        in_step = tells_time or (options.speed is None and _has_world(read.plan))
+        if tells_time or (in_step and not graph.loop.run(launcher.has_param("/use_sim_time"))):
             graph.loop.run(launcher.set_param("/use_sim_time", True))
         self.clock = graph.loop.run(follow_time(launcher))
-        recorder = None if options.record is None else self._record(options.record, in_step=in_step)
+        recorder = None if options.record is None else self._record(options.record, in_step, programs)
         if in_step:
             end_ns = None if options.duration_s is None else round(options.duration_s * NS)
             self._steps = Steps(graph.loop, end_ns=end_ns, recorder=recorder, say=show.line)
+            if tells_time:
+                show.line("no simulation tells the time: /clock is told here, as fast as the nodes can follow")
+                self._open_things.callback(ToldTime(launcher, self._steps).close)
         page = None
         if not options.headless:
             page = GraphPage(
@@ -92,16 +98,19 @@ class LaunchSession:
             all_required=options.all_required,
         )
 
-    def _record(self, file: Path, *, in_step: bool) -> StepRecorder | None:
-        """Write every topic into a bag; return who does it where that is done in step with the simulation."""
+    def _record(self, file: Path, in_step: bool, programs: Sequence[str]) -> StepRecorder | None:
+        """Write every topic into a bag; return who does it where that is done in step with the nodes."""
         graph = self.graph
-        if in_step and not self._has_processes():
+        if in_step and not programs:
             steps = StepRecorder(graph.loop, file)
             self._open_things.callback(steps.close)
             self._read.show.line(
                 f"{file} will be the same whenever this is run; /rosout and other programs are left out"
             )
             return steps
+        if self._options.speed is None:
+            why = f"{', '.join(programs)} run as programs of their own" if programs else "time is told by others"
+            self._read.show.line(f"{file} will differ from run to run: {why}")
         node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
         self._open_things.callback(lambda: graph.loop.run(node.shutdown(), timeout_s=_START_S))
         graph.loop.run(follow_time(node))
@@ -110,11 +119,19 @@ class LaunchSession:
         self._open_things.callback(recorder.stop)
         return None
 
-    def _has_processes(self) -> bool:
-        """Whether a node of the launch is a program of its own."""
-        read = self._read
-        found = [find_node(n.package, n.type, read.packages.find_package, env=read.env) for n in read.plan.nodes]
-        return any(isinstance(each, Executable) for each in found)
+    def _may_tell_time(self, launcher: Node) -> bool:
+        """Whether nobody else does: a simulation, a graph that was there, or a bag that will be played."""
+        graph = self.graph
+        if _has_world(self._read.plan) or graph.core is None:
+            return False
+        return graph.loop.run(launcher.get_param("/use_sim_time", False)) is not True
+
+    def _programs(self) -> list[str]:
+        """Names of the nodes that are programs of their own."""
+        read, find = self._read, self._read.packages.find_package
+        return [
+            n.name for n in read.plan.nodes if isinstance(find_node(n.package, n.type, find, env=read.env), Executable)
+        ]
 
     @property
     def is_over(self) -> bool:

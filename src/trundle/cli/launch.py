@@ -24,13 +24,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("words", nargs="*", metavar="[PKG] FILE [ARG:=VALUE]", help="what to launch ('-': standard input), and how")
     add("--headless", action="store_true", help="no browser page; rviz idles")
     add("--duration", type=float, metavar="S", help="end after so many seconds of ROS time")
-    add("--speed", type=read_speed, default=1.0, metavar="X|max", help="of a simulation, times real time (1)")
+    add("--speed", type=read_speed, default=1.0, metavar="X|max", help="times real time (1); max: flat out")
     add(
         "--record",
         type=Path,
         metavar="FILE",
-        help="write every topic into a bag, or into FILE.mcap; with --speed max, of a simulation whose nodes all run "
-        "within trundle, the same bytes every time, without /rosout and what other programs publish",
+        help="write every topic into a bag, or into FILE.mcap; with --speed max, where all nodes run within trundle, "
+        "the same bytes every time, without /rosout and what other programs publish",
     )
     add("--distro", choices=PROFILES, help="which ROS to be like (what the master says, or noetic)")
     add("-p", "--port", type=int, metavar="N", help="the master's port (that of ROS_MASTER_URI, 11311)")
