@@ -81,8 +81,7 @@ ROWS = [
     Row("srv packages", "std_srvs"),
     Row(f"bag record -O {_TICKS} -l 3 /tick"),
     Row(f"bag info {_TICKS}", "/tick +3 msgs"),
-    # Definitions of Trundle's carry no comments, which rosbag takes for another version of the type.
-    Row(f"bag check {_TICKS}", "does not need any migrations", original_says="any migrations|ready to be migrated"),
+    Row(f"bag check {_TICKS}", "does not need any migrations"),
     Row(f"bag filter {_TICKS} {{folder}}/y.bag topic=='/tick'"),
     Row(f"bag compress {_TICKS}"),
     Row("bag decompress {folder}/y.bag"),

@@ -363,3 +363,18 @@ def test_expressions_written_for_rospy_are_understood(messages: Messages) -> Non
     assert m.header.stamp > MessageView(messages.stamp(5_400_000_000))
     tree = MessageView(messages.new("tf2_msgs/TFMessage", {"transforms": [{"child_frame_id": "a"}]}))
     assert tree.transforms[0].child_frame_id == "a"
+
+
+@pytest.mark.parametrize("name", ["x.bag", "x.mcap"])
+def test_a_publishers_own_definition_is_recorded_to_the_letter(graph: Any, far: Any, tmp_path: Path, name: str) -> None:
+    """`rosbag check` compares it with the one that is installed, comments included."""
+    text = "# what it says\n\nstring   data # [ ]\n"
+    node = far.node("talker")
+    publisher = node.advertise("/a", STRING, foreign=(node.messages.md5(STRING), text), latch=True)
+    publisher.publish(bytes(4))
+    recorder = Recorder(graph.node("record"), RecordOptions(topics=("/a",), path=tmp_path / name), say=lambda _: None)
+    recorder.start()
+    graph.until(lambda: recorder.recorded == 1)
+    recorder.stop()
+    with open_bag(tmp_path / name) as bag:
+        assert [c.definition for c in bag.connections] == [text]

@@ -61,3 +61,31 @@ def test_a_type_that_is_nowhere_is_named_with_what_there_is(workspace: Path) -> 
     (workspace / "msg" / "Bad.msg").write_text("float64[\n")
     with pytest.raises(MessageError, match="the definition of my_robot_msgs/Bad cannot be read"):
         Messages().md5("my_robot_msgs/Bad")
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("# where a thing is\nPoint position  # [m]\nQuaternion orientation\n", "with comments"),
+        ("Point position\nfloat64 yaw\n", "as it is known here"),
+        ("float64[ position\n", "as it is known here"),
+    ],
+    ids=["the same type", "another", "none"],
+)
+def test_an_installed_definition_is_sent_along_with_its_comments(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, wanted: str
+) -> None:
+    """`rosbag check` compares a bag's text with the installed one; md5 sums and fields stay what they are."""
+    monkeypatch.setattr("trundle.ros.sources.DEBIAN_SHARE", "")
+    known = Messages().definition("geometry_msgs/Pose")
+    file = tmp_path / "geometry_msgs" / "msg" / "Pose.msg"
+    file.parent.mkdir(parents=True)
+    file.write_text(text)
+    monkeypatch.setenv("ROS_PACKAGE_PATH", f"/nowhere:{tmp_path}")
+    messages = Messages()
+    head, _, rest = known.partition("=" * 80)
+    own, separator, others = messages.definition("geometry_msgs/Pose").partition("=" * 80)
+    assert own == (f"{text}\n" if wanted == "with comments" else head)
+    assert separator + others == "=" * 80 + rest
+    assert messages.md5("geometry_msgs/Pose") == Messages().md5("geometry_msgs/Pose")
+    assert list(messages.fields("geometry_msgs/Pose")) == ["position", "orientation"]

@@ -9,6 +9,7 @@ import struct
 import threading
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
@@ -119,7 +120,7 @@ class Messages:
         }
 
     def text(self, type_name: str) -> str:
-        """Return the text of a type alone; of the library's types, constants and fields only."""
+        """Return the text of a type alone; of the library's types that no ROS is installed for, without comments."""
         return self._text(self._key(type_name))
 
     def service_text(self, type_name: str) -> str:
@@ -330,6 +331,13 @@ class Messages:
             yield from self._depends(name)
 
     def _text(self, key: str) -> str:
+        """As installed if that means the same: `rosbag check` compares texts, comments included, and not md5 sums."""
+        if not self._is_bare and (text := self._definitions.installed(_ros(key))) is not None:
+            from rosbags.typesys import TypesysError, get_types_from_msg
+
+            with suppress(TypesysError):
+                if get_types_from_msg(text, key)[key] == self._store.fielddefs[key]:
+                    return text
         if key in self._texts:
             return self._texts[key]
         lines = [f"{kind} {name}={text}\n" for name, (kind, text) in self.constants(_ros(key)).items()]

@@ -3,10 +3,13 @@
 import os
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
 _SHIPPED = Path(__file__).parent / "definitions"
+DEBIAN_SHARE = "/usr/share"
+"""Debian's rospkg looks here last, whatever ROS_PACKAGE_PATH says."""
 _CONSTANT = re.compile(r"^\s*(?P<type>[A-Za-z0-9_]+)\s+(?P<name>[A-Za-z][A-Za-z0-9_]*)\s*=(?P<value>.*)$", re.MULTILINE)
 
 
@@ -48,6 +51,16 @@ class Definitions:
             self._looked_up.add(package)
             if (folder := self.on_path.get(package)) is not None:
                 self._read(package, folder)
+
+    def installed(self, type_name: str) -> str | None:
+        """The text of a message type as an installed ROS has it, with its comments, where `rosbag check` looks too."""
+        package, _, name = type_name.partition("/")
+        for share in (*os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep), DEBIAN_SHARE):
+            path = Path(share, package, "msg", f"{name}.msg")
+            if share and path.is_file():
+                with suppress(OSError):
+                    return _text(path)
+        return None
 
     def load_all(self) -> None:
         """Read everything there is."""
