@@ -4,7 +4,10 @@ import math
 from itertools import pairwise
 
 import pytest
-from tests.bringup.conftest import Gazebo, until
+from tests.bringup.conftest import PATIENCE_S, Gazebo, until
+
+from trundle.nodes.gazebo.ode import OdeSettings
+from trundle.ros import set_options
 
 _INERTIA = "<inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>"
 _BALL = f"""<sdf version="1.6"><model name="m"><pose>0 0 100 0 0 0</pose><link name="link">
@@ -37,8 +40,48 @@ def test_gravity_can_be_switched_off(gazebo: Gazebo) -> None:
     twist = gazebo.state("ball").twist.linear
     assert twist.x == pytest.approx(0.5 * gazebo.time_s, rel=1e-3)
     assert twist.z == pytest.approx(0.0, abs=1e-9)
-    refused = gazebo.call("set_physics_properties", kind, time_step=0.01)
-    assert "the time step of a running simulation stays 0.001 s" in refused.status_message
+    refused = gazebo.call("set_physics_properties", kind)
+    assert "time_step must be from 1e-06 to 1 s, got 0" in refused.status_message
+
+
+def test_the_time_step_is_another_one_and_what_ode_alone_has_is_kept_and_said(gazebo: Gazebo) -> None:
+    """The clock told at every step shows it; nothing falls faster for it."""
+    gazebo.spawn(_BALL, "ball")
+    kind = "gazebo_msgs/GetPhysicsProperties"
+    now = gazebo.call("get_physics_properties", kind)
+    assert (now.time_step, now.ode_config.sor_pgs_iters, now.ode_config.max_contacts) == (0.001, 50, 20)
+    config = {name: getattr(now.ode_config, name) for name in OdeSettings().values}
+    answer = gazebo.call(
+        "set_physics_properties",
+        "gazebo_msgs/SetPhysicsProperties",
+        time_step=0.004,
+        max_update_rate=0.0,
+        gravity=now.gravity,
+        ode_config={**config, "sor_pgs_iters": 200, "erp": 0.8},
+    )
+    assert answer.success
+    assert answer.status_message == (
+        "physics engine updated; without effect here, where MuJoCo is the engine: sor_pgs_iters, erp"
+    )
+    told = gazebo.call("get_physics_properties", kind)
+    assert (told.time_step, told.max_update_rate, told.ode_config.sor_pgs_iters) == (0.004, 0.0, 200)
+    gazebo.call("unpause_physics")
+    gazebo.until_s(1.0)
+    gazebo.call("pause_physics")
+
+    assert gazebo.world.simulation.step_ns == 4_000_000
+    assert gazebo.world.simulation.time_ns % 4_000_000 == 0
+    assert gazebo.state("ball").twist.linear.z == pytest.approx(-9.8 * gazebo.time_s, rel=1e-3)
+
+
+def test_dynamic_reconfigure_changes_the_time_step_too(gazebo: Gazebo) -> None:
+    values = {"time_step": 0.002, "gravity_z": 0.0, "erp": 0.5}
+    told = gazebo.loop.run(set_options(gazebo.client, "/gazebo", values, timeout_s=PATIENCE_S), timeout_s=PATIENCE_S)
+
+    assert {name: told[name] for name in values} == values
+    assert gazebo.world.simulation.step_ns == 2_000_000
+    now = gazebo.call("get_physics_properties", "gazebo_msgs/GetPhysicsProperties")
+    assert (now.gravity.z, now.ode_config.erp) == (0.0, 0.5)
 
 
 def test_a_mass_is_felt_by_what_pushes(gazebo: Gazebo) -> None:

@@ -174,8 +174,6 @@ def test_gravity_and_masses_can_be_edited_while_everything_goes_on(sim: Simulati
     assert sim["one"].pose.position[2] > height + 0.3
 
 
-def test_an_edited_world_has_the_same_steps_and_things(sim: Simulation, third: Model) -> None:
+def test_an_edited_world_has_the_same_things(sim: Simulation, third: Model) -> None:
     with pytest.raises(UsageError, match="spawn and delete change those"):
         sim.edit(replace(sim.world, models=(*sim.world.models, third)))
-    with pytest.raises(UsageError, match="the time step of a running simulation cannot be changed"):
-        sim.edit(replace(sim.world, physics=replace(sim.world.physics, max_step_size_s=0.01)))

@@ -22,6 +22,7 @@ def carry_over(
     """
     (old_model, old_data), (new_model, new_data) = old, new
     new_data.time = old_data.time
+    stiffer = old_model.opt.timestep / new_model.opt.timestep  # a motor's stiffness is by the step
     for a, b in _both(_names(old_model.njnt, old_model.joint, renamed), _names(new_model.njnt, new_model.joint)):
         kind = int(new_model.jnt_type[b])
         if kind != int(old_model.jnt_type[a]):
@@ -35,8 +36,9 @@ def carry_over(
             getattr(new_data, name)[q : q + n] = getattr(old_data, name)[p : p + n]
     for a, b in _both(_names(old_model.nu, old_model.actuator, renamed), _names(new_model.nu, new_model.actuator)):
         new_data.ctrl[b] = old_data.ctrl[a]
-        for name in ("actuator_gainprm", "actuator_biasprm", "actuator_forcerange"):
-            getattr(new_model, name)[b] = getattr(old_model, name)[a]
+        new_model.actuator_gainprm[b] = old_model.actuator_gainprm[a] * stiffer
+        new_model.actuator_biasprm[b] = old_model.actuator_biasprm[a] * stiffer
+        new_model.actuator_forcerange[b] = old_model.actuator_forcerange[a]
     for a, b in _both(_names(old_model.nbody, old_model.body, renamed), _names(new_model.nbody, new_model.body)):
         new_data.xfrc_applied[b] = old_data.xfrc_applied[a]
 

@@ -33,7 +33,6 @@ class MimicJoint(Plugin):
 
         self._multiplier, self._offset = number("multiplier", 1.0), number("offset", 0.0)
         self._sensitiveness, max_effort = number("sensitiveness", 0.0), number("maxEffort", 1.0)
-        self._lag_s = _LAG_STEPS * sim.step_ns / 1e9
         self._max_effort = math.inf if parameters.find("hasPID") is None else max_effort
         for name in ("robotNamespace", "namespace"):
             parameters.find(name)
@@ -47,8 +46,7 @@ class MimicJoint(Plugin):
 
     def before_step(self, sim: Simulation) -> None:
         """Follow."""
-        del sim
         target = self._leader.position * self._multiplier + self._offset
         if abs(target - self._follower.position) >= self._sensitiveness:
-            speed = (target - self._follower.position) / self._lag_s
+            speed = (target - self._follower.position) * 1e9 / (_LAG_STEPS * sim.step_ns)
             self._follower.set_velocity(speed, max_effort=self._max_effort, often=True)

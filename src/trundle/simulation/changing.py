@@ -31,10 +31,8 @@ def refuse_others(world: World, edited: World) -> None:
     """Make sure that a world can go on as an edited one.
 
     Raises:
-        UsageError: the time step, or what there is, is different.
+        UsageError: what there is, is different.
     """
-    if edited.physics.max_step_size_s != world.physics.max_step_size_s:
-        raise UsageError("the time step of a running simulation cannot be changed")
     if _names_of(edited) != _names_of(world):
         raise UsageError("an edited world has other models, links or joints; spawn and delete change those")
 

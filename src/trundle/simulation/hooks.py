@@ -6,16 +6,13 @@ the world, then every `before_step` that is due acts on it; each in the order th
 """
 
 from collections.abc import Callable
-from fractions import Fraction
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol
 
 from .snapshot import Snapshot
+from .timeline import Period, Timeline
 
 if TYPE_CHECKING:
     from .simulation import Simulation
-
-Period: TypeAlias = int | Fraction
-"""[ns]"""
 
 
 class BeforeStep(Protocol):
@@ -40,23 +37,29 @@ class Alarm:
     A period that is no whole number of nanoseconds is a fraction: nothing adds up, however long it runs.
     """
 
-    def __init__(self, period_ns: Period, step_ns: int, *, start_ns: Period) -> None:
-        self._period_ns = max(period_ns, step_ns)
-        self._step_ns = step_ns
+    def __init__(self, period_ns: Period, timeline: Timeline, *, start_ns: Period) -> None:
+        self._period_ns = period_ns
+        self._timeline = timeline
         self.restart(start_ns)
 
     def restart(self, start_ns: Period) -> None:
         """Come due first at this time [ns]."""
         self._next_ns = start_ns
-        self.step = -(-start_ns // self._step_ns)
+        self.step = self._timeline.step_at(start_ns)
         """The number of the step it is due at."""
+
+    def follow(self, timeline: Timeline) -> None:
+        """Come due when it would have, at the steps of another timeline."""
+        self._timeline = timeline
+        self.restart(self._next_ns)
 
     def rings(self, step: int) -> bool:
         """Whether it is due; if so, it is set to its next time."""
         if step < self.step:
             return False
-        late_ns = step * self._step_ns - self._next_ns
-        self.restart(self._next_ns + (late_ns // self._period_ns + 1) * self._period_ns)
+        period_ns = max(self._period_ns, self._timeline.step_ns)
+        late_ns = self._timeline.time_ns(step) - self._next_ns
+        self.restart(self._next_ns + (late_ns // period_ns + 1) * period_ns)
         return True
 
 
@@ -64,7 +67,7 @@ class ScheduledHook:
     """A hook and its alarms: it acts at once and then every period, and looks after the first period."""
 
     def __init__(
-        self, hook: object, period_ns: Period, step_ns: int, *, now_ns: int, wanted: Callable[[], bool] | None
+        self, hook: object, period_ns: Period, timeline: Timeline, *, now_ns: int, wanted: Callable[[], bool] | None
     ) -> None:
         self.hook = hook
         self.wanted = wanted
@@ -73,28 +76,39 @@ class ScheduledHook:
         self.before: Callable[[Simulation], None] | None = getattr(hook, "before_step", None)
         self.after: Callable[[Snapshot], None] | None = getattr(hook, "after_step", None)
         assert self.before or self.after, f"{hook!r} has neither before_step nor after_step"
-        self.retime(period_ns, step_ns, now_ns=now_ns)
+        self._timeline = timeline
+        self.retime(period_ns, now_ns=now_ns)
 
-    def retime(self, period_ns: Period, step_ns: int, *, now_ns: int) -> None:
+    def retime(self, period_ns: Period, *, now_ns: int) -> None:
         """Count a period from now."""
-        self._period_ns = max(period_ns, step_ns)
-        self.before_alarm = Alarm(period_ns, step_ns, start_ns=now_ns)
-        self.after_alarm = Alarm(period_ns, step_ns, start_ns=now_ns + self._period_ns)
+        self._asked_ns = period_ns
+        self.before_alarm = Alarm(period_ns, self._timeline, start_ns=now_ns)
+        self.after_alarm = Alarm(period_ns, self._timeline, start_ns=now_ns + self._period_ns)
 
-    def restart(self, step: int, step_ns: int) -> None:
+    def follow(self, timeline: Timeline) -> None:
+        """Keep the rhythm at other steps."""
+        self._timeline = timeline
+        self.before_alarm.follow(timeline)
+        self.after_alarm.follow(timeline)
+
+    def restart(self, step: int) -> None:
         """Count time anew from a step that is a reset's or a restored state's."""
-        now_ns = step * step_ns
-        self.before_alarm.restart(-(-now_ns // self._period_ns) * self._period_ns)
-        self.after_alarm.restart((now_ns // self._period_ns + 1) * self._period_ns)
+        now_ns, period_ns = self._timeline.time_ns(step), self._period_ns
+        self.before_alarm.restart(-(-now_ns // period_ns) * period_ns)
+        self.after_alarm.restart((now_ns // period_ns + 1) * period_ns)
 
-    def wakes(self, step: int, step_ns: int) -> bool:
+    def wakes(self, step: int) -> bool:
         """Whether it is to be called at all; one that was not wanted for a while starts anew from this step."""
         if self.wanted is None:
             return True
         was_awake, self.awake = self.awake, self.wanted()
         if self.awake and not was_awake:
-            self.restart(step, step_ns)
+            self.restart(step)
         return self.awake
+
+    @property
+    def _period_ns(self) -> Period:
+        return max(self._asked_ns, self._timeline.step_ns)
 
     @property
     def next_step(self) -> int:

@@ -7,6 +7,7 @@ from trundle.physics import Engine, GripLaw
 from trundle.spatial import Wrench
 
 from .joint_handle import JointHandle
+from .timeline import Timeline
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +48,13 @@ class Pushes:
         self.ends = Ends(
             {link: end + steps for link, end in self.ends.wrenches.items()},
             {axis: end + steps for axis, end in self.ends.efforts.items()},
+        )
+
+    def retime(self, before: Timeline, after: Timeline) -> None:
+        """Let everything end when it would have, at other steps."""
+        self.ends = Ends(
+            {link: after.step_at(before.time_ns(end)) for link, end in self.ends.wrenches.items()},
+            {axis: after.step_at(before.time_ns(end)) for axis, end in self.ends.efforts.items()},
         )
 
     def hold_wrench(self, engine: Engine, link: int, wrench: Wrench, *, until: int | None) -> None:

@@ -28,13 +28,13 @@ from .changing import (
     without_model,
 )
 from .handles import ModelHandle, handles_of
-from .hooks import AfterStep, BeforeStep, Period, ScheduledHook
+from .hooks import AfterStep, BeforeStep, ScheduledHook
 from .joint_handle import JointHandle
 from .line import Line
 from .pushes import Ends, Pushes
 from .snapshot import Snapshot
+from .timeline import NS, Period, Timeline, step_ns_of
 
-NS = 1_000_000_000
 _LONGEST = 1000
 """Steps in one stride: what blows up is undone to its beginning."""
 Command: TypeAlias = Callable[["Simulation"], None]
@@ -45,6 +45,7 @@ class SavedSimulation:
     """A state to go back to."""
 
     steps: int
+    timeline: Timeline
     engine: EngineState
     ends: Ends
 
@@ -65,7 +66,7 @@ class Simulation:
         self.engine = Engine(compile_world(with_actors(world, report), report))
         self.world = self.engine.compiled.world
         """Without nested models: their links and joints are the outer model's, called `inner::name`."""
-        self.step_ns = round(world.physics.max_step_size_s * NS)
+        self._timeline = Timeline(step_ns_of(world))
         self.steps = 0
         self.models = handles_of(self, self.world, {})
         first = self._first_world_joint
@@ -95,7 +96,12 @@ class Simulation:
     @property
     def time_ns(self) -> int:
         """Simulation time [ns]."""
-        return self.steps * self.step_ns
+        return self._timeline.time_ns(self.steps)
+
+    @property
+    def step_ns(self) -> int:
+        """How long the next step is [ns]; `edit` may change it."""
+        return self._timeline.step_ns
 
     def __getitem__(self, name: str) -> ModelHandle:
         """The model of that name.
@@ -129,7 +135,7 @@ class Simulation:
         Raises:
             SimulationUnstableError: the physics blew up; the world stands where it last was sound.
         """
-        target = -(-until_ns // self.step_ns)
+        target = self._timeline.step_at(until_ns)
         while self.steps < target:
             self._stride(target)
         self._drain()
@@ -140,12 +146,12 @@ class Simulation:
         Raises:
             SimulationUnstableError: as `advance`.
         """
-        self._stride(-(-until_ns // self.step_ns))
+        self._stride(self._timeline.step_at(until_ns))
         self._drain()
 
     def _stride(self, target: int) -> None:
         self._drain()
-        hooks = [hook for hook in self._hooks if hook.wakes(self.steps, self.step_ns)]
+        hooks = [hook for hook in self._hooks if hook.wakes(self.steps)]
         for hook in hooks:
             if hook.before is not None and hook.before_alarm.rings(self.steps):
                 hook.before(self)
@@ -172,13 +178,12 @@ class Simulation:
             period_ns: how often [ns]; 0: at every step, which costs Python at every step.
             wanted: asked before each stride; while it says no, the hook costs no stride.
         """
-        self._hooks.append(ScheduledHook(hook, period_ns, self.step_ns, now_ns=self.time_ns, wanted=wanted))
+        self._hooks.append(ScheduledHook(hook, period_ns, self._timeline, now_ns=self.time_ns, wanted=wanted))
 
     def retime_hook(self, hook: object, period_ns: Period) -> None:
         """Call a hook from now on at another period [ns]; it keeps its turn among the others."""
-        for scheduled in self._hooks:
-            if scheduled.hook is hook:
-                scheduled.retime(period_ns, self.step_ns, now_ns=self.time_ns)
+        for scheduled in (each for each in self._hooks if each.hook is hook):
+            scheduled.retime(period_ns, now_ns=self.time_ns)
 
     def remove_hook(self, hook: object) -> None:
         """Call a hook no more."""
@@ -202,15 +207,16 @@ class Simulation:
 
     def save(self) -> SavedSimulation:
         """Keep the state, to go back to it exactly."""
-        return SavedSimulation(self.steps, self.engine.save(), self._pushes.ends.copy())
+        return SavedSimulation(self.steps, self._timeline, self.engine.save(), self._pushes.ends.copy())
 
     def restore(self, saved: SavedSimulation) -> None:
         """Go back to a saved state; hooks are due as if time had just got there."""
         self.steps = saved.steps
         self.engine.restore(saved.engine)
         self._pushes.restore(saved.ends)
+        self._follow(saved.timeline)
         for hook in self._hooks:
-            hook.restart(self.steps, self.step_ns)
+            hook.restart(self.steps)
 
     def reset(self, *, time: bool = True, poses: bool = True) -> None:
         """Go back to the start.
@@ -226,8 +232,9 @@ class Simulation:
         if time:
             self.steps = 0
             self._pushes.shift(-steps)
+            self._follow(Timeline(self.step_ns))
             for hook in self._hooks:
-                hook.restart(0, self.step_ns)
+                hook.restart(0)
         self.engine.set_time(self.time_ns / NS)
         if poses:
             for call in self._on_reset:
@@ -307,13 +314,13 @@ class Simulation:
         self.edit(replace(self.world, models=tuple(moved if m.name == handle.name else m for m in self.world.models)))
 
     def edit(self, world: World) -> None:
-        """Go on with other gravity, masses, surfaces or limits; everything keeps its state, to the bit.
+        """Go on with another time step, gravity, masses, surfaces or limits; all keep their state, to the bit.
 
         Args:
             world: this simulation's, with whatever is to be different; the same models, links and joints.
 
         Raises:
-            UsageError: the time step, or what there is, is different.
+            UsageError: what there is, is different.
             DescriptionError: the engine cannot simulate it; nothing has changed.
         """
         refuse_others(self.world, world)
@@ -342,8 +349,16 @@ class Simulation:
         self.models[:] = handles_of(self, self.world, {handle.name: handle for handle in self.models} | dict(was))
         self._find_world_joints()
         self._pushes.carry_over(links, engine)
+        timeline = self._timeline.with_steps_of(step_ns_of(world), since=self.steps)
+        self._pushes.retime(self._timeline, timeline)
+        self._follow(timeline)
         for call in self._on_change:
             call()
+
+    def _follow(self, timeline: Timeline) -> None:
+        self._timeline = timeline
+        for hook in self._hooks:
+            hook.follow(timeline)
 
     def _find_world_joints(self) -> None:
         """Have a handle for each joint between models; those that are known are moved to where they belong."""

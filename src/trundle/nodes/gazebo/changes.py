@@ -13,16 +13,20 @@ from trundle.spatial import Vector3
 from ..host import Simulator
 from .entities import find_joint, find_light, find_link
 from .messages import answered, pose_of, vector_of
+from .ode import IGNORED, OdeSettings
 
 _NO_COUNTERPART = ("erp", "cfm", "stop_erp", "stop_cfm", "fudge_factor")
 """Of ODE's joints; MuJoCo's have none of them."""
+_UPDATED = "physics engine updated"
+SHORTEST_S, LONGEST_S = 1e-6, 1.0
+"""As of a world's <max_step_size>."""
 
 
-def advertise_changes(node: Node, simulator: Simulator) -> None:
+def advertise_changes(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
     """Provide set_physics_, set_link_, set_joint_ and set_light_properties, and delete_light."""
-    changes = _Changes(simulator)
+    changes = _Changes(simulator, ode)
     for name, kind, work, done in (
-        ("set_physics_properties", "SetPhysicsProperties", changes.of_physics, "physics engine updated"),
+        ("set_physics_properties", "SetPhysicsProperties", changes.of_physics, _UPDATED),
         ("set_link_properties", "SetLinkProperties", changes.of_link, "SetLinkProperties: properties set"),
         ("set_joint_properties", "SetJointProperties", changes.of_joint, "SetJointProperties: properties set"),
         ("set_light_properties", "SetLightProperties", changes.of_light, "SetLightProperties: properties set"),
@@ -31,32 +35,41 @@ def advertise_changes(node: Node, simulator: Simulator) -> None:
         node.advertise_service(f"~{name}", f"gazebo_msgs/{kind}", answered(work, done))
 
 
-def set_physics(simulator: Simulator, *, gravity: Vector3, rate_hz: float) -> None:
-    """Have other gravity [m/s²], and so many steps a second of the wall; as in Gazebo, 0 is as many as there can be."""
+def set_physics(simulator: Simulator, *, step_s: float, gravity: Vector3, rate_hz: float) -> None:
+    """Have other steps [s], gravity [m/s²], and so many steps a second of the wall; 0: as many as there can be.
+
+    Raises:
+        UsageError: no world goes so.
+    """
+    if not SHORTEST_S <= step_s <= LONGEST_S:
+        raise UsageError(f"time_step must be from {SHORTEST_S:g} to {LONGEST_S:g} s, got {step_s:g}")
+    if not all(math.isfinite(value) for value in (*gravity, rate_hz)) or rate_hz < 0.0:
+        raise UsageError("gravity and max_update_rate must be finite, the rate not below 0")
     world = simulator.simulation.world
-    physics = replace(world.physics, gravity=gravity, real_time_update_rate_hz=rate_hz)
+    before = world.physics
+    physics = replace(before, max_step_size_s=step_s, gravity=gravity, real_time_update_rate_hz=rate_hz)
     simulator.edit(replace(world, physics=physics))
-    if rate_hz != world.physics.real_time_update_rate_hz:
-        simulator.set_speed(rate_hz * physics.max_step_size_s or None)
+    speed = rate_hz * step_s
+    if speed != before.real_time_update_rate_hz * before.max_step_size_s:
+        simulator.set_speed(speed or None)
 
 
 class _Changes:
-    def __init__(self, simulator: Simulator) -> None:
+    def __init__(self, simulator: Simulator, ode: OdeSettings) -> None:
         self._simulator = simulator
+        self._ode = ode
 
     def of_physics(self, request: Message) -> dict[str, Any]:
-        """Gravity and the rate at which steps are taken; ODE's own settings have no counterpart."""
-        world = self._simulator.simulation.world
-        if not math.isclose(request.time_step, world.physics.max_step_size_s, rel_tol=1e-9):
-            raise UsageError(
-                f"the time step of a running simulation stays {world.physics.max_step_size_s:g} s; "
-                "write <max_step_size> into the world"
-            )
-        gravity, rate = vector_of(request.gravity), float(request.max_update_rate)
-        if not all(math.isfinite(value) for value in (*gravity, rate)) or rate < 0.0:
-            raise UsageError("gravity and max_update_rate must be finite, the rate not below 0")
-        set_physics(self._simulator, gravity=gravity, rate_hz=rate)
-        return {}
+        """The time step, gravity and the rate at which steps are taken; ODE's own settings are kept, and do nothing."""
+        set_physics(
+            self._simulator,
+            step_s=float(request.time_step),
+            gravity=vector_of(request.gravity),
+            rate_hz=float(request.max_update_rate),
+        )
+        ignored = self._ode.put(request.ode_config)
+        note = f"{_UPDATED}; {IGNORED}{', '.join(ignored)}"
+        return {"status_message": note} if ignored else {}
 
     def of_link(self, request: Message) -> dict[str, Any]:
         """Mass, centre of mass, inertia, and whether gravity pulls."""

@@ -9,6 +9,7 @@ from trundle.ros import Message, Node
 from ..host import Simulator
 from .entities import find_joint, find_light, find_link, find_model
 from .messages import answered, pose_fields, vector_fields
+from .ode import OdeSettings
 
 _JOINT_TYPES = {
     JointType.REVOLUTE: 0,
@@ -18,21 +19,11 @@ _JOINT_TYPES = {
     JointType.UNIVERSAL: 5,
 }
 _CONTINUOUS = 1
-_ODE = {
-    "auto_disable_bodies": False,
-    "sor_pgs_iters": 50,
-    "sor_pgs_w": 1.3,
-    "contact_surface_layer": 0.001,
-    "contact_max_correcting_vel": 100.0,
-    "erp": 0.2,
-    "max_contacts": 20,
-}
-"""Gazebo's defaults: scripts read them and send them back; MuJoCo has no such settings."""
 
 
-def advertise_properties(node: Node, simulator: Simulator) -> None:
+def advertise_properties(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
     """Provide the get_…_properties."""
-    properties = _Properties(simulator)
+    properties = _Properties(simulator, ode)
     for name, kind, work in (
         ("get_world_properties", "GetWorldProperties", properties.of_world),
         ("get_model_properties", "GetModelProperties", properties.of_model),
@@ -45,8 +36,9 @@ def advertise_properties(node: Node, simulator: Simulator) -> None:
 
 
 class _Properties:
-    def __init__(self, simulator: Simulator) -> None:
+    def __init__(self, simulator: Simulator, ode: OdeSettings) -> None:
         self._simulator = simulator
+        self._ode = ode
 
     def of_world(self, _request: Message) -> dict[str, Any]:
         simulation = self._simulator.simulation
@@ -100,7 +92,7 @@ class _Properties:
             "pause": self._simulator.paused,
             "max_update_rate": physics.real_time_update_rate_hz,
             "gravity": vector_fields(physics.gravity),
-            "ode_config": _ODE,
+            "ode_config": self._ode.values,
         }
 
     def of_light(self, request: Message) -> dict[str, Any]:

@@ -3,16 +3,16 @@
 from trundle.ros import Node, Option, Options, ReconfigureServer
 
 from ..host import Simulator
-from .changes import set_physics
+from .changes import LONGEST_S, SHORTEST_S, set_physics
+from .ode import IGNORED, OdeSettings
 
 _MOST_GRAVITY = 100.0
 _FASTEST_HZ = 1_000_000.0
 
 
-def advertise_options(node: Node, simulator: Simulator) -> None:
-    """Offer gravity and max_update_rate; time_step is told, and stays; ODE's own options have no counterpart."""
+def advertise_options(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
+    """Offer what gazebo_ros does; of ODE's own options it is said that they do nothing."""
     physics = simulator.simulation.world.physics
-    step_s = physics.max_step_size_s
     pulls = [
         Option(name=f"gravity_{axis}", value=value, lower=-_MOST_GRAVITY, upper=_MOST_GRAVITY, description="[m/s²]")
         for axis, value in zip("xyz", physics.gravity, strict=True)
@@ -24,17 +24,17 @@ def advertise_options(node: Node, simulator: Simulator) -> None:
         upper=_FASTEST_HZ,
         description="Steps a second of the wall; 0: as many as there can be",
     )
-    step = Option(
-        name="time_step",
-        value=step_s,
-        lower=step_s,
-        upper=step_s,
-        description="[s]; stays while the simulation runs",
-    )
+    step = Option(name="time_step", value=physics.max_step_size_s, lower=SHORTEST_S, upper=LONGEST_S, description="[s]")
+    settings = ode.options()
 
     def apply(values: Options) -> Options:
         x, y, z = (float(values[pull.name]) for pull in pulls)
-        set_physics(simulator, gravity=(x, y, z), rate_hz=float(values[rate.name]))
+        step_s, rate_hz = float(values[step.name]), float(values[rate.name])
+        set_physics(simulator, step_s=step_s, gravity=(x, y, z), rate_hz=rate_hz)
+        kept = {name: value for name, value in values.items() if name in ode.values and not isinstance(value, str)}
+        ignored = ode.keep(kept)
+        if ignored:
+            node.log_warn(f"{IGNORED}{', '.join(ignored)}")
         return values
 
-    ReconfigureServer(node, [step, rate, *pulls], apply)
+    ReconfigureServer(node, [step, rate, *pulls, *settings], apply)

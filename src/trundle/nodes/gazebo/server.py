@@ -10,6 +10,7 @@ from .changes import advertise_changes
 from .efforts import advertise_efforts
 from .metrics import MetricsTopic
 from .models import advertise_models
+from .ode import OdeSettings
 from .properties import advertise_properties
 from .reconfigure import advertise_options
 from .states import StateTopics, advertise_states
@@ -78,13 +79,13 @@ class GazeboServer:
         for advertise in (
             advertise_models,
             advertise_states,
-            advertise_properties,
-            advertise_changes,
             advertise_efforts,
             advertise_timing,
-            advertise_options,
         ):
             advertise(self._node, simulator)
+        ode = OdeSettings()
+        for advertise in (advertise_properties, advertise_changes, advertise_options):
+            advertise(self._node, simulator, ode)
 
     def _read_arguments(self) -> tuple[str, bool, str | None]:
         """The world, whether it starts paused, and where to record it; what has no effect is named."""

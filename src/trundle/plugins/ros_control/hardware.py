@@ -31,7 +31,7 @@ class JointHardware:
         self.position = self.velocity = self.effort = 0.0
         """As of the last `read`."""
         self._pid = pid
-        self._lag_s = lag_s
+        self.lag_s = lag_s
         self._is_at_rest = True
         axis = handle.joint.axis
         assert axis is not None, f"{self.name} has no axis"
@@ -91,7 +91,7 @@ class JointHardware:
         if self._pid is not None:
             self.handle.set_effort(self._within_effort(self._pid.command(error, dt)))
             return
-        speed = error / self._lag_s
+        speed = error / self.lag_s
         self.handle.set_velocity(min(max(speed, -self._most_speed), self._most_speed), often=True)
 
     def _within_effort(self, effort: float) -> float:

@@ -110,7 +110,7 @@ class GazeboRosControl(Plugin):
     def _begin(self, urdf: str, name: str, gains: object) -> None:
         report = self._sim.report
         settings = Settings(gains, f"{self._namespace}/gazebo_ros_control/pid_gains")
-        lag_s = max(_LAG_STEPS * self._sim.step_ns, 1.5 * self.period_ns) / 1e9
+        lag_s = self._lag_s
         try:
             for driven in read_transmissions(urdf, name, report):
                 handle = self._model.joint(driven.name)
@@ -128,8 +128,17 @@ class GazeboRosControl(Plugin):
             self._node.log_fatal(f"gazebo_ros_control: {error}; nothing is controlled")
             return
         self._last_ns = self._sim.time_ns
+        self._sim.on_change(self._keep_lag)  # the time step may be another one
         self._manager = ControllerManager(self._node, self._namespace, self._hardware, self._model)
         self._node.log_info(f"Loaded gazebo_ros_control: {len(self._hardware)} joints of {self._namespace}")
+
+    @property
+    def _lag_s(self) -> float:
+        return max(_LAG_STEPS * self._sim.step_ns, 1.5 * self.period_ns) / 1e9
+
+    def _keep_lag(self) -> None:
+        for joint in self._hardware.values():
+            joint.lag_s = self._lag_s
 
 
 def _period_ns(parameters: XmlNode, sim: Simulation) -> int:
