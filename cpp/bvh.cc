@@ -9,7 +9,6 @@ namespace trundle {
 namespace {
 
 constexpr int kBins = 16;
-constexpr int32_t kLeaf = 2;      // triangles that are not worth a division
 constexpr int kDeepest = kMostWaiting / kWidest - 2;
 
 struct Box {
@@ -31,21 +30,21 @@ std::array<float, 3> corner_of(const Triangles& mesh, int32_t face, int corner) 
   return {mesh.places[0][vertex], mesh.places[1][vertex], mesh.places[2][vertex]};
 }
 
-BvhFace face_of(const Triangles& mesh, int32_t face) {
+void add_face(const Triangles& mesh, int32_t face, BvhLeaf& leaf, int32_t at) {
   const auto a = corner_of(mesh, face, 0), b = corner_of(mesh, face, 1), c = corner_of(mesh, face, 2);
-  BvhFace made;
-  for (int i = 0; i < 6; ++i) {
-    const int x = i % 3, y = (i + 1) % 3, z = (i + 2) % 3;
-    made.corner[i] = a[x], made.edges[0][i] = b[x] - a[x], made.edges[1][i] = c[x] - a[x];
-    made.normal[i] = (float)(((double)b[y] - a[y]) * ((double)c[z] - a[z]) - ((double)b[z] - a[z]) * ((double)c[y] - a[y]));
+  for (int x = 0; x < 3; ++x) {
+    const int y = (x + 1) % 3, z = (x + 2) % 3;
+    leaf.corner[x][at] = a[x], leaf.edges[0][x][at] = b[x] - a[x], leaf.edges[1][x][at] = c[x] - a[x];
+    leaf.normal[x][at] =
+        (float)(((double)b[y] - a[y]) * ((double)c[z] - a[z]) - ((double)b[z] - a[z]) * ((double)c[y] - a[y]));
   }
-  return made;
 }
 
 // A box, and below it either triangles, `count` from `first` on, or two boxes: the next one and `first`.
 struct Pair {
   Box box;
   int32_t first, count;
+  int32_t leaves;
 };
 
 // Divides by two, by the surface area heuristic.
@@ -113,7 +112,7 @@ struct Builder {
       middles.take({middle, middle});
     }
     const size_t here = nodes.size();
-    nodes.push_back({box, first, count});
+    nodes.push_back({box, first, count, (count + kLeaf - 1) / kLeaf});
     if (count <= kLeaf) return;
     int32_t left = depth < kDeepest ? split(first, count, middles, box.area()) : 0;
     if (left == 0 && count <= 64) return;
@@ -123,24 +122,30 @@ struct Builder {
     nodes[here].first = (int32_t)nodes.size();
     nodes[here].count = 0;
     divide(first + left, count - left, depth + 1);
+    nodes[here].leaves = nodes[here + 1].leaves + nodes[nodes[here].first].leaves;
   }
 };
 
-// Joins what was divided, the largest boxes last, to nodes of kWidest boxes.
+// Joins what was divided to nodes of kWidest boxes, full where most of them are: at the bottom.
 struct Joiner {
+  const Triangles& mesh;
+  const std::vector<int32_t>& order;
   const std::vector<Pair>& pairs;
   float margin;  // [m] what single precision may lose
   std::vector<BvhNode> nodes;
+  std::vector<BvhLeaf> leaves;
 
   void join(int32_t from) {
+    int32_t most = 1;  // leaves below one box
+    while (most * kWidest < pairs[from].leaves) most *= kWidest;
     std::vector<int32_t> below = {from};
     while (below.size() < (size_t)kWidest) {
-      const auto area = [&](int32_t i) { return pairs[i].count > 0 ? -1.0 : pairs[i].box.area(); };
-      const auto largest = std::max_element(below.begin(), below.end(),
-                                            [&](int32_t a, int32_t b) { return area(a) < area(b); });
-      const int32_t divided = *largest;
-      if (pairs[divided].count > 0) break;
-      *largest = divided + 1;
+      const auto fullest = std::max_element(below.begin(), below.end(), [&](int32_t a, int32_t b) {
+        return (pairs[a].count > 0 ? 0 : pairs[a].leaves) < (pairs[b].count > 0 ? 0 : pairs[b].leaves);
+      });
+      const int32_t divided = *fullest;
+      if (pairs[divided].count > 0 || (pairs[divided].leaves <= most && divided != from)) break;
+      *fullest = divided + 1;
       below.push_back(pairs[divided].first);
     }
     const size_t here = nodes.size();
@@ -151,13 +156,19 @@ struct Joiner {
         nodes[here].low[axis][i] = used ? pairs[below[i]].box.low[axis] - margin : 3e38f;
         nodes[here].high[axis][i] = used ? pairs[below[i]].box.high[axis] + margin : -3e38f;
       }
-      nodes[here].count[i] = used ? pairs[below[i]].count : 0;
-      nodes[here].first[i] = used ? pairs[below[i]].first : 0;
+      nodes[here].first[i] = nodes[here].count[i] = 0;
     }
     for (size_t i = 0; i < below.size(); ++i) {
-      if (pairs[below[i]].count > 0) continue;
-      nodes[here].first[i] = (int32_t)nodes.size();
-      join(below[i]);
+      const Pair& pair = pairs[below[i]];
+      nodes[here].first[i] = (int32_t)(pair.count > 0 ? leaves.size() : nodes.size());
+      if (pair.count == 0) {
+        join(below[i]);
+        continue;
+      }
+      nodes[here].count[i] = (pair.count + kLeaf - 1) / kLeaf;
+      leaves.resize(leaves.size() + (size_t)nodes[here].count[i]);
+      for (int32_t k = 0; k < pair.count; ++k)
+        add_face(mesh, order[pair.first + k], leaves[(size_t)(nodes[here].first[i] + k / kLeaf)], k % kLeaf);
     }
   }
 };
@@ -166,15 +177,12 @@ struct Joiner {
 
 Bvh make_bvh(const Triangles& mesh) {
   Builder builder(mesh);
-  Bvh bvh;
   float largest = 0.0f;
   for (int axis = 0; axis < 3; ++axis)
     largest = std::max({largest, -builder.nodes[0].box.low[axis], builder.nodes[0].box.high[axis]});
-  Joiner joiner{builder.nodes, 4e-6f * largest, {}};
+  Joiner joiner{mesh, builder.order, builder.nodes, 4e-6f * largest, {}, {}};
   joiner.join(0);
-  for (const int32_t face : builder.order) bvh.faces.push_back(face_of(mesh, face));
-  bvh.nodes = std::move(joiner.nodes);
-  return bvh;
+  return {std::move(joiner.nodes), std::move(joiner.leaves)};
 }
 
 }  // namespace trundle

@@ -9,8 +9,8 @@ namespace trundle {
 
 struct Bvh {
   std::vector<BvhNode> nodes;
-  std::vector<BvhFace> faces;
-  BvhView view() const { return {nodes.data(), faces.data()}; }
+  std::vector<BvhLeaf> leaves;
+  BvhView view() const { return {nodes.data(), leaves.data()}; }
 };
 
 // Of what is never empty: a mesh with faces.

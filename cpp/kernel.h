@@ -35,21 +35,23 @@ struct Triangles {
 
 constexpr int kMostWaiting = 1024;  // nodes that a walk through a tree may put off
 
-// Boxes, and below each either `count` triangles from `first` on, or, where count is 0, the node `first`. What is not
-// used is a box that holds nothing.
+constexpr int kLeaf = 8;             // triangles that rays are held against side by side
+
+// Boxes, and below each either `count` leaves from `first` on, or, where count is 0, the node `first`. What is not used
+// is a box that holds nothing.
 struct BvhNode {
   float low[3][kWidest], high[3][kWidest];
   int32_t first[kWidest], count[kWidest];
 };
 
-// A corner, the two edges from there, and what is at right angles to both: x, y and z twice, to be multiplied crosswise.
-struct BvhFace {
-  float corner[6], edges[2][6], normal[6];
+// Of each triangle a corner, the two edges from there, and what is at right angles to both. What is not used has no area.
+struct BvhLeaf {
+  float corner[3][kLeaf], edges[2][3][kLeaf], normal[3][kLeaf];
 };
 
 struct BvhView {
   const BvhNode* nodes;
-  const BvhFace* faces;
+  const BvhLeaf* leaves;
 };
 
 // An image and its halves, down to one pixel; it repeats.

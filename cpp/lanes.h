@@ -102,6 +102,13 @@ inline float largest(F a) {
 }
 inline float least(F a) { return -largest(-a); }
 
+// Of all lanes; in what order they are added depends on the width.
+inline float total(F a) {
+  float sum = 0.0f;
+  for (int i = 0; i < kLanes; ++i) sum += a[i];
+  return sum;
+}
+
 inline F counting() {
   F numbers;
   for (int i = 0; i < kLanes; ++i) numbers[i] = (float)i;

@@ -173,6 +173,42 @@ def test_a_ray_meets_the_same_whichever_rays_are_cast_beside_it() -> None:
     assert alone == ranges[::97].tolist()
 
 
+def quad(half: float, along: float = 0.0) -> Mesh:
+    """A square wall that looks back along x; how far it is shifted to the left."""
+    corners = [
+        (0.0, along - half, -half),
+        (0.0, along + half, -half),
+        (0.0, along + half, half),
+        (0.0, along - half, half),
+    ]
+    return Mesh(np.array(corners, dtype=np.float32), np.array([[0, 2, 1], [0, 3, 2]], dtype=np.int32))
+
+
+def test_of_two_walls_at_one_place_the_first_is_met_whichever_is_come_to_first() -> None:
+    """The wide one's ball begins elsewhere than the small one's: rays look into one before the other."""
+    wall = Pose((2.0, 0.0, 0.0))
+    wide, small = quad(4.0, along=3.0), quad(0.5)
+    ahead = np.array([[1.0, 0.0, 0.0]], dtype=np.float32)
+    for meshes in ((wide, small), (small, wide)):
+        made = renderer(*(Shape(name="w", body=0, geometry=mesh, body_from_shape=wall) for mesh in meshes))
+        ranges, shapes = made.cast(Pose(), ahead, reach_m=10.0)
+        assert (ranges[0], shapes[0]) == (2.0, 0)
+
+
+def test_a_mesh_behind_another_is_seen_beside_it() -> None:
+    """Whose ball comes first need not be met: rays go on to the next."""
+    near, far = quad(0.5, along=1.0), quad(4.0)
+    placed = ((far, Pose((3.0, 0.0, 0.0))), (near, Pose((2.0, 0.0, 0.0))))
+    made = renderer(*(Shape(name="w", body=0, geometry=mesh, body_from_shape=pose) for mesh, pose in placed))
+    slopes = np.linspace(-1.0, 1.0, 201)
+    ways = np.stack([np.ones(201), slopes, np.zeros(201)], axis=-1)
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    _, shapes = made.cast(Pose(), ways.astype(np.float32), reach_m=20.0)
+    behind_near = (slopes > 0.255) & (slopes < 0.745)
+    assert (shapes[behind_near] == 1).all()
+    assert (shapes[(slopes < 0.245) | (slopes > 0.755)] == 0).all()
+
+
 def test_a_ray_that_goes_nowhere_disturbs_no_other() -> None:
     made = renderer(Shape(name="m", body=0, geometry=ico(2), body_from_shape=Pose((2.0, 0.0, 0.0))))
     ways = around(720, 3)[720:1440]
