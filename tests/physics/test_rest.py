@@ -4,9 +4,12 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
+import mujoco
+import numpy as np
 import pytest
 
 import trundle
+from trundle.physics.rest import EVERY
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist, Wrench
 
@@ -133,6 +136,33 @@ def test_a_state_saved_asleep_goes_on_to_the_bit(load: Load) -> None:
         ends.append(sim.snapshot().poses.tobytes())
         sim["c"].apply_wrench(Wrench())
     assert ends[0] == ends[1]
+
+
+def test_a_world_that_sleeps_as_a_whole_is_not_stepped_and_goes_on_to_the_bit(
+    load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sim = asleep(load, box("b", "0 0 0.1 0 0 0"), box("c", "0 0 0.3 0 0 0", extra=ARM))
+    saved, steps, whole = sim.save(), 3 * EVERY, mujoco.mj_step
+    ends: list[bytes] = []
+    for at_once in (steps, 1):
+        taken: list[int] = []
+
+        def counted(model: mujoco.MjModel, data: mujoco.MjData, nstep: int = 1, taken: list[int] = taken) -> None:
+            taken.append(nstep)
+            whole(model, data, nstep=nstep)
+
+        monkeypatch.setattr(mujoco, "mj_step", counted)
+        sim.restore(saved)
+        for _ in range(steps // at_once):
+            sim.step(at_once)
+        assert sum(taken) < 10 if at_once > 1 else sum(taken) == steps
+        sim["c"].joint("j").set_velocity(1.0)
+        sim.step(300)
+        data = sim.engine.save().data
+        ends.append(np.array([data.time, *data.qpos, *data.qvel]).tobytes())
+        sim["c"].joint("j").set_effort(0.0)
+    assert ends[0] == ends[1]
+    assert sim.time_ns == (2000 + steps + 300) * 1_000_000
 
 
 def test_what_sleeps_still_touches(load: Load) -> None:

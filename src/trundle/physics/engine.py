@@ -118,7 +118,7 @@ class Engine:
                 count -= 1
                 continue
             some = min(count, EVERY - self._taken % EVERY)
-            mujoco.mj_step(self._model, self._data, nstep=some)
+            self._rest.step(some)
             self._taken += some
             count -= some
             if self._taken % EVERY == 0 and not self._is_unstable():
