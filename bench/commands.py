@@ -47,7 +47,7 @@ def run() -> list[Row]:
         env = {**os.environ, "ROS_PACKAGE_PATH": str(folder / "ws"), "PYTHONPATH": str(_ament(folder))}
         if env.pop("PYTHONDONTWRITEBYTECODE", None):  # Python keeps its byte code where it is installed for use
             env["PYTHONPYCACHEPREFIX"] = str(folder / "bytecode")
-        ours, expanded = [sys.executable, "-m", "trundle"], str(folder / "expanded.urdf")
+        ours, expanded = [str(Path(sys.executable).with_name("trundle"))], str(folder / "expanded.urdf")
         rows: list[Row] = []
         for xacro, who in _xacros(folder):
             if check_urdf := shutil.which("check_urdf"):

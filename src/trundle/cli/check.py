@@ -5,7 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, quiet_imports
+from .main import add_allow_outside, no_garbage, quiet_imports
 
 EXAMPLES = """
   trundle check model.sdf                             everything worth knowing, worst first
@@ -28,6 +28,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Read, report, and return 1 where the file is refused."""
+    with no_garbage():
+        return _check(args)
+
+
+def _check(args: argparse.Namespace) -> int:
     with quiet_imports():
         from trundle.bringup.check import check
 

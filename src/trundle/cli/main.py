@@ -5,6 +5,7 @@ A command is a module `trundle.cli.<name>`: the first line of its docstring is i
 """
 
 import argparse
+import gc
 import importlib
 import os
 import signal
@@ -124,6 +125,22 @@ def quiet_imports() -> Generator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+_SELDOM = 200_000
+"""Objects between two looks for garbage: those of an honest file live as long as the process, and there are fewer."""
+
+
+@contextmanager
+def no_garbage() -> Generator[None]:
+    """Look for garbage seldom in what ends with the process, and not again on the way out."""
+    before = gc.get_threshold()
+    gc.set_threshold(_SELDOM)
+    try:
+        yield
+    finally:
+        gc.set_threshold(*before)
+        gc.freeze()
 
 
 def _names_a_place(message: str) -> bool:

@@ -1,20 +1,16 @@
 """Expand a xacro file."""
 
 import argparse
-import gc
 import os
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside
+from .main import add_allow_outside, no_garbage
 
 EXAMPLES = """
   trundle xacro robot.urdf.xacro                      the expanded XML on standard output
   trundle xacro robot.urdf.xacro gripper:=true -o robot.urdf
 """
-
-_SELDOM = 200_000
-"""Objects between two looks for garbage: those of an honest file live as long as the process, and there are fewer."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -28,7 +24,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Print the expanded file."""
-    gc.set_threshold(_SELDOM)
+    with no_garbage():
+        return _expand(args)
+
+
+def _expand(args: argparse.Namespace) -> int:
     from trundle.description import expand_xacro
     from trundle.diagnostics import Diagnostics, UsageError
     from trundle.packages import Packages

@@ -62,6 +62,18 @@ def _bound_symbols(symbols: Any) -> None:
 _bound_symbols(xacro._global_symbols)
 
 
+def _collect_args_for(original: Callable[[str], list[str]]) -> Callable[[str], list[str]]:
+    """Whatever a $(…) stood for is gone through once more, letter by letter."""
+
+    def collect_args(text: str) -> list[str]:
+        return original(text) if "$" in text else []
+
+    return collect_args
+
+
+substitution_args._collect_args = _collect_args_for(substitution_args._collect_args)
+
+
 _REPEATED = r"<class '[\w.]+'>: (.*?) \1"
 """How the package words an error of $(…): its class, then what it says, twice."""
 _LONGEST = 400

@@ -83,7 +83,9 @@ class Evaluator:
 
 @lru_cache
 def _guarded(expression: str) -> _Guarded:
-    """Macros ask for the same again and again."""
+    """Macros ask for the same again and again, and most for one name."""
+    if expression.isascii() and expression.isidentifier() and expression[0] != "_":
+        return _Guarded(compile(expression, "<expression>", "eval"), [])
     tree = ast.parse(expression, "<expression>", "eval")
     may_hide = (
         "__" in expression or not expression.isascii()

@@ -113,13 +113,17 @@ class Packages:
         """
         if self._environment.get(ALLOW_OUTSIDE) == "1":
             return
-        near = Confinement([self._own, *([] if root is None else [root])])
-        if not (near.allows(path) or self._in_ros.allows(path) or self._in_gazebo.allows(path)):
+        is_near = self._in_own.allows(path) or (root is not None and Confinement([root]).allows(path))
+        if not (is_near or self._in_ros.allows(path) or self._in_gazebo.allows(path)):
             raise DescriptionError(
                 at,
                 f"{told} leads to {path}; a description reads only below its own folders, the packages and the "
                 "resource paths; --allow-outside lifts that",
             )
+
+    @cached_property
+    def _in_own(self) -> Confinement:
+        return Confinement([self._own])
 
     @cached_property
     def _in_ros(self) -> Confinement:
