@@ -1,0 +1,176 @@
+"""SIGKILL of a peer that subscribes, serves, calls, watches a parameter, waits for an action or records."""
+
+import asyncio
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.ros.conftest import PATIENCE_S
+
+from trundle.ros import ActionOutcome, ActionServer, MasterProxy, ServiceError
+
+STRING = "std_msgs/String"
+EMPTY = "std_srvs/Empty"
+PEER = """
+import asyncio, sys
+from trundle.ros import GraphLoop, MasterProxy, Node
+
+async def never(request):
+    await asyncio.Event().wait()
+
+with GraphLoop() as loop:
+    node = Node("peer", loop=loop, master_uri=sys.argv[1])
+    match sys.argv[2]:
+        case "subscriber":
+            node.subscribe("/a", "std_msgs/String", lambda message: None)
+        case "service":
+            node.advertise_service("/theirs", "std_srvs/Empty", never)
+        case "client":
+            loop.spawn(node.call_service("/ours", "std_srvs/Empty"))
+        case "parameter":
+            loop.run(node.ready())
+            loop.run(node.watch_param("/p", lambda *_: None))
+            loop.run(node.set_param("/watched", True))
+        case "action":
+            goals = node.advertise("/do/goal", "actionlib_tutorials/FibonacciActionGoal", latch=True)
+            goals.publish({"goal": {"order": 3}})
+        case "master":
+            while True:
+                MasterProxy(sys.argv[1]).call("setParam", "/busy", ["x" * 1000] * 100)
+    loop.run(node.ready())
+    input()
+"""
+
+
+@contextmanager
+def _killed(graph: Any, *words: str) -> Iterator[None]:
+    """A process until the end of the block, and then none, without a word."""
+    env = {**os.environ, "ROS_MASTER_URI": graph.core.uri}
+    pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.DEVNULL}
+    with subprocess.Popen([sys.executable, *words], env=env, **pipes) as process:
+        try:
+            yield
+        finally:
+            process.send_signal(signal.SIGKILL)
+
+
+def _peer(graph: Any, role: str) -> Any:
+    return _killed(graph, "-c", PEER, graph.core.uri, role)
+
+
+def _works(graph: Any, node: Any) -> None:
+    """Topics, services and parameters of a node are still there for others."""
+    got: list[str] = []
+    publisher = node.advertise("/still", STRING)
+    other = graph.node("other")
+    subscription = other.subscribe("/still", STRING, lambda message: got.append(message.data))
+    graph.until(lambda: subscription.publishers)
+    publisher.publish({"data": "yes"})
+    graph.until(lambda: got == ["yes"])
+    node.advertise_service("/still/there", EMPTY, lambda _: None)
+    graph.loop.run(other.wait_for_service("/still/there", PATIENCE_S), PATIENCE_S)
+    graph.loop.run(other.call_service("/still/there", EMPTY), PATIENCE_S)
+    graph.loop.run(other.set_param("/still", 1), PATIENCE_S)
+
+
+def test_a_subscriber(graph: Any) -> None:
+    node = graph.node("n")
+    publisher = node.advertise("/a", STRING, queue_size=3)
+    with _peer(graph, "subscriber"):
+        graph.until(lambda: publisher.subscribers)
+    for number in range(10):
+        publisher.publish({"data": str(number) * 100_000})
+    graph.until(lambda: publisher.subscribers == 0)
+    _works(graph, node)
+
+
+def test_a_service_while_it_is_called(graph: Any) -> None:
+    node = graph.node("n")
+    with _peer(graph, "service"):
+        graph.loop.run(node.wait_for_service("/theirs", PATIENCE_S), PATIENCE_S)
+        answer = graph.loop.spawn(node.call_service("/theirs", EMPTY))
+    with pytest.raises(ServiceError, match="/theirs"):
+        answer.result(PATIENCE_S)
+    _works(graph, node)
+
+
+def test_a_client_while_it_is_served(graph: Any) -> None:
+    node, calls, may_answer = graph.node("n"), list[int](), asyncio.Event()
+
+    async def answer(_: object) -> None:
+        calls.append(1)
+        await may_answer.wait()
+
+    service = node.advertise_service("/ours", EMPTY, answer)
+    graph.ready(node)
+    with _peer(graph, "client"):
+        graph.until(lambda: calls)
+    graph.loop.call_soon(may_answer.set)
+    graph.loop.run(graph.node("next").call_service("/ours", EMPTY), PATIENCE_S)
+    assert len(calls) == 2
+    service.unregister()
+    _works(graph, node)
+
+
+def test_one_that_watches_a_parameter(graph: Any) -> None:
+    """The master goes on setting it, and forgets a watcher whose place another node has taken."""
+    node = graph.node("n")
+    told: list[object] = []
+    graph.loop.run(node.set_param("/p", 0), PATIENCE_S)
+    with _peer(graph, "parameter"):
+        graph.until(lambda: MasterProxy(graph.core.uri).call("hasParam", "/watched"))
+    graph.ready(node)
+    graph.loop.run(node.watch_param("/p", lambda _, value: told.append(value)), PATIENCE_S)
+    for number in range(1, 4):
+        graph.loop.run(graph.node("setter").set_param("/p", number), PATIENCE_S)
+        graph.until(lambda number=number: told and told[-1] == number)
+    _works(graph, node)
+
+
+def test_one_that_waits_for_an_action(graph: Any) -> None:
+    node, goals, may_end = graph.node("n"), list[int](), asyncio.Event()
+
+    async def work(goal: Any) -> ActionOutcome:
+        goals.append(goal.order)
+        await may_end.wait()
+        return ActionOutcome(result={"sequence": [0, 1, 1]})
+
+    results: list[Any] = []
+    ActionServer(node, "/do", "actionlib_tutorials/Fibonacci", work)
+    graph.ready(node)
+    listener = graph.node("listener").subscribe(
+        "/do/result", "actionlib_tutorials/FibonacciActionResult", results.append
+    )
+    graph.until(lambda: listener.publishers)
+    with _peer(graph, "action"):
+        graph.until(lambda: goals == [3])
+    graph.loop.call_soon(may_end.set)
+    graph.until(lambda: results)
+    assert list(results[0].result.sequence) == [0, 1, 1]
+    _works(graph, node)
+
+
+def test_one_in_the_middle_of_a_call_to_the_master(graph: Any) -> None:
+    node = graph.node("n")
+    proxy = MasterProxy(graph.core.uri)
+    with _peer(graph, "master"):
+        graph.until(lambda: proxy.call("hasParam", "/busy"))
+    _works(graph, node)
+
+
+def test_a_recorder(graph: Any, tmp_path: Path) -> None:
+    """What it wrote until then is in tests/cli/test_bag.py; here is what becomes of those it listened to."""
+    node = graph.node("n")
+    publisher = node.advertise("/a", STRING, queue_size=None)
+    with _killed(graph, "-m", "trundle", "bag", "record", "-q", "-O", str(tmp_path / "x.bag"), "/a"):
+        graph.until(lambda: publisher.subscribers)
+        for _ in range(100):
+            publisher.publish({"data": "x" * 100_000})
+    graph.until(lambda: publisher.subscribers == 0)
+    _works(graph, node)
