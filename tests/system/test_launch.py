@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from trundle.ros import open_bag
+
 REAL_ROSLAUNCH = "/usr/bin/roslaunch"
 _MANIFEST = """<package><name>p</name><version>1.0.0</version><description>d</description>
 <maintainer email="a@b.c">m</maintainer><license>x</license></package>"""
@@ -30,6 +32,8 @@ _MAIN = """<launch>
   <include file="$(dirname)/more.launch"/>
   <test test-name="tt" pkg="p" type="talk" name="tt"/>
 </launch>"""
+_BALL = """<sdf version="1.6"><model name="m"><link name="l"><collision name="c">
+<geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link></model></sdf>"""
 _MORE = '<launch><node pkg="p" type="talk" name="five" args="0"/></launch>'
 
 Launch = Callable[..., subprocess.CompletedProcess[str]]
@@ -273,6 +277,27 @@ def test_a_simulation_may_run_as_fast_as_it_can(launch: Launch, package: Path) -
     assert done.returncode == 0  # within the patience of a test, a minute
 
 
+@pytest.mark.slow
+def test_what_a_paused_world_says_is_the_same_in_every_bag(launch: Launch, package: Path, tmp_path: Path) -> None:
+    """However long its nodes took to start: the wall's time is nowhere in what is recorded flat out."""
+    (package / "ball.sdf").write_text(_BALL)
+    (package / "main.launch").write_text(
+        '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch"><arg name="paused" value="true"/>'
+        '</include><node name="spawn" pkg="gazebo_ros" type="spawn_model"'
+        ' args="-sdf -file $(dirname)/ball.sdf -model ball -z 1 -unpause"/></launch>'
+    )
+    bags = [tmp_path / f"{number}.bag" for number in (1, 2)]
+    for number, bag in enumerate(bags):
+        words = ("--headless", "--speed", "max", "--duration", "0.5", "--record", str(bag))
+        assert launch("p", "main.launch", *words, PYTHONHASHSEED=str(number)).returncode == 0
+
+    assert bags[0].read_bytes() == bags[1].read_bytes()
+    with open_bag(bags[0]) as bag:
+        counts = {c.topic: count for c, count in zip(bag.connections, bag.counts, strict=True)}
+    assert counts["/clock"] == 50
+    assert 40 < counts["/gazebo/model_states"] < 60
+
+
 def test_remote_children_are_refused(launch: Launch) -> None:
     done = launch("-c", "name", "-u", "http://x", "--run_id", "1")
     assert done.returncode == 1
@@ -280,10 +305,7 @@ def test_remote_children_are_refused(launch: Launch) -> None:
 
 
 def test_a_gazebo_launch_file_simulates_its_robot_without_gazebo(start, trundle, until, package: Path) -> None:
-    (package / "ball.sdf").write_text(
-        '<sdf version="1.6"><model name="m"><link name="l"><collision name="c"><geometry><sphere><radius>0.1</radius>'
-        "</sphere></geometry></collision></link></model></sdf>"
-    )
+    (package / "ball.sdf").write_text(_BALL)
     (package / "main.launch").write_text(
         '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch"/>'
         '<node name="spawn" pkg="gazebo_ros" type="spawn_model"'

@@ -70,7 +70,7 @@ class GazeboServer:
                 simulator.post(topics.publish)
             if metrics.due():
                 simulator.post(metrics.publish)
-            if simulator.in_step and not simulator.paused:
+            if simulator.in_step:
                 await node.clock.sleep(topics.period_s)
             else:  # by the wall's clock: a paused world is still told of
                 await asyncio.sleep(topics.period_s)

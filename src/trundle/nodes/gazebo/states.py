@@ -15,18 +15,29 @@ _STATE_RATE_HZ = 100.0
 
 
 class StateTopics:
-    """/gazebo/model_states and link_states, published while somebody listens."""
+    """/gazebo/model_states and link_states, published while somebody listens.
+
+    Flat out, what stands still is told of when somebody begins to listen or models come and go, so that runs repeat.
+    """
 
     period_s = 1.0 / _STATE_RATE_HZ
 
     def __init__(self, node: Node, simulator: Simulator) -> None:
         self._simulator = simulator
-        self._models = node.advertise("~model_states", "gazebo_msgs/ModelStates", queue_size=10)
-        self._links = node.advertise("~link_states", "gazebo_msgs/LinkStates", queue_size=10)
+        topics = (("~model_states", "gazebo_msgs/ModelStates"), ("~link_states", "gazebo_msgs/LinkStates"))
+        self._models, self._links = [
+            node.advertise(name, kind, queue_size=10, on_connect=lambda _: simulator.post(self._publish_at_rest))
+            for name, kind in topics
+        ]
+        simulator.post(lambda: simulator.simulation.on_change(self._publish_at_rest))
 
     def wanted(self) -> bool:
         """Whether anybody listens."""
         return self._models.has_subscribers or self._links.has_subscribers
+
+    def _publish_at_rest(self) -> None:
+        if self._simulator.in_step and self._simulator.paused:
+            self.publish()
 
     def publish(self) -> None:
         """Say where everything is; on the simulation's thread."""
