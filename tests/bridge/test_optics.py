@@ -11,8 +11,11 @@ from PIL import Image
 
 from trundle.description import write_sdf, written_uri
 from trundle.diagnostics import Diagnostics
+from trundle.model import PluginTag
+from trundle.plugins.gazebo_ros.camera import keep_borders_if_told
 from trundle.render import NativeRenderer
 from trundle.sensors import mount_cameras
+from trundle.xmlnode import parse_xml
 
 from .test_cameras import IMAGE, INFO, WALL, F, eye
 
@@ -52,16 +55,30 @@ def test_a_stereographic_lens_is_told_by_fitted_coefficients(hear: Any) -> None:
 
 
 def test_distortion_bends_the_picture_and_is_told(hear: Any) -> None:
-    """A wall's left edge, at slope 1 / 3, is seen where plumb_bob puts it."""
+    """A wall's left edge, at slope 1 / 3, is seen where plumb_bob puts it, enlarged as Gazebo does it."""
     bend = "<distortion><k1>-0.3</k1><k2>0.1</k2><p1>0.01</p1><p2>-0.01</p2></distortion>"
     heard, _ = hear(eye("camera", inside=bend) + WALL, {PICTURE: IMAGE, CALIBRATION: INFO})
 
     assert list(heard[CALIBRATION].D) == [-0.3, 0.1, 0.01, -0.01, 0.0]
     x, r2 = -1 / 3, 1 / 9
     seen = x * (1 - 0.3 * r2 + 0.1 * r2**2) - 0.01 * 3 * r2
+    end = 32 / F  # of the picture; the enlargement is what becomes of the diagonal from (-end, -end) to (end, end)
+    seen /= 1 - 0.3 * 2 * end**2 + 0.1 * 4 * end**4
     row = heard[PICTURE].data.reshape(48, 64, 3)[24, :, 0].astype(int)
     edge = int(np.flatnonzero(np.abs(np.diff(row)) > 20)[0])
     assert edge == pytest.approx(32 + F * seen - 1, abs=1)
+
+
+@pytest.mark.parametrize(("told", "is_whole"), [("", False), ("<borderCrop>0</borderCrop>", True)])
+def test_a_plugin_may_leave_out_the_crop(described: Any, told: str, is_whole: bool) -> None:
+    sim = described(eye("camera", inside="<distortion><k1>-0.3</k1></distortion>"))
+    (camera,) = mount_cameras(sim, NativeRenderer)
+    node = parse_xml(f"<plugin>{told}</plugin>", name="a.sdf")
+
+    keep_borders_if_told(camera, PluginTag(name="p", filename="p.so", at=node.at, node=node), sim.report)
+
+    assert (np.abs(camera.view.slopes()[0]).max() > 32 / F) == is_whole
+    assert sim.report.warnings == []
 
 
 def test_depths_come_through_a_distorting_lens_unmixed(hear: Any) -> None:

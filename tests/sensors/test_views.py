@@ -118,18 +118,52 @@ def test_beyond_the_fold_of_a_distortion_nothing_is_seen() -> None:
 
 
 @pytest.mark.parametrize("center", [(0.5, 0.5), (0.4, 0.6)])
-def test_a_distorted_camera_sees_a_ray_where_opencv_s_model_puts_it(center: tuple[float, float]) -> None:
+def test_a_distorted_square_camera_sees_a_ray_where_opencv_s_model_puts_it(center: tuple[float, float]) -> None:
     """About its own centre: what is there is not moved."""
-    made = optics(distortion=replace(BENT, center=center), width_px=320, height_px=240)
+    made = optics(distortion=replace(BENT, center=center), width_px=320, height_px=320)
     f = pinhole(made).focal_px
-    cx, cy = 320 * center[0], 240 * center[1]
+    cx, cy = 320 * center[0], 320 * center[1]
     right, down = 0.45, -0.3
-    beside, below = (cx - 160) / f, (cy - 120) / f
+    beside, below = (cx - 160) / f, (cy - 160) / f
     x, y = distorted(np.array([right - beside]), np.array([down - below]), BENT)
 
-    found = seen_through(view_of(made, pinhole(made)), (1.0, -right, -down)).mean(axis=0)
+    found = seen_through(view_of(made, pinhole(made), crop=False), (1.0, -right, -down)).mean(axis=0)
 
     assert found == pytest.approx((cy + f * float(y[0]) - 0.5, cx + f * float(x[0]) - 0.5), abs=0.7)
+
+
+@pytest.mark.parametrize(("width", "height"), [(320, 240), (240, 320)])
+def test_gazebo_bends_in_a_square_of_the_longer_side(width: int, height: int) -> None:
+    """Stretched to the picture afterwards: 0.1 of a short side is seen where 0.1 of the long one would be."""
+    made = optics(distortion=BENT, width_px=width, height_px=height)
+    f = pinhole(made).focal_px
+    right, down = 0.3 * width / 320, -0.2 * height / 320
+    x, y = distorted(np.array([0.3]), np.array([-0.2]), BENT)
+
+    found = seen_through(view_of(made, pinhole(made), crop=False), (1.0, -right, -down)).mean(axis=0)
+
+    row, column = height / 2 + f * float(y[0]) * height / 320, width / 2 + f * float(x[0]) * width / 320
+    assert found == pytest.approx((row - 0.5, column - 0.5), abs=0.8)
+
+
+def test_a_barrel_s_picture_ends_where_the_lens_would_end_without_distortion() -> None:
+    """Gazebo's border crop: each corner shows what the pinhole's shows, and nothing is black."""
+    made = optics(distortion=Distortion(k1=-0.3), width_px=320, height_px=240)
+    right, down = 160 / pinhole(made).focal_px, 120 / pinhole(made).focal_px
+
+    cropped, whole = view_of(made, pinhole(made)), view_of(made, pinhole(made), crop=False)
+
+    across, along = cropped.slopes()
+    assert (across[0, 0], along[0, 0]) == pytest.approx((-right, -down), rel=0.02)
+    assert (across[-1, -1], along[-1, -1]) == pytest.approx((right, down), rel=0.02)
+    assert np.abs(across).max() <= right
+    assert np.abs(along).max() <= down
+    assert np.abs(whole.slopes()[0]).max() > right * 1.05
+
+
+def test_what_is_no_barrel_is_not_cropped() -> None:
+    made = optics(distortion=Distortion(k1=0.2))
+    assert (view_of(made, pinhole(made)).slopes()[0] == view_of(made, pinhole(made), crop=False).slopes()[0]).all()
 
 
 def test_intrinsics_in_pixels_shift_stretch_and_skew() -> None:

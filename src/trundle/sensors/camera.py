@@ -87,6 +87,10 @@ class CameraSensor(MountedSensor[CameraReading]):
         """Whether its picture is what a renderer draws, without lens and distortion."""
         return isinstance(self.view, PinholeView)
 
+    def keep_borders(self) -> None:
+        """Leave what distortion shows as it is, with black borders where nothing is."""
+        self.view = view_of(self.optics, self.intrinsics, crop=False)
+
     def take(self, snapshot: Snapshot) -> CameraReading:
         """Take a picture of this instant."""
         return CameraReading(time_ns=snapshot.time_ns, rgb=self.noisy(self.look(snapshot).rgb))

@@ -12,12 +12,13 @@ from trundle.spatial import Pose
 
 from .lens import CUBE, directions_through
 from .remap import Remap
-from .undistort import undistorted
+from .undistort import distorted, undistorted
 
 _Array = NDArray[np.float64]
 _STEEPEST = math.tan(math.radians(85.0))
 """No pinhole picture reaches farther from its axis than this slope."""
 _MOST_PX = 1 << 25
+_LEAST_SCALE = 1e-7
 
 
 class View(Protocol):
@@ -58,25 +59,20 @@ class PinholeView:
 class BentView:
     """A pinhole picture that distortion bends, or whose middle or pixels are not as a renderer has them."""
 
-    def __init__(self, optics: CameraOptics, intrinsics: Intrinsics) -> None:
+    def __init__(self, optics: CameraOptics, intrinsics: Intrinsics, *, crop: bool) -> None:
         """Find where each pixel looks, and the pinhole picture that holds all of that."""
-        width, height = optics.width_px, optics.height_px
-        columns, rows = _pixels(width, height)
+        columns, rows = _pixels(optics.width_px, optics.height_px)
         f, pinhole, distortion = intrinsics.focal_px, optics.intrinsics, optics.distortion
         if pinhole is None:
-            fx = fy = f
-            middle = (distortion.center[0] * width, distortion.center[1] * height)
-            right, down = (columns - middle[0]) / f, (rows - middle[1]) / f
-            beside, below = (middle[0] - width / 2) / f, (middle[1] - height / 2) / f
+            right, down, sound = _as_gazebo_bends(columns, rows, f, distortion, crop=crop)
         else:
-            fx, fy = pinhole.fx, pinhole.fy
-            down = (rows - pinhole.cy) / fy
-            right = (columns - pinhole.cx - pinhole.skew * down) / fx
-            beside = below = 0.0
-        right, down, sound = undistorted(right, down, distortion)
-        self._right, self._down = right + beside, down + below
+            f = max(pinhole.fx, pinhole.fy)
+            down = (rows - pinhole.cy) / pinhole.fy
+            right = (columns - pinhole.cx - pinhole.skew * down) / pinhole.fx
+            right, down, sound = undistorted(right, down, distortion)
+        self._right, self._down = right, down
         sound &= (np.abs(self._right) < _STEEPEST) & (np.abs(self._down) < _STEEPEST)
-        face = _face(self._right[sound], self._down[sound], max(fx, fy), intrinsics)
+        face = _face(self._right[sound], self._down[sound], f, intrinsics)
         self.faces = [(Pose(), face)]
         ahead = np.ones_like(self._right)
         directions = np.stack([ahead, -self._right, -self._down], axis=-1)
@@ -124,13 +120,47 @@ class WideView:
         raise AssertionError("depths are seen through pinholes only")
 
 
-def view_of(optics: CameraOptics, intrinsics: Intrinsics) -> View:
-    """How a camera with these optics looks."""
+def view_of(optics: CameraOptics, intrinsics: Intrinsics, *, crop: bool = True) -> View:
+    """How a camera with these optics looks.
+
+    Args:
+        optics: of the camera.
+        intrinsics: of a pinhole as wide.
+        crop: whether a picture whose `k1` is negative is enlarged until no border is black, as in Gazebo.
+    """
     if optics.lens is not None:
         return WideView(optics, intrinsics)
     if optics.intrinsics is not None or optics.distortion != Distortion():
-        return BentView(optics, intrinsics)
+        return BentView(optics, intrinsics, crop=crop)
     return PinholeView(intrinsics)
+
+
+def _as_gazebo_bends(
+    columns: _Array, rows: _Array, focal: float, distortion: Distortion, *, crop: bool
+) -> tuple[_Array, _Array, NDArray[np.bool_]]:
+    """Slopes to the right and down that pixels see, and which of them see anything.
+
+    Gazebo 11's map of a distortion is square, whatever the picture's shape: the picture is stretched to a square of its
+    longer side, bent, and stretched back. How much it is enlarged is what becomes of that square's diagonal.
+    """
+    height, width = columns.shape
+    side = max(width, height) / focal
+    middle = distortion.center
+    scale = (1.0, 1.0)
+    if crop and distortion.k1 < 0.0:
+        low, high = (-middle[0] * side, -middle[1] * side), ((1.0 - middle[0]) * side, (1.0 - middle[1]) * side)
+        left, top = distorted(np.array(low[0]), np.array(low[1]), distortion)
+        right, bottom = distorted(np.array(high[0]), np.array(high[1]), distortion)
+        scale = (float(right - left) / side, float(bottom - top) / side)
+        if min(scale) < _LEAST_SCALE:  # where Gazebo, too, does not crop
+            scale = (1.0, 1.0)
+    u, v = (
+        ((at / size - 0.5) * factor + 0.5 - center) * side
+        for at, size, factor, center in zip((columns, rows), (width, height), scale, middle, strict=True)
+    )
+    across, along, sound = undistorted(u, v, distortion)
+    right = across * width / focal / side + (middle[0] - 0.5) * width / focal
+    return right, along * height / focal / side + (middle[1] - 0.5) * height / focal, sound
 
 
 def _pixels(width: int, height: int) -> tuple[_Array, _Array]:

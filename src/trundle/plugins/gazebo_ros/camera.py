@@ -20,15 +20,17 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
 
     Parameters, with gazebo_ros' defaults: <cameraName> (none), <imageTopicName> image_raw, <cameraInfoTopicName>
     camera_info, <frameName> world, <updateRate> 0 (the sensor's), and for camera_info alone <CxPrime>, <Cx>, <Cy>,
-    <focalLength> 0 (the picture's), <hackBaseline> 0, <distortionK1> to <distortionT2>.
+    <focalLength> 0 (the picture's), <hackBaseline> 0, <distortionK1> to <distortionT2>. Where <borderCrop> (true) is
+    false, a distorted picture is not enlarged.
     """
+    keep_borders_if_told(sensor, tag, report)
     frame, rate_hz = frame_of(tag, "world"), _number(tag, "updateRate", report)
     pictures = Outlet(node, camera_topic(sensor, tag, "imageTopicName", "image_raw"), "sensor_msgs/Image", frame,
                       rate_hz=rate_hz)  # fmt: skip
     infos = Outlet(node, camera_topic(sensor, tag, "cameraInfoTopicName", "camera_info"), "sensor_msgs/CameraInfo",
                    frame, rate_hz=rate_hz)  # fmt: skip
     calibration, image = told_calibration(sensor, tag, report), image_maker(sensor.optics.format)
-    ignore(tag.node, "autoDistortion", "borderCrop", "triggerTopicName", "cameraName")
+    ignore(tag.node, "autoDistortion", "triggerTopicName", "cameraName")
     tag.node.report_unread(report)
 
     def publish(reading: CameraReading) -> None:
@@ -59,6 +61,12 @@ def offer_rate(
 
     option = Option(name="imager_rate", value=min(rates), lower=0.1, upper=_FASTEST_HZ, description="Pictures a second")
     ReconfigureServer(node, [option], apply, namespace=topic_in(_space(sensor, tag), "").rstrip("/"))
+
+
+def keep_borders_if_told(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> None:
+    """Heed <borderCrop>."""
+    if not tag.node.flag("borderCrop", default=True, report=report):
+        sensor.keep_borders()
 
 
 def camera_topic(sensor: CameraSensor, tag: PluginTag, parameter: str, default: str) -> str:

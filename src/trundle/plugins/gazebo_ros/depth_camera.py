@@ -8,7 +8,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor, DepthCameraSensor
 
-from .camera import camera_topic, offer_rate, told_calibration
+from .camera import camera_topic, keep_borders_if_told, offer_rate, told_calibration
 from .place import ignore
 from .sensor import Outlet, frame_of
 
@@ -25,6 +25,7 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
     """
     if not isinstance(sensor, DepthCameraSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a depth sensor is needed")
+    keep_borders_if_told(sensor, tag, report)
     parameters = tag.node
     frame, rate_hz = frame_of(tag, "world"), parameters.number("updateRate", default=0.0, report=report)
     near = parameters.number("pointCloudCutoff", default=0.4, report=report)
@@ -43,7 +44,7 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
         image_maker(sensor.optics.format),
         cloud_maker(sensor),
     )
-    ignore(parameters, "autoDistortion", "borderCrop", "cameraName", "depthImageInfoTopicName", "reflectanceTopicName")
+    ignore(parameters, "autoDistortion", "cameraName", "depthImageInfoTopicName", "reflectanceTopicName")
     parameters.report_unread(report)
 
     def cut(reading: CameraReading) -> CameraReading:
