@@ -16,8 +16,8 @@ import pytest
 from tests.ros.conftest import PATIENCE_S
 
 from trundle.ros import Core, GraphLoop, MasterProxy, Node, ServiceError, blocking_call
+from trundle.ros.headers import decode_header, encode_header
 from trundle.ros.rpc_server import RpcServer
-from trundle.ros.tcpros import decode_header, encode_header
 
 STRING = "std_msgs/String"
 MD5 = "992ce8a1687cec8c8bd883ec73ca41d1"

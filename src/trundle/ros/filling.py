@@ -9,7 +9,7 @@ import numpy as np
 from rosbags.interfaces import Nodetype
 
 from .errors import MessageError
-from .messages import fields_of
+from .type_texts import fields_of
 
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore

@@ -1,21 +1,19 @@
-"""ROS 1 messages and services: types, md5 sums, definition texts, values and bytes.
+"""ROS 1 messages and services: which types there are, and everything about one by its name.
 
 The library rosbags brings the types of a desktop installation and the serialisation; it is imported when the first
 type is asked for, so that importing this module costs nothing.
 """
 
-import hashlib
-import struct
 import threading
 import time
-from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, TypeAlias
 
+from .codec import Codec
 from .errors import MessageError
-from .sources import Definitions, constant_texts, split_service
+from .sources import Definitions, split_service
+from .type_texts import BUILTIN, TypeTexts, ros_name
 
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
@@ -27,9 +25,6 @@ Message: TypeAlias = Any
 `time` and `duration` have `sec` and `nanosec`, a field that is a Python keyword gets a trailing `_`."""
 
 ANY_TYPE = "*"
-_SEPARATOR = "=" * 80 + "\nMSG: "
-_LONG_BYTES = 64 * 1024
-_BUILTIN = {"builtin_interfaces/msg/Time": "time", "builtin_interfaces/msg/Duration": "duration"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,14 +62,12 @@ class Messages:
         """
         self._is_bare = bare
         self._definitions = Definitions({}, {}, {}, {}) if bare else Definitions.shipped()
-        self._texts: dict[str, str] = {}
-        """Definition text of types that did not come from rosbags, which keeps no comments."""
         self._services: dict[str, ServiceType] = {}
-        self._md5s: dict[str, str] = {}
-        self._definition_texts: dict[str, str] = {}
+        self._codecs: dict[str, Codec] = {}
         self._lock = threading.RLock()
         """Held while types are added: nodes of several threads share one store."""
         self._store_: Typestore | None = None
+        self._texts_: TypeTexts | None = None
         self._filling_: Filling | None = None
 
     # -- types
@@ -93,7 +86,7 @@ class Messages:
 
     def type_of(self, message: Message) -> str:
         """Name the type of a message."""
-        return _ros(message.__msgtype__)
+        return ros_name(message.__msgtype__)
 
     def type_names(self) -> list[str]:
         """Every message type there is: of the library, shipped, and on the package path; those of services left out."""
@@ -109,19 +102,15 @@ class Messages:
 
     def fields(self, type_name: str) -> dict[str, str]:
         """Field names with their ROS types, in order: {'name': 'string[]', 'stamp': 'time', …}."""
-        return {name: _type_text(desc) for name, desc in fields_of(self._store, self._key(type_name))}
+        return self._texts.fields(self._key(type_name))
 
     def constants(self, type_name: str) -> dict[str, tuple[str, str]]:
         """Constants in order: name → (type, value as written)."""
-        key = self._key(type_name)
-        written = constant_texts(self._texts.get(key, ""))
-        return {
-            name: (kind, written.get(name, _constant(value))) for name, kind, value in self._store.fielddefs[key][0]
-        }
+        return self._texts.constants(self._key(type_name))
 
     def text(self, type_name: str) -> str:
         """Return the text of a type alone; of the library's types that no ROS is installed for, without comments."""
-        return self._text(self._key(type_name))
+        return self._texts.text(self._key(type_name))
 
     def service_text(self, type_name: str) -> str:
         """Return the text of a service type."""
@@ -155,18 +144,11 @@ class Messages:
 
     def md5(self, type_name: str) -> str:
         """Return the md5 sum over a type's canonical text, which peers compare."""
-        if type_name not in self._md5s:
-            self._md5s[type_name] = hashlib.md5(self._canonical(self._key(type_name)).encode()).hexdigest()
-        return self._md5s[type_name]
+        return self._texts.md5(self._key(type_name))
 
     def definition(self, type_name: str) -> str:
         """Return the text of a type followed by those it depends on, as genmsg writes it."""
-        if type_name not in self._definition_texts:
-            key = self._key(type_name)
-            depends = dict.fromkeys(self._depends(key))
-            parts = [self._text(key)] + [f"{_SEPARATOR}{_ros(other)}\n{self._text(other)}" for other in depends]
-            self._definition_texts[type_name] = "\n".join(parts)
-        return self._definition_texts[type_name]
+        return self._texts.definition(self._key(type_name))
 
     def service(self, type_name: str) -> ServiceType:
         """Return a service type.
@@ -198,18 +180,13 @@ class Messages:
         """Make a `time` value from nanoseconds."""
         return self._store.types["builtin_interfaces/msg/Time"](sec=ns // 10**9, nanosec=ns % 10**9)
 
-    def serialize(self, message: Message, *, room: int = 0) -> memoryview:
-        """Write a message's bytes, behind `room` bytes that the caller fills in.
+    def serialize(self, message: Message) -> memoryview:
+        """Write a message's bytes.
 
         Raises:
             MessageError: a field holds what its type cannot; the text names it.
         """
-        key: str = message.__msgtype__
-        try:
-            return self._write(message, key, room)
-        except (AttributeError, TypeError, ValueError, AssertionError, OverflowError, struct.error):
-            # Lists where numpy arrays belong, or something wrong: convert field by field, which names what is wrong.
-            return self._write(self._filling.message(key, message, 0), key, room)
+        return self.codec(message.__msgtype__).write(message)
 
     def deserialize(self, data: bytes | memoryview, type_name: str) -> Message:
         """Read a message's bytes; its arrays may be read-only views of them.
@@ -217,27 +194,18 @@ class Messages:
         Raises:
             MessageError: the bytes are no such message.
         """
-        key = self._key(type_name)
-        try:
-            return self._store.deserialize_ros1(data, key)
-        except Exception as error:  # generated code meets arbitrary bytes here
-            raise MessageError(f"{len(data)} bytes are no {type_name}: {error}") from None
+        return self.codec(type_name).read(data)
 
-    def prepare(self, type_name: str) -> None:
-        """Have all ready that reading and writing a type takes: libraries are imported, code is generated."""
-        self._store.get_msgdef(self._key(type_name))
+    def codec(self, type_name: str) -> Codec:
+        """Return what writes and reads a type, made on first use: libraries are imported, code is generated."""
+        return self._codecs.get(type_name) or self._make_codec(type_name)
 
     # -- inside
 
-    def _write(self, message: Message, key: str, room: int) -> memoryview:
-        """As the store's own `serialize_ros1`, which leaves no room: a picture would be copied for its length."""
-        store = self._store
-        kind = store.get_msgdef(key)
-        size = room + kind.getsize_ros1(0, message, store)
-        data = memoryview(bytearray(size)) if size < _LONG_BYTES else _untouched(size)
-        end = kind.serialize_ros1(data, room, message, store)
-        assert end == len(data)
-        return data
+    def _make_codec(self, type_name: str) -> Codec:
+        key = self._key(type_name)
+        self._codecs[type_name] = Codec(self._store, key, mend=lambda given: self._filling.message(key, given, 0))
+        return self._codecs[type_name]
 
     @property
     def _store(self) -> "Typestore":
@@ -247,6 +215,13 @@ class Messages:
 
                 self._store_ = self._store_ or get_typestore(Stores.EMPTY if self._is_bare else Stores.ROS1_NOETIC)
         return self._store_
+
+    @property
+    def _texts(self) -> TypeTexts:
+        with self._lock:
+            if self._texts_ is None:
+                self._texts_ = TypeTexts(self._store, None if self._is_bare else self._definitions)
+            return self._texts_
 
     @property
     def _filling(self) -> "Filling":
@@ -265,10 +240,10 @@ class Messages:
         with self._lock:
             for load in (self._definitions.load_package, self._definitions.load_from_path):
                 load(package)
-                if key not in self._store.types and _ros(key) in self._definitions.messages:
-                    self._register(_ros(key))
-                service = _ros(key).removesuffix("Request").removesuffix("Response")
-                if service != _ros(key) and service in self._definitions.services and service not in self._services:
+                if key not in self._store.types and ros_name(key) in self._definitions.messages:
+                    self._register(ros_name(key))
+                service = ros_name(key).removesuffix("Request").removesuffix("Response")
+                if service != ros_name(key) and service in self._definitions.services and service not in self._services:
                     self.service(service)
                 if key in self._store.types:
                     return key
@@ -282,7 +257,7 @@ class Messages:
         return key
 
     def _names(self) -> list[str]:
-        names = {_ros(key) for key in self._store.types if key not in _BUILTIN} | self._definitions.messages.keys()
+        names = {ros_name(key) for key in self._store.types if key not in BUILTIN} | self._definitions.messages.keys()
         halves = {half for kind in self._services.values() for half in (kind.request, kind.response)}
         return sorted(names - halves)
 
@@ -299,8 +274,7 @@ class Messages:
         for name, half in zip((request, response), split_service(text), strict=True):
             self._definitions.messages[name] = half
             self._register(name)
-        both = self._canonical(self._key(request)) + self._canonical(self._key(response))
-        md5sum = hashlib.md5(both.encode()).hexdigest()
+        md5sum = self._texts.service_md5(self._key(request), self._key(response))
         self._services[type_name] = ServiceType(type=type_name, md5sum=md5sum, request=request, response=response)
         return self._services[type_name]
 
@@ -315,82 +289,9 @@ class Messages:
             self._store.register({key: types[key]})
         except (TypesysError, KeyError) as error:
             raise MessageError(f"the definition of {type_name} cannot be read: {error}") from None
-        self._texts[key] = text
-        for depends in self._direct(key):
+        self._texts.own[key] = text
+        for depends in self._texts.direct(key):
             self._key(depends)
-
-    def _direct(self, key: str) -> Iterator[str]:
-        for _, desc in fields_of(self._store, key):
-            name = _reference(desc)
-            if name is not None and name not in _BUILTIN:
-                yield name
-
-    def _depends(self, key: str) -> Iterator[str]:
-        for name in self._direct(key):
-            yield name
-            yield from self._depends(name)
-
-    def _text(self, key: str) -> str:
-        """As installed if that means the same: `rosbag check` compares texts, comments included, and not md5 sums."""
-        if not self._is_bare and (text := self._definitions.installed(_ros(key))) is not None:
-            from rosbags.typesys import TypesysError, get_types_from_msg
-
-            with suppress(TypesysError):
-                if get_types_from_msg(text, key)[key] == self._store.fielddefs[key]:
-                    return text
-        if key in self._texts:
-            return self._texts[key]
-        lines = [f"{kind} {name}={text}\n" for name, (kind, text) in self.constants(_ros(key)).items()]
-        fields = fields_of(self._store, key)
-        return "".join([*lines, *(f"{_type_text(desc)} {name}\n" for name, desc in fields)])
-
-    def _canonical(self, key: str) -> str:
-        """Write the text the md5 sum is taken of: constants, then fields, with types replaced by their own sums."""
-        lines = [f"{kind} {name}={text}" for name, (kind, text) in self.constants(_ros(key)).items()]
-        for name, desc in fields_of(self._store, key):
-            reference = _reference(desc)
-            if reference is None or reference in _BUILTIN:
-                lines.append(f"{_type_text(desc)} {name}")
-            else:
-                lines.append(f"{self.md5(_ros(reference))} {name}")
-        return "\n".join(lines)
-
-
-def _untouched(size: int) -> memoryview:
-    """Memory as it comes: to clear a picture's takes as long as to write it."""
-    from numpy import empty, uint8
-
-    return empty(size, uint8).data
-
-
-def fields_of(store: "Typestore", key: str) -> list[tuple[str, Any]]:
-    """Fields of a type in order, without the one rosbags puts into empty types because ROS 2 does."""
-    return [field for field in store.fielddefs[key][1] if field[0] != "structure_needs_at_least_one_member"]
-
-
-def _ros(key: str) -> str:
-    return key.replace("/msg/", "/", 1)
-
-
-def _reference(desc: Any) -> str | None:
-    """Name the message type a field refers to, itself or as an element."""
-    kind, detail = desc
-    if kind >= 3:
-        kind, detail = detail[0]
-    return cast(str, detail) if kind == 2 else None
-
-
-def _type_text(desc: Any) -> str:
-    """Write a field's type as a .msg file does."""
-    kind, detail = desc
-    if kind >= 3:
-        inner, count = detail
-        return f"{_type_text(inner)}[{count if kind == 3 else ''}]"
-    return _BUILTIN.get(detail, _ros(detail)) if kind == 2 else cast(str, detail[0])
-
-
-def _constant(value: object) -> str:
-    return str(int(value)) if isinstance(value, bool) else str(value)
 
 
 def _instead(what: str, package: str, known: list[str]) -> str:

@@ -3,11 +3,15 @@
 import threading
 from collections import deque
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, cast
 
+from .codec import Pieces
 from .errors import MessageError
+from .frames import LENGTH
+from .headers import check_md5
+from .listeners import Listeners, LocalSubscriber
 from .messages import Message
-from .tcpros import LENGTH_BYTES, FrameProtocol, check_md5, fill_frame, frame
+from .tcpros import FrameProtocol
 
 if TYPE_CHECKING:
     from .node import Node
@@ -15,23 +19,6 @@ if TYPE_CHECKING:
 
 _BATCH_MESSAGES, _BATCH_BYTES = 200, 256 * 1024
 """How much is handed on before others get their turn on the loop, whoever publishes however fast."""
-
-
-class LocalSubscriber(Protocol):
-    """A subscription in this process."""
-
-    def receive(self, message: Message) -> None:
-        """Take a message object."""
-        ...
-
-    def receive_bytes(self, data: bytes, publisher: "Publisher") -> None:
-        """Take a message as bytes."""
-        ...
-
-    @property
-    def is_raw(self) -> bool:
-        """Whether it wants bytes."""
-        ...
 
 
 class Publisher:
@@ -56,9 +43,7 @@ class Publisher:
         self._on_connect = on_connect
         self._foreign = foreign
         """(md5 sum, definition) of a type that need not be known here."""
-        self._links: dict[FrameProtocol, str] = {}
-        """Connection → name of the subscribing node."""
-        self._local: dict[LocalSubscriber, str] = {}
+        self._listeners = Listeners(topic)
         self._wanted = 0
         """Number of links; read by any thread."""
         self._outbox: deque[Any] = deque(maxlen=queue_size)
@@ -68,6 +53,9 @@ class Publisher:
         self._turn = threading.Lock()
         """Held while a thread other than the loop's sends, and while somebody joins and gets what is latched."""
         self._latched: Any = None
+        self._class: type[Message] | None = None
+        """Of the messages so far."""
+        self._has_header = False
         self._sequence = 0
         self.published = 0
         """Messages handed to subscribers so far."""
@@ -98,10 +86,9 @@ class Publisher:
         if isinstance(message, dict):
             message = self._node.new(self.type, message)
         if not isinstance(message, bytes | bytearray | memoryview):
-            given = self._node.messages.type_of(message)
-            if given != self.type:
-                raise MessageError(f"{self.topic} carries {self.type}, got a {given}")
-            header = getattr(message, "header", None)
+            if type(message) is not self._class:
+                self._look_at(message)
+            header = getattr(message, "header", None) if self._has_header else None
             if header is not None and hasattr(header, "seq"):
                 self._sequence += 1
                 header.seq = self._sequence
@@ -158,28 +145,28 @@ class Publisher:
             }
         )
         with self._turn:
-            self._links[link] = peer
+            self._listeners.far[link] = peer
             if self._latched is not None and (framed := self._framed(self._latched)) is not None:
-                link.send_all([framed], self._queue_size)
+                link.out.send([framed], self._queue_size)
         self._count()
 
     def catch_up(self) -> None:
         """Go on after all subscribers were too slow."""
-        if self._outbox:
-            self._flush_soon()
+        if self._outbox and not self._flushes:
+            self._flush()
 
     def release(self, link: FrameProtocol) -> None:
         """Forget a connection that has ended."""
-        self._links.pop(link, None)
+        self._listeners.far.pop(link, None)
         self._count()
         self.catch_up()
 
     def attach(self, subscriber: LocalSubscriber, name: str) -> None:
         """Take a subscription of this process."""
-        if subscriber in self._local:
+        if subscriber in self._listeners.local:
             return
         with self._turn:
-            self._local[subscriber] = name
+            self._listeners.local[subscriber] = name
             latched = self._latched
         self._count()
         if latched is not None:
@@ -187,39 +174,29 @@ class Publisher:
 
     def detach(self, subscriber: LocalSubscriber) -> None:
         """Forget a subscription of this process."""
-        self._local.pop(subscriber, None)
+        self._listeners.local.pop(subscriber, None)
         self._count()
 
     def close(self) -> None:
         """Drop every link."""
-        for link in list(self._links):
-            link.close("the topic is no longer published")
-        self._links.clear()
-        self._local.clear()
+        self._listeners.close()
         self._count()
 
     def connections(self) -> list[list[Any]]:
         """Links as getBusInfo tells them."""
-        remote = [
-            [_number(link), name, "o", link.kind, self.topic, True, link.description]
-            for link, name in self._links.items()
-        ]
-        return remote + [
-            [_number(s), name, "o", "INTRAPROCESS", self.topic, True, ""] for s, name in self._local.items()
-        ]
+        return self._listeners.connections()
 
     def statistics(self) -> list[Any]:
         """Bytes and messages as getBusStats tells them."""
-        links = [[_number(link), link.bytes_sent, link.frames_sent - 1, True] for link in self._links]
-        return [self.topic, sum(link.bytes_sent for link in self._links), links]
+        return self._listeners.statistics()
 
     @property
     def dropped(self) -> int:
         """Messages that left the queue unsent: published too fast, or slow subscribers, connected now, lost them."""
-        return self._lost + sum(link.dropped for link in self._links)
+        return self._lost + self._listeners.dropped
 
     def _count(self) -> None:
-        before, self._wanted = self._wanted, len(self._links) + len(self._local)
+        before, self._wanted = self._wanted, len(self._listeners)
         if self._wanted > before and self._on_connect is not None:
             self._on_connect(self)
 
@@ -229,79 +206,79 @@ class Publisher:
         Waking the loop's thread takes longer than sending.
         """
         if (
-            self._local
-            or not self._links
+            self._listeners.local
+            or not self._listeners.far
             or not self._node.loop.is_waited_for
             or not self._turn.acquire(blocking=False)
         ):
             return False
         try:
-            links = list(self._links)
-            if self._local or self._flushes or self._outbox or any(link.is_behind for link in links):
+            links = list(self._listeners.far)
+            if self._listeners.local or self._flushes or self._outbox or any(link.out.is_behind for link in links):
                 return False
             if self.latch:
                 self._latched = message
             self.published += 1
             if (framed := self._framed(message)) is not None:
                 for link in links:
-                    link.send_all([framed], self._queue_size)
+                    link.out.send([framed], self._queue_size)
             return True
         finally:
             self._turn.release()
 
     def _flush(self) -> None:
-        frames: list[bytes | memoryview] = []
+        frames: list[Pieces] = []
         count = size = 0
+        self._flushes = True  # nobody sends at once meanwhile
         try:
-            while self._outbox and count < _BATCH_MESSAGES and size < _BATCH_BYTES and not self._is_held_up:
+            while self._outbox and count < _BATCH_MESSAGES and size < _BATCH_BYTES and not self._listeners.is_held_up:
                 message = self._outbox.popleft()
                 count += 1
                 if self.latch:
                     self._latched = message
                 self.published += 1
-                framed = self._framed(message) if self._links else None
+                framed = self._framed(message) if self._listeners.far else None
                 if framed is not None:
                     frames.append(framed)
-                    size += len(framed)
-                for subscriber in list(self._local):
+                    size += sum(map(len, framed))
+                for subscriber in list(self._listeners.local):
                     self._hand_over(message, subscriber, framed)
             if frames:
-                for link in list(self._links):
-                    link.send_all(frames, self._queue_size)
+                for link in list(self._listeners.far):
+                    link.out.send(frames, self._queue_size)
         finally:
             # In this order: a message put in between is seen here or by its own publish().
             self._flushes = False
-            if self._outbox and not self._is_held_up:
+            if self._outbox and not self._listeners.is_held_up:
                 self._flush_soon()
-
-    @property
-    def _is_held_up(self) -> bool:
-        """Whether nobody can take a message now; until somebody can, those of the outbox need no bytes."""
-        return bool(self._links) and not self._local and all(link.is_behind for link in self._links)
 
     def _flush_soon(self) -> None:
         if not self._flushes:
             self._flushes = True
             self._node.loop.deliver_soon(self._flush)
 
-    def _hand_over(self, message: Any, subscriber: LocalSubscriber, framed: bytes | memoryview | None) -> None:
+    def _hand_over(self, message: Any, subscriber: LocalSubscriber, framed: Pieces | None) -> None:
         if not subscriber.is_raw and not isinstance(message, bytes | bytearray | memoryview):
             subscriber.receive(message)
             return
         framed = self._framed(message) if framed is None else framed
         if framed is not None:
-            subscriber.receive_bytes(bytes(framed[LENGTH_BYTES:]), self)
+            subscriber.receive_bytes(b"".join((framed[0][LENGTH.size :], *framed[1:])), self)
 
-    def _framed(self, message: Any) -> bytes | memoryview | None:
+    def _framed(self, message: Any) -> Pieces | None:
+        """Write a message with its length in front."""
         if isinstance(message, bytes | bytearray | memoryview):
-            return frame(message)
+            return LENGTH.pack(len(message)), bytes(message)
         try:
-            return fill_frame(self._node.messages.serialize(message, room=LENGTH_BYTES))
+            pieces = self._node.messages.codec(message.__msgtype__).write_pieces(message, room=LENGTH.size)
         except MessageError as error:
             self._node.log_error(f"a message on {self.topic} is not sent: {error}")
             return None
+        LENGTH.pack_into(cast(memoryview, pieces[0]), 0, sum(map(len, pieces)) - LENGTH.size)
+        return pieces
 
-
-def _number(link: object) -> int:
-    """A connection's id as XML-RPC carries it."""
-    return id(link) % 2**31
+    def _look_at(self, message: Message) -> None:
+        given = self._node.messages.type_of(message)
+        if given != self.type:
+            raise MessageError(f"{self.topic} carries {self.type}, got a {given}")
+        self._class, self._has_header = type(message), hasattr(message, "header")

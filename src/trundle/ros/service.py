@@ -9,17 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from .delivery import delivered
 from .errors import MessageError, RosError, ServiceError, WireError
+from .headers import MAX_HEADER_BYTES, MAX_MESSAGE_BYTES, check_md5, decode_header, encode_header, frame
 from .http import host_and_port
 from .messages import Message, Messages, ServiceType
-from .tcpros import (
-    MAX_HEADER_BYTES,
-    MAX_MESSAGE_BYTES,
-    FrameProtocol,
-    check_md5,
-    decode_header,
-    encode_header,
-    frame,
-)
+from .tcpros import FrameProtocol
 
 if TYPE_CHECKING:
     from .node import Node
@@ -100,7 +93,7 @@ class Service:
     ) -> None:
         while link.transport is not None and (request := await requests.get()) is not None:
             answer = await self._answer(request)
-            link.send_all([answer], None)
+            link.out.send([(answer,)], None)
             if not persistent:
                 link.finish("answered")
                 return

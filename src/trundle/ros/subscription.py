@@ -8,10 +8,11 @@ from collections.abc import Awaitable, Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from .errors import MessageError, RosError, WireError
+from .headers import check_md5
 from .messages import ANY_TYPE, Message, RawMessage
 from .nearby import UNIXROS, address_nearby
 from .rpc_client import call
-from .tcpros import FrameProtocol, check_md5
+from .tcpros import FrameProtocol
 from .xmlrpc import FaultError
 
 if TYPE_CHECKING:
@@ -143,7 +144,7 @@ class Subscription:
             MessageError: the bytes are no such message.
         """
         if not self.is_raw:
-            self.receive(self._node.messages.deserialize(data, self.type))
+            self.receive(self._node.messages.codec(self.type).read(data))
             return
         self.receive(
             RawMessage(
@@ -198,7 +199,7 @@ class Subscription:
             case _:
                 raise WireError(f"it does not offer TCPROS: {str(answer)[:100]}")
         if not self.is_raw:  # not on the loop: the first message of a type would hold up all others
-            await asyncio.to_thread(self._node.messages.prepare, self.type)
+            await asyncio.to_thread(self._node.messages.codec, self.type)
         async with asyncio.timeout(_CONNECT_S):
             link = await self._open(host, port, address_nearby(more))
         self._links[uri] = link

@@ -1,0 +1,168 @@
+"""What goes to one peer: whoever sends writes as much as the kernel takes, from any thread; the rest waits."""
+
+import asyncio
+import contextlib
+import os
+import socket
+import threading
+from collections import deque
+from collections.abc import Callable, Sequence
+from itertools import islice
+
+from .codec import Pieces
+
+_MOST_KERNEL_BYTES = 4 * 1024 * 1024
+"""As much as TCP may take by Linux's own settings."""
+_UNIX = getattr(socket, "AF_UNIX", None)
+_AT_ONCE = 200
+"""Frames given to the kernel in one call, which takes at most IOV_MAX (1024) pieces; a frame has three at most."""
+
+
+class Outgoing:
+    """A queue of frames and the socket they go into, which somebody else reads."""
+
+    def __init__(self, sock: socket.socket, *, drained: Callable[[], None], broken: Callable[[], None]) -> None:
+        """Begin; on the loop.
+
+        Args:
+            sock: connected and not blocking; stays its owner's.
+            drained: called on the loop when the peer, having been too slow, has everything; it may send more.
+            broken: called on the loop when nothing more can be sent.
+        """
+        self.is_near = sock.family == _UNIX
+        """Whether the peer is reached without TCP."""
+        self.bytes_sent = 0
+        self.frames_sent = 0
+        self.dropped = 0
+        """Frames thrown away because the peer reads too slowly."""
+        self._loop = asyncio.get_running_loop()
+        self._drained = drained
+        self._broken = broken
+        self._socket = sock
+        self._fd = sock.fileno()
+        self._twin: socket.socket | None = None
+        """The same connection once more: waits, as the loop keeps the first for its transport."""
+        self._queue: deque[Pieces] = deque()
+        self._rest: Pieces = ()
+        """Of a frame that the kernel took a part of."""
+        self._lock = threading.Lock()
+        """Held while the two change, and while the socket is written to or let go."""
+        self._is_waiting = False
+        """Whether the loop looks when the kernel takes more."""
+        self._is_closed = False
+        self._kernel_bytes = 0
+
+    @property
+    def is_behind(self) -> bool:
+        """Whether something waits for a peer that reads too slowly."""
+        return bool(self._rest or self._queue)
+
+    def send(self, frames: Sequence[Pieces], queue_size: int | None) -> None:
+        """Send, from any thread; never blocks. At most `queue_size` frames wait, and the oldest go."""
+        with self._lock:
+            if self._is_closed:
+                return
+            was_behind = self.is_behind
+            self._queue.extend(frames)
+            if not was_behind:
+                self._write()
+            while queue_size is not None and len(self._queue) > queue_size:
+                self._queue.popleft()
+                self.dropped += 1
+            if was_behind or self._is_waiting or not self.is_behind:
+                return
+        self._call_soon(self._wait)
+
+    def close(self) -> None:
+        """Send nothing more; on the loop."""
+        with self._lock:  # who writes now is done with the socket before it closes
+            self._is_closed = True
+            self._forget()
+            self._wait_no_more()
+            if self._twin is not None:
+                self._twin.close()
+
+    def _write(self) -> None:
+        """Give the kernel as much as it takes."""
+        while self._rest or self._queue:
+            if self.is_near and self._queue:
+                self._widen(_size(self._queue[0]))
+            try:
+                sent = self._give([*self._rest, *(piece for frame in islice(self._queue, _AT_ONCE) for piece in frame)])
+            except BlockingIOError:
+                return
+            except OSError:  # the connection is broken
+                self._forget()
+                self._call_soon(self._broken)
+                return
+            self.bytes_sent += sent
+            self._let_go(sent)
+
+    def _give(self, pieces: list[bytes | memoryview]) -> int:
+        return os.writev(self._fd, pieces) if hasattr(os, "writev") else self._open_twin().send(pieces[0])
+
+    def _widen(self, size: int) -> None:
+        """Have the kernel take a whole long frame at once; it does so by itself for TCP only."""
+        if size <= self._kernel_bytes:
+            return
+        self._kernel_bytes = size
+        with contextlib.suppress(OSError):
+            wanted = min(2 * size, _MOST_KERNEL_BYTES)
+            if wanted > self._socket.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF):
+                self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, wanted)
+
+    def _let_go(self, sent: int) -> None:
+        """Take what was sent out of the queue."""
+        while sent:
+            if not self._rest:
+                self._rest = self._queue.popleft()
+                self.frames_sent += 1
+            size = _size(self._rest)
+            self._rest = () if sent >= size else _after(self._rest, sent)
+            sent -= min(sent, size)
+
+    def _forget(self) -> None:
+        self._queue.clear()
+        self._rest = ()
+
+    def _open_twin(self) -> socket.socket:
+        if self._twin is None:
+            self._twin = self._socket.dup()
+        return self._twin
+
+    def _wait(self) -> None:
+        with self._lock:
+            if self.is_behind and not self._is_waiting:
+                self._is_waiting = True
+                self._loop.add_writer(self._open_twin().fileno(), self._writable)
+
+    def _writable(self) -> None:
+        with self._lock:
+            self._write()
+        if not self.is_behind:
+            self._drained()
+        with self._lock:
+            if not self.is_behind:
+                self._wait_no_more()
+
+    def _wait_no_more(self) -> None:
+        if self._is_waiting:
+            self._is_waiting = False
+            self._loop.remove_writer(self._open_twin().fileno())
+
+    def _call_soon(self, function: Callable[[], None]) -> None:
+        with contextlib.suppress(RuntimeError):  # the loop has ended
+            self._loop.call_soon_threadsafe(function)
+
+
+def _size(pieces: Pieces) -> int:
+    return sum(map(len, pieces))
+
+
+def _after(pieces: Pieces, count: int) -> Pieces:
+    """Pieces without their first `count` bytes, of which there are more."""
+    for i, piece in enumerate(pieces):
+        if count < len(piece):
+            return (memoryview(piece)[count:], *pieces[i + 1 :])
+        count -= len(piece)
+    return ()
