@@ -83,6 +83,8 @@ def test_an_stl_in_letters_is_read_too(tmp_path: Path) -> None:
     path = tmp_path / "block.stl"
     path.write_text(block().export(file_type="stl_ascii"))
     assert bounds(load_mesh(path)) == pytest.approx(EXPECTED, abs=1e-6)
+    path.write_text(path.read_text().upper())  # as some old CAD programs write it
+    assert bounds(load_mesh(path)) == pytest.approx(EXPECTED, abs=1e-6)
 
 
 def test_gltf_is_y_up_and_stands_upright_here(tmp_path: Path) -> None:

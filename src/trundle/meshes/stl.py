@@ -8,7 +8,7 @@ from .raw import MeshError, RawPart
 
 _HEADER = 84
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-_VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)")
+_VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 
 
 def read_stl(data: bytes) -> list[RawPart]:
@@ -17,11 +17,12 @@ def read_stl(data: bytes) -> list[RawPart]:
     Raises:
         MeshError: neither.
     """
+    may_be_text = data[:_HEADER].lstrip().lower().startswith(b"solid")
     count = int.from_bytes(data[80:_HEADER], "little") if len(data) >= _HEADER else 0
     whole = _HEADER + count * _TRIANGLE.itemsize
-    if count and (len(data) == whole or (len(data) > whole and not data.lstrip().startswith(b"solid"))):
+    if count and (len(data) == whole or (len(data) > whole and not may_be_text)):
         corners = np.frombuffer(data, dtype=_TRIANGLE, count=count, offset=_HEADER)["corners"].reshape(-1, 3)
-    elif data.lstrip().startswith(b"solid") and _VERTEX.search(data):
+    elif may_be_text and _VERTEX.search(data):
         numbers = np.array(_VERTEX.findall(data), dtype="S")
         corners = numbers[: len(numbers) // 3 * 3].astype(np.float64)
     elif count:
