@@ -19,7 +19,7 @@ from bench.table import Row
 
 SHARED = Path(__file__).parents[2] / "shared"
 HUSKY = SHARED / "corpus/repos/husky+husky"
-_RUNS = 11
+_RUNS = 7
 _PYTHON = "/usr/bin/python3"
 _MANIFEST = """<package format="2"><name>{0}</name><version>0.0.0</version><description>{0}</description>
 <maintainer email="bench@example.org">bench</maintainer><license>BSD</license></package>"""
