@@ -49,6 +49,23 @@ def test_a_standard_pad_is_told_in_the_order_of_linux() -> None:
     )
 
 
+def test_who_listens_everywhere_has_an_address_for_other_machines() -> None:
+    served = JoystickServer("0.0.0.0", [].append)
+    try:
+        here, elsewhere = urlsplit(served.url), urlsplit(served.url_elsewhere or "")
+        assert (here.hostname, here.port, here.path) == ("127.0.0.1", elsewhere.port, elsewhere.path)
+        assert elsewhere.hostname not in (None, "", "0.0.0.0")
+        for url in (served.url, served.url_elsewhere):
+            with urllib.request.urlopen(str(url), timeout=60) as page:
+                assert b"getGamepads" in page.read()
+    finally:
+        served.close()
+
+
+def test_an_address_that_others_reach_needs_no_second_one(served: Served) -> None:
+    assert served.server.url_elsewhere is None
+
+
 def test_what_its_page_sends_is_taken(served: Served) -> None:
     assert served.post({**REST, "sticks": [0, -1, 0, 0]}) == 204
     assert [move.axes[1] for move in served.moved] == [1.0]

@@ -7,6 +7,7 @@ its own. That one hears only pages that it has served: their address holds a sec
 import json
 import math
 import secrets
+import socket
 import threading
 from collections.abc import Callable, Sequence
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -20,6 +21,8 @@ _IDLE_S = 60.0
 _STICKS, _BUTTONS = 4, 17
 """Of the Gamepad API's standard mapping."""
 _ON = 0.5
+_ANY = ("", "0.0.0.0")
+"""Hosts that mean every address of this machine."""
 
 
 def joystick_of(sticks: Sequence[float], buttons: Sequence[float]) -> MoveJoystick:
@@ -50,13 +53,30 @@ class JoystickServer:
         self._server = ThreadingHTTPServer((host, 0), Handler)
         self._server.daemon_threads = True
         port = self._server.server_address[1]
-        self.url = f"http://{f'[{host}]' if ':' in host else host}:{port}/{secret}/"
+
+        def url(address: str) -> str:
+            return f"http://{f'[{address}]' if ':' in address else address}:{port}/{secret}/"
+
+        everywhere = host in _ANY
+        self.url = url("127.0.0.1" if everywhere else host)
+        self.url_elsewhere = url(_outward_address()) if everywhere else None
+        """For other machines, where the first one is for this one only."""
         threading.Thread(target=self._server.serve_forever, name="trundle-joystick", daemon=True).start()
 
     def close(self) -> None:
         """Serve no more."""
         self._server.shutdown()
         self._server.server_close()
+
+
+def _outward_address() -> str:
+    """This machine's address as others see it; no packet is sent to find it."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect(("192.0.2.1", 9))  # reserved for documentation: nobody has it
+            return str(probe.getsockname()[0])
+        except OSError:
+            return socket.gethostname()
 
 
 class _Handler(BaseHTTPRequestHandler):

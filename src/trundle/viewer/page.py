@@ -85,17 +85,17 @@ class Page:
                 send=self._mouth.say,
                 redraw=self._dirty.set,
                 aim=self._aim,
-                joystick_url=self._joystick_url,
+                joystick=self._joystick_frame,
             )
         self._state = None
         self.tick()
         return True
 
-    def _joystick_url(self) -> str:
+    def _joystick_frame(self) -> JoystickServer:
         """Serve the joystick's frame, once."""
         if self._joystick is None:
             self._joystick = JoystickServer(self._host, self._mouth.say)
-        return self._joystick.url
+        return self._joystick
 
     def tick(self) -> None:
         """Draw the newest state and images, if there are any."""
@@ -195,7 +195,7 @@ def main() -> None:
         mouth.say(Refused(f"cannot serve the viewer at {serve.host}:{serve.port}: the port was just taken"))
         os._exit(0)
     reachable = "127.0.0.1" if serve.host in ("0.0.0.0", "") else serve.host
-    page = Page(server, mouth, reachable)
+    page = Page(server, mouth, serve.host)
     while not page.show(show):
         show = pickle.load(sys.stdin.buffer)
     mouth.say(Served(f"http://{f'[{reachable}]' if ':' in reachable else reachable}:{server.get_port()}"))

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from .content import JointSlider, ViewerScene, ViewerState
 from .display import Display
 from .drive import DrivePad
+from .joystick import JoystickServer
 from .options import add_options
 from .requests import Pause, Play, Request, Reset, SetFixedFrame, SetJoint, SetSpeed, Step
 
@@ -39,7 +40,7 @@ class Panel:
         send: Callable[[Request], None],
         redraw: Callable[[], None],
         aim: Callable[[viser.ClientHandle, bool], None],
-        joystick_url: Callable[[], str],
+        joystick: Callable[[], JoystickServer],
     ) -> None:
         self._server = server
         self._scene = scene
@@ -56,10 +57,7 @@ class Panel:
             DrivePad(server, send)
         if scene.joystick:
             with server.gui.add_folder("Joystick"):
-                server.gui.add_html(
-                    f'<iframe src="{joystick_url()}" allow="gamepad" title="joystick" '
-                    'style="width:100%;height:150px;border:0"></iframe>'
-                )
+                server.gui.add_html(_joystick_html(joystick()))
         add_options(server, scene.options, send)
         self._images = self._add_cameras()
         self._sliders = self._add_joints()
@@ -183,6 +181,17 @@ class _Slider:
             clamped = min(max(position, self._low), self._high)
             if abs(clamped - self._handle.value) > (self._high - self._low) / 1000:
                 self._handle.value = clamped
+
+
+def _joystick_html(joystick: JoystickServer) -> str:
+    frame = (
+        f'<iframe src="{joystick.url}" allow="gamepad" title="joystick" '
+        'style="width:100%;height:150px;border:0"></iframe>'
+    )
+    if joystick.url_elsewhere is None:
+        return frame
+    link = f'<a href="{joystick.url_elsewhere}" target="_blank">in a page of its own</a>'
+    return f'{frame}<p style="font-size:0.8em;margin:0.3em">On other machines it works {link}.</p>'
 
 
 def _status_html(state: ViewerState | None, told: tuple[str, ...]) -> str:
