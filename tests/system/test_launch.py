@@ -192,6 +192,16 @@ def test_what_runs_is_said_in_a_table(launch: Launch, package: Path) -> None:
     assert "node /b: no executable 'gone'" in done.stderr
 
 
+def test_the_table_says_where_the_page_is(launch: Launch, package: Path) -> None:
+    (package / "main.launch").write_text('<launch><node pkg="rviz" type="rviz" name="see"/></launch>')
+    done = launch("p", "main.launch", "--duration", "0.1", "--view-port", "0")
+
+    table = done.stdout[done.stdout.index("WHAT RUNS") :].splitlines()[1:3]
+    assert table[0] == "  stand-in  /see  rviz/rviz"
+    assert table[1].startswith("  page      http://127.0.0.1:")
+    assert table[1].split()[1] in done.stderr
+
+
 def test_a_launch_file_may_come_in_on_standard_input(env: dict[str, str], package: Path) -> None:
     import sys
 

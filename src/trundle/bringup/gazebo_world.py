@@ -164,6 +164,17 @@ class GazeboWorld:
         self._ending.clear()
 
     @property
+    def url(self) -> str | None:
+        """Where the page is; None before it is served."""
+        page = self._page
+        return None if page is None else page.url
+
+    @property
+    def is_over(self) -> bool:
+        """Whether there will be no page."""
+        return self._window is None
+
+    @property
     def is_open(self) -> bool:
         """Whether there is a world."""
         return self._thread is not None

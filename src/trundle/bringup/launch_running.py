@@ -77,12 +77,16 @@ class RunningNodes:
         print(text, flush=True)
 
 
-def what_runs(launched: Sequence[Launched]) -> str:
-    """A short table: what runs as a process, what here in place of the original, and what is missing."""
+def what_runs(launched: Sequence[Launched], pages: Sequence[str] = ()) -> str:
+    """A short table: what runs as a process, what here in place of the original, what is missing, where it is seen."""
     rows = [(entry.kind, entry.node.full_name, entry.what) for entry in launched]
     widths = [max((len(row[column]) for row in rows), default=0) for column in (0, 1)]
     return "\n".join(
-        ["WHAT RUNS", *(f"  {kind:<{widths[0]}}  {name:<{widths[1]}}  {what}" for kind, name, what in rows)]
+        [
+            "WHAT RUNS",
+            *(f"  {kind:<{widths[0]}}  {name:<{widths[1]}}  {what}" for kind, name, what in rows),
+            *(f"  {'page':<{widths[0]}}  {url}" for url in pages),
+        ]
     )
 
 

@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import WORLDS, Executable, Host, Simulator, find_node
@@ -18,10 +18,14 @@ from .in_step import START_S, Steps
 from .launch_logs import log_folder
 from .launch_nodes import NodeStarter
 from .launch_options import LaunchOptions
+from .launch_pages import await_urls, pages_of
 from .launch_params import set_params
 from .launch_read import ReadLaunch
 from .launch_running import RunningNodes, what_runs
 from .told_time import ToldTime
+
+if TYPE_CHECKING:
+    from .gazebo_world import GazeboWorld
 
 NS = 1_000_000_000
 _START_S = 60.0
@@ -47,6 +51,8 @@ class LaunchSession:
         self._open_things = ExitStack()
         self._running: RunningNodes | None = None
         self._steps: Steps | None = None
+        self._page: GraphPage | None = None
+        self._world: GazeboWorld | None = None
         try:
             self._open(any_port=any_port)
         except BaseException:
@@ -80,9 +86,8 @@ class LaunchSession:
             if tells_time:
                 show.line("no simulation tells the time: /clock is told here, as fast as the nodes can follow")
                 self._open_things.callback(ToldTime(launcher, self._steps).close)
-        page = None
         if not options.headless:
-            page = GraphPage(
+            self._page = page = GraphPage(
                 packages=read.packages, report=read.report, say=show.line, host=options.host, port=options.view_port
             )
             self._open_things.callback(page.close)
@@ -92,7 +97,7 @@ class LaunchSession:
             packages=read.packages,
             env=read.env,
             report=read.report,
-            host=Host(display=page, simulator=self._simulator(logs) if _simulates(read.plan) else None),
+            host=Host(display=self._page, simulator=self._simulator(logs) if _simulates(read.plan) else None),
             log_folder=logs,
             output=options.output,
             all_required=options.all_required,
@@ -147,7 +152,7 @@ class LaunchSession:
         from .gazebo_world import GazeboWorld  # a launch without Gazebo does not wait for the physics
 
         options, read = self._options, self._read
-        gazebo = GazeboWorld(
+        gazebo = self._world = GazeboWorld(
             graph=self.graph,
             start=read.start,
             env=read.env,
@@ -173,7 +178,9 @@ class LaunchSession:
             steps.begin()
         self._read.show.findings()
         if running.launched and not options.quiet:
-            print(what_runs(running.launched), flush=True)
+            pages = pages_of(running.launched, self._page, self._world)
+            urls = await_urls(pages, lambda: is_ending() or running.over)
+            print(what_runs(running.launched, urls), flush=True)
         return running
 
     def close(self) -> None:

@@ -85,8 +85,15 @@ WINDOWS = frozenset(
     key
     for key in STAND_INS
     if key[0] in ("image_view", "joint_state_publisher_gui", "joy", "rviz") or key[0].startswith("rqt_")
-) | {("turtlesim", "turtlesim_node"), ("dynamic_reconfigure", "reconfigure_gui")}
+) | {
+    ("turtlesim", "turtlesim_node"),
+    ("dynamic_reconfigure", "reconfigure_gui"),
+    ("arbotix_python", "arbotix_gui"),
+}
 """Those that are seen: each opens the page."""
+
+CLIENT = ("gazebo_ros", "gzclient")
+"""It opens the page of the simulated world."""
 
 OURS_ALWAYS = frozenset({"gazebo_ros"})
 """Packages whose programs would start another simulator: ours stands in even where the original is installed."""

@@ -59,11 +59,17 @@ class GraphPage:
         self._wants_options = False
         self._joysticks: list[Callable[[Sequence[float], Sequence[int]], None]] = []
         self._stale = True
+        self._over = False
 
     @property
     def url(self) -> str | None:
         """Where the page is; None before it is served."""
         return None if self._viewer is None else self._viewer.url
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it was served, or could not be, and is closed."""
+        return self._over
 
     def offer_sliders(self, sliders: Sequence[OfferedSlider], move: Callable[[str, float], None]) -> None:
         """Let people move joints; `move` takes a joint's name and position, on the graph's loop."""
@@ -105,8 +111,10 @@ class GraphPage:
             node.log_info(f"the page is already open at {self._viewer.url}")
             await node.closed.wait()
             return 0
+        self._over = True
         read = read_rviz_config(None if config is None else Path(config), self._report)
         shown = ShownGraph(node, read, fixed_frame)
+        self._over = False
         try:
             first = self._layout(shown)
             self._viewer = await asyncio.to_thread(Viewer.start, first, host=self._host, port=self._port)
@@ -119,6 +127,7 @@ class GraphPage:
 
     def close(self) -> None:
         """Take the page down; may be called twice."""
+        self._over = True
         if self._viewer is not None:
             self._viewer.close()
             self._viewer = None
