@@ -3,6 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -202,6 +203,30 @@ def test_a_ball_rests_on_a_flat_mesh(tmp_path: Path) -> None:
     sim = Simulation(World(name="w", at=AT, models=(model(table, static=True), ball)), Diagnostics())
     sim.run(0.5)
     assert sim["ball"].pose.position == pytest.approx((0.2, 0.3, 0.1), abs=1e-3)
+
+
+@pytest.mark.parametrize("radius", [0.001, 0.005])
+@pytest.mark.parametrize("plate", ["flat mesh", "thin box"])
+def test_a_small_ball_does_not_fall_through_a_thin_floor(tmp_path: Path, plate: str, radius: float) -> None:
+    """From 2 m it comes at 6.3 mm a step, and would stop 11 mm deep."""
+    (tmp_path / "flat.obj").write_text(FLAT)
+    mesh = MeshFile(path=tmp_path / "flat.obj", uri="flat.obj")
+    floor = link("top", geometry=mesh if plate == "flat mesh" else Box((2.0, 2.0, 0.001)))
+    ball = replace(model(link("l", geometry=Sphere(radius)), name="ball"), world_from_model=Pose((0.2, 0.3, 2.0)))
+    sim = Simulation(World(name="w", at=AT, models=(model(floor, static=True), ball)), Diagnostics())
+    sim.run(1.5)
+    assert sim["ball"].pose.position == pytest.approx((0.2, 0.3, radius), abs=1e-3)
+
+
+@pytest.mark.parametrize(("radius", "is_watched"), [(0.005, True), (0.1, False)])
+def test_only_what_may_go_through_something_is_watched_ahead(radius: float, is_watched: bool) -> None:
+    ball = model(link("l", geometry=Sphere(radius)), name="ball")
+    floors = [
+        model(link("f", geometry=shape), name="floor", static=True)
+        for shape in (Box((2.0, 2.0, 0.001)), Plane((0.0, 0.0, 1.0), (1.0, 1.0)))
+    ]
+    flags = [compiled(floor, ball).model.opt.enableflags for floor in floors]
+    assert [bool(each & mujoco.mjtEnableBit.mjENBL_SPECULATIVE) for each in flags] == [is_watched, False]
 
 
 def test_links_of_one_model_touch_only_where_it_says_so_and_never_across_a_joint() -> None:

@@ -22,6 +22,7 @@ from .settings import apply_settings
 from .shapes import Meets, ShapeEntry, add_shape
 from .starting import start_positions
 from .surfaces import Touch
+from .thin import look_ahead
 from .tree import WORLD, Hold, Place, Tree
 from .wheels import tread_of, without_tread
 
@@ -68,6 +69,7 @@ class Compiler:
         collisions = {shape.name: shape.collision for shape in self.shapes}
         compiled = self.compile_spec()
         soften(compiled, touches)
+        look_ahead(compiled, self.shapes)
         soften_stops(compiled, (axis for axes in self.joints.axes.values() for axis in axes))
         world = index_world(self.world, self.tree, self.joints.axes, touches, collisions, compiled)
         return replace(world, start=start_positions(compiled, self.tree, self.report))
