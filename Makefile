@@ -39,8 +39,8 @@ format: $(READY)  ## rewrite the code in house style
 bench: $(READY)  ## figures, as ratios against a peer in the same run
 	$(BIN)/python -m bench
 
-load: $(READY)  ## ten minutes of 200 topics at 100 Hz to 50 nodes
-	$(BIN)/python -m bench.load
+load: $(READY)  ## ten minutes (SECONDS=60: one) of 200 topics at 100 Hz to 50 nodes
+	$(BIN)/python -m bench.load $(SECONDS)
 
 wheel: $(READY)  ## a wheel in dist/
 	$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir dist .

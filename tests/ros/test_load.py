@@ -18,8 +18,7 @@ def test_two_hundred_topics_for_fifty_nodes_grow_nothing_and_lose_nothing_latche
     report = run_load(20.0)
     assert report.received > 0
     assert report.newcomers > 1
-    assert (report.missed_latched, report.clock_backwards) == (0, 0)
-    assert max(report.grown_mb.values()) < 30.0, report
+    assert report.faults == [], report
 
 
 def test_ten_thousand_connections_come_and_go(graph: Any) -> None:

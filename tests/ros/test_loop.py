@@ -4,8 +4,11 @@ import asyncio
 import gc
 import socket
 import warnings
+import weakref
+from typing import Any
 
 import pytest
+from tests.ros.conftest import PATIENCE_S
 
 from trundle.ros.loop import GraphLoop, close_server
 
@@ -47,3 +50,20 @@ def test_it_does_not_rest_while_something_is_under_way() -> None:
         with loop.work.under_way():
             assert not loop.rest(0.05, unless=lambda: False)
         assert loop.rest(5.0, unless=lambda: False)
+
+
+def test_a_node_that_has_gone_is_forgotten(graph: Any) -> None:
+    """Thousands come and go where every call of a script is a node of its own."""
+    node = graph.node("passing")
+    node.advertise("/a", "std_msgs/String")
+    node.subscribe("/b", "std_msgs/String", print)
+    graph.ready(node)
+    graph.loop.run(node.shutdown(), PATIENCE_S)
+    gone = weakref.ref(node)
+    del node
+
+    def is_forgotten() -> bool:
+        gc.collect()
+        return gone() is None
+
+    graph.until(is_forgotten)

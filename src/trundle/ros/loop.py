@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Coroutine, Mapping
 from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any, Self, TypeVar
+from weakref import WeakSet
 
 from .messages import Messages
 from .work import Work
@@ -232,7 +233,8 @@ class _ClosingLoop(asyncio.SelectorEventLoop):
 
     def __init__(self) -> None:
         super().__init__()
-        self._servers: set[asyncio.Server] = set()
+        self._servers: WeakSet[asyncio.Server] = WeakSet()
+        """Those that listen: the loop's readers keep them."""
         self._opening: set[asyncio.Task[asyncio.Server]] = set()
 
     async def create_server(self, *args: Any, **options: Any) -> asyncio.Server:
@@ -248,7 +250,7 @@ class _ClosingLoop(asyncio.SelectorEventLoop):
             opened, _ = await asyncio.wait(self._opening, timeout=_OPENING_S)
             for task in opened:  # their own callbacks may come only after this
                 self._opened(task)
-        for server in self._servers:
+        for server in list(self._servers):
             await close_server(server)
         mine = asyncio.current_task()
         others = [task for task in asyncio.all_tasks() if task is not mine]
