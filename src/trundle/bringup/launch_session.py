@@ -10,7 +10,6 @@ from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import WORLDS, Executable, Host, Simulator, find_node
 from trundle.ros import PROFILES, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
 from trundle.supervisor import Patience
-from trundle.viewer import GraphPage
 
 from . import launch_print
 from .graph import Graph
@@ -25,6 +24,8 @@ from .launch_running import RunningNodes, what_runs
 from .told_time import ToldTime
 
 if TYPE_CHECKING:
+    from trundle.viewer import GraphPage
+
     from .gazebo_world import GazeboWorld
 
 NS = 1_000_000_000
@@ -87,6 +88,8 @@ class LaunchSession:
                 show.line("no simulation tells the time: /clock is told here, as fast as the nodes can follow")
                 self._open_things.callback(ToldTime(launcher, self._steps).close)
         if not options.headless:
+            from trundle.viewer import GraphPage  # a launch without a page does not wait for it
+
             self._page = page = GraphPage(
                 packages=read.packages, report=read.report, say=show.line, host=options.host, port=options.view_port
             )
