@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Protocol
 
@@ -111,18 +112,16 @@ class GraphPage:
             node.log_info(f"the page is already open at {self._viewer.url}")
             await node.closed.wait()
             return 0
-        self._over = True
-        read = read_rviz_config(None if config is None else Path(config), self._report)
-        shown = ShownGraph(node, read, fixed_frame)
         self._over = False
-        try:
+        with ExitStack() as open_things:
+            open_things.callback(self.close)
+            read = read_rviz_config(None if config is None else Path(config), self._report)
+            shown = ShownGraph(node, read, fixed_frame)
+            open_things.callback(shown.close)
             first = self._layout(shown)
             self._viewer = await asyncio.to_thread(Viewer.start, first, host=self._host, port=self._port)
             self._say(f"see it at {self._viewer.url}")
             await self._feed(self._viewer, shown)
-        finally:
-            shown.close()
-            self.close()
         return 0
 
     def close(self) -> None:
