@@ -60,7 +60,9 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
         if deepest > _DEEPEST and any(entry.type == _TOO_MUCH for entry in parser.error_log):
             root = _deep(data.lstrip(), deepest)
             if root is None:
-                raise DescriptionError(at, f"elements more than {deepest} deep in one another") from None
+                raise DescriptionError(
+                    at, f"elements more than {deepest} deep in one another, or entities that multiply"
+                ) from None
             return XmlNode(root, file=name, first_line=blank_lines)
         root = None if report is None else _recovered(data.lstrip())
         if root is None or report is None:

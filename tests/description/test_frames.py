@@ -253,6 +253,19 @@ def test_a_model_that_includes_itself_is_found_out(tmp_path: Path) -> None:
     assert any("includes itself" in each for each in report.warnings)
 
 
+def test_models_of_ten_parts_of_ten_parts_and_so_on_end(tmp_path: Path) -> None:
+    parts = "".join(f"<include><name>part{i}</name><uri>model://{{}}</uri></include>" for i in range(10))
+    for i in range(12):
+        folder = tmp_path / f"size{i}"
+        folder.mkdir()
+        (folder / "model.config").write_text("<model><sdf version='1.9'>model.sdf</sdf></model>")
+        inside = parts.format(*[f"size{i + 1}"] * 10) if i < 11 else "<link name='l'/>"
+        (folder / "model.sdf").write_text(f"<sdf version='1.9'><model name='m'>{inside}</model></sdf>")
+
+    with pytest.raises(DescriptionError, match=r"model\.sdf:1: error: more than 5000 <include> in all"):
+        read(tmp_path, '<world name="w"><include><uri>model://size0</uri></include></world>')
+
+
 def test_models_nested_beyond_all_sense_are_refused(tmp_path: Path) -> None:
     deep = '<model name="m">' * 240 + '<link name="a"/>' + "</model>" * 240
 

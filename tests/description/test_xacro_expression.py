@@ -167,3 +167,12 @@ def test_macros_that_double_are_stopped(tmp_path: Path, monkeypatch: pytest.Monk
 
     with pytest.raises(DescriptionError, match="more than 2000 elements"):
         expand(tmp_path, f"{macros}<xacro:m40/>")
+
+
+def test_a_file_that_is_far_too_large_is_not_read_into_memory(tmp_path: Path) -> None:
+    file = tmp_path / "x.xacro"
+    with file.open("wb") as hole:
+        hole.truncate(100_000_000)
+
+    with pytest.raises(DescriptionError, match=r"x\.xacro: error: larger than 67108864 bytes"):
+        expand_xacro(file, {}, packages=Packages({}, start=tmp_path), report=Diagnostics())

@@ -239,8 +239,9 @@ class TestReadingOutside:
         path = write(robot.with_name("arm.xacro"), XACRO.format(inside))
         allowing = Packages({room.ALLOW_OUTSIDE: "1"}, start=robot)
 
-        with pytest.raises(DescriptionError, match="reads only below"):
+        with pytest.raises(DescriptionError, match="reads only below") as refused:
             expand_xacro(path, {}, packages=Packages({}, start=robot), report=Diagnostics())
+        assert str(refused.value).count(": error: ") == 1
         assert "secret" in expand_xacro(path, {}, packages=allowing, report=Diagnostics())
 
     def test_a_xacro_reads_yaml_of_its_own(self, robot: Path) -> None:

@@ -78,6 +78,8 @@ _REPEATED = r"<class '[\w.]+'>: (.*?) \1"
 """How the package words an error of $(…): its class, then what it says, twice."""
 _LONGEST = 400
 """Characters of an error: it quotes the expression, and each that this one was part of."""
+_MOST_BYTES = 64 * 1024 * 1024
+"""Of one file."""
 _MOST_ELEMENTS = 50_000
 """What macros may expand to; the largest published robot has some 5,000."""
 _LOCK = threading.Lock()
@@ -92,43 +94,12 @@ _CORE = {
 }
 """Indigo's bare tags, and the attribute that tells them from plain XML of the same name."""
 _BARE = tuple(f"<{tag}".encode() for tag in _CORE)
-_URDF = frozenset(
-    [
-        "robot",
-        "link",
-        "joint",
-        "inertial",
-        "visual",
-        "collision",
-        "origin",
-        "geometry",
-        "box",
-        "cylinder",
-        "sphere",
-        "mesh",
-        "material",
-        "color",
-        "texture",
-        "mass",
-        "inertia",
-        "parent",
-        "child",
-        "axis",
-        "limit",
-        "dynamics",
-        "mimic",
-        "safety_controller",
-        "calibration",
-        "transmission",
-        "actuator",
-        "gazebo",
-        "sensor",
-        "plugin",
-        "hardwareInterface",
-        "mechanicalReduction",
-        "type",
-    ]
-)
+_URDF_TAGS = """
+    robot link joint inertial visual collision origin geometry box cylinder sphere mesh material color
+    texture mass inertia parent child axis limit dynamics mimic safety_controller calibration transmission
+    actuator gazebo sensor plugin hardwareInterface mechanicalReduction type
+"""
+_URDF = frozenset(_URDF_TAGS.split())
 """Element names that stay what they are even where a macro has the same name."""
 
 
@@ -159,6 +130,10 @@ def expand_xacro(path: Path, arguments: Mapping[str, str], *, packages: Packages
         except ExpatError as error:
             raise DescriptionError(Source(_where(path).file, error.lineno), f"not well-formed XML: {error}") from None
         except Exception as error:  # xacro evaluates the file's own Python: anything may come out of it
+            inner: object = error
+            while (inner := getattr(inner, "exc", None)) is not None:  # what was refused amid an expression
+                if isinstance(inner, DescriptionError):
+                    raise inner from None
             what = re.sub(_REPEATED, r"\1", " ".join(str(error).split())) or type(error).__name__
             what = what if len(what) <= _LONGEST else f"{what[:_LONGEST]} …"
             raise DescriptionError(_where(path), what) from None
@@ -235,7 +210,7 @@ def _parse_for(original: Callable[..., Any], packages: Packages, report: Diagnos
     def parse(inp: object, filename: str | None = None) -> Any:
         if filename is not None:
             packages.check_readable(Path(filename), Source(filename), told="xacro:include")
-            data = Path(filename).read_bytes() if Path(filename).is_file() else b""
+            data = _data(Path(filename))
             if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
                 raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
             # Blank lines before <?xml …?> stop expat, and no robot.
@@ -246,6 +221,14 @@ def _parse_for(original: Callable[..., Any], packages: Packages, report: Diagnos
         return original(inp, filename)
 
     return parse
+
+
+def _data(path: Path) -> bytes:
+    if not path.is_file():
+        return b""
+    if path.stat().st_size > _MOST_BYTES:
+        raise DescriptionError(Source(str(path)), f"larger than {_MOST_BYTES} bytes, the largest file read")
+    return path.read_bytes()
 
 
 def _prefix_core_tags(document: Any, filename: str, report: Diagnostics) -> None:

@@ -18,11 +18,19 @@ from .sensor import read_plugin
 from .version import read_version
 
 _DEEPEST_INCLUDE = 16
+_MOST_INCLUDES = 5_000
+"""Files opened for one description; the published world of the most has 89."""
 ReadModel: TypeAlias = Callable[[XmlNode, Context], Part]
 
 
 def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | None:
-    """The root element that an <include> leads to; None, after a warning, where it leads nowhere, as in Gazebo."""
+    """The root element that an <include> leads to; None, after a warning, where it leads nowhere, as in Gazebo.
+
+    Raises:
+        DescriptionError: there is no end of them.
+    """
+    if next(context.included) >= _MOST_INCLUDES:
+        raise DescriptionError(node.at, f"more than {_MOST_INCLUDES} <include> in all, models within models")
     report = context.report
     uri = node.string("uri") or (node.attribute("filename") or "")
     if not uri:
