@@ -70,7 +70,7 @@ void Renderer::draw_maps() {
     std::vector<Solid> solids;
     for (const size_t caster : casters) {
       Solid solid;
-      if (place(view, maps_[i]->world_from_view, caster, solid)) solids.push_back(solid);
+      if (place(view, maps_[i]->world_from_view, caster, Detail::kSeen, solid)) solids.push_back(solid);
     }
     in_bands(view.height, [&](const Band& band) {
       const Buffers buffers{maps_[i]->nearness.data(), nullptr, nullptr, nullptr, projected_[band.thread].data()};
@@ -116,10 +116,12 @@ void Renderer::render(const Camera& camera, uint8_t* rgb, float* depth, int32_t*
     sky.up[i] = (float)camera.world_from_camera.rotation[6 + i];
     sky.even |= byte_of(sky.horizon[i]) << (8 * i);
   }
+  // Distances and segments are of every triangle.
+  const Detail detail = depth || segment ? Detail::kAll : Detail::kSeen;
   std::vector<Solid> solids, see_through;
   for (size_t i = 0; i < scene_.shapes.size(); ++i) {
     Solid solid;
-    if (looks_[i].opacity > 0.0f && place(view, camera.world_from_camera, i, solid))
+    if (looks_[i].opacity > 0.0f && place(view, camera.world_from_camera, i, detail, solid))
       (looks_[i].opacity < 1.0f ? see_through : solids).push_back(solid);
   }
   const auto away = [](const Solid& solid) {

@@ -82,6 +82,7 @@ struct Solid {
   int32_t id_count;
   int32_t index;        // in the scene
   const Triangles* mesh;
+  float off;            // how far the mesh may be from what casts shadows [m]
   const Look* look;
   // Only for rays:
   BvhView bvh;

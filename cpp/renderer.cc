@@ -10,6 +10,7 @@ namespace trundle {
 namespace {
 
 constexpr double kEndless = 1e6;  // [m]
+constexpr double kUnseen = 0.3;   // [px] by which a vertex may be moved
 
 bool is_finite(const std::array<float, 3>& numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](float number) { return std::isfinite(number); });
@@ -66,6 +67,7 @@ Renderer::Renderer(SceneSpec scene, int32_t threads)
   for (const LightSpec& light : scene_.lights)
     if (light.body != -1 && !is_index(light.body, (size_t)scene_.bodies))
       throw std::invalid_argument("a light rides on a body that does not exist");
+  coarse_.resize(scene_.meshes.size());
   number_faces();
   shape_poses_.resize(scene_.shapes.size());
   for (const ShapeSpec& shape : scene_.shapes) bounds_.push_back(bounds_of(shape));
@@ -97,6 +99,7 @@ void Renderer::reshape(int32_t mesh, Mesh form) {
     throw std::invalid_argument("a mesh cannot lose its places in textures");
   scene_.meshes[mesh] = std::move(form);
   triangles_[mesh] = scene_.meshes[mesh].triangles();
+  coarse_[mesh].emplace();  // what changes its form is not made coarser each time
   for (auto& room : projected_) room.resize(std::max(room.size(), 6 * scene_.meshes[mesh].places[0].size()));
   if (!trees_.empty()) trees_[mesh] = triangles_[mesh].face_count > 0 ? make_bvh(triangles_[mesh]) : Bvh();
   for (size_t i = 0; i < scene_.shapes.size(); ++i)
@@ -177,13 +180,27 @@ std::optional<Frame> Renderer::orient(const Frame& world_from_camera, size_t ind
   solid.look = &looks_[index];
   solid.first_id = first_ids_[index];
   solid.index = (int32_t)index;
+  solid.off = 0.0f;
   solid.mesh = shape.kind == Kind::kMesh ? &triangles_[shape.mesh] : nullptr;
   solid.id_count = solid.mesh ? solid.mesh->face_count : 1;
   if (solid.id_count == 0) return std::nullopt;
   return camera_from_shape;
 }
 
-bool Renderer::place(const View& view, const Frame& world_from_camera, size_t index, Solid& solid) const {
+// The coarsest one whose vertices are no farther from where they were than so many metres.
+const Triangles& Renderer::mesh_for(int32_t mesh, double unseen) {
+  const Triangles& whole = triangles_[mesh];
+  const Vec3 &low = scene_.meshes[mesh].low, &high = scene_.meshes[mesh].high;
+  const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  if (whole.face_count < kHeavy || !(unseen > 0.5 * extent / kFinest)) return whole;
+  if (!coarse_[mesh]) coarse_[mesh] = coarser(scene_.meshes[mesh]);
+  const Triangles* chosen = &whole;
+  for (const Coarse& level : *coarse_[mesh])
+    if (level.off <= unseen) chosen = &level.triangles;
+  return *chosen;
+}
+
+bool Renderer::place(const View& view, const Frame& world_from_camera, size_t index, Detail detail, Solid& solid) {
   const auto camera_from_shape = orient(world_from_camera, index, solid);
   if (!camera_from_shape) return false;
   const ShapeSpec& shape = scene_.shapes[index];
@@ -192,6 +209,14 @@ bool Renderer::place(const View& view, const Frame& world_from_camera, size_t in
     return solid.eye[2] > 0.0f;
   }
   const auto& [low, high, middle, radius] = bounds_[index];
+  if (detail == Detail::kSeen && solid.mesh) {
+    const Vec3 seen = camera_from_shape->move(middle);
+    const double away = std::max(std::hypot(seen[0], seen[1], seen[2]) - radius, (double)view.near_);
+    const double unseen = kUnseen * (view.parallel ? 1.0 : away) / view.focal;
+    solid.mesh = &mesh_for(shape.mesh, unseen);
+    if (solid.mesh != &triangles_[shape.mesh]) solid.off = (float)unseen;
+    solid.id_count = solid.mesh->face_count;
+  }
   const Rectangle pixels = covered(view, *camera_from_shape, low, high);
   solid.left = pixels.left, solid.top = pixels.top, solid.right = pixels.right, solid.bottom = pixels.bottom;
   return !pixels.empty();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bvh.h"
+#include "coarse.h"
 #include "geometry.h"
 #include "kernel.h"
 #include "light.h"
@@ -72,7 +73,9 @@ class Renderer {
   Bounds bounds_of(const ShapeSpec& shape) const;
   bool is_endless(const ShapeSpec& shape) const;
   std::optional<Frame> orient(const Frame& world_from_camera, size_t index, Solid& solid) const;
-  bool place(const View& view, const Frame& world_from_camera, size_t index, Solid& solid) const;
+  enum class Detail { kAll, kSeen };  // of meshes: every triangle, or what makes no difference to a picture
+  bool place(const View& view, const Frame& world_from_camera, size_t index, Detail detail, Solid& solid);
+  const Triangles& mesh_for(int32_t mesh, double unseen);
   void number_faces();
   void draw_maps();
   struct Band;
@@ -82,6 +85,7 @@ class Renderer {
   SceneSpec scene_;
   std::vector<Triangles> triangles_;
   std::vector<Bvh> trees_;  // made when first a ray is cast
+  std::vector<std::optional<std::vector<Coarse>>> coarse_;  // of each mesh, made when first one is so small
   std::vector<Look> looks_;
   std::vector<int32_t> first_ids_;
   std::vector<Bounds> bounds_;

@@ -21,13 +21,13 @@ inline F3 full(const F3& colour) {
 inline F between(F value) { return max(min(value, splat(1.0f)), F{}); }
 
 // What share of the four texels around a point lies open to the light, weighed by how near they are.
-inline F lit_share(const ShadowMap& map, const F3& point, const F3& normal, F slope) {
+inline F lit_share(const ShadowMap& map, const F3& point, const F3& normal, F slope, float off) {
   const View& view = map.view;
   F3 p = turn(map.turn, point);
   p = {p.x + map.shift[0], p.y + map.shift[1], p.z + map.shift[2]};
   const F texel = view.parallel ? splat(map.texel) : abs(p.x) * map.texel;
   // A surface does not shade itself: a look from a little above it, the more the flatter the light falls.
-  const F above = texel * 1.5f;
+  const F above = texel * 1.5f + off;
   const F3 n = turn(map.turn, normal);
   p = p + n * above;
   const I ahead = p.x > view.near_;
@@ -53,7 +53,8 @@ struct Lit {
   F3 diffuse, specular;
 };
 
-inline void add_light(const Light& lamp, const Look& look, const F3& point, const F3& n, const F3& back, Lit& lit) {
+inline void add_light(const Light& lamp, const Solid& solid, const F3& point, const F3& n, const F3& back, Lit& lit) {
+  const Look& look = *solid.look;
   F3 towards = splat(lamp.towards);
   F strength = splat(1.0f);
   if (lamp.kind != LightKind::kDirectional) {
@@ -73,7 +74,7 @@ inline void add_light(const Light& lamp, const Look& look, const F3& point, cons
   if (!any(lit_side)) return;
   if (lamp.shadow) {
     const F slope = sqrt(max(1.0f - facing * facing, F{})) / max(facing, splat(1e-3f));
-    strength *= lit_share(*lamp.shadow, point, n, slope);
+    strength *= lit_share(*lamp.shadow, point, n, slope, solid.off);
   }
   strength = select(lit_side, strength, F{});
   lit.diffuse = lit.diffuse + splat(lamp.diffuse) * (facing * strength);
@@ -143,7 +144,7 @@ void shade_solid(const View& view, const Solid& solid, const Lighting& lighting,
       const F3 back = point * (-1.0f / sqrt(dot(point, point)));
       const F none = F{};
       Lit lit = {{none, none, none}, {none, none, none}};
-      for (int i = 0; i < lighting.light_count; ++i) add_light(lighting.lights[i], look, point, n, back, lit);
+      for (int i = 0; i < lighting.light_count; ++i) add_light(lighting.lights[i], solid, point, n, back, lit);
       // As Ogre's shaders: all that a surface sends back is at most white, and then tinted by its texture.
       lit.diffuse = full(splat(lighting.ambient) * splat(look.ambient) + lit.diffuse * splat(look.diffuse) + splat(look.emissive));
       lit.specular = full(lit.specular * splat(look.specular));

@@ -59,6 +59,21 @@ Mesh mesh() {
   return make_mesh(vertices, faces, uv, normals);
 }
 
+// Many triangles, each a little one; coarser meshes are made of them.
+Mesh heavy() {
+  const int32_t side = 150;
+  std::vector<float> vertices;
+  std::vector<int32_t> faces;
+  const bool wild = whole(0, 1) == 0;
+  for (int32_t i = 0; i < side * side; ++i) {
+    vertices.insert(vertices.end(), {(float)(i % side) * 0.01f, (float)(i / side) * 0.01f, (float)sane() * 0.01f});
+    if (wild && whole(0, 99) == 0) vertices.back() = (float)number();
+    if (i % side == side - 1 || i / side == side - 1) continue;
+    faces.insert(faces.end(), {i, i + 1, i + side, i + 1, i + side + 1, i + side});
+  }
+  return make_mesh(vertices, faces, {}, {});
+}
+
 Image image() {
   const int32_t width = whole(1, 40), height = whole(1, 40);
   std::vector<uint8_t> rgb;
@@ -69,7 +84,7 @@ Image image() {
 SceneSpec scene() {
   SceneSpec spec;
   spec.bodies = whole(1, 4);
-  for (int32_t i = whole(1, 3); i > 0; --i) spec.meshes.push_back(mesh());
+  for (int32_t i = whole(1, 3); i > 0; --i) spec.meshes.push_back(whole(0, 19) ? mesh() : heavy());
   for (int32_t i = whole(0, 2); i > 0; --i) spec.textures.push_back(image());
   for (int32_t i = whole(0, 12); i > 0; --i) {
     LookSpec look{triple(), triple(), triple(), triple(), (float)number(), whole(0, 2) ? 1.0f : (float)number(),
