@@ -156,6 +156,33 @@ def test_a_mimic_follows_its_leader(load: Load) -> None:
     assert follow.position == pytest.approx(-2 * (lead.position - 0.05) + 0.1, abs=1e-4)
 
 
+GRIPPER = """<robot name="r"><link name="world"/><link name="a">{0}</link><link name="b">{0}</link>
+<joint name="lead" type="continuous"><parent link="world"/><child link="a"/><axis xyz="0 0 1"/></joint>
+<joint name="follow" type="revolute"><parent link="world"/><child link="b"/><axis xyz="0 0 1"/>
+<limit lower="0" upper="0" effort="1" velocity="1"/><mimic joint="lead" multiplier="-2" offset="0.1"/></joint>
+{1}</robot>"""
+URDF_INERTIA = (
+    '<inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
+)
+HELD = "<gazebo><plugin name='p' filename='libx.so'><mimicJoint> {} </mimicJoint></plugin></gazebo>"
+
+
+@pytest.mark.parametrize(("held", "follows"), [("", True), (HELD.format("lead"), True), (HELD.format("follow"), False)])
+def test_a_mimic_of_a_urdf_follows_unless_a_plugin_makes_it(tmp_path: Path, held: str, follows: bool) -> None:
+    """What a plugin holds by other numbers would be held twice."""
+    file = tmp_path / "x.urdf"
+    file.write_text(GRIPPER.format(URDF_INERTIA, held))
+    sim = trundle.load(str(file))
+    lead = sim["r"].joint("lead")
+    lead.set_velocity(0.5)
+    sim.run(1.0)
+    assert lead.position == pytest.approx(0.5, rel=0.01)
+    if follows:
+        assert sim["r"].joint("follow").position == pytest.approx(-2 * lead.position + 0.1, abs=1e-3)
+    else:
+        assert not sim["r"].joint("follow").is_driven
+
+
 def parallelogram(*, reverse: bool) -> list[str]:
     """Two rods of 1 m hang from the world 2 m apart; a bar joins their ends."""
     parts = [

@@ -5,7 +5,8 @@ their child free. What Gazebo would also drop, a URDF's colours, is kept: it can
 """
 
 import math
-from collections.abc import Mapping
+import re
+from collections.abc import Container, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -23,6 +24,7 @@ from trundle.model import (
     Link,
     Material,
     MeshFile,
+    Mimic,
     Model,
     Sphere,
     Visual,
@@ -56,6 +58,8 @@ _TYPES = {
     "prismatic": JointType.PRISMATIC,
     "fixed": JointType.FIXED,
 }
+_HELD_BY_PLUGIN = re.compile(r"<mimicJoint>\s*(.*?)\s*</mimicJoint>")
+"""Joints that a plugin makes follow: what the URDF says of that would be said twice."""
 
 
 def lower_robot(robot: Robot, root: XmlNode, *, folder: Path, packages: Packages, report: Diagnostics) -> World:
@@ -98,10 +102,12 @@ class _Lowering:
             for lump in self.lumps.values()
             if lump.name not in dropped and lump.name != WORLD
         )
+        plugins = self.tags.plugins("")
+        held = {name for plugin in plugins for name in _HELD_BY_PLUGIN.findall(plugin.node.xml())}
         joints = tuple(
             lowered
             for joint in self.robot.joints
-            if self.lump_of[joint.child] not in dropped and (lowered := self._joint(joint, poses)) is not None
+            if self.lump_of[joint.child] not in dropped and (lowered := self._joint(joint, poses, held)) is not None
         )
         graph = FrameGraph(MODEL, self.report)
         for link in links:
@@ -110,7 +116,6 @@ class _Lowering:
                 graph.add(part, RawPose(pose, link.name), self.links[part].at, attached_to=link.name)
         joints = (*joints, *self.tags.joints(graph))
         self.tags.name_tuning()
-        plugins = self.tags.plugins("")
         for plugin in plugins:
             follow_lumps(plugin.node, self.lumps.values(), self.report)
         static, self_collide, wind = (
@@ -256,7 +261,7 @@ class _Lowering:
             self.report.warn(error.at, f"{error.what}; the {what} is left out")
             return None
 
-    def _joint(self, joint: RobotJoint, poses: Mapping[str, Pose]) -> Joint | None:
+    def _joint(self, joint: RobotJoint, poses: Mapping[str, Pose], held: Container[str]) -> Joint | None:
         parent, child = self.lump_of[joint.parent], self.lump_of[joint.child]
         if parent == child:
             return None
@@ -264,15 +269,17 @@ class _Lowering:
             self.report.warn(joint.at, f"joint {joint.name!r}: Gazebo makes nothing of {joint.type}; its child is free")
             return None
         type_ = _TYPES[joint.type]
-        if joint.mimic is not None:
-            self.report.warn(joint.at, f"joint {joint.name!r}: <mimic> is not simulated yet, as in Gazebo; it is free")
+        axis = None if type_ is JointType.FIXED else self._axis(joint, poses[joint.child])
+        if axis is not None and joint.mimic is not None and joint.name not in held:
+            leader = joint.mimic
+            axis = replace(axis, mimic=Mimic(joint=leader.joint, multiplier=leader.multiplier, offset=leader.offset))
         return Joint(
             name=joint.name,
             type=type_,
             parent=WORLD if joint.parent == WORLD else parent,
             child=child,
             at=joint.at,
-            axis=None if type_ is JointType.FIXED else self._axis(joint, poses[joint.child]),
+            axis=axis,
             sensors=self.tags.sensors(joint.name),
         )
 
