@@ -31,7 +31,7 @@ def recorded(folder: Path) -> tuple[Path, Simulation]:
 def test_a_log_holds_every_pose_at_its_time(tmp_path: Path) -> None:
     path, sim = recorded(tmp_path)
 
-    log = read_state_log(path)
+    log = read_state_log(str(path))
 
     assert log.times == pytest.approx(np.arange(1, 26) * 0.02)
     assert log.links[:2] == ("m::a", "m::b")

@@ -76,16 +76,17 @@ class StateLog:
     """(rows, joints) [rad or m]"""
 
 
-def read_state_log(path: Path) -> StateLog:
+def read_state_log(file: Path | str) -> StateLog:
     """Read a recording; a last row that was cut short is left out.
 
     Raises:
         DescriptionError: it is none.
         OSError: it cannot be read.
     """
-    with path.open("rb") as file:
-        line = file.readline(_LONGEST_HEADER)
-        start = file.tell()
+    path = Path(file)
+    with path.open("rb") as stream:
+        line = stream.readline(_LONGEST_HEADER)
+        start = stream.tell()
     try:
         header = json.loads(line)
         links, joints, sdf = tuple(map(str, header["links"])), tuple(map(str, header["joints"])), str(header["sdf"])
