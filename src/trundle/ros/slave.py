@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from .node import Node
     from .service import Service
 
-_BACKLOG = 128
+_BACKLOG = 512
+"""Connections waiting to be accepted: all subscribers of a big launch come at once, and one too many waits a second."""
 _MAX_NEWCOMERS = 512
 """Connections that have not said yet what they want; the oldest makes room."""
 
