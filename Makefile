@@ -52,12 +52,14 @@ DEBIAN := chromium graphviz imagemagick ros-image-view ros-roscpp-msg ros-std-sr
           $(addprefix python3-,rosbag roscpp-msg rosgraph roslaunch rosmaster rosmsg rosnode rosparam rospy rosservice \
           rostopic std-srvs tf tf2-ros)
 
-system:  ## what the fullest tests use, from Debian's packages
+system:  ## what the fullest tests use, from Debian's packages and npm's
 	@if command -v apt-get >/dev/null; then \
 	  SUDO=$$([ "$$(id -u)" = 0 ] || echo sudo); \
 	  GET="apt-get -qq -o Acquire::Retries=3"; \
 	  $$SUDO $$GET update && $$SUDO env DEBIAN_FRONTEND=noninteractive $$GET install -y --no-install-recommends $(DEBIAN); \
 	else echo "make system knows Debian and Ubuntu only; make test skips what is not installed"; fi
+	@npm install --silent --no-audit --no-fund --ignore-scripts --prefix .npm rosnodejs@3.1.0 || \
+	  echo "npm brought no rosnodejs: make test-all skips the client in JavaScript"
 
 clean:  ## remove what make made
-	rm -rf $(VENV) dist build .pytest_cache .ruff_cache .import_linter_cache .hypothesis
+	rm -rf $(VENV) .npm dist build .pytest_cache .ruff_cache .import_linter_cache .hypothesis

@@ -44,13 +44,15 @@ def _share(folder: Path, messages: Messages) -> None:
 
 
 @pytest.fixture
-def node_js() -> str:
+def node_js(monkeypatch: pytest.MonkeyPatch) -> str:
+    if "NODE_PATH" not in os.environ:
+        monkeypatch.setenv("NODE_PATH", str(Path(__file__).parents[2] / ".npm/node_modules"))
     program = shutil.which("node")
     if (
         program is None
         or subprocess.run([program, "-e", "require.resolve('rosnodejs')"], capture_output=True).returncode
     ):
-        pytest.skip("node finds no rosnodejs (npm install rosnodejs; NODE_PATH says where it is)")
+        pytest.skip("node finds no rosnodejs (make system installs it; NODE_PATH says where else it is)")
     return program
 
 

@@ -72,7 +72,7 @@ def test_registering_is_answered_as_by_rosmaster(stdlib: Any) -> None:
         (("deleteParam", "/a", "nope"), -1, "parameter [/nope] is not set"),
         (("searchParam", "/a/b", "nope"), -1, "Cannot find parameter [nope] in an upwards search"),
         (("hasParam", "/a", ""), -1, "must be specified and non-empty"),
-        (("setParam", "/a", "/", 3), 0, "cannot set root of parameter tree to non-dictionary"),
+        (("setParam", "/a", "/", 3), -1, "cannot set root of parameter tree to non-dictionary"),
     ],
 )
 def test_what_is_refused_is_refused_in_rosmasters_words(

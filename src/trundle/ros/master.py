@@ -44,9 +44,9 @@ class Master:
             "shutdown": (1, 0, self._shutdown),
             "lookupNode": (1, "", self._lookup_node),
             "lookupService": (1, "", self._lookup_service),
-            "getSystemState": (0, [], self._system_state),
+            "getSystemState": (0, [[], [], []], self._system_state),
             "getTopicTypes": (0, [], self._topic_types),
-            "getPublishedTopics": (1, [], self._published_topics),
+            "getPublishedTopics": (1, 0, self._published_topics),
             "registerPublisher": (3, [], self._register_publisher),
             "unregisterPublisher": (2, 0, self._unregister_publisher),
             "registerSubscriber": (3, [], self._register_subscriber),
@@ -57,7 +57,7 @@ class Master:
             "getParam": (1, 0, self._get_param),
             "hasParam": (1, False, self._has_param),
             "deleteParam": (1, 0, self._delete_param),
-            "searchParam": (1, "", self._search_param),
+            "searchParam": (1, 0, self._search_param),
             "getParamNames": (0, [], self._param_names),
             "subscribeParam": (2, 0, self._subscribe_param),
             "unsubscribeParam": (2, 0, self._unsubscribe_param),
@@ -125,7 +125,7 @@ class Master:
     # -- who is where
 
     def _lookup_node(self, caller: str, node: Any) -> Answer:
-        name = _name("node", node, caller)
+        name = "/" if node == "/" else _name("node", node, caller)
         api = self._books.nodes.get(name)
         return (1, "node api", api) if api else (-1, f"unknown node [{name}]", "")
 
@@ -206,7 +206,7 @@ class Master:
         try:
             self.set_param(name, value, by=caller)
         except TypeError as error:
-            return 0, f"Internal failure: {error}", 0
+            return -1, f"Error: invalid arguments: {error}", 0
         return 1, f"parameter {name} set", 0
 
     def set_param(self, name: str, value: object, by: str = "/master") -> None:
@@ -239,12 +239,11 @@ class Master:
         return 1, name, self.parameters.has(name)
 
     def _search_param(self, caller: str, key: Any) -> Answer:
-        if not isinstance(key, str) or not key:
-            raise _BadArgumentError("ERROR: parameter [key] must be specified and non-empty")
+        key = _key(key)
         if key.startswith("~"):
-            return 0, "Internal failure: invalid key", ""
+            return 0, "Internal failure: invalid key", 0
         if not caller.startswith("/"):
-            return 0, "Internal failure: namespace must be global", ""
+            return 0, "Internal failure: namespace must be global", 0
         found = self.parameters.search(caller, key)
         if found is None:
             return -1, f"Cannot find parameter [{key}] in an upwards search", ""
@@ -286,10 +285,16 @@ def _name(what: str, value: Any, caller: str) -> str:
     return resolve_name(value, caller)
 
 
-def _parameter(value: Any, caller: str) -> str:
-    if not isinstance(value, str) or not value:
+def _key(value: Any) -> str:
+    if not value:
         raise _BadArgumentError("ERROR: parameter [key] must be specified and non-empty")
-    return resolve_name(value, caller) or parent_namespace(caller)
+    if not isinstance(value, str):
+        raise _BadArgumentError("ERROR: parameter [key] must be a string")
+    return value
+
+
+def _parameter(value: Any, caller: str) -> str:
+    return resolve_name(_key(value), caller) or parent_namespace(caller)
 
 
 def _type(what: str, value: Any) -> str:
