@@ -58,7 +58,8 @@ system:  ## what the fullest tests use, from Debian's packages and npm's
 	  GET="apt-get -qq -o Acquire::Retries=3"; \
 	  $$SUDO $$GET update && $$SUDO env DEBIAN_FRONTEND=noninteractive $$GET install -y --no-install-recommends $(DEBIAN); \
 	else echo "make system knows Debian and Ubuntu only; make test skips what is not installed"; fi
-	@npm install --silent --no-audit --no-fund --ignore-scripts --prefix .npm rosnodejs@3.1.0 || \
+	@npm install --silent --no-audit --no-fund --ignore-scripts --fetch-retries=1 --fetch-timeout=20000 --prefix .npm \
+	  rosnodejs@3.1.0 || \
 	  echo "npm brought no rosnodejs: make test-all skips the client in JavaScript"
 
 clean:  ## remove what make made
