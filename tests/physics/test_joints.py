@@ -11,6 +11,7 @@ import trundle
 from trundle.cli.main import main
 from trundle.diagnostics import DescriptionError
 from trundle.simulation import Simulation
+from trundle.spatial import Wrench
 
 G = 9.8
 Load = Callable[..., Simulation]
@@ -181,6 +182,28 @@ def test_a_mimic_of_a_urdf_follows_unless_a_plugin_makes_it(tmp_path: Path, held
         assert sim["r"].joint("follow").position == pytest.approx(-2 * lead.position + 0.1, abs=1e-3)
     else:
         assert not sim["r"].joint("follow").is_driven
+
+
+SLED = """<robot name="r"><link name="world"/><link name="a">{0}</link>
+<joint name="j" type="planar"><parent link="world"/><child link="a"/><origin rpy="{1} 0 0"/><axis xyz="0 0 1"/></joint>
+</robot>"""
+
+
+def test_a_planar_joint_slides_both_ways_and_turns_in_its_plane(tmp_path: Path) -> None:
+    tilt = 0.3
+    file = tmp_path / "x.urdf"
+    file.write_text(SLED.format(URDF_INERTIA, tilt))
+    sim = trundle.load(str(file))
+    sled = sim["r"].link("a")
+    sled.apply_wrench(Wrench(force=(2.0, 0.0, 0.0), torque=(0.0, -0.03 * math.sin(tilt), 0.03 * math.cos(tilt))))
+    sim.run(1.0)
+    x, y, z = sled.pose.position
+    assert x == pytest.approx(1.0, rel=2e-3)
+    assert -y * math.cos(tilt) - z * math.sin(tilt) == pytest.approx(9.8 * math.sin(tilt) / 2, rel=2e-3)
+    assert y * math.sin(tilt) == pytest.approx(z * math.cos(tilt), abs=1e-9)
+    assert sled.pose.direction((0.0, 0.0, 1.0)) == pytest.approx((0.0, -math.sin(tilt), math.cos(tilt)), abs=1e-9)
+    assert sled.twist.angular[2] == pytest.approx(3.0 * math.cos(tilt), rel=1e-6)
+    assert len(sim["r"].joint("j").axes) == 3
 
 
 def parallelogram(*, reverse: bool) -> list[str]:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class JointType(Enum):
-    """SDF's joint types; URDF's others are lowered to these."""
+    """SDF's joint types, and URDF's planar one; its others are lowered to these."""
 
     REVOLUTE = "revolute"
     PRISMATIC = "prismatic"
@@ -23,6 +23,8 @@ class JointType(Enum):
     SCREW = "screw"
     REVOLUTE2 = "revolute2"
     GEARBOX = "gearbox"
+    PLANAR = "planar"
+    """Slides both ways across its axis, and turns about it."""
 
 
 UNLIMITED = 1e16

@@ -6,13 +6,13 @@ loop has its limits, its motor and its position as any other.
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import mujoco
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import Joint, JointAxis, JointType, Mimic
-from trundle.spatial import Pose, Vector3
+from trundle.spatial import Pose, Vector3, upright
 
 from .settings import SOFT, SOLIMP, contact_solref, friction_solref, soft_spring, tie_solref
 from .tree import Hold, Tree, is_rigid
@@ -21,8 +21,8 @@ _NO_EFFORT = 1e-9
 """[N·m or N] What an effort limit of zero becomes: MuJoCo wants a range that is not empty."""
 _PARALLEL = 0.9999
 """Cosine of 0.8 degrees."""
+_ACROSS = ("::x", "::y")
 _TWO_HINGES = frozenset({JointType.UNIVERSAL, JointType.REVOLUTE2})
-_SLIDING = frozenset({JointType.PRISMATIC})
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ class JointMaker:
             body.add_joint(name=hold.name, type=mujoco.mjtJoint.mjJNT_BALL, pos=anchor)
             self.axes[hold.name] = [Axis(hold.name, hold.name, None, -1.0 if hold.turned else 1.0)]
             return
-        written = [(joint.axis, "")]
+        written = _planar(joint.axis) if joint.type is JointType.PLANAR else [(joint.axis, "")]
         if joint.type in _TWO_HINGES:
             written = [(joint.axis, "::axis"), (joint.axis2, "::axis2")]
             if joint.axis is not None and joint.axis2 is not None and _parallel(joint.axis, joint.axis2):
@@ -87,17 +87,25 @@ class JointMaker:
             if axis is None or (axis.is_rigid and axis.mimic is None):
                 continue
             name = f"{hold.name}{suffix}"
-            self._add_axis(body, name, anchor, frame.direction(hold.direction(axis)), joint, axis)
+            slides = joint.type is JointType.PRISMATIC or suffix in _ACROSS
+            self._add_axis(body, name, anchor, frame.direction(hold.direction(axis)), joint, axis, slides=slides)
             made.append(Axis(hold.name, name, axis))
         if joint.type is JointType.SCREW and joint.axis is not None:
             self._add_thread(body, hold, anchor, frame.direction(hold.direction(joint.axis)))
         self.axes[hold.name] = made[::-1] if hold.turned else made
 
     def _add_axis(
-        self, body: mujoco.MjsBody, name: str, anchor: Vector3, direction: Vector3, joint: Joint, axis: JointAxis
+        self,
+        body: mujoco.MjsBody,
+        name: str,
+        anchor: Vector3,
+        direction: Vector3,
+        joint: Joint,
+        axis: JointAxis,
+        *,
+        slides: bool,
     ) -> None:
         h = self._spec.option.timestep
-        slides = joint.type in _SLIDING
         hinge = body.add_joint(
             name=name,
             type=mujoco.mjtJoint.mjJNT_SLIDE if slides else mujoco.mjtJoint.mjJNT_HINGE,
@@ -203,6 +211,15 @@ class JointMaker:
                 agree = sum(a * b for a, b in zip(along, wanted, strict=True)) >= 0
                 return axes[0].engine_joint, sign if agree else -sign
         return None
+
+
+def _planar(axis: JointAxis | None) -> list[tuple[JointAxis | None, str]]:
+    """The three freedoms of a planar joint: two ways across its axis, and about it."""
+    if axis is None:
+        return []
+    plane = Pose(quaternion=upright(axis.direction))
+    ways = (plane.direction((1.0, 0.0, 0.0)), plane.direction((0.0, 1.0, 0.0)))
+    return [*((replace(axis, direction=way), name) for way, name in zip(ways, _ACROSS, strict=True)), (axis, "::turn")]
 
 
 def _parallel(a: JointAxis, b: JointAxis) -> bool:

@@ -16,7 +16,7 @@ from .sensor import read_sensor
 
 _WITHOUT_AXIS = frozenset({JointType.FIXED, JointType.BALL})
 _TWO_AXES = frozenset({JointType.UNIVERSAL, JointType.REVOLUTE2, JointType.GEARBOX})
-TYPES = {"continuous": JointType.REVOLUTE} | {each.value: each for each in JointType}
+TYPES = {"continuous": JointType.REVOLUTE} | {each.value: each for each in JointType if each is not JointType.PLANAR}
 """By the word a file has for it."""
 FrameOf: TypeAlias = Callable[[str], Pose | None]
 """model_from_frame by name; "" is the joint's own frame."""

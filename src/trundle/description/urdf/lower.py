@@ -1,7 +1,7 @@
 """A URDF as Gazebo simulates it.
 
-Fixed joints lump their links; a link without mass, and all below it, falls away; floating and planar joints leave
-their child free. What Gazebo would also drop, a URDF's colours, is kept: it can be seen and weighs nothing.
+Fixed joints lump their links; a link without mass, and all below it, falls away; floating joints leave their
+child free. What Gazebo would also drop, a URDF's colours, is kept: it can be seen and weighs nothing.
 """
 
 import math
@@ -57,6 +57,7 @@ _TYPES = {
     "continuous": JointType.REVOLUTE,
     "prismatic": JointType.PRISMATIC,
     "fixed": JointType.FIXED,
+    "planar": JointType.PLANAR,
 }
 _HELD_BY_PLUGIN = re.compile(r"<mimicJoint>\s*(.*?)\s*</mimicJoint>")
 """Joints that a plugin makes follow: what the URDF says of that would be said twice."""
@@ -270,7 +271,7 @@ class _Lowering:
             return None
         type_ = _TYPES[joint.type]
         axis = None if type_ is JointType.FIXED else self._axis(joint, poses[joint.child])
-        if axis is not None and joint.mimic is not None and joint.name not in held:
+        if axis is not None and joint.mimic and type_ is not JointType.PLANAR and joint.name not in held:
             leader = joint.mimic
             axis = replace(axis, mimic=Mimic(joint=leader.joint, multiplier=leader.multiplier, offset=leader.offset))
         return Joint(
@@ -285,7 +286,7 @@ class _Lowering:
 
     def _axis(self, joint: RobotJoint, root_from_joint: Pose) -> JointAxis:
         limit = joint.limit
-        bounded = limit is not None and joint.type != "continuous"
+        bounded = limit is not None and joint.type not in ("continuous", "planar")
         lower = limit.lower if limit is not None and bounded else -math.inf
         upper = limit.upper if limit is not None and bounded else math.inf
         if lower > upper:

@@ -132,6 +132,9 @@ class _Writer:
             model: that has its links.
             root: the frame of `home`.
         """
+        if joint.type is JointType.PLANAR:
+            self.report.warn(joint.at, f"joint {name!r}: SDF has no planar joints; its child is written free")
+            return
         tag = home.add("joint", name=name, type=joint.type.value)
         by_link = joint.child_frame is None and joint.child != "world"
         tag.add_pose(joint.child_from_joint if by_link else model_from_joint(model, joint), None if by_link else root)

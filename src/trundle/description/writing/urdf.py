@@ -32,7 +32,12 @@ from .sdf_sensor import add_sensor
 from .tag import Tag, spelled
 
 _UNLIMITED = 1e16
-_TYPES = {JointType.REVOLUTE: "revolute", JointType.PRISMATIC: "prismatic", JointType.FIXED: "fixed"}
+_TYPES = {
+    JointType.REVOLUTE: "revolute",
+    JointType.PRISMATIC: "prismatic",
+    JointType.FIXED: "fixed",
+    JointType.PLANAR: "planar",
+}
 _WORLD = "world"
 _SURFACE = (
     ("mu1", "mu"),
