@@ -157,7 +157,29 @@ def test_mjcf_shows_what_is_seen_and_leaves_physics_as_it_is(cart: Path, capsys:
     assert model.geom_pos[ball][0] == 0.1234567890123
     assert not model.geom_contype[seen].any()
     assert model.light_cutoff[0] == pytest.approx(np.degrees(0.5))
-    assert "textures are not written to MJCF; each shape has its mean colour" in capsys.readouterr().err
+    assert "textures are written to MJCF with -o only" in capsys.readouterr().err
+
+
+def test_mjcf_is_painted_as_the_mesh_is(cart: Path, tmp_path: Path) -> None:
+    """A triangle whose corners lie at (0, 0), (1, 0) and (0, 1) of an image, v up; MuJoCo's v is down."""
+    Image.new("RGB", (3, 2), (250, 10, 30)).save(cart.parent / "a/paint.png")
+    out = tmp_path / "out/cart.xml"
+    out.parent.mkdir()
+
+    code, printed = run("convert", str(cart), "--to", "mjcf", "-o", str(out))
+
+    model = mujoco.MjModel.from_xml_path(str(out))
+    painted, plain = np.flatnonzero(model.geom_group == 2)
+    material = model.geom_matid[painted]
+    assert (code, "textures" in printed) == (0, False)
+    assert model.mat_texid[material].max() == 0
+    assert model.mat_texid[model.geom_matid[plain]].max() == -1
+    assert (model.ntex, model.tex_width[0], model.tex_height[0]) == (1, 3, 2)
+    assert list(model.tex_data[:3]) == [250, 10, 30]
+    assert model.mat_rgba[material] == pytest.approx([1.0, 1.0, 1.0, 1.0])
+    mesh = model.geom_dataid[painted]
+    first = model.mesh_texcoordadr[mesh]
+    assert model.mesh_texcoord[first : first + 3].tolist() == [[0, 1], [1, 1], [0, 0]]
 
 
 def test_mjcf_has_every_digit(cart: Path) -> None:

@@ -1,12 +1,13 @@
 """`trundle convert`: what was understood of a file, written out."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Literal, TypeAlias
 
 from trundle.description import Loaded, UriOf, write_sdf, write_urdf, written_uri
 from trundle.diagnostics import DescriptionError, Diagnostics, UsageError
+from trundle.meshes import Texture
 from trundle.model import flattened
 from trundle.packages import Packages
 
@@ -44,15 +45,17 @@ def convert(
     """
     loaded = load_described(file, report, packages=Packages(environment, start=start), start=start)
     if output is None:
-        return _written(loaded, to, written_uri, report)
+        return _written(loaded, to, written_uri, lambda _: None, report)
     copies = FileCopies(output, report)
-    text = _written(loaded, to, copies.uri_of, report)
+    text = _written(loaded, to, copies.uri_of, copies.picture_of, report)
     copies.copy()
     _replace(output, text)
     return text
 
 
-def _written(loaded: Loaded, to: Format, uri_of: UriOf, report: Diagnostics) -> str:
+def _written(
+    loaded: Loaded, to: Format, uri_of: UriOf, picture_of: Callable[[Texture], str | None], report: Diagnostics
+) -> str:
     match to:
         case "sdf":
             return write_sdf(loaded.world, is_world=loaded.kind == "world", uri_of=uri_of, report=report)
@@ -60,7 +63,7 @@ def _written(loaded: Loaded, to: Format, uri_of: UriOf, report: Diagnostics) -> 
             from trundle.physics import compile_mjcf  # slow to load, and no other format needs them
             from trundle.render import scene_of
 
-            return compile_mjcf(loaded.world, scene_of(flattened(loaded.world), report), report)
+            return compile_mjcf(loaded.world, scene_of(flattened(loaded.world), report), report, picture_of=picture_of)
         case "urdf" if loaded.urdf is not None:
             return loaded.urdf
         case "urdf":

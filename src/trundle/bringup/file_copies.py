@@ -6,7 +6,7 @@ from pathlib import Path
 
 from trundle.description import written_uri
 from trundle.diagnostics import Diagnostics, Source, UsageError
-from trundle.meshes import MeshError, load_mesh
+from trundle.meshes import MeshError, Texture, load_mesh, png_of
 
 _LIBRARY = re.compile(r"^\s*mtllib\s+(.+?)\s*$", re.MULTILINE)
 
@@ -22,6 +22,8 @@ class FileCopies:
         self._report = report
         self._places: dict[Path, Path] = {}
         """Of each file, relative to the output's folder."""
+        self._pictures: dict[Texture, tuple[Path, bytes] | None] = {}
+        """The same of images, and what is in them."""
 
     def uri_of(self, path: Path | None, uri: str) -> str:
         """A relative URI; that of a file that was not found stays as written."""
@@ -38,6 +40,16 @@ class FileCopies:
             self._places[path] = place
         return self._places[path].as_posix()
 
+    def picture_of(self, texture: Texture) -> str | None:
+        """A relative path of an image as PNG, which is all that MuJoCo reads; None: it cannot be decoded."""
+        if texture not in self._pictures:
+            data = png_of(texture)
+            name = texture.stem if isinstance(texture, Path) else "inside"
+            place = Path("textures", f"{name}_{len(self._pictures)}.png")
+            self._pictures[texture] = None if data is None else (place, data)
+        found = self._pictures[texture]
+        return None if found is None else found[0].as_posix()
+
     def copy(self) -> None:
         """Copy the files, their textures and material libraries with them.
 
@@ -52,10 +64,14 @@ class FileCopies:
                 for extra in _companions(path):
                     inside = extra.is_relative_to(path.parent)
                     _copy(extra, target.parent / (extra.relative_to(path.parent) if inside else extra.name))
+            pictures = [each for each in self._pictures.values() if each is not None]
+            for place, data in pictures:
+                (folder / place).parent.mkdir(exist_ok=True)
+                (folder / place).write_bytes(data)
         except OSError as error:
             raise UsageError(f"cannot write below {folder}: {error.strerror}") from None
-        if self._places:
-            self._report.info(Source(str(self._output)), f"{len(self._places)} files were copied beside it")
+        if count := len(self._places) + len(pictures):
+            self._report.info(Source(str(self._output)), f"{count} files were copied beside it")
 
 
 def _companions(path: Path) -> list[Path]:

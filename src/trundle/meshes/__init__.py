@@ -10,7 +10,7 @@ from .raw import MeshError, RawPart
 from .skeleton import Motion, Skin, matched, root_of
 from .solids import cone_mesh, prism_mesh, terrain_mesh
 from .strip import strip_mesh
-from .texture import mean_colour
+from .texture import mean_colour, png_of
 
 __all__ = [
     "Mesh",
@@ -28,6 +28,7 @@ __all__ = [
     "load_skin",
     "matched",
     "mean_colour",
+    "png_of",
     "prism_mesh",
     "read_heights",
     "root_of",

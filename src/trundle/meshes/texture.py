@@ -50,6 +50,17 @@ def _mean(texture: Texture, _changed_ns: int) -> Rgba:
     return (r, g, b, 1.0)
 
 
+def png_of(texture: Texture) -> bytes | None:
+    """An image file as the bytes of a PNG; None where it cannot be decoded."""
+    from PIL import Image
+
+    try:
+        with Image.open(io.BytesIO(texture) if isinstance(texture, bytes) else texture) as image:
+            return as_png(image)
+    except Exception:  # every decoder behind Pillow fails in its own way
+        return None
+
+
 def as_png(image: "Image") -> bytes | None:
     """An image as the bytes of a file; None where it cannot be decoded."""
     buffer = io.BytesIO()
