@@ -237,3 +237,15 @@ def test_importing_the_room_is_light() -> None:
     environment = {**os.environ, "PYTHONWARNINGS": "error"}
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment)
     assert found.stdout.strip() == "[]"
+
+
+def test_messages_made_without_fields_share_nothing() -> None:
+    messages = Messages()
+    for kind in ("sensor_msgs/CameraInfo", "std_msgs/Empty", "tf2_msgs/TFMessage", "nav_msgs/Odometry"):
+        assert bytes(messages.serialize(messages.new(kind))) == bytes(messages.serialize(messages.new(kind, {})))
+    first, second = messages.new("sensor_msgs/CameraInfo"), messages.new("sensor_msgs/CameraInfo")
+    first.K[0], first.header.stamp.sec, first.header.frame_id = 1.0, 2, "a"
+    assert (second.K[0], second.header.stamp.sec, second.header.frame_id) == (0.0, 0, "")
+    lists = messages.new("tf2_msgs/TFMessage"), messages.new("tf2_msgs/TFMessage")
+    assert lists[0].transforms == []
+    assert lists[0].transforms is not lists[1].transforms

@@ -6,6 +6,7 @@ import sys
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 from .errors import MessageError
+from .frames import untouched
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -51,8 +52,8 @@ class Codec:
 
     def write_pieces(self, message: Any, *, room: int = 0) -> Pieces:
         """As `write`, but a long array stays where it is: a picture, a map, a cloud."""
-        array = getattr(message, self._array, None)
-        if array is None or getattr(array, "nbytes", 0) < _LONG_BYTES or not self._lies_as_written(array):
+        array: Any = getattr(message, self._array) if self._array else None
+        if getattr(array, "nbytes", 0) < _LONG_BYTES or not self._lies_as_written(array):
             return (self.write(message, room=room),)
         rest = self.write(dataclasses.replace(message, **{self._array: array[:0]}), room=room)
         end = len(rest) - self._behind
@@ -79,7 +80,7 @@ class Codec:
         """As the store's own `serialize_ros1`, which leaves no room: a picture would be copied for its length."""
         kind, store = self._kind, self._store
         size = room + (kind.size_ros1 or kind.getsize_ros1(0, message, store))
-        data = memoryview(bytearray(size)) if size < _LONG_BYTES else _untouched(size)
+        data = memoryview(bytearray(size)) if size < _LONG_BYTES else untouched(size)
         end = kind.serialize_ros1(data, room, message, store)
         assert end == size
         return data
@@ -92,13 +93,6 @@ class Codec:
             and array.flags.c_contiguous
             and (array.itemsize == 1 or (array.dtype.isnative and sys.byteorder == "little"))
         )
-
-
-def _untouched(size: int) -> memoryview:
-    """Memory as it comes: to clear a picture's takes as long as to write it."""
-    from numpy import empty, uint8
-
-    return empty(size, uint8).data
 
 
 def _last_array(store: "Typestore", key: str) -> tuple[str, int, int]:

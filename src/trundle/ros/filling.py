@@ -2,7 +2,7 @@
 
 import dataclasses
 import numbers
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -26,6 +26,8 @@ class Filling:
 
     def __init__(self, store: "Typestore") -> None:
         self._store = store
+        self._makers: dict[str, Callable[[], Any]] = {}
+        """Type → makes a message of it whose fields all have ROS's default."""
 
     def message(self, key: str, given: Any, now_ns: int, path: str = "") -> Any:
         """Make a message of type `key` ('geometry_msgs/msg/Twist') from a dictionary, a list or another message."""
@@ -58,10 +60,14 @@ class Filling:
             *(
                 self._value(desc, values[name], now_ns, f"{path}.{name}".lstrip("."))
                 if name in values
-                else self._default(desc)
+                else self._maker(desc)()
                 for name, desc in fields
             )
         )
+
+    def fresh(self, key: str) -> Any:
+        """Make a message whose fields all have ROS's default."""
+        return self._maker_of(key)()
 
     def _by_order(self, key: str, given: Sequence[Any], path: str) -> dict[str, Any]:
         names = [name for name, _ in fields_of(self._store, key)]
@@ -72,18 +78,27 @@ class Filling:
             )
         return dict(zip(names, given, strict=True))
 
-    def _default(self, desc: Any) -> Any:
+    def _maker_of(self, key: str) -> Callable[[], Any]:
+        if key not in self._makers:
+            cls, makers = self._store.types[key], [self._maker(desc) for _, desc in fields_of(self._store, key)]
+            self._makers[key] = lambda: cls(*[make() for make in makers])
+        return self._makers[key]
+
+    def _maker(self, desc: Any) -> Callable[[], Any]:
+        """Return what makes the default of a field."""
         kind, detail = desc
         if kind == Nodetype.BASE:
-            return {"string": "", "bool": False, "float32": 0.0, "float64": 0.0}.get(detail[0], 0)
+            value: Any = {"string": "", "bool": False, "float32": 0.0, "float64": 0.0}.get(detail[0], 0)
+            return lambda: value
         if kind == Nodetype.NAME:
-            if detail in (_TIME, _DURATION):
-                return self._store.types[detail](0, 0)
-            return self.message(detail, {}, 0)
+            return self._maker_of(detail)
         inner, count = detail
+        length = count if kind == Nodetype.ARRAY else 0
         if inner[0] == Nodetype.BASE and inner[1][0] != "string":
-            return np.zeros(count if kind == Nodetype.ARRAY else 0, _DTYPES.get(inner[1][0], inner[1][0]))
-        return [self._default(inner) for _ in range(count if kind == Nodetype.ARRAY else 0)]
+            dtype = _DTYPES.get(inner[1][0], inner[1][0])
+            return lambda: np.zeros(length, dtype)
+        make = self._maker(inner)
+        return lambda: [make() for _ in range(length)]
 
     def _value(self, desc: Any, given: Any, now_ns: int, path: str) -> Any:
         kind, detail = desc

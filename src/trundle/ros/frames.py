@@ -3,6 +3,8 @@
 import struct
 import threading
 from collections.abc import Iterator
+from functools import cache
+from typing import Any
 
 from .errors import WireError
 
@@ -73,11 +75,21 @@ class FrameCutter:
         self._rest, self._filled = b"", len(rest)
 
 
+def untouched(size: int) -> memoryview:
+    """Memory as it comes: to clear a picture's takes as long as to write it."""
+    return _numpy().empty(size, "u1").data
+
+
+@cache
+def _numpy() -> Any:
+    import numpy  # not where only short messages are heard
+
+    return numpy
+
+
 def _moved(data: bytes | memoryview, size: int) -> memoryview:
     """Copy to the beginning of new memory, whose rest is not touched."""
-    from numpy import empty, uint8  # not where only short messages are heard
-
-    moved = empty(size, uint8).data
+    moved = untouched(size)
     moved[: len(data)] = data
     return moved
 

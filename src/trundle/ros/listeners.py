@@ -12,17 +12,15 @@ if TYPE_CHECKING:
 class LocalSubscriber(Protocol):
     """A subscription in this process."""
 
+    is_raw: bool
+    """Whether it wants bytes."""
+
     def receive(self, message: Message) -> None:
         """Take a message object."""
         ...
 
     def receive_bytes(self, data: bytes, publisher: "Publisher") -> None:
         """Take a message as bytes."""
-        ...
-
-    @property
-    def is_raw(self) -> bool:
-        """Whether it wants bytes."""
         ...
 
 

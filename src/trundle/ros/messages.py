@@ -6,6 +6,7 @@ type is asked for, so that importing this module costs nothing.
 
 import threading
 import time
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -74,11 +75,9 @@ class Messages:
 
     def has(self, type_name: str) -> bool:
         """Tell whether a message type is known."""
-        try:
-            self._key(type_name)
-        except MessageError:
-            return False
-        return True
+        with suppress(MessageError):
+            return bool(self._key(type_name))
+        return False
 
     def type(self, type_name: str) -> type[Message]:
         """Return the class of a type; it takes every field as an argument, `new` is kinder."""
@@ -173,8 +172,9 @@ class Messages:
         Raises:
             MessageError: no such type or field, or a value that does not fit; the text names the field.
         """
-        now = time.time_ns() if now_ns is None else now_ns
-        return self._filling.message(self._key(type_name), {} if fields is None else fields, now)
+        if fields is None:
+            return self._filling.fresh(self._key(type_name))
+        return self._filling.message(self._key(type_name), fields, time.time_ns() if now_ns is None else now_ns)
 
     def stamp(self, ns: int) -> Message:
         """Make a `time` value from nanoseconds."""

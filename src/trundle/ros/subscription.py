@@ -41,10 +41,13 @@ class Subscription:
     ) -> None:
         self.topic = topic
         self.type = type_name
+        self.is_raw = type_name == ANY_TYPE
+        """Whether the callback gets bytes."""
         self.received = 0
         self.dropped = 0
         """Messages thrown away because callbacks were too slow."""
         self._node = node
+        self._messages = node.messages
         self._callback = callback
         self._is_async = inspect.iscoroutinefunction(callback)
         self._tcp_nodelay = tcp_nodelay
@@ -56,11 +59,6 @@ class Subscription:
         """Publisher's address → the task that keeps its link."""
         self._links: dict[str, FrameProtocol | Publisher] = {}
         self._complained: set[str] = set()
-
-    @property
-    def is_raw(self) -> bool:
-        """Whether the callback gets bytes."""
-        return self.type == ANY_TYPE
 
     @property
     def publishers(self) -> int:
@@ -81,7 +79,7 @@ class Subscription:
     @property
     def md5sum(self) -> str:
         """What publishers compare."""
-        return ANY_TYPE if self.is_raw else self._node.messages.md5(self.type)
+        return ANY_TYPE if self.is_raw else self._messages.md5(self.type)
 
     def follow(self, uris: list[str]) -> None:
         """Keep links to exactly these publishers."""
@@ -144,7 +142,7 @@ class Subscription:
             MessageError: the bytes are no such message.
         """
         if not self.is_raw:
-            self.receive(self._node.messages.codec(self.type).read(data))
+            self.receive(self._messages.codec(self.type).read(data))
             return
         self.receive(
             RawMessage(
@@ -199,7 +197,7 @@ class Subscription:
             case _:
                 raise WireError(f"it does not offer TCPROS: {str(answer)[:100]}")
         if not self.is_raw:  # not on the loop: the first message of a type would hold up all others
-            await asyncio.to_thread(self._node.messages.codec, self.type)
+            await asyncio.to_thread(self._messages.codec, self.type)
         async with asyncio.timeout(_CONNECT_S):
             link = await self._open(host, port, address_nearby(more))
         self._links[uri] = link
@@ -229,7 +227,7 @@ class Subscription:
             "tcp_nodelay": "1" if self._tcp_nodelay else "0",
         }
         if not self.is_raw:
-            header["message_definition"] = self._node.messages.definition(self.type)
+            header["message_definition"] = self._messages.definition(self.type)
         return header
 
     def _complain(self, uri: str, reason: str, attempt: int) -> None:

@@ -65,16 +65,16 @@ class FrameProtocol(asyncio.BufferedProtocol):
         self.bytes_received += nbytes
         try:
             for content in self._frames.cut(nbytes):
-                self._take(content)
+                if self.header is None:
+                    self._take_header(content)
+                else:
+                    self.frame_received(content)
                 if self.transport is None:
                     break
         except WireError as error:
             self.close(str(error))
 
-    def _take(self, content: bytes | memoryview) -> None:
-        if self.header is not None:
-            self.frame_received(content)
-            return
+    def _take_header(self, content: bytes | memoryview) -> None:
         self.header = decode_header(bytes(content))
         self._frames.limit = MAX_MESSAGE_BYTES
         if self._deadline is not None:
