@@ -44,6 +44,8 @@ def check(args: argparse.Namespace) -> int:
     print("The following migrations need to occur:")
     for kind, md5sum in changed:
         print(f" * From: {kind} [{md5sum}]\n   To:   {kind} [{messages.md5(kind)}]")
+    if args.rules or args.genrules:
+        print("\nRule files are programs for rosbag's own migrator: none is read or written here.")
     print("\ntrundle bag fix brings them up to date; play publishes the recorded types as they are.")
     return 1
 
