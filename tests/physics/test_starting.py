@@ -100,3 +100,30 @@ def test_a_world_that_was_never_saved_has_no_start_of_its_own(tmp_path: Path) ->
     sim = trundle.load(str(world(tmp_path, PARTS.format(outer="revolute", axes=AXIS, c_or_b="b", b_or_c="c"))))
 
     assert compile_world(sim.world, sim.report).start is None
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_joints_start_at_their_initial_positions_and_go_back_there(tmp_path: Path, turned: bool) -> None:
+    ends = {"c_or_b": "c" if turned else "b", "b_or_c": "b" if turned else "c"}
+    started = "<initial_position>0.4</initial_position>"
+    parts = PARTS.format(outer="prismatic", axes=AXIS.replace("</axis>", f"{started}</axis>"), **ends)
+    parts = parts.replace("<limit>", f"{started.replace('0.4', '2.5')}<limit>")
+
+    sim = trundle.load(str(world(tmp_path, parts)))
+
+    assert [sim["m"].joint(name).position for name in ("outer", "inner")] == pytest.approx([0.4, 2.5])
+    sim["m"].joint("inner").set_position(1.0)
+    sim.reset()
+    assert sim["m"].joint("inner").position == pytest.approx(2.5)
+    assert sum("starts at its <initial_position>" in finding.what for finding in sim.report.findings) == 2
+
+
+def test_a_saved_world_starts_where_it_was_saved_whatever_its_joints_began_with(tmp_path: Path) -> None:
+    axis = AXIS.replace("</axis>", "<initial_position>0.4</initial_position></axis>")
+    parts = PARTS.format(outer="revolute", axes=axis, c_or_b="b", b_or_c="c")
+    before = trundle.load(str(world(tmp_path, parts)))
+    before["m"].joint("outer").set_position(-0.3)
+
+    after = trundle.load(str(world(tmp_path, parts, saved(before))))
+
+    assert after["m"].joint("outer").position == pytest.approx(-0.3)

@@ -70,6 +70,8 @@ class JointAxis:
     """Of its limits [N·m/rad] or [N/m]."""
     stop_dissipation: float = 1.0
     """Of its limits [N·m·s/rad] or [N·s/m]."""
+    initial_position: float = 0.0
+    """Where it starts [rad] or [m]; of SDF 1.6 to 1.8, and not heeded by Gazebo."""
     mimic: Mimic | None = None
 
     @property

@@ -72,7 +72,7 @@ class Compiler:
         look_ahead(compiled, self.shapes)
         soften_stops(compiled, (axis for axes in self.joints.axes.values() for axis in axes))
         world = index_world(self.world, self.tree, self.joints.axes, touches, collisions, compiled)
-        return replace(world, start=start_positions(compiled, self.tree, self.report))
+        return replace(world, start=start_positions(compiled, self.tree, self.joints.axes, self.report))
 
     def fill(self) -> dict[tuple[str, str], Touch]:
         """Put the world into the specification; return how its shapes touch."""

@@ -1,6 +1,7 @@
-"""Where the joints of a saved world were: their positions, from the poses that its <state> has of links."""
+"""Where joints start: where their axes say, and in a saved world where its <state> has the links."""
 
 import math
+from collections.abc import Mapping, Sequence
 from itertools import zip_longest
 
 import mujoco
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from trundle.diagnostics import Diagnostics
 from trundle.spatial import Pose, Quaternion, Vector3, cross, quaternion_product, rotate
 
+from .joints import Axis
 from .tree import Place, Tree
 
 _FREE, _BALL, _SLIDE = (
@@ -19,16 +21,26 @@ _OFF_M, _OFF_RAD = 0.01, 0.05
 """A link saved further than this from where its joints can take it is named."""
 
 
-def start_positions(model: mujoco.MjModel, tree: Tree, report: Diagnostics) -> NDArray[np.float64] | None:
+def start_positions(
+    model: mujoco.MjModel, tree: Tree, axes: Mapping[str, Sequence[Axis]], report: Diagnostics
+) -> NDArray[np.float64] | None:
     """The engine's qpos at the start; None where everything starts as it is written.
 
     Args:
         model: compiled with every joint at zero.
         tree: the links that its bodies are.
+        axes: the freedoms of its joints.
         report: takes a note of each link that its joints cannot take to where it was saved.
     """
     saved = {place.model for place in tree.places.values() if place.link.start is not None}
-    if not saved:
+    moved = [
+        axis
+        for hold in tree.held.values()
+        if tree.places[hold.below].model not in saved
+        for axis in axes.get(hold.name, ())
+        if axis.axis is not None and axis.axis.initial_position
+    ]
+    if not saved and not moved:
         return None
     wanted = {name: _saved(place) for name, place in tree.places.items() if place.model in saved}
     bodies = dict(wanted)
@@ -41,6 +53,9 @@ def start_positions(model: mujoco.MjModel, tree: Tree, report: Diagnostics) -> N
         world_from_body[i] = bodies.get(model.body(i).name, at_zero)
         if model.body_jntnum[i]:
             _put(model, i, positions, at_zero, world_from_body[i])
+    for axis in moved:
+        assert axis.axis is not None
+        positions[model.joint(axis.engine_joint).qposadr[0]] = axis.sign * axis.axis.initial_position
     _name_strays(model, positions, {name: tree.places[name] for name in wanted}, report)
     return positions
 

@@ -103,10 +103,11 @@ def _read_axis(node: XmlNode | None, joint: XmlNode, name: str, frame: FrameOf, 
         spring_stiffness=dynamic("spring_stiffness"),
         stop_stiffness=of(limit, "stiffness", 1e8),
         stop_dissipation=of(limit, "dissipation", 1.0),
+        initial_position=node.number("initial_position", default=0.0, report=report),
         mimic=_mimic(node, context),
     )
-    if node.find("initial_position") is not None:
-        report.info(node.at, f"joint {name!r}: <initial_position> was never heeded by Gazebo; it is ignored")
+    if axis.initial_position:
+        report.info(node.at, f"joint {name!r} starts at its <initial_position>, which Gazebo does not heed")
     for each in (node, limit, dynamics):
         if each is not None:
             each.report_unread(report)

@@ -163,6 +163,7 @@ def _add_frame(home: Tag, frame: Frame, root: str) -> None:
 
 def _add_axis(tag: Tag, axis: JointAxis, root: str) -> None:
     tag.add("xyz", axis.direction, expressed_in=root)
+    tag.add_unless("initial_position", axis.initial_position, default=0.0)
     limit = tag.add_optional("limit")
     limit.add_unless("lower", axis.lower, default=-math.inf)
     limit.add_unless("upper", axis.upper, default=math.inf)
