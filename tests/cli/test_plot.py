@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from trundle.cli.plot_picture import Curve, as_svg, as_text
+from trundle.drawing import Curve, curves_svg, curves_text
 from trundle.ros import WallClock
 
 
@@ -94,12 +94,12 @@ def test_what_cannot_be_drawn_is_one_sentence(graph: Any, bag: Path, words: list
 
 def test_a_curve_is_broken_where_it_is_no_number() -> None:
     curve = Curve("c", [(0.0, 1.0), (1.0, 2.0), (2.0, math.nan), (3.0, math.inf), (4.0, 1.0), (5.0, 1.0)])
-    assert len(_lines(as_svg([curve]))) == 2
-    assert "*" in as_text([curve], columns=60, rows=10)
+    assert len(_lines(curves_svg([curve]))) == 2
+    assert "*" in curves_text([curve], columns=60, rows=10)
 
 
 def test_a_spike_among_a_hundred_thousand_points_is_seen() -> None:
     points = [(i / 1000, float(i == 54_321)) for i in range(100_000)]
-    (line,) = _lines(as_svg([Curve("c", points)]))
+    (line,) = _lines(curves_svg([Curve("c", points)]))
     assert len(line) < 4000
     assert len({y for _, y in line}) == 2

@@ -218,3 +218,23 @@ def test_show_ends_when_the_page_dies(scenery: Scenery) -> None:
 
     assert scenery.shown.result(timeout=_PATIENCE_S) == 0
     assert scenery.page.url is None
+
+
+def test_the_graph_and_numbers_over_time_are_drawn_beside(scenery: Scenery, browser_page: Any) -> None:
+    """rqt_graph and rqt_plot: what they draw is read back from the pictures on the page."""
+    points = scenery.robot.advertise("/spot", "geometry_msgs/PointStamped", latch=True)
+    points.publish({"point": {"x": 7.0, "y": 8.0}})
+    scenery.loop.call_soon(lambda: scenery.page.plot(["/spot/point/x:y"]))
+    scenery.loop.call_soon(scenery.page.show_graph)
+
+    graph, plot = (browser_page.wait_for_selector(f"text={title}") for title in ("Graph", "Plot"))
+    assert graph.is_visible()
+    assert plot.is_visible()
+    coded = "data:image/svg+xml;base64,"
+    read = f"() => [...document.images].map(i => i.src.split('{coded}')).filter(s => s[1]).map(s => atob(s[1]))"
+    deadline = time.monotonic() + _PATIENCE_S
+    drawn = ""
+    while not all(text in drawn for text in (">/robot<", ">/rviz<", ">/spot<", ">/spot/point/x<", ">/spot/point/y<")):
+        assert time.monotonic() < deadline, drawn
+        browser_page.wait_for_timeout(100)
+        drawn = "".join(browser_page.evaluate(read))

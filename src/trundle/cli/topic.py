@@ -200,7 +200,7 @@ def _type(args: argparse.Namespace) -> int:
     if name in types:
         print(types[name])
         return 0
-    from .topic_field import field_type, split_topic
+    from trundle.ros import field_type, split_topic
 
     found = split_topic(name, types)
     if found is None:

@@ -8,11 +8,24 @@ from pathlib import Path
 from typing import Any
 
 from trundle.diagnostics import UsageError
-from trundle.ros import MessagePrinter, Messages, MessageView, RawMessage, WallClock, follow_time, ns_of, open_bag
+from trundle.ros import (
+    Field,
+    MessagePrinter,
+    Messages,
+    MessageView,
+    RawMessage,
+    WallClock,
+    field_type,
+    follow_time,
+    ns_of,
+    open_bag,
+    split_topic,
+    value_at,
+)
 
 from .expression import expression
 from .running import global_name, master, running_node
-from .topic_field import Field, field_type, split_topic, value_at, wait_for_topic
+from .topic_field import wait_for_topic
 
 _FIRST_S = 2.0
 _WAITING = 1000

@@ -42,6 +42,14 @@ class Display(Protocol):
         """Let the user change the options of every node that has some, as rqt_reconfigure does."""
         ...
 
+    def show_graph(self) -> None:
+        """Have the page draw who publishes what to whom, as rqt_graph does."""
+        ...
+
+    def plot(self, fields: Sequence[str]) -> None:
+        """Have the page draw numbers over time, as rqt_plot does; fields are `/topic/field/…`."""
+        ...
+
     def offer_joystick(self, move: Callable[[Sequence[float], Sequence[int]], None]) -> None:
         """Let the user move a joystick, on the page or a real one; `move` takes axes and buttons as `joy` has them."""
         ...

@@ -56,6 +56,21 @@ class RqtImageView(Window):
                 display.show_image(self._node.resolve(word))
 
 
+class RqtGraph(Window):
+    """rqt_graph: who publishes what to whom."""
+
+    def _prepare(self, display: Display) -> None:
+        display.show_graph()
+
+
+class RqtPlot(Window):
+    """rqt_plot: the numbers that it is given, `/topic/field:field`, apart by spaces or commas."""
+
+    def _prepare(self, display: Display) -> None:
+        words = [word for given in self._arguments if not given.startswith("-") for word in given.split(",")]
+        display.plot([self._node.resolve(word) for word in words if word])
+
+
 class ReconfigureWindow(Window):
     """rqt_reconfigure and reconfigure_gui: the options of every node that has some."""
 

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
         ServiceError,
         TransformError,
     )
+    from .fields import Field, field_type, split_topic, value_at
     from .loop import GraphLoop
     from .master import Master
     from .messages import Message, Messages, RawMessage, ServiceType
@@ -55,6 +56,7 @@ if TYPE_CHECKING:
     from .subscription import Subscription
     from .tf_buffer import Transform, TransformBuffer
     from .tf_nodes import StaticTransformBroadcaster, TransformBroadcaster, TransformListener
+    from .traces import Trace, curves_of, follow_trace, spread_fields
     from .views import MessageView
 
 _HOMES = {
@@ -68,6 +70,7 @@ _HOMES = {
     "Clock": "clock",
     "Core": "core",
     "End": "noted",
+    "Field": "fields",
     "GraphLoop": "loop",
     "Master": "master",
     "MasterError": "errors",
@@ -80,12 +83,12 @@ _HOMES = {
     "Messages": "messages",
     "NOETIC": "profile",
     "Node": "node",
-    "ParameterError": "errors",
-    "ParameterTree": "parameters",
     "Option": "reconfigure",
     "OptionValue": "reconfigure",
     "Options": "reconfigure",
     "PROFILES": "profile",
+    "ParameterError": "errors",
+    "ParameterTree": "parameters",
     "PlayOptions": "bags",
     "Player": "bags",
     "PortTakenError": "errors",
@@ -105,6 +108,7 @@ _HOMES = {
     "StaticTransformBroadcaster": "tf_nodes",
     "StepRecorder": "bags",
     "Subscription": "subscription",
+    "Trace": "traces",
     "Transform": "tf_buffer",
     "TransformBroadcaster": "tf_nodes",
     "TransformBuffer": "tf_buffer",
@@ -114,9 +118,12 @@ _HOMES = {
     "WallClock": "clock",
     "blocking_call": "proxy",
     "create_bag": "bags",
+    "curves_of": "traces",
+    "field_type": "fields",
     "field_value": "printing",
     "find_reconfigurable": "reconfigure_client",
     "follow_time": "clock",
+    "follow_trace": "traces",
     "master_uri_from_env": "network",
     "ns_of": "clock",
     "open_bag": "bags",
@@ -125,6 +132,9 @@ _HOMES = {
     "recovered": "bags",
     "set_leaves": "parameters",
     "set_options": "reconfigure_client",
+    "split_topic": "fields",
+    "spread_fields": "traces",
+    "value_at": "fields",
 }
 __getattr__ = opened_on_use(__name__, _HOMES)
 
@@ -141,6 +151,7 @@ __all__ = [
     "Clock",
     "Core",
     "End",
+    "Field",
     "GraphLoop",
     "Master",
     "MasterError",
@@ -176,6 +187,7 @@ __all__ = [
     "StaticTransformBroadcaster",
     "StepRecorder",
     "Subscription",
+    "Trace",
     "Transform",
     "TransformBroadcaster",
     "TransformBuffer",
@@ -185,9 +197,12 @@ __all__ = [
     "WallClock",
     "blocking_call",
     "create_bag",
+    "curves_of",
+    "field_type",
     "field_value",
     "find_reconfigurable",
     "follow_time",
+    "follow_trace",
     "master_uri_from_env",
     "ns_of",
     "open_bag",
@@ -196,4 +211,7 @@ __all__ = [
     "recovered",
     "set_leaves",
     "set_options",
+    "split_topic",
+    "spread_fields",
+    "value_at",
 ]

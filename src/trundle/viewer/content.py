@@ -83,6 +83,8 @@ class ViewerScene:
     """Offer a pad and keys that steer a robot."""
     options: tuple[OptionGroup, ...] = ()
     """Nodes whose options may be changed."""
+    figures: tuple[str, ...] = ()
+    """Titles of drawings beside the scene: the graph's nodes, curves of topics."""
     joystick: bool = False
     """Offer a joystick to move, and read a real one."""
     root_frame: str = "world"

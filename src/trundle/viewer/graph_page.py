@@ -57,10 +57,14 @@ class GraphPage:
         self._move: Callable[[str, float], None] | None = None
         self._pictures: list[str] = []
         self._drive_topic = ""
-        self._wants_options = False
+        self._wants_options = self._wants_graph = False
+        self._fields: list[str] = []
+        """To be plotted, and not handed on yet."""
         self._joysticks: list[Callable[[Sequence[float], Sequence[int]], None]] = []
         self._stale = True
         self._over = False
+        self._node: Node | None = None
+        """Who has the page."""
 
     @property
     def url(self) -> str | None:
@@ -91,6 +95,14 @@ class GraphPage:
         """Let people change the options of every node that has some."""
         self._wants_options = True
 
+    def show_graph(self) -> None:
+        """Draw who publishes what to whom."""
+        self._wants_graph = True
+
+    def plot(self, fields: Sequence[str]) -> None:
+        """Draw numbers over time, of `/topic/field/…`."""
+        self._fields += fields
+
     def offer_joystick(self, move: Callable[[Sequence[float], Sequence[int]], None]) -> None:
         """Let people move a joystick; `move` takes its axes and buttons, on the graph's loop."""
         self._joysticks.append(move)
@@ -108,11 +120,11 @@ class GraphPage:
             DescriptionError: the configuration is none.
             UsageError: the port asked for is taken.
         """
-        if self._viewer is not None:
-            node.log_info(f"the page is already open at {self._viewer.url}")
+        if self._node is not None:
+            node.log_info(f"the page is {self._node.name}'s, at {self.url or 'an address that it will say'}")
             await node.closed.wait()
             return 0
-        self._over = False
+        self._node, self._over = node, False
         with ExitStack() as open_things:
             open_things.callback(self.close)
             read = read_rviz_config(None if config is None else Path(config), self._report)
@@ -126,6 +138,7 @@ class GraphPage:
 
     def close(self) -> None:
         """Take the page down; may be called twice."""
+        self._node = None
         self._over = True
         if self._viewer is not None:
             self._viewer.close()
@@ -141,6 +154,7 @@ class GraphPage:
             collisions=shown.collisions,
             sliders=self._sliders,
             images=shown.images,
+            figures=shown.figures,
             options=shown.groups,
             joystick=bool(self._joysticks),
         )
@@ -148,6 +162,8 @@ class GraphPage:
     async def _feed(self, viewer: Viewer, shown: ShownGraph) -> None:
         while viewer.alive:
             self._stale |= shown.listen(viewer, self._pictures)
+            fields, self._fields = self._fields, []
+            self._stale |= shown.draw(viewer, graph=self._wants_graph, fields=fields)
             if self._wants_options:
                 shown.watch_options()
             await shown.look_for_robot(self._packages, self._report)

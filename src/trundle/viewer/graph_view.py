@@ -67,6 +67,7 @@ def graph_scene(
     collisions: Scene | None = None,
     sliders: Sequence[JointSlider] = (),
     images: Sequence[str] = (),
+    figures: tuple[str, ...] = (),
     options: tuple[OptionGroup, ...] = (),
     joystick: bool = False,
 ) -> ViewerScene:
@@ -83,6 +84,7 @@ def graph_scene(
         frames=tuple(FrameInfo(name, parent) for name, parent in tree.parents.items()),
         cameras=tuple(CameraView(topic, None) for topic in images),
         joints=tuple(sliders),
+        figures=figures,
         drive=True,
         options=options,
         joystick=joystick,

@@ -58,10 +58,12 @@ class Page:
         """
         server, scene = self._server, show.scene
         try:
-            boxes = [Mailbox.open(path) for path in (show.state_box, *show.image_boxes)]
+            boxes = [Mailbox.open(path) for path in (show.state_box, *show.image_boxes, *show.figure_boxes)]
         except FileNotFoundError:
             return False
-        self._state_box, *self._image_boxes = boxes
+        self._state_box, *pictures = boxes
+        self._image_boxes = pictures[: len(show.image_boxes)]
+        self._figure_boxes = pictures[len(show.image_boxes) :]
         for box in boxes:
             box.unlink()  # nothing is left behind, however the two processes end
         fixed = scene.fixed_frame or scene.root_frame
@@ -108,6 +110,10 @@ class Page:
                 rgb = np.frombuffer(message, dtype=np.uint8, offset=8).reshape(int(height), int(width), 3)
                 self._panel.image(index, rgb)
                 self._stage.image(index, rgb)
+        for index, box in enumerate(self._figure_boxes):
+            drawing = box.take()
+            if drawing is not None:
+                self._panel.figure(index, drawing)
         message = self._state_box.take()
         if message is not None:
             state: ViewerState = pickle.loads(message)

@@ -1,5 +1,6 @@
 """The panel beside the scene: time, playback, driving, joints, camera images, and what is drawn."""
 
+import base64
 import html
 import math
 import time
@@ -24,6 +25,7 @@ _OPEN_JOINTS = 12
 _SHORTEST_RANGE = 0.002
 """A joint whose limits coincide still needs a slider with two ends [m or rad]."""
 _CAMERAS_WIDTH_PX = 300
+_FIGURES_WIDTH_PX = 640
 _HAND_OFF_S = 1.0
 """A slider that a person moved is left alone this long before it shows the joint's own position again."""
 
@@ -60,6 +62,7 @@ class Panel:
                 server.gui.add_html(_joystick_html(joystick()))
         add_options(server, scene.options, send)
         self._images = self._add_cameras()
+        self._figures = self._add_figures()
         self._sliders = self._add_joints()
         self._add_views()
         self._add_display()
@@ -79,6 +82,10 @@ class Panel:
         """Show a camera's newest image."""
         self._images[index].image = rgb
         self._images[index].visible = True
+
+    def figure(self, index: int, svg: bytes) -> None:
+        """Show a figure's newest drawing."""
+        self._figures[index].content = _figure_html(svg)
 
     def _add_playback(self) -> None:
         gui = self._server.gui
@@ -101,6 +108,22 @@ class Panel:
         with panel.add_tab("Cameras"):
             blank = np.full((3, 4, 3), 60, dtype=np.uint8)
             return [self._server.gui.add_image(blank, label=camera.name, format="jpeg") for camera in cameras]
+
+    def _add_figures(self) -> list[viser.GuiHtmlHandle]:
+        """Each in a panel of its own, one below the other."""
+        handles: list[viser.GuiHtmlHandle] = []
+        above: viser.PanelHandle | None = None
+        for title in self._scene.figures:
+            panel = self._server.gui.add_panel()
+            if above is None:
+                panel.dock_left()
+                panel.set_width(_FIGURES_WIDTH_PX)
+            else:
+                panel.dock_below(above)
+            with panel.add_tab(title):
+                handles.append(self._server.gui.add_html(_figure_html(None)))
+            above = panel
+        return handles
 
     def _add_joints(self) -> list["_Slider"]:
         if not self._scene.joints:
@@ -181,6 +204,16 @@ class _Slider:
             clamped = min(max(position, self._low), self._high)
             if abs(clamped - self._handle.value) > (self._high - self._low) / 1000:
                 self._handle.value = clamped
+
+
+def _figure_html(svg: bytes | None) -> str:
+    """A drawing as a picture of the page: what is written in it cannot do anything."""
+    if svg is None:
+        return "<p>waiting</p>"
+    return (
+        f'<img src="data:image/svg+xml;base64,{base64.b64encode(svg).decode()}" alt="" '
+        'style="max-width:100%;display:block;margin:auto">'
+    )
 
 
 def _joystick_html(joystick: JoystickServer) -> str:

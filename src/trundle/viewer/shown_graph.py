@@ -15,6 +15,7 @@ from trundle.ros import MasterUnreachableError, Message, Node, Publisher, Transf
 from trundle.xmlnode import parse_xml
 
 from .content import OptionGroup
+from .graph_figures import GraphFigures
 from .graph_options import GraphOptions
 from .graph_view import FrameTree
 from .picture import rgb_of
@@ -44,6 +45,7 @@ class ShownGraph:
         self.images = tuple(display.source for display in config.enabled("Image") if display.source)
         self._heard = 0
         """Images that are listened to."""
+        self._figures = GraphFigures(node)
         self._options: GraphOptions | None = None
         self._watching: asyncio.Task[None] | None = None
         self.groups: tuple[OptionGroup, ...] = ()
@@ -71,6 +73,23 @@ class ShownGraph:
             )
         return bool(added)
 
+    @property
+    def figures(self) -> tuple[str, ...]:
+        """Titles of what is drawn beside the scene."""
+        return self._figures.titles
+
+    def draw(self, viewer: Viewer, *, graph: bool, fields: list[str]) -> bool:
+        """Hand newest drawings to the page, and begin others that are asked for; return whether there are such."""
+        before = self.figures
+        self._figures.want(graph=graph, fields=fields)
+        if self.figures != before:
+            return True
+        for index, title in enumerate(before):
+            drawing = self._figures.drawings.pop(title, None)
+            if drawing is not None and not viewer.figure(index, drawing):
+                self.node.log_warn(f"the drawing {title!r} is too large for the page; trundle graph -o FILE writes it")
+        return False
+
     def watch_options(self) -> None:
         """Look for nodes with options."""
         if self._options is None:
@@ -84,6 +103,7 @@ class ShownGraph:
 
     def close(self) -> None:
         """End what goes on beside."""
+        self._figures.close()
         if self._watching is not None:
             self._watching.cancel()
 

@@ -18,7 +18,7 @@ from .content import MOST_LINE_POINTS, ViewerScene, ViewerState
 from .errors import ViewerError
 from .mailbox import Mailbox
 from .requests import Request
-from .wire import THUMBNAIL_HEIGHT_PX, THUMBNAIL_WIDTH_PX, Refused, Serve, Served, Show
+from .wire import MOST_FIGURE_BYTES, THUMBNAIL_HEIGHT_PX, THUMBNAIL_WIDTH_PX, Refused, Serve, Served, Show
 
 _START_TIMEOUT_S = 60.0
 _STOP_TIMEOUT_S = 1.5
@@ -44,6 +44,7 @@ class Viewer:
         self._listener.start()
         self._state_box: Mailbox | None = None
         self._image_boxes: list[Mailbox] = []
+        self._figure_boxes: list[Mailbox] = []
         self._url = ""
 
     @classmethod
@@ -112,17 +113,27 @@ class Viewer:
         header = np.array(small.shape[:2], dtype=np.int32).tobytes()
         self._image_boxes[camera_index].put(header + small.tobytes())
 
+    def figure(self, index: int, svg: str) -> bool:
+        """Hand over a figure's newest drawing; False: it is too large."""
+        drawing = svg.encode()
+        if len(drawing) > MOST_FIGURE_BYTES:
+            return False
+        self._figure_boxes[index].put(drawing)
+        return True
+
     def replace(self, scene: ViewerScene, *, state: ViewerState | None = None) -> None:
         """Show another scene on the same page: models were spawned or deleted, frames appeared."""
         rows = len(scene.scene.bodies) + len(scene.frames)
         state_box = Mailbox.create(8 * (7 * rows + len(scene.joints)) + _STATUS_BYTES + _LINES_BYTES)
         image_bytes = _IMAGE_HEADER_BYTES + 3 * THUMBNAIL_WIDTH_PX * THUMBNAIL_HEIGHT_PX
         image_boxes = [Mailbox.create(image_bytes) for _ in scene.cameras]
+        figure_boxes = [Mailbox.create(MOST_FIGURE_BYTES) for _ in scene.figures]
         self._forget_boxes()
-        self._state_box, self._image_boxes = state_box, image_boxes
+        self._state_box, self._image_boxes, self._figure_boxes = state_box, image_boxes, figure_boxes
         if state is not None:
             self.show(state)
-        self._send(Show(scene=scene, state_box=state_box.path, image_boxes=tuple(box.path for box in image_boxes)))
+        images, figures = (tuple(box.path for box in boxes) for boxes in (image_boxes, figure_boxes))
+        self._send(Show(scene=scene, state_box=state_box.path, image_boxes=images, figure_boxes=figures))
 
     def requests(self) -> list[Request]:
         """Return what people asked for since the last call, oldest first."""
@@ -181,7 +192,7 @@ class Viewer:
         raise ViewerError(f"the viewer's process ended at once with exit code {self._process.wait()}")
 
     def _forget_boxes(self) -> None:
-        for box in (self._state_box, *self._image_boxes):
+        for box in (self._state_box, *self._image_boxes, *self._figure_boxes):
             if box is not None:
                 box.unlink()
-        self._state_box, self._image_boxes = None, []
+        self._state_box, self._image_boxes, self._figure_boxes = None, [], []

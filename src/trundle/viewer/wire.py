@@ -13,6 +13,10 @@ THUMBNAIL_HEIGHT_PX = 480
 """The largest image that reaches the page; larger ones are thinned to fit."""
 
 
+MOST_FIGURE_BYTES = 1_000_000
+"""Of one drawing."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Serve:
     """Bind this address; a port of None is the first free one from 8080 on."""
@@ -29,6 +33,8 @@ class Show:
     state_box: Path
     image_boxes: tuple[Path, ...]
     """One per camera."""
+    figure_boxes: tuple[Path, ...] = ()
+    """One per figure."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,5 +1,6 @@
 """A graph of nodes and topics: as text for Graphviz, and as an SVG picture in columns from left to right."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Literal, TypeAlias
@@ -9,6 +10,8 @@ _ROW, _GAP, _HEIGHT, _CHARACTER, _MARGIN = 44, 70, 26, 7.2, 16
 """[px] Rows are this far apart, columns this far, boxes this high, letters this wide."""
 _SWEEPS = 4
 """Passes of sorting each column by its neighbours, which takes most crossings out."""
+_QUIET = ("/rosout", "/rosout_agg", "/clock", "/diagnostics", "/statistics")
+"""What everybody talks about; rqt_graph hides them too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,7 +22,34 @@ class Drawing:
     edges: list[tuple[Item, Item]]
 
 
-def as_dot(drawing: Drawing) -> str:
+def graph_of(
+    publishers: Mapping[str, Sequence[str]], subscribers: Mapping[str, Sequence[str]], *, with_all: bool
+) -> Drawing:
+    """Who publishes what to whom.
+
+    Args:
+        publishers: topic → nodes.
+        subscribers: topic → nodes.
+        with_all: what everybody talks about, and what nobody hears, too.
+    """
+    topics = sorted({*publishers, *subscribers})
+    if not with_all:
+        topics = [t for t in topics if t not in _QUIET and t in publishers and t in subscribers]
+    edges: list[tuple[Item, Item]] = []
+    for topic in topics:
+        item: Item = ("topic", topic)
+        edges.extend((_node(name), item) for name in publishers.get(topic, []))
+        edges.extend((item, _node(name)) for name in subscribers.get(topic, []))
+    everybody = {node for table in (publishers, subscribers) for nodes in table.values() for node in nodes}
+    items: list[Item] = [_node(name) for name in sorted(everybody) if name != "/rosout" or with_all]
+    return Drawing([*items, *(("topic", topic) for topic in topics)], edges)
+
+
+def _node(name: str) -> Item:
+    return "node", name
+
+
+def graph_dot(drawing: Drawing) -> str:
     """Write it in Graphviz' language: nodes round, topics square."""
     lines = ["digraph graphname {", "  rankdir=LR;"]
     for kind, name in drawing.items:
@@ -28,7 +58,7 @@ def as_dot(drawing: Drawing) -> str:
     return "\n".join([*lines, "}", ""])
 
 
-def as_svg(drawing: Drawing) -> str:
+def graph_svg(drawing: Drawing) -> str:
     """Draw it: each item right of those that feed it, as far as loops allow."""
     columns = _columns(drawing)
     places: dict[Item, tuple[float, float, float]] = {}

@@ -20,7 +20,7 @@ class Curve:
     points: list[tuple[float, float]]
 
 
-def as_svg(curves: Sequence[Curve]) -> str:
+def curves_svg(curves: Sequence[Curve]) -> str:
     """Draw curves with axes and a legend below."""
     times, values = _ranges(curves)
     right, low = _WIDTH - 20, _HEIGHT - _BOTTOM
@@ -58,7 +58,7 @@ def as_svg(curves: Sequence[Curve]) -> str:
     )
 
 
-def as_text(curves: Sequence[Curve], *, columns: int, rows: int) -> str:
+def curves_text(curves: Sequence[Curve], *, columns: int, rows: int) -> str:
     """Draw curves with characters, one kind for each curve."""
     times, values = _ranges(curves)
     rows, wide = max(rows, 5), max(columns - 12, 20)
@@ -81,7 +81,7 @@ def as_text(curves: Sequence[Curve], *, columns: int, rows: int) -> str:
 
 def _ranges(curves: Sequence[Curve]) -> tuple[tuple[float, float], tuple[float, float]]:
     """What the axes span; never nothing."""
-    times = [t for curve in curves if curve.points for t in (curve.points[0][0], curve.points[-1][0])]
+    times = [t for curve in curves if curve.points for t in (curve.points[0][0], curve.points[-1][0])] or [0.0]
     values = [value for curve in curves for _, value in curve.points if math.isfinite(value)] or [0.0]
     start, end, low, high = min(times), max(times), min(values), max(values)
     margin = (high - low) * 0.05 or abs(high) * 0.05 or 1.0
