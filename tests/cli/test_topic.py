@@ -190,6 +190,15 @@ def test_a_message_is_latched_until_ctrl_c(graph: Any) -> None:
         assert process.wait(PATIENCE_S) == 130
 
 
+def test_a_launch_file_may_name_and_remap_what_it_publishes_with(graph: Any) -> None:
+    words = ("/greeting", STRING, "hello", "__name:=talker", "/greeting:=/welcome", "_rate:=5")
+    with _started("pub", *words) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "publishing and latching message. Press ctrl-C to terminate\n"
+        assert _echo(graph, "/welcome") == 'data: "hello"\n---\n'
+        assert "/talker\n" in graph.trundle("node", "list")[1]
+
+
 def test_piped_documents_are_published(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     got: list[str] = []
     node = graph.node("n")

@@ -16,6 +16,7 @@ from typing import Protocol, cast
 
 from trundle import __version__
 from trundle.diagnostics import TrundleError
+from trundle.names import Arguments, parse_arguments
 
 COMMANDS: dict[str, str] = {
     "run": "simulate a robot or a world",
@@ -44,6 +45,8 @@ COMMANDS: dict[str, str] = {
 }
 """Name and one line of help; the order of `trundle --help`."""
 
+_REMAPPED = ("service", "topic")
+"""Take `a:=b` and `__name:=n` anywhere, as rosservice and rostopic do: launch files start them."""
 EXIT_OK, EXIT_INPUT, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
@@ -83,7 +86,8 @@ def _main(arguments: list[str]) -> int:
         return EXIT_USAGE
     parser = _parser(name)
     try:
-        parsed = parser.parse_args(arguments[1:])
+        words = parse_arguments(arguments[1:]) if name in _REMAPPED else Arguments(rest=tuple(arguments[1:]))
+        parsed = parser.parse_args(words.rest, argparse.Namespace(words=words))
         if getattr(parsed, "allow_outside", False):
             from trundle.packages import ALLOW_OUTSIDE
 

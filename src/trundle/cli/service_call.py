@@ -36,7 +36,7 @@ def main(args: argparse.Namespace) -> int:
     while args.wait and not any(name == service for service, _ in proxy.call("getSystemState")[2]):
         time.sleep(_POLL_S)
     kind = service_type(proxy, name)
-    with running_node("rosservice") as (loop, node):
+    with running_node("rosservice", args.words) as (loop, node):
         requests: Iterable[Any] = [values]
         if not values and loop.messages.fields(loop.messages.service(kind).request):
             if sys.stdin.isatty():

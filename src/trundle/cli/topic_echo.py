@@ -46,7 +46,7 @@ def main(args: argparse.Namespace) -> int:
         return 0
     if args.bag:
         return _echo_bag(args)
-    with running_node("rostopic") as (loop, node):
+    with running_node("rostopic", args.words) as (loop, node):
         clock = loop.run(follow_time(node))
         field = wait_for_topic(master("rostopic"), global_name(str(args.topic), "rostopic"))
         messages = loop.messages

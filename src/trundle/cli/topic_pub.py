@@ -26,7 +26,7 @@ def main(args: argparse.Namespace) -> int:
     if args.values and args.file:
         raise UsageError("args conflict with -f setting")
     values = [yaml_value(text) for text in args.values]
-    with running_node("rostopic") as (loop, node):
+    with running_node("rostopic", args.words) as (loop, node):
         takes_values = bool(loop.messages.fields(args.type))
         is_piped = not values and takes_values
         if is_piped and not args.file and sys.stdin.isatty():

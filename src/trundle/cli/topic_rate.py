@@ -23,7 +23,7 @@ _MAX_WINDOW = 50_000
 def main(args: argparse.Namespace) -> int:
     """Measure until Ctrl-C."""
     is_rate, is_delay = args.command == "hz", args.command == "delay"
-    with running_node("rostopic") as (loop, node):
+    with running_node("rostopic", args.words) as (loop, node):
         clock = loop.run(follow_time(node)) if is_delay or (is_rate and not args.wall_time) else WallClock()
         meters: dict[str, Rate | Bandwidth | Delay] = {}
         for name in args.topics:
