@@ -238,3 +238,18 @@ def test_the_graph_and_numbers_over_time_are_drawn_beside(scenery: Scenery, brow
         assert time.monotonic() < deadline, drawn
         browser_page.wait_for_timeout(100)
         drawn = "".join(browser_page.evaluate(read))
+
+
+def test_a_configuration_that_comes_later_is_followed(scenery: Scenery, browser_page: Any, tmp_path: Path) -> None:
+    browser_page.wait_for_selector("text=Fixed Frame [odom] does not exist")
+    later = tmp_path / "later.rviz"
+    later.write_text(_CONFIG.replace("odom", "map").replace("/camera/", "/second/"))
+    rviz = Node("second_rviz", loop=scenery.loop, master_uri=scenery.robot.master_uri)
+
+    shown = scenery.loop.spawn(scenery.page.show(rviz, config=str(later)))
+
+    browser_page.wait_for_selector("text=Fixed Frame [map] does not exist")
+    browser_page.get_by_text("/second/image_raw").wait_for()
+    assert not shown.done()
+    scenery.loop.run(rviz.shutdown())
+    assert shown.result(_PATIENCE_S) == 0

@@ -63,8 +63,7 @@ class GraphPage:
         self._joysticks: list[Callable[[Sequence[float], Sequence[int]], None]] = []
         self._stale = True
         self._over = False
-        self._node: Node | None = None
-        """Who has the page."""
+        self._shown: ShownGraph | None = None
 
     @property
     def url(self) -> str | None:
@@ -111,6 +110,8 @@ class GraphPage:
     async def show(self, node: Node, *, config: str | None = None, fixed_frame: str | None = None) -> int:
         """Serve the page until its process is gone or this is cancelled; a coroutine of the graph's loop.
 
+        There is one page: it stays with the first node that shows it, and follows whatever configuration comes later.
+
         Args:
             node: whose name, remappings and clock are used.
             config: an .rviz file; None or a missing one means the usual displays.
@@ -120,15 +121,19 @@ class GraphPage:
             DescriptionError: the configuration is none.
             UsageError: the port asked for is taken.
         """
-        if self._node is not None:
-            node.log_info(f"the page is {self._node.name}'s, at {self.url or 'an address that it will say'}")
+        if self._shown is not None:
+            if config is not None:
+                self._shown.follow(read_rviz_config(Path(config), self._report), fixed_frame)
+                self._stale = True
+            owner = self._shown.node.name
+            node.log_info(f"the page is {owner}'s, at {self.url or 'an address that it will say'}")
             await node.closed.wait()
             return 0
-        self._node, self._over = node, False
+        self._over = False
         with ExitStack() as open_things:
             open_things.callback(self.close)
             read = read_rviz_config(None if config is None else Path(config), self._report)
-            shown = ShownGraph(node, read, fixed_frame)
+            self._shown = shown = ShownGraph(node, read, fixed_frame)
             open_things.callback(shown.close)
             first = self._layout(shown)
             self._viewer = await asyncio.to_thread(Viewer.start, first, host=self._host, port=self._port)
@@ -138,7 +143,7 @@ class GraphPage:
 
     def close(self) -> None:
         """Take the page down; may be called twice."""
-        self._node = None
+        self._shown = None
         self._over = True
         if self._viewer is not None:
             self._viewer.close()

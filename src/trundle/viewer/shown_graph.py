@@ -42,7 +42,7 @@ class ShownGraph:
         self.collisions: Scene | None = None
         self.title = "Trundle"
         self.buffer = TransformListener(node).buffer
-        self.images = tuple(display.source for display in config.enabled("Image") if display.source)
+        self.images = _images(config)
         self._heard = 0
         """Images that are listened to."""
         self._figures = GraphFigures(node)
@@ -56,6 +56,12 @@ class ShownGraph:
         self._cmd_vel: Publisher | None = None
         self._command = (0.0, 0.0)
         self._drive_due = math.inf
+
+    def follow(self, config: RvizConfig, fixed_frame: str | None) -> None:
+        """Show by another configuration from now on."""
+        self.config, self.fixed_frame = config, fixed_frame
+        self.images += tuple(topic for topic in _images(config) if topic not in self.images)
+        self._found, self._look_due = False, 0.0
 
     def listen(self, viewer: Viewer, more: Sequence[str]) -> bool:
         """Hand the images of the configured topics, and of others, to the page; return whether there are new ones."""
@@ -169,6 +175,10 @@ class ShownGraph:
     def _tree(self) -> FrameTree:
         fixed = self.fixed_frame or choose_fixed_frame(self.config, self.buffer.frames())
         return FrameTree.of(self.buffer, fixed.removeprefix("/"))
+
+
+def _images(config: RvizConfig) -> tuple[str, ...]:
+    return tuple(display.source for display in config.enabled("Image") if display.source)
 
 
 def _pass_on(viewer: Viewer, index: int, message: Message) -> None:
