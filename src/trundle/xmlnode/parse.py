@@ -1,0 +1,173 @@
+"""Files and bytes to elements: bounded, and as forgiving as Gazebo's and ROS's old readers where one asks for it.
+
+Entities are never fetched and never expanded without bound, so a hostile file costs no more than its own size.
+"""
+
+import io
+import re
+from pathlib import Path
+
+from lxml import etree
+
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
+
+from .node import XmlNode
+
+_MAX_BYTES = 64 * 1024 * 1024
+_DEEPEST = 256
+"""libxml2's own bound."""
+_TOO_MUCH = etree.ErrorTypes.ERR_RESOURCE_LIMIT
+_POSITION = re.compile(r", line \d+, column \d+$")
+"""libxml2 repeats the place, which every message of ours starts with."""
+
+
+def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None, deepest: int = _DEEPEST) -> XmlNode:
+    """Parse a document.
+
+    Args:
+        text: all of it.
+        name: how messages call it.
+        report: with one, slips that Gazebo's and ROS's old XML readers let pass are named there and let pass too.
+        deepest: elements within one another that are read, for readers that do not go down all of them.
+
+    Raises:
+        DescriptionError: not XML, empty, or larger or deeper than any honest file.
+    """
+    data = text.encode() if isinstance(text, str) else text
+    if len(data) > _MAX_BYTES:
+        raise DescriptionError(Source(name), f"{len(data)} bytes; the largest file read is {_MAX_BYTES}")
+    if not data.strip():
+        raise DescriptionError(Source(name, 1), "the file is empty")
+    # Tutorials and xacro templates often carry blank lines before <?xml …?>, which Gazebo and ROS accept.
+    blank_lines = data[: len(data) - len(data.lstrip())].count(b"\n")
+    if report is not None and not _says_or_is_unicode(data):
+        report.warn(Source(name, 1), "bytes that are no UTF-8 in a file that names no encoding; read as Latin-1")
+        data = data.decode("latin-1").encode()
+    parser = _parser()
+    try:
+        root = etree.fromstring(data.lstrip(), parser)
+    except etree.XMLSyntaxError as error:
+        line = (error.lineno or 1) + blank_lines
+        what = _POSITION.sub("", error.msg or "no element found")
+        at = Source(name, line)
+        if deepest > _DEEPEST and any(entry.type == _TOO_MUCH for entry in parser.error_log):
+            root = _deep(data.lstrip(), deepest)
+            if root is None:
+                raise DescriptionError(
+                    at, f"elements more than {deepest} deep in one another, or entities that multiply"
+                ) from None
+            return XmlNode(root, file=name, first_line=blank_lines)
+        root = None if report is None else _recovered(data.lstrip())
+        if root is None or report is None:
+            raise DescriptionError(at, f"not well-formed XML: {what}") from None
+        report.warn(at, f"not well-formed XML: {what}; read as Gazebo reads it")
+    except ValueError as error:  # "Unicode strings with encoding declaration": only bytes come here
+        raise DescriptionError(Source(name, 1), f"not readable as XML: {error}") from None
+    return XmlNode(root, file=name, first_line=blank_lines)
+
+
+_SLIPS = frozenset(
+    {  # of attributes, only what `_with_quotes` does not mend
+        etree.ErrorTypes.ERR_ENTITYREF_NO_NAME,
+        etree.ErrorTypes.ERR_ENTITYREF_SEMICOL_MISSING,
+        etree.ErrorTypes.ERR_UNDECLARED_ENTITY,
+        etree.ErrorTypes.WAR_UNDECLARED_ENTITY,
+        etree.ErrorTypes.ERR_HYPHEN_IN_COMMENT,
+        etree.ErrorTypes.ERR_DOCUMENT_END,
+        etree.ErrorTypes.ERR_NAME_REQUIRED,
+        etree.ErrorTypes.ERR_RESERVED_XML_NAME,
+        etree.ErrorTypes.NS_ERR_UNDEFINED_NAMESPACE,
+    }
+)
+"""What TinyXML let pass: a bare &, `--` in a comment, text after the root, an unquoted value, a prefix nobody declared.
+A document that ends too soon or closes what it did not open is none of these."""
+
+
+_START_TAG = re.compile(rb"<[A-Za-z_][^<>]*>")
+_ATTRIBUTE = re.compile(rb"""(\s*)([\w:.-]+)(\s*=\s*)("[^"]*"|'[^']*'|[^\s"'<>]+?(?=[\s>]|/>))""")
+
+
+def _with_quotes(tag: re.Match[bytes]) -> bytes:
+    """A start tag with every value in quotes and a space before every attribute; lines stay where they are."""
+
+    def mended(attribute: re.Match[bytes]) -> bytes:
+        space, name, equals, value = attribute.groups()
+        quoted = value if value[:1] in b"\"'" else b'"' + value + b'"'
+        return (space or b" ") + name + equals + quoted
+
+    return _ATTRIBUTE.sub(mended, tag[0])
+
+
+def _says_or_is_unicode(data: bytes) -> bool:
+    """Whether a document names its encoding, or needs to name none."""
+    if b"encoding" in data[:200].split(b"?>")[0] or data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return True
+    try:
+        data.decode()
+    except UnicodeDecodeError:
+        return False
+    return True
+
+
+def _deep(data: bytes, deepest: int) -> etree._Element | None:  # pyright: ignore[reportPrivateUsage]
+    """The tree of a deep document; None where it is too deep, or defines entities, whose bounds fall with depth's."""
+    if b"<!DOCTYPE" in data:
+        return None
+    walk = etree.iterparse(
+        io.BytesIO(data),
+        events=("start", "end"),
+        remove_comments=True,
+        remove_pis=True,
+        no_network=True,
+        huge_tree=True,
+    )
+    depth = 0
+    try:
+        for event, _ in walk:
+            depth += 1 if event == "start" else -1
+            if depth > deepest:
+                return None
+    except etree.XMLSyntaxError:
+        return None
+    return walk.root
+
+
+def _parser(*, recover: bool = False) -> etree.XMLParser:
+    return etree.XMLParser(
+        resolve_entities="internal",  # pyright: ignore[reportArgumentType]  # lxml-stubs knows only bool
+        no_network=True,
+        load_dtd=False,
+        huge_tree=False,
+        remove_comments=True,
+        remove_pis=True,
+        recover=recover,
+    )
+
+
+def _recovered(data: bytes) -> etree._Element | None:  # pyright: ignore[reportPrivateUsage]
+    """The tree of a document whose faults are all slips, or None."""
+    parser = _parser(recover=True)
+    try:
+        root = etree.fromstring(_START_TAG.sub(_with_quotes, data), parser)
+    except (etree.XMLSyntaxError, ValueError):
+        return None
+    return root if all(entry.type in _SLIPS for entry in parser.error_log) else None
+
+
+def read_xml(path: Path, *, report: Diagnostics | None = None, deepest: int = _DEEPEST) -> XmlNode:
+    """Parse a file; `report` and `deepest` as for `parse_xml`.
+
+    Raises:
+        DescriptionError: as `parse_xml`, or the file cannot be read.
+    """
+    try:
+        if path.stat().st_size > _MAX_BYTES:
+            raise DescriptionError(Source(str(path)), f"larger than {_MAX_BYTES} bytes, the largest file read")
+        data = path.read_bytes()
+    except FileNotFoundError:
+        raise DescriptionError(Source(str(path)), "no such file") from None
+    except IsADirectoryError:
+        raise DescriptionError(Source(str(path)), "is a folder, not a file") from None
+    except OSError as error:
+        raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}") from None
+    return parse_xml(data, name=str(path), report=report, deepest=deepest)
