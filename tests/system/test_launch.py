@@ -2,12 +2,12 @@
 
 import re
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
-from trundle.ros import open_bag
+from trundle.ros import Core, GraphLoop, open_bag
 
 REAL_ROSLAUNCH = "/usr/bin/roslaunch"
 _MANIFEST = """<package><name>p</name><version>1.0.0</version><description>d</description>
@@ -51,11 +51,17 @@ def package(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def launch(trundle, package: Path) -> Launch:
+def launch(trundle, env: dict[str, str], package: Path) -> Iterator[Launch]:
+    """Launches at a master that is there: they end with their last node."""
+
     def call(*words: str, **more: str) -> subprocess.CompletedProcess[str]:
         return trundle("launch", *words, ROS_PACKAGE_PATH=str(package.parent), **more)
 
-    return call
+    with GraphLoop() as loop:
+        core = Core(loop=loop, port=int(env["ROS_MASTER_URI"].rpartition(":")[2]))
+        loop.run(core.start())
+        yield call
+        loop.run(core.stop())
 
 
 @pytest.mark.real_ros
@@ -86,12 +92,14 @@ def test_the_summary_is_that_of_roslaunch(launch: Launch, package: Path, env: di
 
     def parts(output: str) -> list[str]:
         summary = output[output.index("SUMMARY") : output.index("process[") if "process[" in output else None]
-        kept = [line for line in summary.splitlines() if not re.match(r" \* /ros(distro|version)|auto-starting", line)]
+        differs = r" \* /ros(distro|version)|auto-starting|ROS_MASTER_URI"
+        kept = [line for line in summary.splitlines() if not re.match(differs, line)]
         return [line for line in kept if line]
 
     words = (str(package / "main.launch"), "need:=1")
     real_env = {**env, "PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": str(package.parent)}
-    with subprocess.Popen([REAL_ROSLAUNCH, *words], env=real_env, stdout=subprocess.PIPE, text=True) as real:
+    real_words = (REAL_ROSLAUNCH, "--disable-title", *words)
+    with subprocess.Popen(real_words, env=real_env, stdout=subprocess.PIPE, text=True) as real:
         assert real.stdout is not None
         lines: list[str] = []
         while "process[" not in (line := real.stdout.readline()):
@@ -401,3 +409,15 @@ def test_a_script_that_asks_for_python_runs_where_there_is_only_python3(
 
     assert "I run on Python 3" in done.stdout
     assert done.returncode == 0
+
+
+def test_a_master_of_its_own_stays_for_others_when_the_last_node_has_ended(
+    start, trundle: Launch, until, package: Path
+) -> None:
+    file = package / "main.launch"
+    file.write_text('<launch><param name="kept" value="3"/><node pkg="p" type="talk" name="a" args="0"/></launch>')
+    launched = start("launch", str(file), "--headless", ROS_PACKAGE_PATH=str(package.parent))
+    until("the node to end", lambda: "[a-1] process has finished cleanly" in launched.output())
+
+    assert trundle("param", "get", "/kept").stdout == "3\n"
+    assert launched.interrupt() == 130

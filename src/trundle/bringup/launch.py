@@ -22,7 +22,9 @@ NS = 1_000_000_000
 
 
 def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[str, str] | None = None) -> int:
-    """Launch; return the exit code: 0 when every node has ended or the time is over, 1 when a required one died.
+    """Launch; return the exit code: 0 when the time is over, 1 when a required node died.
+
+    As roslaunch, it ends with its last node only where the master is another's.
 
     Args:
         words: of the command line: PKG FILE or FILE…, and NAME:=VALUE.
@@ -100,7 +102,7 @@ def _run(read: ReadLaunch, options: LaunchOptions, stop: StopFlag) -> int:
         while not stop.wait(0.05) and not over and (end_ns is None or clock.now_ns() < end_ns):
             read.show.findings()
             silent.look()
-            over = session.is_over or (running.over and not options.core_only)
+            over = session.is_over or running.required_died or (running.over and not session.has_master)
         required_died = running.required_died
     if stop.is_set():
         return 130

@@ -142,6 +142,11 @@ class LaunchSession:
         ]
 
     @property
+    def has_master(self) -> bool:
+        """Whether the graph's master ends with this launch, which stays for it as roslaunch does."""
+        return self.graph.core is not None
+
+    @property
     def is_over(self) -> bool:
         """Whether the time that a flat-out launch is given has passed, and all of it is recorded."""
         return self._steps is not None and self._steps.over.is_set()
