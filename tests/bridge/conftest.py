@@ -9,7 +9,7 @@ import pytest
 from tests.graphs import PATIENCE_S, running_graph, until
 
 import trundle
-from trundle.bridge import camera_topics, sensor_topics
+from trundle.bridge import FrameNames, camera_topics, sensor_topics
 from trundle.render import NativeRenderer
 from trundle.ros import StaticTransformBroadcaster, Transform
 from trundle.sensors import mount_cameras, mount_sensors
@@ -55,8 +55,8 @@ def hear(graph: SimpleNamespace, described: Described) -> Hear:
         for sensor in (*cameras, *sensors):
             sim.add_hook(sensor, period_ns=sensor.period_ns, wanted=sensor.wanted)
         still = StaticTransformBroadcaster(graph.node)
-        camera_topics(graph.node, still, cameras, sim.world)
-        sensor_topics(graph.node, still, sensors, sim.world)
+        camera_topics(graph.node, still, cameras, FrameNames.of(sim.world))
+        sensor_topics(graph.node, still, sensors, FrameNames.of(sim.world))
         still.send(Transform(parent="world", child="the last"))
         heard: dict[str, Any] = {}
         frames: set[str] = set()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from tests.graphs import PATIENCE_S, running_graph, until
 
-from trundle.bridge import CameraTopics
+from trundle.bridge import CameraTopics, FrameNames
 from trundle.bridge.camera import CAMERA_FROM_OPTICAL
 from trundle.diagnostics import Diagnostics, Source
 from trundle.model import CameraOptics, Link, Model, Sensor, World
@@ -58,7 +58,7 @@ def stage() -> Iterator[SimpleNamespace]:
     camera = CameraSensor(Spot(model, link, sensor, 0, np.random.default_rng(0)), optics, scenery=scenery)
     with running_graph() as running:
         node, viewer = running.node("sim"), running.node("viewer")
-        topics = CameraTopics(node, StaticTransformBroadcaster(node), camera, world)
+        topics = CameraTopics(node, StaticTransformBroadcaster(node), camera, FrameNames.of(world))
         running.ready(node)
         yield SimpleNamespace(camera=camera, viewer=viewer, loop=running.loop, topics=topics)
         for one in (viewer, node):

@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from trundle.bridge import link_frames
+from trundle.bridge import FrameNames, link_frames
 from trundle.bridge.frames import relative_poses
 from trundle.diagnostics import Source
-from trundle.model import Joint, JointAxis, JointType, Link, Model, World
+from trundle.model import Joint, JointAxis, JointType, Link, Model, Sensor, World
+from trundle.robot import Robot, RobotLink
 from trundle.spatial import Pose
 
 AT = Source("test.sdf", 1)
@@ -79,3 +80,29 @@ def test_what_cannot_move_is_told_apart() -> None:
 
     assert [f.moves for f in link_frames(World(name="w", at=AT, models=(model,)))] == [False, True]
     assert [f.moves for f in link_frames(World(name="w", at=AT, models=(arm(static=True),)))] == [False, False]
+
+
+def sensor(name: str) -> Sensor:
+    return Sensor(name=name, type="imu", at=AT)
+
+
+def frames_of_sensors(names: FrameNames, *places: tuple[str, str]) -> list[str]:
+    """Of sensors on links, (link, sensor)."""
+    by_link = {link: tuple(sensor(name) for on, name in places if on == link) for link, _ in places}
+    model = Model(name="bot", at=AT, links=tuple(Link(name=n, at=AT, sensors=each) for n, each in by_link.items()))
+    return [names.sensor(model, link, sensor(name), rest="_x" if name == "eye" else "") for link, name in places]
+
+
+def test_sensors_of_one_name_have_frames_of_their_own() -> None:
+    """Two eyes of one model, and an imu on a nested model's link besides."""
+    told = frames_of_sensors(FrameNames(), ("left", "eye"), ("right", "eye"), ("arm::left", "imu"))
+
+    assert told == ["bot/left/eye_x", "bot/right/eye_x", "bot/imu"]
+
+
+def test_no_sensor_has_the_frame_of_a_link() -> None:
+    """Neither that of one that is simulated nor, of a URDF, that of one that is lumped."""
+    robot = Robot(name="bot", at=AT, root="mast", links=(RobotLink(name="mast", at=AT),), joints=())
+    told = frames_of_sensors(FrameNames.of_robot(robot), ("base", "imu"), ("imu", "base"), ("base", "mast"))
+
+    assert told == ["imu_sensor", "base_sensor", "mast_sensor"]

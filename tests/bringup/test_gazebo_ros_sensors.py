@@ -56,6 +56,21 @@ def test_a_laser_scans_on_its_topic_in_its_frame(gazebo: Gazebo, plugin: str) ->
     assert "/mast/head/eye/scan" not in topics  # the plugin's topic takes its place
 
 
+def test_without_a_plugin_a_sensor_hangs_in_the_tree_of_its_urdf(gazebo: Gazebo) -> None:
+    """It is on a lumped link, which robot_state_publisher has and the simulation has not."""
+    inertia = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+    joint = '<joint name="j" type="fixed"><parent link="base"/><child link="mast"/><origin xyz="0 0 1"/></joint>'
+    sensor = '<gazebo reference="mast"><sensor name="mast" type="imu"><always_on>1</always_on></sensor></gazebo>'
+    gazebo.spawn(f'<robot name="bot"><link name="base">{inertia}</link><link name="mast"/>{joint}{sensor}</robot>', "b")
+    gazebo.call("unpause_physics")
+    imu = _first(gazebo, "/b/base/mast/imu", "sensor_msgs/Imu")
+    (placed,) = _first(gazebo, "/tf_static", "tf2_msgs/TFMessage").transforms
+
+    assert imu.header.frame_id == placed.child_frame_id == "mast_sensor"
+    assert placed.header.frame_id == "base"
+    assert placed.transform.translation.z == pytest.approx(1.0)
+
+
 def test_points_of_velodynes_and_of_files_for_ros_2(gazebo: Gazebo) -> None:
     ros = "<ros><namespace>/lidar</namespace><remapping>~/out:=cloud</remapping></ros>"
     sensors = _sensor("ray", _RAYS, "velodyne_laser", "<topicName>/velodyne</topicName><frameName>v</frameName>")

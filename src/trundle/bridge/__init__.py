@@ -6,7 +6,7 @@ from .clock import ClockTopic, clock_rate_hz
 from .frames import SimulationFrames
 from .joint_states import JointStates
 from .measuring import ImuTopic, ScanTopic, sensor_topics
-from .naming import WORLD_FRAME, has_plain_frames, link_frame_name, link_frames
+from .naming import WORLD_FRAME, FrameNames, link_frames
 from .pictures import cloud_maker, depth_image, image_maker
 from .readings import contacts_message, fix_message, imu_message, points_message, scan_message, wrench_message
 
@@ -14,6 +14,7 @@ __all__ = [
     "WORLD_FRAME",
     "CameraTopics",
     "ClockTopic",
+    "FrameNames",
     "ImuTopic",
     "JointStates",
     "ScanTopic",
@@ -25,10 +26,8 @@ __all__ = [
     "contacts_message",
     "depth_image",
     "fix_message",
-    "has_plain_frames",
     "image_maker",
     "imu_message",
-    "link_frame_name",
     "link_frames",
     "points_message",
     "scan_message",

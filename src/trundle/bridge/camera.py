@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterable
 from typing import TypeAlias
 
-from trundle.model import World
 from trundle.ros import Node, Publisher, StaticTransformBroadcaster, Transform
 from trundle.sensors import (
     BoundingBoxCameraSensor,
@@ -17,7 +16,7 @@ from trundle.spatial import Pose, quaternion_from_rpy
 
 from .calibration import calibration_of
 from .detections import boxes_2d, boxes_3d
-from .naming import has_plain_frames, link_frame_name, sensor_topic
+from .naming import FrameNames, sensor_topic
 from .pictures import cloud_maker, depth_image, image_maker, labels_image, thermal_image
 
 _HALF_TURN = 1.5707963267948966
@@ -28,29 +27,31 @@ _Output: TypeAlias = tuple[str, str, _Make]
 """Topic, type and what makes its messages, without their header."""
 
 
-def camera_topics(node: Node, still: StaticTransformBroadcaster, cameras: Iterable[CameraSensor], world: World) -> None:
+def camera_topics(
+    node: Node, still: StaticTransformBroadcaster, cameras: Iterable[CameraSensor], names: FrameNames
+) -> None:
     """Put everything that cameras see on topics of its own."""
     for camera in cameras:
-        CameraTopics(node, still, camera, world)
+        CameraTopics(node, still, camera, names)
 
 
 class CameraTopics:
     """`<model>/<link>/<sensor>/image_raw`, `camera_info` and more by the camera's kind, each made only for
     subscribers."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, camera: CameraSensor, world: World) -> None:
+    def __init__(self, node: Node, still: StaticTransformBroadcaster, camera: CameraSensor, names: FrameNames) -> None:
         """Advertise, and place the optical frame.
 
         Args:
             node: publishes.
             still: the node's one broadcaster for /tf_static.
             camera: what to publish.
-            world: names the frames.
+            names: of the frames.
         """
         model, link = camera.model, camera.link
-        plain = has_plain_frames(world)
-        carrier = link_frame_name(model, link.name, plain=plain)
-        self.frame = f"{link_frame_name(model, camera.name, plain=plain)}_optical"
+        carrier = names.link(model, link.name)
+        part = f"/{camera.optics.name}" if camera.optics.name else ""
+        self.frame = names.sensor(model, link.name, camera.sensor, rest=f"{part}_optical")
         optical = camera.link_from_camera @ CAMERA_FROM_OPTICAL
         still.send(
             Transform(parent=carrier, child=self.frame, translation=optical.position, rotation=optical.quaternion)

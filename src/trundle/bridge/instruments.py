@@ -1,6 +1,5 @@
 """Readings of instruments as messages: barometers, compasses, sonars, radios."""
 
-from trundle.model import World
 from trundle.ros import Node, StaticTransformBroadcaster
 from trundle.sensors import (
     AirPressureSensor,
@@ -20,7 +19,7 @@ from trundle.sensors import (
     WirelessSensor,
 )
 
-from .naming import WORLD_FRAME
+from .naming import WORLD_FRAME, FrameNames
 from .placing import place_sensor, topic_of
 
 _ULTRASOUND = 0
@@ -31,10 +30,14 @@ class PressureTopic:
     """sensor_msgs/FluidPressure on `…/air_pressure`, and what moving adds on `…/air_speed`."""
 
     def __init__(
-        self, node: Node, still: StaticTransformBroadcaster, sensor: AirPressureSensor | AirSpeedSensor, world: World
+        self,
+        node: Node,
+        still: StaticTransformBroadcaster,
+        sensor: AirPressureSensor | AirSpeedSensor,
+        names: FrameNames,
     ) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
         self._topic = node.advertise(topic_of(sensor, sensor.sensor.type), "sensor_msgs/FluidPressure", queue_size=10)
         sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
 
@@ -64,9 +67,11 @@ class AltimeterTopics:
 class MagnetometerTopic:
     """sensor_msgs/MagneticField on `…/magnetic_field`."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: MagnetometerSensor, world: World) -> None:
+    def __init__(
+        self, node: Node, still: StaticTransformBroadcaster, sensor: MagnetometerSensor, names: FrameNames
+    ) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
         self._topic = node.advertise(topic_of(sensor, "magnetic_field"), "sensor_msgs/MagneticField", queue_size=10)
         sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
 
@@ -79,9 +84,9 @@ class MagnetometerTopic:
 class SonarTopic:
     """sensor_msgs/Range on `…/range`, in a frame whose x axis is the sonar's."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: SonarSensor, world: World) -> None:
+    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: SonarSensor, names: FrameNames) -> None:
         """Advertise, and place the beam's frame."""
-        self._frame = place_sensor(sensor, sensor.link_from_beam, still, world)
+        self._frame = place_sensor(sensor, sensor.link_from_beam, still, names)
         self._topic = node.advertise(topic_of(sensor, "range"), "sensor_msgs/Range", queue_size=5)
         self._sensor = sensor
         sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
@@ -103,10 +108,10 @@ class ModelsTopic:
     """tf2_msgs/TFMessage on `…/models`: each model in view by its name, placed in the logical camera's frame."""
 
     def __init__(
-        self, node: Node, still: StaticTransformBroadcaster, sensor: LogicalCameraSensor, world: World
+        self, node: Node, still: StaticTransformBroadcaster, sensor: LogicalCameraSensor, names: FrameNames
     ) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
         self._topic = node.advertise(topic_of(sensor, "models"), "tf2_msgs/TFMessage", queue_size=5)
         sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
 
@@ -127,10 +132,10 @@ class RadioTopic:
     """diagnostic_msgs/DiagnosticArray: the transmitters heard on `…/nodes`, the tags that are near on `…/tags`."""
 
     def __init__(
-        self, node: Node, still: StaticTransformBroadcaster, sensor: WirelessSensor | RfidSensor, world: World
+        self, node: Node, still: StaticTransformBroadcaster, sensor: WirelessSensor | RfidSensor, names: FrameNames
     ) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
         type_ = "diagnostic_msgs/DiagnosticArray"
         match sensor:
             case WirelessSensor():

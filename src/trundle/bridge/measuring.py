@@ -3,7 +3,6 @@
 
 from collections.abc import Iterable
 
-from trundle.model import World
 from trundle.ros import Node, StaticTransformBroadcaster
 from trundle.sensors import (
     AirPressureSensor,
@@ -35,47 +34,47 @@ from .instruments import (
     RadioTopic,
     SonarTopic,
 )
-from .naming import WORLD_FRAME, has_plain_frames, link_frame_name
+from .naming import WORLD_FRAME, FrameNames
 from .placing import place_sensor, topic_of
 from .readings import contacts_message, fix_message, imu_message, points_message, scan_message, wrench_message
 
 
 def sensor_topics(
-    node: Node, still: StaticTransformBroadcaster, sensors: Iterable[MeasuringSensor], world: World
+    node: Node, still: StaticTransformBroadcaster, sensors: Iterable[MeasuringSensor], names: FrameNames
 ) -> None:
     """Put every sensor's readings on topics of its own."""
     for sensor in sensors:
         match sensor:
             case ImuSensor():
-                ImuTopic(node, still, sensor, world)
+                ImuTopic(node, still, sensor, names)
             case RangeSensor():
-                ScanTopic(node, still, sensor, world)
+                ScanTopic(node, still, sensor, names)
             case GpsSensor():
-                FixTopic(node, still, sensor, world)
+                FixTopic(node, still, sensor, names)
             case ForceTorqueSensor():
-                WrenchTopic(node, still, sensor, world)
+                WrenchTopic(node, still, sensor, names)
             case ContactSensor():
                 ContactsTopic(node, sensor)
             case AirPressureSensor() | AirSpeedSensor():
-                PressureTopic(node, still, sensor, world)
+                PressureTopic(node, still, sensor, names)
             case AltimeterSensor():
                 AltimeterTopics(node, sensor)
             case LogicalCameraSensor():
-                ModelsTopic(node, still, sensor, world)
+                ModelsTopic(node, still, sensor, names)
             case MagnetometerSensor():
-                MagnetometerTopic(node, still, sensor, world)
+                MagnetometerTopic(node, still, sensor, names)
             case SonarSensor():
-                SonarTopic(node, still, sensor, world)
+                SonarTopic(node, still, sensor, names)
             case WirelessSensor() | RfidSensor():
-                RadioTopic(node, still, sensor, world)
+                RadioTopic(node, still, sensor, names)
 
 
 class ImuTopic:
     """sensor_msgs/Imu on `…/imu`."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: ImuSensor, world: World) -> None:
+    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: ImuSensor, names: FrameNames) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
         self._imu = node.advertise(topic_of(sensor, "imu"), "sensor_msgs/Imu", queue_size=10)
         sensor.listen(self._publish, wanted=lambda: self._imu.has_subscribers)
 
@@ -86,9 +85,9 @@ class ImuTopic:
 class ScanTopic:
     """sensor_msgs/LaserScan on `…/scan` for one row of rays, sensor_msgs/PointCloud2 on `…/points` for several."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: RangeSensor, world: World) -> None:
+    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: RangeSensor, names: FrameNames) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
         self._period_s = float(sensor.period_ns) / 1e9
         if sensor.scan.vertical.values == 1:
             self._topic = node.advertise(topic_of(sensor, "scan"), "sensor_msgs/LaserScan", queue_size=5)
@@ -108,9 +107,9 @@ class ScanTopic:
 class FixTopic:
     """sensor_msgs/NavSatFix on `…/fix`."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: GpsSensor, world: World) -> None:
+    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: GpsSensor, names: FrameNames) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, world)
+        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
         self._sensor = sensor
         self._fix = node.advertise(topic_of(sensor, "fix"), "sensor_msgs/NavSatFix", queue_size=5)
         sensor.listen(self._publish, wanted=lambda: self._fix.has_subscribers)
@@ -123,14 +122,15 @@ class FixTopic:
 class WrenchTopic:
     """geometry_msgs/WrenchStamped on `<model>/<joint>/<sensor>/wrench`, in the frame that the sensor names."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: ForceTorqueSensor, world: World) -> None:
+    def __init__(
+        self, node: Node, still: StaticTransformBroadcaster, sensor: ForceTorqueSensor, names: FrameNames
+    ) -> None:
         """Advertise, and place the sensor's frame."""
-        own = place_sensor(sensor, sensor.link_from_sensor, still, world)
-        plain = has_plain_frames(world)
+        own = place_sensor(sensor, sensor.link_from_sensor, still, names)
         parent = sensor.joint.parent
         self._frame = {
-            "child": link_frame_name(sensor.model, sensor.link.name, plain=plain),
-            "parent": WORLD_FRAME if parent == "world" else link_frame_name(sensor.model, parent, plain=plain),
+            "child": names.link(sensor.model, sensor.link.name),
+            "parent": WORLD_FRAME if parent == "world" else names.link(sensor.model, parent),
         }.get(sensor.settings.frame, own)
         self._topic = node.advertise(topic_of(sensor, "wrench"), "geometry_msgs/WrenchStamped", queue_size=10)
         sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)

@@ -5,9 +5,11 @@ docs/decisions/0002 says why a single robot's links keep their plain names.
 """
 
 from dataclasses import dataclass
+from typing import Self
 
 from trundle.model import JointType, Model, Sensor, World
 from trundle.names import ros_name
+from trundle.robot import Robot
 
 WORLD_FRAME = "world"
 _NO_TOPIC = ("__default__", "__default_topic__")
@@ -28,9 +30,51 @@ class LinkFrame:
     """Whether the transform from the parent changes as time passes."""
 
 
-def link_frame_name(model: Model, link: str, *, plain: bool) -> str:
-    """A link's tf frame: its own name for a robot given alone, `<model>/<link>` in a world of several."""
-    return ros_name(link) if plain else f"{ros_name(model.name)}/{ros_name(link)}"
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FrameNames:
+    """What links and sensors are called in tf."""
+
+    plain: bool = False
+    """A link has its own name, as robots that are given alone have it; else it is `<model>/<link>`."""
+    lumped: frozenset[str] = frozenset()
+    """Links of the URDF, which are on the graph though some are not simulated."""
+
+    @classmethod
+    def of(cls, world: World, robot: Robot | None = None) -> Self:
+        """Those of a world that `run` was given, or of the robot in it."""
+        return cls(plain=_has_plain_frames(world), lumped=_links_of(robot))
+
+    @classmethod
+    def of_robot(cls, robot: Robot) -> Self:
+        """Those of the one URDF of a launch, whose links robot_state_publisher sends."""
+        return cls(plain=True, lumped=_links_of(robot))
+
+    def link(self, model: Model, link: str) -> str:
+        """A link's frame."""
+        return ros_name(link) if self.plain else f"{ros_name(model.name)}/{ros_name(link)}"
+
+    def sensor(self, model: Model, place: str, sensor: Sensor, *, rest: str = "") -> str:
+        """A sensor's own frame, which is no other sensor's and no link's.
+
+        Its place comes before its name where the model has several sensors of that name, and `_sensor` comes behind
+        where a link is called so.
+
+        Args:
+            model: whose it is.
+            place: the link or joint that it is on.
+            sensor: with its name.
+            rest: what follows that.
+        """
+        own = ros_name(sensor.name)
+        everywhere = [each for owner in (*model.links, *model.joints) for each in owner.sensors]
+        has_namesakes = sum(ros_name(each.name) == own for each in everywhere) > 1
+        frame = self.link(model, (f"{place}/{sensor.name}" if has_namesakes else sensor.name) + rest)
+        is_taken = frame in self.lumped or frame in (self.link(model, link.name) for link in model.links)
+        return f"{frame}_sensor" if is_taken else frame
+
+
+def _links_of(robot: Robot | None) -> frozenset[str]:
+    return frozenset() if robot is None else frozenset(ros_name(link.name) for link in robot.links)
 
 
 def sensor_topic(model: Model, place: str, sensor: Sensor, output: str, *, main: str, part: str = "") -> str:
@@ -58,14 +102,14 @@ def sensor_topic(model: Model, place: str, sensor: Sensor, output: str, *, main:
     return f"{topic}/{output}"
 
 
-def has_plain_frames(world: World) -> bool:
+def _has_plain_frames(world: World) -> bool:
     """Whether one robot was given alone: all else was put around it by `run`."""
     return len([model for model in world.models if not model.added]) == 1 and any(m.added for m in world.models)
 
 
 def link_frames(world: World) -> list[LinkFrame]:
     """Every link of the world as a frame, in the order of `Snapshot.poses`."""
-    plain = has_plain_frames(world)
+    names = FrameNames.of(world)
     frames: list[LinkFrame] = []
     for model in world.models:
         start = len(frames)
@@ -74,13 +118,13 @@ def link_frames(world: World) -> list[LinkFrame]:
         for link in model.links:
             joint = above.get(link.name)
             parent_link = None if joint is None else index[joint.parent]
-            parent = WORLD_FRAME if joint is None else link_frame_name(model, joint.parent, plain=plain)
+            parent = WORLD_FRAME if joint is None else names.link(model, joint.parent)
             rigid = joint is not None and (
                 joint.type is JointType.FIXED or (joint.axis is not None and joint.axis.is_rigid)
             )
             frames.append(
                 LinkFrame(
-                    frame=link_frame_name(model, link.name, plain=plain),
+                    frame=names.link(model, link.name),
                     parent=parent,
                     link=index[link.name],
                     parent_link=parent_link,

@@ -1,22 +1,18 @@
 """Where sensors are on the graph: their frames and their topics."""
 
-from trundle.model import World
 from trundle.ros import StaticTransformBroadcaster, Transform
 from trundle.sensors import MeasuringSensor
 from trundle.spatial import Pose
 
-from .naming import has_plain_frames, link_frame_name, sensor_topic
+from .naming import FrameNames, sensor_topic
 
 
 def place_sensor(
-    sensor: MeasuringSensor, link_from_sensor: Pose, still: StaticTransformBroadcaster, world: World
+    sensor: MeasuringSensor, link_from_sensor: Pose, still: StaticTransformBroadcaster, names: FrameNames
 ) -> str:
     """Put the sensor's own frame on its link; return its name."""
-    plain = has_plain_frames(world)
-    frame = link_frame_name(sensor.model, sensor.name, plain=plain)
-    carrier = link_frame_name(sensor.model, sensor.link.name, plain=plain)
-    if frame == carrier:
-        frame = f"{frame}_sensor"
+    frame = names.sensor(sensor.model, sensor.place, sensor.sensor)
+    carrier = names.link(sensor.model, sensor.link.name)
     place, turn = link_from_sensor.position, link_from_sensor.quaternion
     still.send(Transform(parent=carrier, child=frame, translation=place, rotation=turn))
     return frame

@@ -8,14 +8,15 @@ from trundle.description import load
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Model
 from trundle.packages import Packages
+from trundle.robot import Robot
 
 _URDF = re.compile(r"<robot[\s>]")
 
 
 def read_spawned(
     xml: str, *, name: str, namespace: str, folder: Path, packages: Packages, report: Diagnostics
-) -> Model:
-    """Read the one model that an SDF or URDF text describes.
+) -> tuple[Model, Robot | None]:
+    """Read the one model that an SDF or URDF text describes, and the URDF's own tree.
 
     Args:
         xml: the text; it is kept in a file, so that messages can name its lines.
@@ -34,10 +35,11 @@ def read_spawned(
     file = folder / f"{re.sub(r'[^A-Za-z0-9_.-]', '_', name)}.{suffix}"
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(_in_namespace(xml, namespace) if namespace else xml, encoding="utf-8")
-    models = load(str(file), report, packages=packages).world.models
+    loaded = load(str(file), report, packages=packages)
+    models = loaded.world.models
     if len(models) != 1:
         raise UsageError(f"model {name!r}: the text describes {len(models)} models; one is needed")
-    return models[0]
+    return models[0], loaded.robot
 
 
 def _in_namespace(xml: str, namespace: str) -> str:

@@ -217,12 +217,12 @@ class GazeboWorld:
         simulation = self.simulation
         if any(model.name == name for model in simulation.models):
             raise UsageError(f"SpawnModel: Failure - model name {name} already exist.")
-        model = read_spawned(
+        model, robot = read_spawned(
             xml, name=name, namespace=namespace, folder=self._folder, packages=self._packages, report=self._report
         )
         pose = world_from_model @ model.world_from_model
         handle = simulation.spawn(replace(model, name=name, world_from_model=pose))
-        self._measuring.mount(name)
+        self._measuring.mount(name, robot=robot)
         self._show_anew()
         self._load_plugins(simulation, [handle])
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Self
 
-from trundle.bridge import ClockTopic, JointStates, SimulationFrames, camera_topics, sensor_topics
+from trundle.bridge import ClockTopic, FrameNames, JointStates, SimulationFrames, camera_topics, sensor_topics
 from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, MeasuringSensor
 from trundle.simulation import Simulation
@@ -51,8 +51,9 @@ class RosSide:
         frames = SimulationFrames(self.node, still, stage.world, simulation.snapshot())
         simulation.add_hook(frames, period_ns=frames.period_ns, wanted=frames.wanted)
         report = simulation.report
-        camera_topics(self.node, still, attach_sensor_plugins(cameras, self.node, report), stage.world)
-        sensor_topics(self.node, still, attach_sensor_plugins(sensors, self.node, report), stage.world)
+        names = FrameNames.of(stage.world, stage.robot)
+        camera_topics(self.node, still, attach_sensor_plugins(cameras, self.node, report), names)
+        sensor_topics(self.node, still, attach_sensor_plugins(sensors, self.node, report), names)
         if stage.urdf is not None:
             loop.run(self.node.set_param("/robot_description", stage.urdf))
             states = JointStates(self.node, simulation.models[0])
