@@ -52,3 +52,15 @@ def test_the_first_signal_sets_it_and_the_second_interrupts() -> None:
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)
     assert signal.getsignal(signal.SIGINT) == before
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="terminals that hang up are POSIX's")
+@pytest.mark.parametrize("is_told", [True, False])
+def test_the_end_of_the_terminal_sets_it_too_but_for_nohup(is_told: bool) -> None:
+    before = signal.signal(signal.SIGHUP, signal.SIG_DFL if is_told else signal.SIG_IGN)
+    try:
+        with stop_flag() as flag:
+            signal.raise_signal(signal.SIGHUP)
+            assert flag.is_set() is is_told
+    finally:
+        signal.signal(signal.SIGHUP, before)

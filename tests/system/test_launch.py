@@ -314,12 +314,6 @@ def test_what_a_paused_world_says_is_the_same_in_every_bag(launch: Launch, packa
     assert 40 < counts["/gazebo/model_states"] < 60
 
 
-def test_remote_children_are_refused(launch: Launch) -> None:
-    done = launch("-c", "name", "-u", "http://x", "--run_id", "1")
-    assert done.returncode == 1
-    assert "not supported" in done.stderr
-
-
 def test_a_gazebo_launch_file_simulates_its_robot_without_gazebo(start, trundle, until, package: Path) -> None:
     (package / "ball.sdf").write_text(_BALL)
     (package / "main.launch").write_text(

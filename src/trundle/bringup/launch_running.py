@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Awaitable, Callable, Sequence
+from typing import TypeAlias
 
 from trundle.launch import LaunchNode
 from trundle.supervisor import Event, Patience, Supervisor
@@ -10,15 +11,21 @@ from .launch_nodes import Launched, NodeStarter
 
 _RULE = "=" * 80
 
+Listener: TypeAlias = Callable[[Event, str], None]
+"""Told what happened to a node, and the sentence that says so."""
+
 
 class RunningNodes:
     """Starts, watches and stops; on the graph's loop."""
 
-    def __init__(self, starter: NodeStarter, nodes: Sequence[LaunchNode], *, patience: Patience, quiet: bool) -> None:
+    def __init__(
+        self, starter: NodeStarter, nodes: Sequence[LaunchNode], *, patience: Patience, quiet: bool, listener: Listener
+    ) -> None:
         """`quiet`: say only what goes wrong."""
         self._starter = starter
         self._nodes = nodes
         self._patience = patience
+        self._listener = listener
         self._unsaid = {"started", "finished", "stopping"} if quiet else set[str]()
         self._supervisor: Supervisor | None = None
         self._waiting: asyncio.Task[str | None] | None = None
@@ -62,8 +69,6 @@ class RunningNodes:
 
     def _tell(self, event: Event) -> None:
         name = event.name
-        if event.kind in self._unsaid:
-            return
         match event.kind:
             case "started":
                 text = f"process[{name}]: {event.text}"
@@ -74,7 +79,9 @@ class RunningNodes:
                 text = f"{_RULE}\nREQUIRED process [{name}] has died!\nInitiating shutdown!\n{_RULE}"
             case _:
                 text = f"[{name}] {event.text}"
-        print(text, flush=True)
+        self._listener(event, text)
+        if event.kind not in self._unsaid:
+            print(text, flush=True)
 
 
 def what_runs(launched: Sequence[Launched], pages: Sequence[str] = ()) -> str:

@@ -20,7 +20,7 @@ from .launch_options import LaunchOptions
 from .launch_pages import await_urls, pages_of
 from .launch_params import set_params
 from .launch_read import ReadLaunch
-from .launch_running import RunningNodes, what_runs
+from .launch_running import Listener, RunningNodes, what_runs
 from .told_time import ToldTime
 
 if TYPE_CHECKING:
@@ -39,16 +39,25 @@ _LAST_S = 13.0
 class LaunchSession:
     """A graph with the launch's parameters on it, and its nodes once they are started."""
 
-    def __init__(self, read: ReadLaunch, options: LaunchOptions, *, any_port: bool = False) -> None:
+    def __init__(
+        self,
+        read: ReadLaunch,
+        options: LaunchOptions,
+        *,
+        any_port: bool = False,
+        listener: Listener = lambda _event, _text: None,
+    ) -> None:
         """Join or start a graph and set the parameters.
 
         Args:
             read: what to launch.
             options: how.
             any_port: where no master is named, start one on a free port, as tests do.
+            listener: is told what happens to each node, on the graph's thread.
         """
         self._read = read
         self._options = options
+        self._listener = listener
         self._open_things = ExitStack()
         self._running: RunningNodes | None = None
         self._steps: Steps | None = None
@@ -179,7 +188,9 @@ class LaunchSession:
         """Start nodes, unless the end comes first, and say what runs."""
         loop, options = self.graph.loop, self._options
         patience = Patience(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
-        running = self._running = RunningNodes(self.starter, nodes, patience=patience, quiet=options.quiet)
+        running = self._running = RunningNodes(
+            self.starter, nodes, patience=patience, quiet=options.quiet, listener=self._listener
+        )
         steps = self._steps
         loop.run(running.start(is_ending, None if steps is None else steps.let_start), timeout_s=_START_S + START_S)
         if steps is not None:

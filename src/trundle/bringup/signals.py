@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM as a flag that a loop looks at."""
+"""Ctrl-C, SIGTERM and the end of the terminal as a flag that a loop looks at."""
 
 import signal
 import threading
@@ -6,6 +6,10 @@ from collections.abc import Generator
 from contextlib import contextmanager
 from queue import Empty, SimpleQueue
 from types import FrameType
+
+_HANG_UP = getattr(signal, "SIGHUP", signal.SIGTERM)
+"""Windows has none."""
+_ENDS = (signal.SIGINT, signal.SIGTERM, _HANG_UP)
 
 
 class StopFlag:
@@ -38,12 +42,14 @@ class StopFlag:
 
 @contextmanager
 def stop_flag() -> Generator[StopFlag]:
-    """Yield a flag that the first SIGINT or SIGTERM sets; a second SIGINT ends the process as usual."""
+    """Yield a flag that the first SIGINT, SIGTERM or SIGHUP sets; a second SIGINT ends the process as usual."""
     flag = StopFlag()
     if threading.current_thread() is not threading.main_thread():  # signals are the main thread's affair
         yield flag
         return
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    before = {number: signal.getsignal(number) for number in _ENDS}
+    if before.get(_HANG_UP) == signal.SIG_IGN:  # `nohup` wants it so
+        del before[_HANG_UP]
 
     def ask_to_stop(_number: int, _frame: FrameType | None) -> None:
         flag.set()

@@ -2,12 +2,16 @@
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from trundle.diagnostics import UsageError
 from trundle.ros import PROFILES
 
 from .main import add_allow_outside, add_renderer, quiet_imports
 from .speed import read_speed
+
+if TYPE_CHECKING:
+    from trundle.bringup.launch_options import LaunchOptions
 
 EXAMPLES = """
   trundle launch smartcar_description smartcar_display.rviz.launch
@@ -59,21 +63,21 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     only.add_argument("--ros-args", action="store_const", dest="only", const="arguments", help="the file's arguments")
     only.add_argument("--dump-params", action="store_const", dest="only", const="params", help="the parameters as YAML")
+    child = parser.add_argument_group("as a child, which a roslaunch on another machine starts here")
+    child.add_argument("-c", "--child", metavar="NAME", help="run what the parent asks for, under this name")
+    child.add_argument("-u", "--server_uri", metavar="URI", help="where the parent listens")
+    child.add_argument("--run_id", metavar="ID", help="of the parent's launch")
     # What scripts in the wild pass, and what has no meaning here.
     for option in ("--skip-log-check", "--disable-title"):
         add(option, action="store_true", help=argparse.SUPPRESS)
     for option in ("-w", "--numworkers", "-t", "--timeout", "--master-logger-level"):
         add(option, dest=f"unused_{option.strip('-')}", metavar="X", help=argparse.SUPPRESS)
-    for option in ("-c", "--child", "-u", "--server_uri", "--run_id"):
-        add(option, dest="child", metavar="X", help=argparse.SUPPRESS)
     add_renderer(parser)
     add_allow_outside(parser)
 
 
 def main(args: argparse.Namespace) -> int:
     """Launch until the duration is over, a required node dies, or Ctrl-C."""
-    if args.child is not None:
-        raise UsageError("--child, --server_uri and --run_id start nodes for another machine, which is not supported")
     if args.core and args.words:
         raise UsageError("--core launches no files")
     with quiet_imports():
@@ -104,4 +108,17 @@ def main(args: argparse.Namespace) -> int:
         only="find-node" if args.find_node else "args" if args.args else args.only,
         node=args.find_node or args.args or "",
     )
+    if args.child or args.server_uri or args.run_id:
+        return _child(args, options)
     return launch(args.words, options)
+
+
+def _child(args: argparse.Namespace, options: "LaunchOptions") -> int:
+    if not (args.child and args.server_uri and args.run_id):
+        raise UsageError("--child, --server_uri and --run_id go together: roslaunch gives its children all three")
+    if args.words or args.core or args.port is not None:
+        raise UsageError("a child launches what its parent sends, at the parent's master: no files, --core or --port")
+    from trundle.bringup.launch_child import run_child
+    from trundle.bringup.launch_parent import Parent
+
+    return run_child(Parent(args.child, args.server_uri, args.run_id), options)

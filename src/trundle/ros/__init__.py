@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from .loop import GraphLoop
     from .master import Master
     from .messages import Message, Messages, RawMessage, ServiceType
-    from .network import master_uri_from_env
+    from .network import master_uri_from_env, server_address
     from .node import Node
     from .noted import End
     from .parameters import ParameterTree, set_leaves
@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from .publisher import Publisher
     from .reconfigure import Option, Options, OptionValue, ReconfigureServer
     from .reconfigure_client import find_reconfigurable, read_options, set_options
+    from .rpc_server import RpcServer, UnknownMethodError
     from .service import Service, probe_service
     from .settings import SettingError, Settings
     from .subscription import Subscription
@@ -99,6 +100,7 @@ _HOMES = {
     "RecordOptions": "bags",
     "Recorder": "bags",
     "RosError": "errors",
+    "RpcServer": "rpc_server",
     "Service": "service",
     "ServiceError": "errors",
     "ServiceType": "messages",
@@ -115,6 +117,7 @@ _HOMES = {
     "TransformError": "errors",
     "TransformListener": "tf_nodes",
     "UnindexedBagError": "bags",
+    "UnknownMethodError": "rpc_server",
     "WallClock": "clock",
     "blocking_call": "proxy",
     "create_bag": "bags",
@@ -130,6 +133,7 @@ _HOMES = {
     "probe_service": "service",
     "read_options": "reconfigure_client",
     "recovered": "bags",
+    "server_address": "network",
     "set_leaves": "parameters",
     "set_options": "reconfigure_client",
     "split_topic": "fields",
@@ -178,6 +182,7 @@ __all__ = [
     "RecordOptions",
     "Recorder",
     "RosError",
+    "RpcServer",
     "Service",
     "ServiceError",
     "ServiceType",
@@ -194,6 +199,7 @@ __all__ = [
     "TransformError",
     "TransformListener",
     "UnindexedBagError",
+    "UnknownMethodError",
     "WallClock",
     "blocking_call",
     "create_bag",
@@ -209,6 +215,7 @@ __all__ = [
     "probe_service",
     "read_options",
     "recovered",
+    "server_address",
     "set_leaves",
     "set_options",
     "split_topic",

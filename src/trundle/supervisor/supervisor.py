@@ -24,6 +24,8 @@ class Event:
     kind: EventKind
     name: str
     text: str
+    code: int | None = None
+    """Of a job that finished or died, its exit code."""
 
 
 @dataclass(slots=True)
@@ -121,12 +123,12 @@ class Supervisor:
 
     def _report_end(self, watched: _Watched, code: int) -> None:
         if code == 0:
-            self._tell("finished", watched, "has finished cleanly")
+            self._tell("finished", watched, "has finished cleanly", code)
             return
         how = f"exit code {code}" if code > 0 else f"signal {-code}"
         last = watched.job.last_output()
         said = "; its last output:\n" + "\n".join(f"    {line}" for line in last) if last else ""
-        self._tell("died", watched, f"has died [{how}]{said}")
+        self._tell("died", watched, f"has died [{how}]{said}", code)
 
     def _end(self, watched: _Watched, code: int) -> None:
         watched.code = code
@@ -137,5 +139,5 @@ class Supervisor:
         if all(w.code is not None for w in self._watched.values()):
             self._ended.set()
 
-    def _tell(self, kind: EventKind, watched: _Watched, text: str) -> None:
-        self._listener(Event(kind=kind, name=watched.job.name, text=text))
+    def _tell(self, kind: EventKind, watched: _Watched, text: str, code: int | None = None) -> None:
+        self._listener(Event(kind=kind, name=watched.job.name, text=text, code=code))
