@@ -9,6 +9,8 @@ def main() -> int:
         import signal
 
         before = signal.signal(signal.SIGINT, signal.SIG_DFL)
+        if hasattr(signal, "pthread_sigmask"):
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])  # cpp/start.cc held it back
     except KeyboardInterrupt:
         return 130
     from trundle.cli import main as command

@@ -1,0 +1,53 @@
+// The command `trundle` on Linux and macOS: starts Python with Ctrl-C held back.
+//
+// Python answers SIGINT with a traceback from its own first milliseconds to the first line of a program's own. This one
+// holds the signal and becomes `_trundle` beside it, the script that the installer wrote for its Python;
+// trundle.__main__ lets the signal through as soon as it can be answered (decision 0010).
+
+#include <climits>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <unistd.h>
+#ifdef __APPLE__
+#include <mach-o/dyld.h>
+#endif
+
+namespace {
+
+// Where this program lies, without symbolic links.
+bool own_path(char (&path)[PATH_MAX]) {
+#ifdef __APPLE__
+  char link[PATH_MAX];
+  std::uint32_t size = sizeof link;
+  return _NSGetExecutablePath(link, &size) == 0 && realpath(link, path) != nullptr;
+#else
+  return realpath("/proc/self/exe", path) != nullptr;
+#endif
+}
+
+}  // namespace
+
+int main(int, char** arguments) {
+  sigset_t held;
+  sigemptyset(&held);
+  sigaddset(&held, SIGINT);
+  sigprocmask(SIG_BLOCK, &held, nullptr);
+  char script[PATH_MAX];
+  const char* const name = "/_trundle";
+  if (!own_path(script)) {
+    std::perror("trundle: where is this program?");
+    return 1;
+  }
+  char* const end = std::strrchr(script, '/');
+  if (static_cast<std::size_t>(end - script) + std::strlen(name) >= sizeof script) {
+    std::fprintf(stderr, "trundle: the path of this program is too long: %s\n", script);
+    return 1;
+  }
+  std::strcpy(end, name);
+  execv(script, arguments);
+  std::perror(script);
+  return 1;
+}

@@ -1,0 +1,62 @@
+"""The program `trundle` that starts Python: Ctrl-C before Python could answer it, and where it finds its script."""
+
+import shutil
+import signal
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.skipif(
+    sys.platform not in ("linux", "darwin"), reason="elsewhere the installer's own program starts Python"
+)
+
+
+def _installed() -> Path:
+    return Path(sysconfig.get_path("scripts")) / "trundle"
+
+
+def _run(*command: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=100)
+
+
+@pytest.fixture
+def beside(tmp_path: Path) -> Path:
+    """The program, in a folder without its script."""
+    return Path(shutil.copy(_installed(), tmp_path / "trundle"))
+
+
+def test_ctrl_c_before_python_has_begun_ends_it_without_a_word(beside: Path) -> None:
+    script = beside.with_name("_trundle")
+    script.write_text(f'#!/bin/sh\nkill -INT $$\nexec "{sys.executable}" -m trundle "$@"\n')
+    script.chmod(0o755)
+
+    done = _run(beside, "--version")
+
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
+
+
+def test_ctrl_c_is_let_through_afterwards() -> None:
+    held = "import signal; print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, []))"
+    started = f"import sys; sys.argv[1:] = ['--version']; from trundle.__main__ import main; main(); {held}"
+    with_it_held = f"import signal, os, sys; signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]); {started}"
+
+    assert _run(sys.executable, "-c", with_it_held).stdout.splitlines()[-1] == "False"
+
+
+def test_a_link_to_it_and_arguments_of_any_kind(tmp_path: Path) -> None:
+    link = tmp_path / "a b" / "robot"
+    link.parent.mkdir()
+    link.symlink_to(_installed())
+
+    assert _run(link, "--version").stdout == _run(_installed(), "--version").stdout != ""
+    assert "no such file" in _run(link, "check", "a 'b' \"c\" ü").stdout
+
+
+def test_without_its_script_it_says_which_is_missing(beside: Path) -> None:
+    done = _run(beside, "--version")
+
+    assert done.returncode == 1
+    assert done.stderr == f"{beside.with_name('_trundle')}: No such file or directory\n"
