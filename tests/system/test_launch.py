@@ -1,7 +1,10 @@
 """`trundle launch` as people use roslaunch: options, logs, respawn, required nodes."""
 
+import os
 import re
+import signal
 import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -209,8 +212,6 @@ def test_the_table_says_where_the_page_is(launch: Launch, package: Path) -> None
 
 
 def test_a_launch_file_may_come_in_on_standard_input(env: dict[str, str], package: Path) -> None:
-    import sys
-
     done = subprocess.run(
         [sys.executable, "-m", "trundle", "launch", "-", "--nodes"],
         input='<launch><node pkg="p" type="talk" name="n"/></launch>',
@@ -413,3 +414,29 @@ def test_a_master_of_its_own_stays_for_others_when_the_last_node_has_ended(
 
     assert trundle("param", "get", "/kept").stdout == "3\n"
     assert launched.interrupt() == 130
+
+
+def test_nodes_are_stopped_though_nobody_reads_what_is_said_any_more(env: dict[str, str], package: Path, until) -> None:
+    """`trundle launch … | tee log`: Ctrl-C ends the tee as well, and often first."""
+    (package / "main.launch").write_text(
+        '<launch><node pkg="p" type="talk" name="a"/><node pkg="tf2_ros" type="static_transform_publisher" name="b"'
+        ' args="0 0 0 0 0 0 x y"/></launch>'
+    )
+    words = [sys.executable, "-m", "trundle", "launch", "p", "main.launch", "--headless"]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(
+        words, env={**env, "ROS_PACKAGE_PATH": str(package.parent)}, stdout=pipe, stderr=pipe, text=True
+    ) as launched:
+        assert launched.stdout is not None
+        assert launched.stderr is not None
+        said = ""
+        while "process[b-2]" not in said:
+            said += launched.stdout.readline()
+        talk = int(said.partition("started with pid [")[2].partition("]")[0])
+        launched.stdout.close()
+        launched.stderr.close()
+        launched.send_signal(signal.SIGINT)
+        assert launched.wait(60) == 130
+
+    with pytest.raises(ProcessLookupError):
+        os.kill(talk, 0)

@@ -8,6 +8,7 @@ from trundle.launch import LaunchNode
 from trundle.supervisor import Event, Patience, Supervisor
 
 from .launch_nodes import Launched, NodeStarter
+from .showing import say
 
 _RULE = "=" * 80
 
@@ -81,7 +82,7 @@ class RunningNodes:
                 text = f"[{name}] {event.text}"
         self._listener(event, text)
         if event.kind not in self._unsaid:
-            print(text, flush=True)
+            say(text)
 
 
 def what_runs(launched: Sequence[Launched], pages: Sequence[str] = ()) -> str:
@@ -98,4 +99,4 @@ def what_runs(launched: Sequence[Launched], pages: Sequence[str] = ()) -> str:
 
 
 def _show_output(_name: str, line: str) -> None:
-    print(line, flush=True)  # the original prints a node's own lines as they are
+    say(line)  # the original prints a node's own lines as they are

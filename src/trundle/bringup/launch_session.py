@@ -21,6 +21,7 @@ from .launch_pages import await_urls, pages_of
 from .launch_params import set_params
 from .launch_read import ReadLaunch
 from .launch_running import Listener, RunningNodes, what_runs
+from .showing import say
 from .told_time import ToldTime
 
 if TYPE_CHECKING:
@@ -81,7 +82,7 @@ class LaunchSession:
         if options.summary and not options.core_only:
             core = {name: str(graph.loop.run(launcher.get_param(name, ""))).strip() for name in _SHOWN}
             values = {**core, **{param.name: param.value for param in read.params}}
-            print(launch_print.summary(read.plan, values), flush=True)
+            say(launch_print.summary(read.plan, values))
         graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
         programs = self._programs()
         tells_time = options.speed is None and not programs and self._may_tell_time(launcher)
@@ -199,7 +200,7 @@ class LaunchSession:
         if running.launched and not options.quiet:
             pages = pages_of(running.launched, self._page, self._world)
             urls = await_urls(pages, lambda: is_ending() or running.over)
-            print(what_runs(running.launched, urls), flush=True)
+            say(what_runs(running.launched, urls))
         return running
 
     def close(self) -> None:

@@ -17,6 +17,7 @@ from .launch_options import LaunchOptions
 from .launch_read import ReadLaunch
 from .launch_results import CaseResult, SuiteResult, read_result, write_junit
 from .launch_session import LaunchSession
+from .showing import say
 
 
 def run_tests(
@@ -123,4 +124,4 @@ def _result_file(env: Mapping[str, str], test: LaunchTest) -> Path:
 
 
 def _show(_name: str, line: str) -> None:
-    print(line, flush=True)
+    say(line)

@@ -1,8 +1,19 @@
 """What a run tells its user while it goes: lines on stderr, each finding once."""
 
+import os
+import sys
 from typing import TextIO
 
 from trundle.diagnostics import Diagnostics
+
+
+def say(text: str, stream: TextIO | None = None) -> None:
+    """Print a line, on stdout unless told otherwise; where its reader has gone, nodes still run and are stopped."""
+    stream = stream or sys.stdout
+    try:
+        print(text, file=stream, flush=True)
+    except BrokenPipeError:  # `trundle launch … | tee log`, whose tee Ctrl-C reaches too
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 class Showing:
@@ -15,7 +26,7 @@ class Showing:
 
     def line(self, text: str) -> None:
         """Say one thing."""
-        print(text, file=self._stream, flush=True)
+        say(text, self._stream)
 
     def findings(self) -> None:
         """Say what was found since the last call; notes are `trundle check`'s affair."""
