@@ -35,6 +35,8 @@ def noise(stddev: float) -> str:
     return f'<noise type="gaussian"><stddev>{stddev}</stddev></noise>'
 
 
+WANDERING = """<noise><dynamic_bias_stddev>0.2</dynamic_bias_stddev><precision>0.5</precision>
+<dynamic_bias_correlation_time>3</dynamic_bias_correlation_time></noise>"""
 SONAR = "<sonar><min>0.1</min><max>4</max><radius>1</radius></sonar>"
 
 
@@ -181,6 +183,7 @@ UP = "<localization>GRAV_UP</localization>"
             (0, 0, 0.3 - math.pi / 2),
         ),
         (UP, (0, 0, 0)),
+        ("<localization>GRAV_DOWN</localization>", (math.pi, 0, 0)),
     ],
 )
 def test_an_imu_tells_its_orientation_in_the_frame_that_it_names(hear: Any, reference: str, expected) -> None:
@@ -251,7 +254,7 @@ def test_a_force_torque_sensor_has_noise_on_each_axis(described: Any) -> None:
         (
             "imu",
             "<imu><orientation_reference_frame><localization>UP</localization></orientation_reference_frame></imu>",
-            "no localization 'UP': CUSTOM, ENU, NED, NWU, GRAV_UP; orientation is told in the world",
+            "no localization 'UP': CUSTOM, ENU, NED, NWU, GRAV_UP, GRAV_DOWN; orientation is told in the world",
         ),
     ],
 )
@@ -272,7 +275,7 @@ def test_settings_are_written_as_they_were_read(described: Any) -> None:
         sensor("magnetometer", f"<magnetometer>{quiet}</magnetometer>", name="b"),
         sensor("altimeter", f"<altimeter><vertical_velocity>{noise(1)}</vertical_velocity></altimeter>", name="c"),
         sensor("air_pressure", "<air_pressure><reference_altitude>9</reference_altitude></air_pressure>", name="d"),
-        sensor("air_speed", f"<air_speed><pressure>{noise(2)}</pressure></air_speed>", name="e"),
+        sensor("air_speed", f"<air_speed><pressure>{WANDERING}</pressure></air_speed>", name="e"),
         sensor("logical_camera", "<logical_camera><far>7</far></logical_camera>", name="f"),
         sensor("wireless_receiver", "<transceiver><gain>9</gain></transceiver>", name="g"),
         sensor("rfidtag", name="h"),

@@ -188,6 +188,19 @@ def test_rays_meet_models_that_came_while_time_went_on(tmp_path: Path) -> None:
     assert sensor.take(sim.snapshot()).ranges[0, 0] == pytest.approx(1.9, abs=1e-5)
 
 
+@pytest.mark.parametrize("type_", ["ray", "gpu_ray"])
+def test_noise_takes_no_range_beyond_the_limits(tmp_path: Path, type_: str) -> None:
+    """As in Gazebo: what is met within reach stays there, and what is not is told without noise."""
+    wild = "<noise><type>gaussian</type><stddev>50</stddev></noise>"
+    fan = "<samples>101</samples><min_angle>-1.2</min_angle><max_angle>1.2</max_angle>"
+    (row,) = read(load(tmp_path, ray(fan, noise=wild, type_=type_), others=WALL), 0.1)[-1].ranges
+    met = 1.9 / np.cos(np.linspace(-1.2, 1.2, 101)) < 5
+
+    assert np.all(np.isinf(row[~met]))
+    assert set(np.round(row[met], 6)) >= {0.2, 5.0}
+    assert np.all((row[met] >= 0.2) & (row[met] <= 5.0))
+
+
 def test_rows_of_rays_look_up_and_down(tmp_path: Path) -> None:
     ball = thing("ball", "3 0 0 0 0 0", "<sphere><radius>1</radius></sphere>")
     rows = "<vertical><samples>3</samples><min_angle>-0.6</min_angle><max_angle>0.6</max_angle></vertical>"

@@ -45,13 +45,13 @@ class OrientationReference:
     """The frame that an imu tells its orientation in."""
 
     localization: str = "CUSTOM"
-    """ENU, NED, NWU, GRAV_UP or CUSTOM."""
+    """ENU, NED, NWU, GRAV_UP, GRAV_DOWN or CUSTOM."""
     custom_rpy: Vector3 = (0.0, 0.0, 0.0)
     """Of a custom frame in its parent [rad]."""
     parent_frame: str = ""
     """world, or empty: the sensor's own frame at the start."""
     gravity_x: Vector3 = (1.0, 0.0, 0.0)
-    """The x axis of GRAV_UP, whose z points against gravity."""
+    """The x axis of GRAV_UP, whose z points against gravity, and of GRAV_DOWN, whose z points along it."""
     gravity_parent_frame: str = ""
 
 

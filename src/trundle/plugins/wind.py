@@ -110,7 +110,7 @@ class _Part:
 
     def disturb(self, value: float) -> float:
         """The value with noise."""
-        return float(self._noise.disturb(np.array([value]))[0])
+        return self._noise.disturb_one(value)
 
 
 def _read_noise(node: XmlNode | None, report: Diagnostics) -> Noise:

@@ -53,7 +53,7 @@ class _InAir(MountedSensor[PressureReading]):
 
     def take(self, snapshot: Snapshot) -> PressureReading:
         """The pressure at this instant."""
-        pressure = self._noise.disturb_one(self.pressure(snapshot))
+        pressure = self._noise.disturb_one(self.pressure(snapshot), snapshot.time_ns)
         return PressureReading(time_ns=snapshot.time_ns, pressure=pressure, variance=self._variance)
 
 

@@ -40,6 +40,8 @@ class AltimeterSensor(MountedSensor[AltimeterReading]):
         """How high it is at this instant."""
         return AltimeterReading(
             time_ns=snapshot.time_ns,
-            height=self._height.disturb_one(self.world_from_sensor(snapshot).position[2] - self._start),
-            velocity=self._speed.disturb_one(self.velocity(snapshot)[2]),
+            height=self._height.disturb_one(
+                self.world_from_sensor(snapshot).position[2] - self._start, snapshot.time_ns
+            ),
+            velocity=self._speed.disturb_one(self.velocity(snapshot)[2], snapshot.time_ns),
         )

@@ -52,8 +52,10 @@ class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
             x, y, z = axes.direction(vector)
             return (sign * x, sign * y, sign * z)
 
-        force, torque = disturbed(told(on_child.force), self._forces), disturbed(told(on_child.torque), self._torques)
-        return ForceTorqueReading(time_ns=snapshot.time_ns, wrench=Wrench(force, torque))
+        now = snapshot.time_ns
+        force = disturbed(told(on_child.force), self._forces, now)
+        torque = disturbed(told(on_child.torque), self._torques, now)
+        return ForceTorqueReading(time_ns=now, wrench=Wrench(force, torque))
 
     def _world_from_axes(self, snapshot: Snapshot) -> Pose:
         match self.settings.frame:

@@ -3,14 +3,12 @@
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from trundle.model import GpsNoise, Noise, SphericalCoordinates
 from trundle.simulation import Snapshot
 from trundle.spatial import Vector3
 
 from .mounted import MountedSensor, Spot
-from .noise import NoiseSource
+from .noise import NoiseSource, disturbed
 
 FASTEST_HZ = 10.0
 """Of a receiver whose update_rate is 0."""
@@ -52,10 +50,8 @@ class GpsSensor(MountedSensor[GpsReading]):
     def take(self, snapshot: Snapshot) -> GpsReading:
         """A fix at this instant."""
         place = self.world_from_link(snapshot).point(self.sensor.link_from_sensor.position)
-        x, y, z = (
-            float(source.disturb(np.array([value]))[0]) for value, source in zip(place, self._noise, strict=True)
-        )
-        latitude, longitude, altitude = geodetic(self._origin, (x, y, z))
+        noisy = disturbed(place, self._noise, snapshot.time_ns)
+        latitude, longitude, altitude = geodetic(self._origin, noisy)
         return GpsReading(time_ns=snapshot.time_ns, latitude_deg=latitude, longitude_deg=longitude, altitude=altitude)
 
 

@@ -53,8 +53,8 @@ class ImuSensor(MountedSensor[ImuReading]):
         return ImuReading(
             time_ns=snapshot.time_ns,
             orientation=(self._reference_from_world @ world_from_sensor).quaternion,
-            angular_velocity=disturbed(sensor_from_world.direction(turning), self._rates),
-            linear_acceleration=disturbed(sensor_from_world.direction(felt), self._accelerations),
+            angular_velocity=disturbed(sensor_from_world.direction(turning), self._rates, snapshot.time_ns),
+            linear_acceleration=disturbed(sensor_from_world.direction(felt), self._accelerations, snapshot.time_ns),
         )
 
     def _felt(self, time_ns: int, velocity: Vector3) -> Vector3:

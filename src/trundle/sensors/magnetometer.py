@@ -38,4 +38,4 @@ class MagnetometerSensor(MountedSensor[MagnetometerReading]):
         """The field at this instant."""
         world_from_sensor = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
         own = Pose(quaternion=world_from_sensor.quaternion).inverse().direction(self._field)
-        return MagnetometerReading(time_ns=snapshot.time_ns, field=disturbed(own, self._noise))
+        return MagnetometerReading(time_ns=snapshot.time_ns, field=disturbed(own, self._noise, snapshot.time_ns))

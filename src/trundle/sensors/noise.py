@@ -1,5 +1,6 @@
-"""Noise as SDF states it: a Gaussian at every reading and a bias that is drawn once."""
+"""Noise as SDF states it: a Gaussian at every reading, a bias, and steps that values are rounded to."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 from trundle.model import Noise
 from trundle.spatial import Vector3
 
+_NS = 1_000_000_000
 _Values = NDArray[np.float64]
 
 
@@ -19,20 +21,34 @@ class NoiseSource:
         self._random = random
         sign = 1.0 if random.random() < 0.5 else -1.0
         self._bias = sign * random.normal(noise.bias_mean, noise.bias_stddev)
+        self._then_ns: int | None = None
         self.is_silent = noise == Noise()
 
-    def disturb_one(self, value: float) -> float:
-        """A value with noise on it."""
-        return float(self.disturb(np.array([value]))[0])
+    def disturb_one(self, value: float, time_ns: int = 0) -> float:
+        """A value with noise on it; when matters to a bias that wanders."""
+        return float(self.disturb(np.array([value]), time_ns)[0])
 
-    def disturb(self, values: _Values) -> _Values:
-        """The values with noise on each."""
+    def disturb(self, values: _Values, time_ns: int) -> _Values:
+        """The values of an instant with noise on each."""
+        noise = self._noise
         if self.is_silent:
             return values
-        return values + self._random.normal(self._noise.mean, self._noise.stddev, values.shape) + self._bias
+        self._wander(time_ns)
+        noisy = values + self._random.normal(noise.mean, noise.stddev, values.shape) + self._bias
+        return np.round(noisy / noise.precision) * noise.precision if noise.precision else noisy
+
+    def _wander(self, time_ns: int) -> None:
+        """Let the bias go on, exactly for however long it was, as Gazebo does."""
+        density, tau = self._noise.wander_density, self._noise.wander_time_s
+        then, self._then_ns = self._then_ns, time_ns
+        if not (density and tau) or then is None or time_ns <= then:
+            return
+        elapsed = (time_ns - then) / _NS
+        spread = density * math.sqrt(-tau / 2.0 * math.expm1(-2.0 * elapsed / tau))
+        self._bias = math.exp(-elapsed / tau) * self._bias + self._random.normal(0.0, spread)
 
 
-def disturbed(values: Vector3, sources: Sequence[NoiseSource]) -> Vector3:
-    """Three numbers with the noise of each."""
-    x, y, z = (source.disturb_one(value) for value, source in zip(values, sources, strict=True))
+def disturbed(values: Vector3, sources: Sequence[NoiseSource], time_ns: int) -> Vector3:
+    """Three numbers of an instant with the noise of each."""
+    x, y, z = (source.disturb_one(value, time_ns) for value, source in zip(values, sources, strict=True))
     return (x, y, z)

@@ -30,17 +30,18 @@ def reference_from_world(
             return Pose(quaternion=quaternion_from_rpy(math.pi, 0.0, _QUARTER)) @ east_north_up
         case "NWU":
             return Pose(quaternion=quaternion_from_rpy(0.0, 0.0, -_QUARTER)) @ east_north_up
-        case "GRAV_UP":
+        case "GRAV_UP" | "GRAV_DOWN":
             parent = Pose() if reference.gravity_parent_frame == "world" else start
-            return Pose(quaternion=_against(gravity, parent.direction(reference.gravity_x))).inverse()
+            x, y, z = normalized(gravity) or (0.0, 0.0, -1.0)
+            along = (x, y, z) if reference.localization == "GRAV_DOWN" else (-x, -y, -z)
+            return Pose(quaternion=_with_z(along, parent.direction(reference.gravity_x))).inverse()
         case _:
             parent = Pose() if reference.parent_frame == "world" else start
             return (parent @ Pose(quaternion=quaternion_from_rpy(*reference.custom_rpy))).inverse()
 
 
-def _against(gravity: Vector3, ahead: Vector3) -> Quaternion:
-    """World from axes whose z points against gravity and whose x is as near to a direction as that lets it."""
-    up = normalized((-gravity[0], -gravity[1], -gravity[2])) or (0.0, 0.0, 1.0)
+def _with_z(up: Vector3, ahead: Vector3) -> Quaternion:
+    """World from axes of which z is given, and x as near to a direction as that lets it."""
     left = normalized(cross(up, ahead)) or normalized(cross(up, (0.0, 1.0, 0.0))) or (0.0, 1.0, 0.0)
     x = cross(left, up)
     yaw = math.atan2(x[1], x[0])

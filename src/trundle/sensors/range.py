@@ -52,10 +52,10 @@ class RangeSensor(MountedSensor[RangeReading]):
         pose = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
         met = self._rays(pose.position, turned(pose, self._directions), scan.max_m, self.link_index)
         found, retros = met.distances, met.retros
-        seen = np.isfinite(found)
-        found[seen] = self._noise.disturb(found[seen])
         found[found >= scan.max_m] = np.inf
-        found[found < scan.min_m] = -np.inf
+        found[found <= scan.min_m] = -np.inf
+        seen = np.isfinite(found)
+        found[seen] = np.clip(self._noise.disturb(found[seen], snapshot.time_ns), scan.min_m, scan.max_m)
         retros = np.where(np.isfinite(found), retros, 0.0)
         shape = (scan.vertical.values, scan.horizontal.values)
         return RangeReading(

@@ -81,7 +81,7 @@ def read_imu(sensor: XmlNode, context: Context) -> ImuNoise:
     return ImuNoise(angular_velocity=rates, linear_acceleration=accelerations, reference=reference)
 
 
-_LOCALIZATIONS = ("CUSTOM", "ENU", "NED", "NWU", "GRAV_UP")
+_LOCALIZATIONS = ("CUSTOM", "ENU", "NED", "NWU", "GRAV_UP", "GRAV_DOWN")
 
 
 def _reference(node: XmlNode | None, context: Context) -> OrientationReference | None:

@@ -3,7 +3,7 @@
 from trundle.model import Noise
 from trundle.xmlnode import XmlNode
 
-from .context import Context, leave_out
+from .context import Context
 
 
 def read_noise(node: XmlNode | None, context: Context) -> Noise:
@@ -19,9 +19,19 @@ def read_noise(node: XmlNode | None, context: Context) -> Noise:
         stddev=abs(node.number("stddev", default=0.0, report=report)),
         bias_mean=node.number("bias_mean", default=0.0, report=report),
         bias_stddev=abs(node.number("bias_stddev", default=0.0, report=report)),
+        wander_density=max(0.0, node.number("dynamic_bias_stddev", default=0.0, report=report)),
+        wander_time_s=max(0.0, node.number("dynamic_bias_correlation_time", default=0.0, report=report)),
+        precision=_precision(node, context),
     )
-    leave_out(node, ("precision", "dynamic_bias_stddev", "dynamic_bias_correlation_time"), "is not simulated", context)
     if not type_.startswith("gaussian"):
         report.warn(node.at, f"no noise type {type_!r}; gaussian is used")
     node.report_unread(report)
     return noise
+
+
+def _precision(node: XmlNode, context: Context) -> float:
+    precision = node.number("precision", default=0.0, report=context.report)
+    if precision >= 0.0:
+        return precision
+    context.report.warn(node.at, f"a precision of {precision:g} is not possible; values are not rounded")
+    return 0.0

@@ -77,3 +77,6 @@ def add_noise(home: Tag, noise: Noise) -> None:
     tag.add("stddev", noise.stddev)
     tag.add_unless("bias_mean", noise.bias_mean, default=0.0)
     tag.add_unless("bias_stddev", noise.bias_stddev, default=0.0)
+    tag.add_unless("dynamic_bias_stddev", noise.wander_density, default=0.0)
+    tag.add_unless("dynamic_bias_correlation_time", noise.wander_time_s, default=0.0)
+    tag.add_unless("precision", noise.precision, default=0.0)
