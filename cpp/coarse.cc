@@ -84,7 +84,7 @@ Mesh gathered(const Mesh& mesh, const Grid& grid, const std::vector<int32_t>& fa
     if (from.empty()) return;
     for (const int32_t face : faces) to.insert(to.end(), &from[width * (size_t)face], &from[width * (size_t)face] + width);
   };
-  copy(mesh.normals, made.normals, 3), copy(mesh.layout, made.layout, 8), copy(mesh.bend, made.bend, 12);
+  copy(mesh.normals, made.normals, 4), copy(mesh.layout, made.layout, 8), copy(mesh.bend, made.bend, 12);
   return made;
 }
 

@@ -88,6 +88,7 @@ Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& f
         mesh.high[axis] = std::max(mesh.high[axis], corner[axis]);
       }
     }
+    mesh.normals.push_back(0.0f);
     const Vec3 origin = {p[0][0], p[0][1], p[0][2]};
     for (int axis = 0; axis < 2 && !uv.empty(); ++axis) {
       const double first = uv[2 * i + axis], whole = std::floor(first);  // it repeats: small numbers are exact
@@ -107,32 +108,33 @@ Image make_image(const uint8_t* rgb, int32_t width, int32_t height) {
     throw std::invalid_argument("a texture is 1 to 16384 pixels wide and high");
   Image image;
   Texture& texture = image.texture;
-  for (int32_t row = height - 1; row >= 0; --row)
-    for (int32_t column = 0; column < width; ++column) {
-      const uint8_t* pixel = rgb + 3 * ((size_t)row * width + column);
-      image.texels.push_back(pixel[0] | pixel[1] << 8 | pixel[2] << 16);
-    }
-  texture.width[0] = width, texture.height[0] = height, texture.start[0] = 0, texture.level_count = 1;
-  while ((width > 1 || height > 1) && texture.level_count < kMostLevels) {
-    const int32_t from = texture.start[texture.level_count - 1];
-    const int32_t half_width = std::max(width / 2, 1), half_height = std::max(height / 2, 1);
+  // One more column and row, which are the first ones.
+  const auto add_level = [&](int32_t columns, int32_t rows, const auto& word_at) {
     const int32_t level = texture.level_count++;
     texture.start[level] = (int32_t)image.texels.size();
-    texture.width[level] = half_width, texture.height[level] = half_height;
-    for (int32_t row = 0; row < half_height; ++row)
-      for (int32_t column = 0; column < half_width; ++column) {
-        const int32_t x0 = std::min(2 * column, width - 1), x1 = std::min(2 * column + 1, width - 1);
-        const int32_t y0 = std::min(2 * row, height - 1), y1 = std::min(2 * row + 1, height - 1);
-        int32_t word = 0;
-        for (const int shift : {0, 8, 16}) {
-          int32_t sum = 2;
-          for (const int32_t y : {y0, y1})
-            for (const int32_t x : {x0, x1}) sum += image.texels[from + y * width + x] >> shift & 255;
-          word |= sum / 4 << shift;
-        }
-        image.texels.push_back(word);
+    texture.width[level] = columns, texture.height[level] = rows;
+    for (int32_t row = 0; row <= rows; ++row)
+      for (int32_t column = 0; column <= columns; ++column) image.texels.push_back(word_at(column % columns, row % rows));
+  };
+  add_level(width, height, [&](int32_t column, int32_t row) {
+    const uint8_t* pixel = rgb + 3 * ((size_t)(height - 1 - row) * width + column);
+    return pixel[0] | pixel[1] << 8 | pixel[2] << 16;
+  });
+  while ((width > 1 || height > 1) && texture.level_count < kMostLevels) {
+    const int32_t from = texture.start[texture.level_count - 1], pitch = width + 1;
+    add_level(std::max(width / 2, 1), std::max(height / 2, 1), [&](int32_t column, int32_t row) {
+      const int32_t x0 = std::min(2 * column, width - 1), x1 = std::min(2 * column + 1, width - 1);
+      const int32_t y0 = std::min(2 * row, height - 1), y1 = std::min(2 * row + 1, height - 1);
+      int32_t word = 0;
+      for (const int shift : {0, 8, 16}) {
+        int32_t sum = 2;
+        for (const int32_t y : {y0, y1})
+          for (const int32_t x : {x0, x1}) sum += image.texels[from + y * pitch + x] >> shift & 255;
+        word |= sum / 4 << shift;
       }
-    width = half_width, height = half_height;
+      return word;
+    });
+    width = std::max(width / 2, 1), height = std::max(height / 2, 1);
   }
   return image;
 }

@@ -27,7 +27,7 @@ struct View {
 struct Triangles {
   const float* places[3];     // x, y and z of the vertices [m]
   const int32_t* corners[3];  // vertices of each face, counter-clockwise from outside
-  const float* normals;       // (face_count, 3), unit, outwards
+  const float* normals;       // (face_count, 4), unit, outwards, and 0
   const float* layout;        // (face_count, 8): u and v, each as gradient [1/m] and value at the origin; may be null
   const float* bend;          // (face_count, 12): x, y and z of normals that run over edges, as the layout; may be null
   int32_t vertex_count, face_count;
@@ -54,7 +54,7 @@ struct BvhView {
   const BvhLeaf* leaves;
 };
 
-// An image and its halves, down to one pixel; it repeats.
+// An image and its halves, down to one pixel; it repeats: each has its first column and row again after its last ones.
 struct Texture {
   const int32_t* texels;  // red | green << 8 | blue << 16, the lowest row first
   int32_t level_count;

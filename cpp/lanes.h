@@ -164,6 +164,51 @@ inline F gather(const float* from, I at) {
 #endif
 }
 inline I gather(const int32_t* from, I at) { return (I)gather((const float*)from, at); }
+
+// Of each lane four numbers that lie side by side, from `at` on: they are loaded together and then turned, which costs
+// as much as to gather one of them.
+inline void gather_four(const float* from, I at, F four[4]) {
+#if defined(__AVX2__)
+  const auto row = [&](int lane) { return _mm_loadu_ps(from + (uint32_t)at[lane]); };
+  const auto rows = [&](int lane) { return _mm256_insertf128_ps(_mm256_castps128_ps256(row(lane)), row(lane + 4), 1); };
+#endif
+#if defined(__AVX512F__)
+  __m512 r[4];
+  for (int i = 0; i < 4; ++i) r[i] = _mm512_insertf32x8(_mm512_castps256_ps512(rows(i)), rows(i + 8), 1);
+  const __m512 a = _mm512_unpacklo_ps(r[0], r[1]), b = _mm512_unpackhi_ps(r[0], r[1]);
+  const __m512 c = _mm512_unpacklo_ps(r[2], r[3]), d = _mm512_unpackhi_ps(r[2], r[3]);
+  four[0] = (F)_mm512_shuffle_ps(a, c, 0x44), four[1] = (F)_mm512_shuffle_ps(a, c, 0xee);
+  four[2] = (F)_mm512_shuffle_ps(b, d, 0x44), four[3] = (F)_mm512_shuffle_ps(b, d, 0xee);
+#elif defined(__AVX2__)
+  const __m256 r[4] = {rows(0), rows(1), rows(2), rows(3)};
+  const __m256 a = _mm256_unpacklo_ps(r[0], r[1]), b = _mm256_unpackhi_ps(r[0], r[1]);
+  const __m256 c = _mm256_unpacklo_ps(r[2], r[3]), d = _mm256_unpackhi_ps(r[2], r[3]);
+  four[0] = (F)_mm256_shuffle_ps(a, c, 0x44), four[1] = (F)_mm256_shuffle_ps(a, c, 0xee);
+  four[2] = (F)_mm256_shuffle_ps(b, d, 0x44), four[3] = (F)_mm256_shuffle_ps(b, d, 0xee);
+#else
+  for (int i = 0; i < kLanes; ++i)
+    for (int k = 0; k < 4; ++k) four[k][i] = from[at[i] + k];
+#endif
+}
+
+// Of each lane two neighbours.
+inline void gather_two(const int32_t* from, I at, I& first, I& second) {
+#if defined(__AVX512F__)
+  first = gather(from, at), second = gather(from + 1, at);
+#elif defined(__AVX2__)
+  __m256 pairs[2];
+  for (int i = 0; i < 2; ++i) {
+    const auto two = [&](int lane) {
+      const __m128 pair = _mm_castsi128_ps(_mm_loadl_epi64((const __m128i*)(from + (uint32_t)at[lane])));
+      return _mm_loadh_pi(pair, (const __m64*)(from + (uint32_t)at[lane + 1]));
+    };
+    pairs[i] = _mm256_insertf128_ps(_mm256_castps128_ps256(two(2 * i)), two(2 * i + 4), 1);
+  }
+  first = (I)_mm256_shuffle_ps(pairs[0], pairs[1], 0x88), second = (I)_mm256_shuffle_ps(pairs[0], pairs[1], 0xdd);
+#else
+  for (int i = 0; i < kLanes; ++i) first[i] = from[at[i]], second[i] = from[at[i] + 1];
+#endif
+}
 inline void store(float* at, F value) { __builtin_memcpy(at, &value, sizeof value); }
 inline void store(int32_t* at, I value) { __builtin_memcpy(at, &value, sizeof value); }
 

@@ -56,9 +56,9 @@ inline Layout layout_at(const Solid& solid, const F3& p, const F3& normal) {
 }
 
 inline Layout layout_of_face(const Triangles& mesh, const F3& p, I faces, I mask) {
-  faces &= mask;
+  const I at = (faces & mask) * 8;
   F g[8];
-  for (int i = 0; i < 8; ++i) g[i] = gather(mesh.layout + i, faces * 8);
+  gather_four(mesh.layout, at, g), gather_four(mesh.layout + 4, at, g + 4);
   const F du = g[0] * g[0] + g[1] * g[1] + g[2] * g[2], dv = g[4] * g[4] + g[5] * g[5] + g[6] * g[6];
   return {g[0] * p.x + g[1] * p.y + g[2] * p.z + g[3], g[4] * p.x + g[5] * p.y + g[6] * p.z + g[7], max(du, dv)};
 }
@@ -67,24 +67,29 @@ inline F channel(I texel, int shift) { return to_float((texel >> shift) & 255); 
 
 // The four texels around each place, on the level whose texels are about as large as what a pixel covers: the square of
 // its length is given, in shares of the texture.
-inline F3 texel_at(const Texture& texture, const Layout& layout, F squared_footprint) {
+inline F3 texel_at(const Texture& texture, const Layout& layout, F squared_footprint, I mask, int& usual_level) {
   const float across = (float)(texture.width[0] > texture.height[0] ? texture.width[0] : texture.height[0]);
   const F texels = max(min(squared_footprint * (across * across), splat(1e30f)), splat(1.0f));
   // The level is the binary logarithm of the length, rounded: half of that of twice its square, rounded down.
   const I level = min_of((((I)(texels * 2.0f) >> 23) - 127) >> 1, texture.level_count - 1);
-  const I width = gather(texture.width, level), height = gather(texture.height, level);
+  I width, height, start;
+  if (any(mask & (level != usual_level))) {
+    width = gather(texture.width, level), height = gather(texture.height, level), start = gather(texture.start, level);
+    usual_level = level[__builtin_ctz(bits(mask))];
+  } else {
+    width = splat(texture.width[usual_level]), height = splat(texture.height[usual_level]);
+    start = splat(texture.start[usual_level]);
+  }
   // Repeated before it is multiplied, so that far places stay exact; what is no number becomes 0.
   F u = layout.u - floor(layout.u), v = layout.v - floor(layout.v);
   u = select((u >= 0.0f) & (u <= 1.0f), u, F{}) * to_float(width) - 0.5f;
   v = select((v >= 0.0f) & (v <= 1.0f), v, F{}) * to_float(height) - 0.5f;
   const F left = floor(u), low = floor(v), x = u - left, y = v - low;
   I column = to_int(left), row = to_int(low);  // from -1, which is the last one, on
-  const I next_column = select(column + 1 < width, column + 1, I{}), next_row = select(row + 1 < height, row + 1, I{});
   column = select(column < 0, width - 1, column), row = select(row < 0, height - 1, row);
-  const I start = gather(texture.start, level);
-  const I here = start + row * width, above = start + next_row * width;
-  const I a = gather(texture.texels, here + column), b = gather(texture.texels, here + next_column);
-  const I c = gather(texture.texels, above + column), d = gather(texture.texels, above + next_column);
+  const I here = start + row * (width + 1) + column;
+  I a, b, c, d;
+  gather_two(texture.texels, here, a, b), gather_two(texture.texels, here + width + 1, c, d);
   F value[3];
   for (int i = 0; i < 3; ++i) {
     const int shift = 8 * i;

@@ -53,7 +53,7 @@ struct Lit {
   F3 diffuse, specular;
 };
 
-inline void add_light(const Light& lamp, const Solid& solid, const F3& point, const F3& n, const F3& back, Lit& lit) {
+__attribute__((always_inline)) inline void add_light(const Light& lamp, const Solid& solid, const F3& point, const F3& n, const F3& back, Lit& lit) {
   const Look& look = *solid.look;
   F3 towards = splat(lamp.towards);
   F strength = splat(1.0f);
@@ -96,8 +96,9 @@ inline F clear_share(const Fog& fog, F depth) {
 }
 
 inline F3 normal_of_face(const Triangles& mesh, I faces, I mask) {
-  const I at = (faces & mask) * 3;
-  return {gather(mesh.normals, at), gather(mesh.normals + 1, at), gather(mesh.normals + 2, at)};
+  F n[4];
+  gather_four(mesh.normals, (faces & mask) * 4, n);
+  return {n[0], n[1], n[2]};
 }
 
 // What runs over the edges of faces, of about unit length.
@@ -105,8 +106,9 @@ inline F3 normal_at_point(const Triangles& mesh, const F3& p, I faces, I mask) {
   const I at = (faces & mask) * 12;
   F n[3];
   for (int i = 0; i < 3; ++i) {
-    const float* from = mesh.bend + 4 * i;
-    const F value = gather(from, at) * p.x + gather(from + 1, at) * p.y + gather(from + 2, at) * p.z + gather(from + 3, at);
+    F slope[4];
+    gather_four(mesh.bend + 4 * i, at, slope);
+    const F value = slope[0] * p.x + slope[1] * p.y + slope[2] * p.z + slope[3];
     n[i] = max(min(value, splat(1.0f)), splat(-1.0f));  // beside thin faces, single precision leaves the range
   }
   return {n[0], n[1], n[2]};
@@ -120,6 +122,7 @@ void shade_solid(const View& view, const Solid& solid, const Lighting& lighting,
   const float step = 1.0f / view.focal;
   const bool see_through = look.opacity < 1.0f;
   const int first = solid.left / kLanes * kLanes;
+  int usual_level = 0;
   for (int row = solid.top; row < solid.bottom; ++row) {
     const float z = (view.centre_v - ((float)row + 0.5f)) * step;
     for (int column = first; column < solid.right; column += kLanes) {
@@ -159,7 +162,7 @@ void shade_solid(const View& view, const Solid& solid, const Lighting& lighting,
         const float most = step * (repeat[0] > repeat[1] ? repeat[0] : repeat[1]);
         layout.u = (layout.u - 0.5f) * repeat[0] + 0.5f, layout.v = (layout.v - 0.5f) * repeat[1] + 0.5f;
         const F across = depth * most, facing = max(dot(n, back), splat(0.05f));
-        lit.diffuse = lit.diffuse * texel_at(*look.texture, layout, layout.squared_scale * (across * across) / facing);
+        lit.diffuse = lit.diffuse * texel_at(*look.texture, layout, layout.squared_scale * (across * across) / facing, mask, usual_level);
       }
       F3 colour = lit.diffuse + lit.specular;
       if (lighting.fog.kind != FogKind::kNone) {
