@@ -73,6 +73,7 @@ def test_registering_is_answered_as_by_rosmaster(stdlib: Any) -> None:
         (("searchParam", "/a/b", "nope"), -1, "Cannot find parameter [nope] in an upwards search"),
         (("hasParam", "/a", ""), -1, "must be specified and non-empty"),
         (("setParam", "/a", "/", 3), -1, "cannot set root of parameter tree to non-dictionary"),
+        (("setParam", "/a", "/deep" * 1000, 3), -1, "ERROR: parameters nest deeper than 100"),
     ],
 )
 def test_what_is_refused_is_refused_in_rosmasters_words(

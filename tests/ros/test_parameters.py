@@ -2,8 +2,8 @@
 
 import pytest
 
-from trundle.ros import ParameterTree, set_leaves
-from trundle.ros.parameters import updates
+from trundle.ros import ParameterError, ParameterTree, set_leaves
+from trundle.ros.parameters import MAX_BYTES, updates
 
 
 def _tree(**values: object) -> ParameterTree:
@@ -48,6 +48,33 @@ def test_deleting_what_is_not_there_is_a_key_error(name: str) -> None:
 def test_the_root_takes_only_a_dictionary() -> None:
     with pytest.raises(TypeError, match="root"):
         _tree().set("/", 3)
+
+
+def test_all_parameters_together_are_bounded() -> None:
+    """Many values, each of them acceptable, must not fill the master's memory; what goes makes room."""
+    tree = _tree(a="x" * (MAX_BYTES // 2))
+    tree.set("/b", {"c": ["y" * (MAX_BYTES // 4)]})
+    with pytest.raises(ParameterError, match=r"all parameters together would take \d+ bytes"):
+        tree.set("/one/more", "z" * (MAX_BYTES // 4))
+    assert tree.names() == ["/a", "/b/c"]
+
+    tree.set("/a", "x" * (MAX_BYTES // 2))  # the same once more is no more
+    tree.delete("/b")
+    tree.set("/one/more", "z" * (MAX_BYTES // 4))
+    tree.set("/one", {})
+    tree.set("/a/below", 1)  # in place of the long text
+    tree.set("/b", "y" * (MAX_BYTES // 8 * 7))
+    with pytest.raises(ParameterError):
+        tree.set("/a/below", "z" * (MAX_BYTES // 4))
+    with pytest.raises(ParameterError):
+        tree.set("/", {"c": "z" * MAX_BYTES})
+
+
+def test_a_name_of_very_many_parts_is_refused() -> None:
+    tree = _tree()
+    with pytest.raises(ParameterError, match="nest deeper"):
+        tree.set("/a" * 10_000, 1)
+    assert tree.names() == []
 
 
 def test_a_search_goes_upwards_and_the_first_part_decides() -> None:

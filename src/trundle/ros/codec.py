@@ -1,6 +1,5 @@
 """One message type as bytes: what rosbags made for it, called as little as can be."""
 
-import dataclasses
 import struct
 import sys
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
@@ -55,7 +54,9 @@ class Codec:
         array: Any = getattr(message, self._array) if self._array else None
         if getattr(array, "nbytes", 0) < _LONG_BYTES or not self._lies_as_written(array):
             return (self.write(message, room=room),)
-        rest = self.write(dataclasses.replace(message, **{self._array: array[:0]}), room=room)
+        without = object.__new__(type(message))  # in a quarter of the time of `dataclasses.replace`
+        without.__dict__.update(message.__dict__, **{self._array: array[:0]})
+        rest = self.write(without, room=room)
         end = len(rest) - self._behind
         _COUNT.pack_into(rest, end - _COUNT.size, len(array))
         head, pixels = rest[:end], memoryview(array).cast("B").toreadonly()

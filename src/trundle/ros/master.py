@@ -9,6 +9,7 @@ from typing import Any
 
 from trundle.names import canonical_name, parent_namespace, resolve_name
 
+from .errors import ParameterError
 from .network import LOOPBACK, server_address
 from .notices import Notices
 from .parameters import ParameterTree, updates
@@ -207,12 +208,15 @@ class Master:
             self.set_param(name, value, by=caller)
         except TypeError as error:
             return -1, f"Error: invalid arguments: {error}", 0
+        except ParameterError as error:
+            return -1, f"ERROR: {error}", 0
         return 1, f"parameter {name} set", 0
 
     def set_param(self, name: str, value: object, by: str = "/master") -> None:
         """Set a parameter by its global name and tell the nodes that follow it, except the one that set it.
 
         Raises:
+            ParameterError: there are too many.
             TypeError: the root can only be a dictionary.
         """
         self.parameters.set(name, value)

@@ -3,9 +3,16 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeAlias
 
+from .errors import ParameterError
+
 Tree: TypeAlias = "dict[str, Any]"
 Update: TypeAlias = tuple[str, str, object]
 """(subscribed key, changed key, new value); the keys end with a slash."""
+MAX_BYTES = 64 * 1024 * 1024
+"""All parameters together: as much as one answer holds, so that who asks for all gets them."""
+MAX_DEPTH = 100
+_ITEM_BYTES = 64
+"""Of a name or a number, with what XML-RPC writes around it."""
 
 
 class ParameterTree:
@@ -13,6 +20,8 @@ class ParameterTree:
 
     def __init__(self) -> None:
         self._root: Tree = {}
+        self._bytes = 0
+        """About what `_root` takes as XML-RPC."""
 
     def get(self, name: str) -> Any:
         """Return a value, or a namespace as a dictionary."""
@@ -24,13 +33,24 @@ class ParameterTree:
         return value
 
     def set(self, name: str, value: object) -> None:
-        """Set a value, or replace a whole namespace by a dictionary; a value in the way becomes a namespace."""
+        """Set a value, or replace a whole namespace by a dictionary; a value in the way becomes a namespace.
+
+        Raises:
+            ParameterError: there would be more than `MAX_BYTES` of parameters, or some deeper than `MAX_DEPTH`.
+            TypeError: the root can only be a dictionary.
+        """
         *namespaces, last = _parts(name) or [""]
+        size = self._bytes + self._growth(name, value)
+        if size > MAX_BYTES:
+            raise ParameterError(f"all parameters together would take {size} bytes, more than the {MAX_BYTES} accepted")
+        if len(namespaces) >= MAX_DEPTH:
+            raise ParameterError(f"parameters nest deeper than {MAX_DEPTH}")
         if not last:
             if not isinstance(value, dict):
                 raise TypeError("cannot set root of parameter tree to non-dictionary")
-            self._root = value
+            self._root, self._bytes = value, size
             return
+        self._bytes = size
         tree = self._root
         for part in namespaces:
             below = tree.get(part)
@@ -45,7 +65,7 @@ class ParameterTree:
         tree: Any = self.get("/".join(namespaces))
         if not last or not isinstance(tree, dict):
             raise KeyError(name)
-        del tree[last]
+        self._bytes -= _size({last: tree.pop(last)})
 
     def has(self, name: str) -> bool:
         """Tell whether a value or a namespace of this name is there."""
@@ -70,6 +90,18 @@ class ParameterTree:
     def names(self) -> list[str]:
         """Name every value; an empty namespace has none."""
         return [name for name, value in _walk("", self._root) if not isinstance(value, dict)]
+
+    def _growth(self, name: str, value: object) -> int:
+        """By how much the tree's size changes if a value is set."""
+        parts = _parts(name)
+        at: Any = self._root
+        for depth, part in enumerate(parts):
+            if not isinstance(at, dict):
+                return sum(_ITEM_BYTES + len(part) for part in parts[depth:]) + _size(value) - _size(at)
+            if part not in at:
+                return sum(_ITEM_BYTES + len(part) for part in parts[depth:]) + _size(value)
+            at = at[part]
+        return _size(value) - _size(at)
 
 
 def updates(subscribed: Iterable[str], name: str, value: object) -> list[Update]:
@@ -103,6 +135,15 @@ def set_leaves(name: str, value: object, put: Callable[[str, object], None]) -> 
 
 def _parts(name: str) -> list[str]:
     return [part for part in name.split("/") if part]
+
+
+def _size(value: Any) -> int:
+    """Count the bytes of a value, about as XML-RPC writes it."""
+    if isinstance(value, dict):
+        return sum(_ITEM_BYTES + len(str(key)) + _size(below) for key, below in value.items())
+    if isinstance(value, list | tuple):
+        return sum(map(_size, value))
+    return _ITEM_BYTES + (len(value) if isinstance(value, str | bytes) else 0)
 
 
 def _with_slash(name: str) -> str:
