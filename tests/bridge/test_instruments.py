@@ -37,6 +37,8 @@ def noise(stddev: float) -> str:
 
 WANDERING = """<noise><dynamic_bias_stddev>0.2</dynamic_bias_stddev><precision>0.5</precision>
 <dynamic_bias_correlation_time>3</dynamic_bias_correlation_time></noise>"""
+FAR = "<range><max>9</max></range></ray>"
+PINK = "<noise><type>pink</type></noise>"
 SONAR = "<sonar><min>0.1</min><max>4</max><radius>1</radius></sonar>"
 
 
@@ -243,6 +245,14 @@ def test_a_force_torque_sensor_has_noise_on_each_axis(described: Any) -> None:
             "<ray><scan><horizontal><resolution>-2</resolution></horizontal></scan><range><max>1</max></range></ray>",
             "a resolution of -2 values a ray is not possible; 1 is used",
         ),
+        (
+            "ray",
+            "<ray><scan><horizontal><samples>0</samples></horizontal></scan>" + FAR,
+            "0 samples see nothing; 1 is used",
+        ),
+        ("ray", f"<ray>{PINK}{FAR}", "no noise type 'pink': gaussian, gaussian_quantized, none; none is used"),
+        ("ray", f"<ray><noise><precision>-1</precision></noise>{FAR}", "a precision of -1 is not possible"),
+        ("contact", "<contact><collision>b_m::l::nobody</collision></contact>", "no collision 'nobody' on link 'l';"),
         ("sonar", "<sonar><geometry>cube</geometry></sonar>", "no sonar geometry 'cube': cone or sphere; cone is used"),
         ("logical_camera", "<logical_camera><near>3</near></logical_camera>", "near 3, far 1 hold nothing"),
         (
@@ -266,6 +276,35 @@ def test_settings_that_cannot_be_are_mended_aloud(described: Any, type_: str, in
     (warning,) = sim.report.warnings
     assert "w.sdf:1: warning: " in warning
     assert sentence in warning
+
+
+def test_a_force_torque_sensor_on_a_link_says_that_it_tells_nothing(described: Any) -> None:
+    sim = described(bot(sensor("force_torque")))
+
+    assert mount_sensors(sim) == []
+    (warning,) = sim.report.warnings
+    assert warning.endswith("sensor 's': force_torque sensors measure joints; on a link it tells nothing")
+
+
+@pytest.mark.parametrize(
+    ("air", "height", "expected"),
+    [
+        ("<temperature>0</temperature>", "0", 101325.0),
+        ("<pressure>-4</pressure>", "0", 101325.0),
+        (
+            "<temperature>1</temperature><temperature_gradient>-1e-9</temperature_gradient>",
+            "-1e6",
+            101325.0 * math.exp(100),
+        ),
+        ("<temperature_gradient>1e300</temperature_gradient>", "1e300", 0.0),
+    ],
+)
+def test_air_that_cannot_be_crushes_nothing(described: Any, air: str, height: str, expected: float) -> None:
+    own = sensor("air_pressure", f"<air_pressure><reference_altitude>{height}</reference_altitude></air_pressure>")
+    sim = described(f"<atmosphere>{air}</atmosphere>" + bot(own))
+    (barometer,) = mount_sensors(sim)
+
+    assert barometer.take(sim.snapshot()).pressure == pytest.approx(expected)
 
 
 def test_settings_are_written_as_they_were_read(described: Any) -> None:

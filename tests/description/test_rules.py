@@ -125,6 +125,45 @@ def test_a_fixed_joint_lumps_its_links_by_the_parallel_axis_theorem(tmp_path: Pa
     assert link.inertial.moments == pytest.approx((2.0, 6.0, 6.0))
 
 
+def test_sensors_of_lumped_links_are_told_apart_and_those_of_lumped_joints_named(tmp_path: Path) -> None:
+    report = Diagnostics()
+    eyes = "".join(
+        f'<gazebo reference="{link}"><sensor name="eye" type="imu"><pose>0 0 1 0 0 0</pose></sensor></gazebo>'
+        for link in ("base", "arm")
+    )
+    carried = '<provideFeedback>1</provideFeedback><sensor name="ft" type="force_torque"/>'
+    text = URDF.format(f'{eyes}<gazebo reference="weld">{carried}</gazebo>')
+
+    (model,) = read(tmp_path, text, report, name="r.urdf").world.models
+
+    sensors = model.links[0].sensors
+    assert [(s.name, s.link_from_sensor.position) for s in sensors] == [("eye", (0, 0, 1)), ("eye_2", (1, 0, 1))]
+    twice, lumped = report.warnings
+    assert twice.endswith("link 'base' has a sensor 'eye' already; this one is called 'eye_2'")
+    assert "<sensor> for 'weld' in <gazebo> is for a fixed joint that is lumped (<preserveFixedJoint>" in lumped
+
+
+def test_cameras_of_one_name_are_told_apart(tmp_path: Path) -> None:
+    report = Diagnostics()
+    both = '<camera name="c"/><camera name="c"/>'
+    model = sdf(tmp_path, "1.6", f'<link name="l"><sensor name="s" type="multicamera">{both}</sensor></link>', report)
+
+    assert [camera.name for camera in model.links[0].sensors[0].cameras] == ["c", "c_1"]
+    (warning,) = report.warnings
+    assert warning.endswith("there is a camera 'c' already; this one is called 'c_1'")
+
+
+def test_a_joint_that_tells_what_it_carries_is_nothing_to_remark(tmp_path: Path) -> None:
+    """Every joint does."""
+    report = Diagnostics()
+    joint = HINGE.format("", "").replace(
+        "</joint>", "<physics><provide_feedback>1</provide_feedback></physics></joint>"
+    )
+    sdf(tmp_path, "1.6", TURNED + joint, report)
+
+    assert not [each for each in report.findings if "<physics>" in str(each)]
+
+
 def test_a_link_without_mass_falls_away_with_all_below_it(tmp_path: Path) -> None:
     report = Diagnostics()
     more = (

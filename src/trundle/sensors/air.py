@@ -16,6 +16,8 @@ _MOLAR_MASS = 0.0289644
 """[kg/mol] Of dry air."""
 _GAS = 8.31446
 """[J/(mol K)]"""
+_DENSEST = 100.0
+"""Logarithm of how much denser than at the ground air becomes below it."""
 _COLDEST = 1.0
 """[K] Above where the air would be colder it is all the same."""
 
@@ -84,9 +86,11 @@ class AirSpeedSensor(_InAir):
 def pressure_at(air: Atmosphere, height: float) -> float:
     """Pressure [Pa] at a height [m], by the barometric formula for air whose temperature changes evenly."""
     if air.temperature_gradient == 0.0:
-        return air.pressure * math.exp(-_GRAVITY * _MOLAR_MASS * height / (_GAS * air.temperature))
+        thinner = -_GRAVITY * _MOLAR_MASS * height / (_GAS * air.temperature)
+        return air.pressure * math.exp(min(thinner, _DENSEST))
     exponent = -_GRAVITY * _MOLAR_MASS / (_GAS * air.temperature_gradient)
-    return air.pressure * (_temperature_at(air, height) / air.temperature) ** exponent
+    thinner = exponent * math.log(_temperature_at(air, height) / air.temperature)
+    return air.pressure * math.exp(min(thinner, _DENSEST))
 
 
 def density_at(air: Atmosphere, height: float) -> float:

@@ -75,6 +75,9 @@ def mount_sensors(
             for sensor in link.sensors:
                 number += 1
                 make = _MAKERS.get(sensor.type)
+                if sensor.type == "force_torque" and wanted:
+                    what = f"sensor {sensor.name!r}: force_torque sensors measure joints; on a link it tells nothing"
+                    simulation.report.warn(sensor.at, what)
                 if make is not None and wanted:
                     random = np.random.default_rng([simulation.seed, number])
                     made = make(_Site(simulation, around, Spot(owner, link, sensor, index, random)))
@@ -139,6 +142,16 @@ def _wireless_receiver(at: _Site) -> WirelessSensor:
     return WirelessSensor(at.spot, transmitters=lambda: around.beacons("wireless_transmitter"), rays=around.rays)
 
 
+def _contact(at: _Site) -> ContactSensor:
+    sensor, link = at.spot.sensor, at.spot.link
+    there = [collision.name for collision in link.collisions]
+    for name in sensor.touching or ():
+        if name not in there:
+            what = f"no collision {name!r} on link {link.name!r}; collisions here: {', '.join(there) or 'none'}"
+            at.simulation.report.warn(sensor.at, f"sensor {sensor.name!r}: {what}")
+    return ContactSensor(at.spot, contacts=at.simulation.contacts)
+
+
 def _gps(at: _Site) -> GpsSensor:
     return GpsSensor(at.spot, origin=at.world.spherical_coordinates)
 
@@ -147,7 +160,7 @@ _MAKERS: Mapping[str, Callable[[_Site], MeasuringSensor]] = {
     "air_pressure": lambda at: AirPressureSensor(at.spot, air=at.world.atmosphere),
     "air_speed": _air_speed,
     "altimeter": lambda at: AltimeterSensor(at.spot, start_height=at.spot.start().position[2]),
-    "contact": lambda at: ContactSensor(at.spot, contacts=at.simulation.contacts),
+    "contact": _contact,
     "gps": _gps,
     "gpu_lidar": _range,
     "gpu_ray": _range,

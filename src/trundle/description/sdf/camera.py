@@ -50,8 +50,14 @@ def read_cameras(sensor: XmlNode, type_: str, context: Context) -> tuple[CameraO
         )
         return (_with_lens(CameraOptics(), None, type_, context),)
     if type_ == "multicamera":
-        names = [node.attribute("name") or f"camera_{i}" for i, node in enumerate(nodes)]
-        return tuple(replace(_read(n, type_, context), name=name) for n, name in zip(nodes, names, strict=True))
+        named: dict[str, CameraOptics] = {}
+        for i, node in enumerate(nodes):
+            name = node.attribute("name") or f"camera_{i}"
+            if name in named:
+                context.report.warn(node.at, f"there is a camera {name!r} already; this one is called '{name}_{i}'")
+                name = f"{name}_{i}"
+            named[name] = replace(_read(node, type_, context), name=name)
+        return tuple(named.values())
     return (_read(nodes[0], type_, context),)
 
 

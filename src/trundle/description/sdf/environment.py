@@ -8,6 +8,8 @@ from trundle.xmlnode import XmlNode
 from .context import Context, leave_out
 from .material import read_colour
 
+_COLDEST = 1.0
+"""[K] That air may be at the ground."""
 _AMBIENT: Mapping[tuple[int, int], Rgba] = {(1, 3): (0.0, 0.0, 0.0, 1.0), (1, 4): (0.2, 0.2, 0.2, 1.0)}
 """The default before each version; 0.4 from 1.4 on."""
 
@@ -139,4 +141,8 @@ def read_atmosphere(world: XmlNode, context: Context) -> Atmosphere:
         temperature_gradient=node.number("temperature_gradient", default=default.temperature_gradient, report=report),
     )
     node.report_unread(report)
+    if air.temperature < _COLDEST or not air.pressure > 0.0:
+        what = f"air of {air.temperature:g} K and {air.pressure:g} Pa is not possible"
+        report.warn(node.at, f"{what}; {default.temperature:g} K and {default.pressure:g} Pa are used")
+        return default
     return air

@@ -62,7 +62,7 @@ def read_joint(
         sensors=tuple(read_sensor(child, name, graph, context) for child in node.all("sensor")),
     )
     physics = node.find("physics")
-    if physics is not None:
+    if physics is not None and [child.tag for child in physics.children] != ["provide_feedback"]:
         report.info(physics.at, f"joint {name!r}: <physics> tunes Gazebo's engines; it is ignored")
     node.report_unread(report)
     return joint

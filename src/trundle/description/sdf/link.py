@@ -13,7 +13,7 @@ from .inertial import read_inertial
 from .light import read_light
 from .marks import read_marks
 from .material import read_material
-from .sensor import read_sensor
+from .sensor import named_apart, read_sensor
 from .surface import read_surface
 
 
@@ -28,7 +28,7 @@ def read_link(node: XmlNode, name: str, graph: FrameGraph, context: Context) -> 
         inertial=read_inertial(node, name, context),
         visuals=tuple(_read_visual(child, name, graph, context) for child in node.all("visual")),
         collisions=tuple(_read_collision(child, name, graph, context) for child in node.all("collision")),
-        sensors=tuple(read_sensor(child, name, graph, context) for child in node.all("sensor")),
+        sensors=named_apart((read_sensor(child, name, graph, context) for child in node.all("sensor")), name, context),
         lights=tuple(read_light(child, name, graph, context) for child in node.all("light")),
         gravity=node.flag("gravity", default=True, report=report),
         self_collide=_flag(node, "self_collide", context),

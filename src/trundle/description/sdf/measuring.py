@@ -48,13 +48,21 @@ def _axis(scan: XmlNode | None, tag: str, context: Context) -> ScanAxis:
         return ScanAxis(samples=640 if tag == "horizontal" else 1)
     report = context.report
     axis = ScanAxis(
-        samples=max(1, node.integer("samples", default=640 if tag == "horizontal" else 1, report=report)),
+        samples=_samples(node, 640 if tag == "horizontal" else 1, context),
         resolution=_resolution(node, context),
         min_angle=node.number("min_angle", default=0.0, report=report),
         max_angle=node.number("max_angle", default=0.0, report=report),
     )
     node.report_unread(report)
     return axis
+
+
+def _samples(node: XmlNode, default: int, context: Context) -> int:
+    samples = node.integer("samples", default=default, report=context.report)
+    if samples > 0:
+        return samples
+    context.report.warn(node.at, f"{samples} samples see nothing; 1 is used")
+    return 1
 
 
 def _resolution(node: XmlNode, context: Context) -> float:

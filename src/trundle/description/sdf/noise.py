@@ -5,15 +5,20 @@ from trundle.xmlnode import XmlNode
 
 from .context import Context
 
+_TYPES = ("gaussian", "gaussian_quantized", "none")
+
 
 def read_noise(node: XmlNode | None, context: Context) -> Noise:
     """Gaussian noise; every other type is none."""
     if node is None:
         return Noise()
+    report = context.report
     type_ = node.attribute("type") or node.string("type") or "gaussian"
+    if type_ not in _TYPES:
+        report.warn(node.at, f"no noise type {type_!r}: {', '.join(_TYPES)}; none is used, as in Gazebo")
+        return Noise()
     if type_ == "none":
         return Noise()
-    report = context.report
     noise = Noise(
         mean=node.number("mean", default=0.0, report=report),
         stddev=abs(node.number("stddev", default=0.0, report=report)),
@@ -23,8 +28,6 @@ def read_noise(node: XmlNode | None, context: Context) -> Noise:
         wander_time_s=max(0.0, node.number("dynamic_bias_correlation_time", default=0.0, report=report)),
         precision=_precision(node, context),
     )
-    if not type_.startswith("gaussian"):
-        report.warn(node.at, f"no noise type {type_!r}; gaussian is used")
     node.report_unread(report)
     return noise
 

@@ -1,5 +1,9 @@
 """Reads <sensor>; what is simulated in full, the others by name and type."""
 
+from collections.abc import Iterable
+from dataclasses import replace
+from itertools import count
+
 from trundle.model import PluginTag, Sensor
 from trundle.xmlnode import XmlNode
 
@@ -40,6 +44,20 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
     else:
         leave_out(node, [child.tag for child in node.unread()], f"of type {type_!r} is not read yet", context)
     return sensor
+
+
+def named_apart(sensors: Iterable[Sensor], link: str, context: Context) -> tuple[Sensor, ...]:
+    """The sensors of a link; of several that share a name all but the first get a number, aloud."""
+    apart: dict[str, Sensor] = {}
+    for sensor in sensors:
+        name = sensor.name
+        if name in apart:
+            number = next(i for i in count(2) if f"{name}_{i}" not in apart)
+            what = f"link {link!r} has a sensor {name!r} already; this one is called '{name}_{number}'"
+            context.report.warn(sensor.at, what)
+            sensor = replace(sensor, name=f"{name}_{number}")
+        apart[sensor.name] = sensor
+    return tuple(apart.values())
 
 
 def _rate(node: XmlNode, context: Context) -> float:

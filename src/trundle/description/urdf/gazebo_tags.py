@@ -4,6 +4,7 @@ The readers of SDF are loaded by the robots that hold some.
 """
 
 from collections.abc import Collection
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from trundle.diagnostics import DescriptionError
@@ -12,6 +13,7 @@ from trundle.xmlnode import XmlNode
 
 from ..sdf.context import Context
 from ..sdf.frames import MODEL, FrameGraph
+from .lump import Lump
 
 if TYPE_CHECKING:
     from trundle.model import Joint, Light, Material, PluginTag, Sensor
@@ -25,11 +27,12 @@ _TUNING = frozenset(
         "fudgeFactor",
         "implicitSpringDamper",
         "cfmDamping",
-        "provideFeedback",
         "maxContacts",
         "canonicalBody",
     }
 )
+_ALWAYS = "provideFeedback"
+"""What joints carry is always told."""
 _TRUE = frozenset({"true", "yes", "1"})
 
 
@@ -110,6 +113,19 @@ class GazeboTags:
         graph = FrameGraph(MODEL, self._context.report)
         return tuple(read_sensor(node, reference, graph, self._context) for node in nodes)
 
+    def lumped_sensors(self, lump: Lump) -> "tuple[Sensor, ...]":
+        """Those of every link of a lump, placed in its frame."""
+        found = [
+            replace(sensor, link_from_sensor=pose @ sensor.link_from_sensor)
+            for name, pose in lump.parts
+            for sensor in self.sensors(name)
+        ]
+        if not found:
+            return ()
+        from ..sdf.sensor import named_apart
+
+        return named_apart(found, lump.name, self._context)
+
     def lights(self, link: str) -> "tuple[Light, ...]":
         """<light> elements, likewise."""
         nodes = self._all(link, "light")
@@ -152,17 +168,28 @@ class GazeboTags:
     def name_tuning(self) -> None:
         """Say of what tunes Gazebo's engines that it is read and not used."""
         for reference, tag in self._nodes:
+            if tag == _ALWAYS:
+                self._all(reference, tag)
             if tag in _TUNING:
                 for node in self._all(reference, tag):
                     self._context.report.info(node.at, f"<{tag}> tunes Gazebo's engines; it is ignored")
 
-    def report_unread(self, known: Collection[str]) -> None:
-        """Name what nobody asked for; `known` are the links and joints there are."""
+    def report_unread(self, known: Collection[str], lumped: Collection[str]) -> None:
+        """Name what nobody asked for.
+
+        Args:
+            known: the links and joints there are.
+            lumped: those of the joints whose links are one in the simulation.
+        """
         for (reference, tag), nodes in self._nodes.items():
             if (reference, tag) in self._read and (reference in known or not reference):
                 continue
             whom = f"{reference!r}" if reference else "the robot"
-            why = "is not supported" if reference in known or not reference else "means no link or joint there is"
+            why = "is not supported"
+            if reference in lumped:
+                why = "is for a fixed joint that is lumped (<preserveFixedJoint>1</preserveFixedJoint> keeps it)"
+            elif reference and reference not in known:
+                why = "means no link or joint there is"
             for node in nodes:
                 self._context.report.warn(node.at, f"<{tag}> for {whom} in <gazebo> {why}; it is ignored")
 

@@ -122,7 +122,9 @@ class _Lowering:
         static, self_collide, wind = (
             self.tags.flag("", name) or False for name in ("static", "self_collide", "enable_wind")
         )
-        self.tags.report_unread({*self.links, *(joint.name for joint in self.robot.joints)})
+        lump_of = self.lump_of
+        lumped = {j.name for j in self.robot.joints if lump_of.get(j.parent) == lump_of[j.child]}
+        self.tags.report_unread({*self.links, *(joint.name for joint in self.robot.joints)}, lumped)
         return Model(
             name=self.robot.name,
             at=self.robot.at,
@@ -174,11 +176,6 @@ class _Lowering:
             collisions += self._collisions(lump.name, part, pose)
         gravity_off, gravity = self.tags.flag(lump.name, "turnGravityOff"), self.tags.flag(lump.name, "gravity")
         linear_decay, angular_decay = self.tags.damping(lump.name)
-        sensors = [
-            replace(sensor, link_from_sensor=pose @ sensor.link_from_sensor)
-            for name, pose in lump.parts
-            for sensor in self.tags.sensors(name)
-        ]
         return Link(
             name=lump.name,
             at=own.at,
@@ -186,7 +183,7 @@ class _Lowering:
             inertial=self._inertial(lump),
             visuals=tuple(visuals),
             collisions=tuple(collisions),
-            sensors=tuple(sensors),
+            sensors=self.tags.lumped_sensors(lump),
             lights=tuple(
                 replace(light, world_from_light=pose @ light.world_from_light)
                 for name, pose in lump.parts
