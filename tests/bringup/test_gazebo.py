@@ -123,7 +123,7 @@ def test_joints_are_told_of_and_put_into_position(gazebo: Gazebo) -> None:
     bad = gazebo.call(
         "set_model_configuration", "gazebo_msgs/SetModelConfiguration", model_name="arm", joint_names=["x"]
     )
-    assert bad.status_message == "1 joints, but 0 positions"
+    assert bad.status_message == "SetModelConfiguration: 1 joints, but 0 positions"
 
 
 def test_states_are_published_while_somebody_listens(gazebo: Gazebo) -> None:

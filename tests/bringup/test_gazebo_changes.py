@@ -141,7 +141,7 @@ def test_lights_are_changed_and_taken_away(gazebo: Gazebo) -> None:
 
     assert gazebo.call("delete_light", "gazebo_msgs/DeleteLight", **name).success
     gone = gazebo.call("get_light_properties", "gazebo_msgs/GetLightProperties", **name)
-    assert gone.status_message == "no light 'sun'; there are: none"
+    assert gone.status_message == "GetLightProperties: no light 'sun'; there are: none"
 
 
 @pytest.mark.parametrize(("rate", "period"), [(50.0, 0.02), (0, 0.001), ("fast", 0.01)])

@@ -21,7 +21,7 @@ def read_spawned(
     Args:
         xml: the text; it is kept in a file, so that messages can name its lines.
         name: what the model will be called.
-        namespace: becomes the robotNamespace of its plugins, as in gazebo_ros; empty: they keep what they have.
+        namespace: becomes the robotNamespace of its plugins that have none, as in gazebo_ros; empty: of none.
         folder: where the file goes.
         packages: where URIs lead.
         report: takes everything worth saying.
@@ -43,13 +43,12 @@ def read_spawned(
 
 
 def _in_namespace(xml: str, namespace: str) -> str:
-    """Write the namespace into every plugin."""
+    """Write the namespace into every plugin that has none."""
     try:
         root = ET.fromstring(xml)
     except ET.ParseError:
         return xml  # the reader says what is wrong with it, and where
     for plugin in root.iter("plugin"):
-        for old in plugin.findall("robotNamespace"):
-            plugin.remove(old)
-        ET.SubElement(plugin, "robotNamespace").text = f"/{namespace}"
+        if plugin.find("robotNamespace") is None:
+            ET.SubElement(plugin, "robotNamespace").text = namespace
     return ET.tostring(root, encoding="unicode")

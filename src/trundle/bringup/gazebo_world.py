@@ -216,7 +216,7 @@ class GazeboWorld:
         """Add a model."""
         simulation = self.simulation
         if any(model.name == name for model in simulation.models):
-            raise UsageError(f"SpawnModel: Failure - model name {name} already exist.")
+            raise UsageError(f"Failure - model name {name} already exist.")
         model, robot = read_spawned(
             xml, name=name, namespace=namespace, folder=self._folder, packages=self._packages, report=self._report
         )

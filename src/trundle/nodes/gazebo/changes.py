@@ -12,7 +12,7 @@ from trundle.spatial import Vector3
 
 from ..host import Simulator
 from .entities import find_joint, find_light, find_link
-from .messages import answered, pose_of, vector_of
+from .messages import pose_of, provide, vector_of
 from .ode import IGNORED, OdeSettings
 
 _NO_COUNTERPART = ("erp", "cfm", "stop_erp", "stop_cfm", "fudge_factor")
@@ -32,7 +32,7 @@ def advertise_changes(node: Node, simulator: Simulator, ode: OdeSettings) -> Non
         ("set_light_properties", "SetLightProperties", changes.of_light, "SetLightProperties: properties set"),
         ("delete_light", "DeleteLight", changes.delete_light, "DeleteLight: successfully deleted light"),
     ):
-        node.advertise_service(f"~{name}", f"gazebo_msgs/{kind}", answered(work, done))
+        provide(node, name, kind, work, done)
 
 
 def set_physics(simulator: Simulator, *, step_s: float, gravity: Vector3, rate_hz: float) -> None:

@@ -2,70 +2,90 @@
 
 from typing import Any
 
+from trundle.diagnostics import UsageError
 from trundle.ros import Message, Node, ns_of
-from trundle.spatial import Vector3, Wrench
+from trundle.simulation import JointHandle, LinkHandle
+from trundle.spatial import Wrench, cross
 
 from ..host import Simulator
-from .entities import find_joint, find_link, world_from
-from .messages import answered, vector_of
+from .entities import find_joint, find_link, is_world, world_from
+from .messages import expect_finite, provide, vector_of
+from .schedule import Schedule
 
 
 def advertise_efforts(node: Node, simulator: Simulator) -> None:
     """Provide apply_body_wrench, clear_body_wrenches, apply_joint_effort and clear_joint_forces (old: efforts)."""
-    efforts = _Efforts(simulator)
-    node.advertise_service("~apply_body_wrench", "gazebo_msgs/ApplyBodyWrench", answered(efforts.push, ""))
-    node.advertise_service("~apply_joint_effort", "gazebo_msgs/ApplyJointEffort", answered(efforts.turn, ""))
+    efforts = _Efforts(node, simulator)
+    provide(node, "apply_body_wrench", "ApplyBodyWrench", efforts.push, "")
+    provide(node, "apply_joint_effort", "ApplyJointEffort", efforts.turn, "ApplyJointEffort: effort set")
     node.advertise_service("~clear_body_wrenches", "gazebo_msgs/BodyRequest", efforts.let_go_of_link)
     node.advertise_service("~clear_joint_forces", "gazebo_msgs/JointRequest", efforts.let_go_of_joint)
     node.advertise_service("~clear_joint_efforts", "gazebo_msgs/JointRequest", efforts.let_go_of_joint)
 
 
 class _Efforts:
-    def __init__(self, simulator: Simulator) -> None:
+    def __init__(self, node: Node, simulator: Simulator) -> None:
+        self._node = node
         self._simulator = simulator
+        self._wrenches = Schedule[LinkHandle, Wrench](simulator.simulation, _push)
+        self._efforts = Schedule[JointHandle, float](simulator.simulation, _turn)
+        for schedule in (self._wrenches, self._efforts):
+            simulator.post(schedule.begin)
 
     def push(self, request: Message) -> dict[str, Any]:
-        """Hold a wrench, given in the reference frame's axes at a point of it, for a time."""
+        """Hold a wrench for a time: its force acts at the centre of mass, and turns by the arm of its point.
+
+        The arm is that of the reference point about the link's origin; where the reference is the world, that of the
+        point about the world's. So is gazebo_ros', which makes a push that gives no point one without a torque. What
+        it does not do is to turn a wrench out of the frame that it is given in (gazebo_ros_pkgs#310); here that is so.
+        """
         simulation = self._simulator.simulation
         link = find_link(simulation, request.body_name)
         frame = world_from(simulation, request.reference_frame)
         force, torque = (frame.direction(vector_of(v)) for v in (request.wrench.force, request.wrench.torque))
-        at = frame.point(vector_of(request.reference_point))
-        arm = _minus(at, link.pose.point(link.link.inertial.link_from_com.position))
-        wrench = Wrench(force=force, torque=_plus(torque, _cross(arm, force)))
-        link.apply_wrench(wrench, duration_s=_duration_s(request))
+        arm = frame.point(vector_of(request.reference_point))
+        if not is_world(request.reference_frame):
+            x, y, z = link.pose.position
+            arm = (arm[0] - x, arm[1] - y, arm[2] - z)
+        wrench = Wrench(force=force, torque=torque) + Wrench(torque=cross(arm, force))
+        self._wrenches.add(link, wrench, **_times(request))
         return {}
 
     def turn(self, request: Message) -> dict[str, Any]:
         """Hold an effort on a joint for a time."""
         joint = find_joint(self._simulator.simulation, request.joint_name)
-        joint.set_effort(request.effort, duration_s=_duration_s(request))
+        expect_finite(request.effort)
+        if not joint.axes:
+            raise UsageError(f"joint {joint.name!r} cannot move")
+        self._efforts.add(joint, float(request.effort), **_times(request))
         return {}
 
     def let_go_of_link(self, request: Message) -> dict[str, Any]:
-        """Apply nothing any more."""
-        find_link(self._simulator.simulation, request.body_name).apply_wrench(Wrench())
+        """Apply nothing any more; of what is not there, gazebo_ros says nothing either."""
+        try:
+            self._wrenches.clear(find_link(self._simulator.simulation, request.body_name))
+        except UsageError as error:
+            self._node.log_warn(str(error))
         return {}
 
     def let_go_of_joint(self, request: Message) -> dict[str, Any]:
-        """Drive it no more."""
-        find_joint(self._simulator.simulation, request.joint_name).set_effort(0.0)
+        """Drive it no more than its controllers do."""
+        try:
+            self._efforts.clear(find_joint(self._simulator.simulation, request.joint_name))
+        except UsageError as error:
+            self._node.log_warn(str(error))
         return {}
 
 
-def _duration_s(request: Message) -> float | None:
-    """How long it is held; less than zero: for ever."""
-    ns = ns_of(request.duration)
-    return None if ns < 0 else ns / 1e9
+def _push(link: LinkHandle, wrenches: list[Wrench]) -> None:
+    """The newest alone, as Link::SetForce has it."""
+    link.apply_wrench(wrenches[-1] if wrenches else Wrench())
 
 
-def _minus(a: Vector3, b: Vector3) -> Vector3:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+def _turn(joint: JointHandle, efforts: list[float]) -> None:
+    """All of them, as Joint::SetForce adds up."""
+    joint.set_effort(sum(efforts))
 
 
-def _plus(a: Vector3, b: Vector3) -> Vector3:
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
-
-
-def _cross(a: Vector3, b: Vector3) -> Vector3:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+def _times(request: Message) -> dict[str, int]:
+    return {"start_ns": ns_of(request.start_time), "duration_ns": ns_of(request.duration)}

@@ -1,4 +1,4 @@
-"""Models, links and joints by the names that /gazebo uses: `model`, `model::link`, `link` where it is the only one."""
+"""Models, links and joints by the names that /gazebo uses: `model`, `model::link`, `link` where it is the first one."""
 
 from trundle.diagnostics import UsageError
 from trundle.model import Light, World
@@ -14,10 +14,9 @@ def find_link(simulation: Simulation, name: str) -> LinkHandle:
     Raises:
         UsageError: with the names there are.
     """
-    model_name, scope, link_name = name.rpartition("::")
     for model in simulation.models:
         for link in model.links:
-            if link.name == link_name and (not scope or model.name == model_name):
+            if _is_called(name, model.name, link.name):
                 return link
     raise UsageError(f"no link {name!r}; there are: {_listed([n for n, _ in scoped_links(simulation)])}")
 
@@ -28,13 +27,11 @@ def find_joint(simulation: Simulation, name: str) -> JointHandle:
     Raises:
         UsageError: with the names there are.
     """
-    model_name, scope, joint_name = name.rpartition("::")
-    names: list[str] = []
     for model in simulation.models:
         for joint in model.joints:
-            names.append(joint.name)
-            if joint.name == joint_name and (not scope or model.name == model_name):
+            if _is_called(name, model.name, joint.name):
                 return joint
+    names = [joint.name for model in simulation.models for joint in model.joints]
     raise UsageError(f"no joint {name!r}; there are: {_listed(names)}")
 
 
@@ -70,11 +67,21 @@ def world_from(simulation: Simulation, entity: str) -> Pose:
     Raises:
         UsageError: there is no such entity.
     """
-    if entity in _WORLD:
+    if is_world(entity):
         return Pose()
     if any(model.name == entity for model in simulation.models):
         return simulation[entity].pose
     return find_link(simulation, entity).pose
+
+
+def is_world(entity: str) -> bool:
+    """Whether it is one of the world's names."""
+    return entity in _WORLD
+
+
+def _is_called(name: str, model: str, part: str) -> bool:
+    """Whether a name, scoped or plain, means a part of a model; those of models within it are scoped themselves."""
+    return name in (f"{model}::{part}", part, part.rpartition("::")[2])
 
 
 def _listed(names: list[str]) -> str:

@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from trundle.diagnostics import TrundleError
-from trundle.ros import Message
+from trundle.diagnostics import TrundleError, UsageError
+from trundle.ros import Message, Node
 from trundle.spatial import IDENTITY_QUATERNION, Pose, Twist, Vector3
 
 
@@ -26,27 +26,54 @@ def twist_fields(twist: Twist) -> dict[str, Any]:
 
 
 def vector_of(message: Message) -> Vector3:
-    """Read a Vector3 or Point."""
+    """Read a Vector3 or Point.
+
+    Raises:
+        UsageError: a number is none, or endless.
+    """
+    expect_finite(message.x, message.y, message.z)
     return (float(message.x), float(message.y), float(message.z))
 
 
+def expect_finite(*numbers: float) -> None:
+    """Refuse what would leave nothing of a world.
+
+    Raises:
+        UsageError: a number is none, or endless.
+    """
+    if not all(map(math.isfinite, numbers)):
+        raise UsageError(f"finite numbers are needed, got {', '.join(f'{number:g}' for number in numbers)}")
+
+
 def pose_of(message: Message) -> Pose:
-    """Read a Pose; an orientation of zeros, which a request that leaves it out holds, is none."""
+    """Read a Pose; an orientation of zeros, which a request that leaves it out holds, is none.
+
+    Raises:
+        UsageError: a number is none, or endless.
+    """
     q = message.orientation
+    expect_finite(q.w, q.x, q.y, q.z)
     length = math.hypot(q.w, q.x, q.y, q.z)
     turn = (q.w / length, q.x / length, q.y / length, q.z / length) if length > 0.0 else IDENTITY_QUATERNION
     return Pose(vector_of(message.position), turn)
 
 
 def twist_of(message: Message) -> Twist:
-    """Read a Twist."""
+    """Read a Twist.
+
+    Raises:
+        UsageError: a number is none, or endless.
+    """
     return Twist(vector_of(message.linear), vector_of(message.angular))
 
 
-def answered(work: Callable[[Message], dict[str, Any]], done: str) -> Callable[[Message], dict[str, Any]]:
-    """Make a service's handler: what cannot be done is said in `status_message`, as gazebo_ros does.
+def provide(node: Node, name: str, kind: str, work: Callable[[Message], dict[str, Any]], done: str) -> None:
+    """Provide a service that says in `status_message` how it went, as those of gazebo_ros do.
 
     Args:
+        node: /gazebo.
+        name: of the service, in the node's namespace.
+        kind: its type, of gazebo_msgs; what cannot be done is said after it.
         work: does it, and returns the response's other fields.
         done: the message of success.
     """
@@ -55,6 +82,6 @@ def answered(work: Callable[[Message], dict[str, Any]], done: str) -> Callable[[
         try:
             return {"status_message": done, **work(request), "success": True}
         except TrundleError as error:
-            return {"success": False, "status_message": str(error)}
+            return {"success": False, "status_message": f"{kind}: {error}"}
 
-    return handle
+    node.advertise_service(f"~{name}", f"gazebo_msgs/{kind}", handle)

@@ -7,31 +7,27 @@ from trundle.ros import Message, Node
 
 from ..host import Simulator
 from .entities import world_from
-from .messages import answered, pose_of
+from .messages import pose_of, provide
 
 
 def advertise_models(node: Node, simulator: Simulator) -> None:
     """Provide spawn_urdf_model, spawn_sdf_model and delete_model."""
     for name in ("spawn_urdf_model", "spawn_sdf_model"):
-        node.advertise_service(f"~{name}", "gazebo_msgs/SpawnModel", answered(_spawn(node, simulator), _SPAWNED))
+        provide(node, name, "SpawnModel", _spawn(node, simulator), "SpawnModel: Successfully spawned entity")
 
     def delete(request: Message) -> dict[str, Any]:
         simulator.delete(request.model_name)
         return {}
 
-    node.advertise_service(
-        "~delete_model", "gazebo_msgs/DeleteModel", answered(delete, "DeleteModel: successfully deleted model")
-    )
-
-
-_SPAWNED = "SpawnModel: Successfully spawned entity"
+    provide(node, "delete_model", "DeleteModel", delete, "DeleteModel: successfully deleted model")
 
 
 def _spawn(node: Node, simulator: Simulator) -> Callable[[Message], dict[str, Any]]:
     def spawn(request: Message) -> dict[str, Any]:
         pose = world_from(simulator.simulation, request.reference_frame) @ pose_of(request.initial_pose)
-        namespace = request.robot_namespace.strip("/")
-        simulator.spawn(request.model_xml, name=request.model_name, world_from_model=pose, namespace=namespace)
+        simulator.spawn(
+            request.model_xml, name=request.model_name, world_from_model=pose, namespace=request.robot_namespace
+        )
         node.log_info(f"spawned {request.model_name}")
         return {}
 

@@ -8,7 +8,7 @@ from trundle.ros import Message, Node
 
 from ..host import Simulator
 from .entities import find_joint, find_light, find_link, find_model
-from .messages import answered, pose_fields, vector_fields
+from .messages import pose_fields, provide, vector_fields
 from .ode import OdeSettings
 
 _JOINT_TYPES = {
@@ -32,7 +32,7 @@ def advertise_properties(node: Node, simulator: Simulator, ode: OdeSettings) -> 
         ("get_physics_properties", "GetPhysicsProperties", properties.of_physics),
         ("get_light_properties", "GetLightProperties", properties.of_light),
     ):
-        node.advertise_service(f"~{name}", f"gazebo_msgs/{kind}", answered(work, f"{kind}: got properties"))
+        provide(node, name, kind, work, f"{kind}: got properties")
 
 
 class _Properties:
@@ -50,11 +50,14 @@ class _Properties:
 
     def of_model(self, request: Message) -> dict[str, Any]:
         model = find_model(self._simulator.simulation, request.model_name)
+        own = [link for link in model.links if "::" not in link.name]
+        inner = [link for link in model.links if "::" in link.name]
         return {
             "canonical_body_name": model.links[0].name if model.links else "",
-            "body_names": [link.name for link in model.links],
-            "geom_names": [shape.name for link in model.links for shape in link.link.collisions],
-            "joint_names": [joint.name for joint in model.joints],
+            "body_names": [link.name for link in own],
+            "geom_names": [shape.name for link in own for shape in link.link.collisions],
+            "joint_names": [joint.name for joint in model.joints if "::" not in joint.name],
+            "child_model_names": list(dict.fromkeys(link.name.partition("::")[0] for link in inner)),
             "is_static": model.model.static,
         }
 

@@ -8,8 +8,8 @@ from trundle.simulation import LinkHandle, Simulation
 from trundle.spatial import Pose, Twist
 
 from ..host import Simulator
-from .entities import find_link, find_model, scoped_links, world_from
-from .messages import answered, pose_fields, pose_of, twist_fields, twist_of
+from .entities import find_link, find_model, is_world, scoped_links, world_from
+from .messages import expect_finite, pose_fields, pose_of, provide, twist_fields, twist_of
 
 _STATE_RATE_HZ = 100.0
 
@@ -52,14 +52,14 @@ class StateTopics:
 def advertise_states(node: Node, simulator: Simulator) -> None:
     """Provide get_ and set_model_state, get_ and set_link_state, set_model_configuration, and the two set_ topics."""
     states = _States(simulator)
-    for name, kind, work in (
-        ("get_model_state", "GetModelState", states.get_model),
-        ("get_link_state", "GetLinkState", states.get_link),
-        ("set_model_state", "SetModelState", states.set_model_asked),
-        ("set_link_state", "SetLinkState", states.set_link_asked),
-        ("set_model_configuration", "SetModelConfiguration", states.configure),
+    for name, kind, work, done in (
+        ("get_model_state", "GetModelState", states.get_model, "got properties"),
+        ("get_link_state", "GetLinkState", states.get_link, "got state"),
+        ("set_model_state", "SetModelState", states.set_model_asked, "set model state done"),
+        ("set_link_state", "SetLinkState", states.set_link_asked, "success"),
+        ("set_model_configuration", "SetModelConfiguration", states.configure, "success"),
     ):
-        node.advertise_service(f"~{name}", f"gazebo_msgs/{kind}", answered(work, f"{kind}: done"))
+        provide(node, name, kind, work, f"{kind}: {done}")
     for name, kind, work in (
         ("set_model_state", "ModelState", states.set_model),
         ("set_link_state", "LinkState", states.set_link),
@@ -77,7 +77,7 @@ class _States:
         frame = world_from(simulation, request.relative_entity_name)
         twist = model.base.twist if model.links else Twist()
         return {
-            "header": {"stamp": simulation.time_ns, "frame_id": request.relative_entity_name or "world"},
+            "header": {"stamp": simulation.time_ns, "frame_id": request.relative_entity_name},
             "pose": pose_fields(frame.inverse() @ model.pose),
             "twist": twist_fields(_seen_from(simulation, frame, request.relative_entity_name, model.pose, twist)),
         }
@@ -92,7 +92,7 @@ class _States:
                 "link_name": request.link_name,
                 "pose": pose_fields(frame.inverse() @ link.pose),
                 "twist": twist_fields(twist),
-                "reference_frame": request.reference_frame or "world",
+                "reference_frame": request.reference_frame,
             }
         }
 
@@ -106,23 +106,26 @@ class _States:
         simulation = self._simulator.simulation
         model = find_model(simulation, state.model_name)
         frame = world_from(simulation, state.reference_frame)
-        model.set_pose(frame @ pose_of(state.pose))
+        pose, twist = frame @ pose_of(state.pose), _turned(frame, twist_of(state.twist))
+        model.set_pose(pose)
         if not model.model.static:
-            model.set_twist(_turned(frame, twist_of(state.twist)))
+            model.set_twist(twist)
         return {}
 
     def set_link(self, state: Message) -> dict[str, Any]:
         simulation = self._simulator.simulation
         link = find_link(simulation, state.link_name)
         frame = world_from(simulation, state.reference_frame)
-        link.set_pose(frame @ pose_of(state.pose))
-        link.set_twist(_turned(frame, twist_of(state.twist)))
+        pose, twist = frame @ pose_of(state.pose), _turned(frame, twist_of(state.twist))
+        link.set_pose(pose)
+        link.set_twist(twist)
         return {}
 
     def configure(self, request: Message) -> dict[str, Any]:
         model = find_model(self._simulator.simulation, request.model_name)
         if len(request.joint_names) != len(request.joint_positions):
             raise UsageError(f"{len(request.joint_names)} joints, but {len(request.joint_positions)} positions")
+        expect_finite(*request.joint_positions)
         joints = {
             name.rpartition("::")[2]: float(p)
             for name, p in zip(request.joint_names, request.joint_positions, strict=True)
@@ -160,7 +163,7 @@ def _carrier(simulation: Simulation, entity: str) -> LinkHandle | None:
     for model in simulation.models:
         if model.name == entity:
             return model.base if model.links else None
-    return None if entity in ("", "world", "map", "/map") else find_link(simulation, entity)
+    return None if is_world(entity) else find_link(simulation, entity)
 
 
 def _tried(node: Node, work: Any, message: Message) -> None:

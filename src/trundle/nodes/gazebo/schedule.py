@@ -1,0 +1,80 @@
+"""What scripts ask /gazebo to push with, each from a time to another."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from trundle.simulation import JointHandle, LinkHandle, Simulation
+
+Target = TypeVar("Target", LinkHandle, JointHandle)
+Load = TypeVar("Load")
+
+
+@dataclass(frozen=True, slots=True)
+class _Job(Generic[Target, Load]):
+    target: Target
+    load: Load
+    start_ns: int
+    end_ns: int | None
+    """None: never."""
+
+
+class Schedule(Generic[Target, Load]):
+    """Loads on links, or on joints; a hook that is called only while one of them has yet to begin or to end."""
+
+    def __init__(self, simulation: Simulation, put: Callable[[Target, list[Load]], None]) -> None:
+        """Have nothing to do; `begin` comes first.
+
+        Args:
+            simulation: whose time counts.
+            put: has a target feel just these loads from now on, the oldest first.
+        """
+        self._simulation = simulation
+        self._put = put
+        self._jobs: list[_Job[Target, Load]] = []
+        self._acting: dict[Target, list[Load]] = {}
+        self._next_ns: int | None = None
+        """When something begins or ends."""
+
+    def begin(self) -> None:
+        """Follow the simulation's time."""
+        self._simulation.add_hook(self, wanted=lambda: self._next_ns is not None)
+        self._simulation.on_reset(self._forget)
+
+    def add(self, target: Target, load: Load, *, start_ns: int, duration_ns: int) -> None:
+        """Push from a time that is not over yet, for so long: one step at least; less than zero: for ever."""
+        start_ns = max(start_ns, self._simulation.time_ns)
+        end_ns = None if duration_ns < 0 else start_ns + max(duration_ns, self._simulation.step_ns)
+        self._jobs.append(_Job(target, load, start_ns, end_ns))
+        self._look()
+
+    def clear(self, target: Target) -> None:
+        """Push it no more."""
+        self._jobs = [job for job in self._jobs if job.target is not target]
+        self._look()
+
+    def before_step(self, simulation: Simulation) -> None:
+        """Begin and end what is due."""
+        if self._next_ns is not None and simulation.time_ns >= self._next_ns:
+            self._look()
+
+    def _look(self) -> None:
+        now = self._simulation.time_ns
+        self._jobs = [job for job in self._jobs if job.target.is_there and (job.end_ns is None or job.end_ns > now)]
+        acting: dict[Target, list[Load]] = {}
+        for job in self._jobs:
+            if job.start_ns <= now:
+                acting.setdefault(job.target, []).append(job.load)
+        for target in {**self._acting, **acting}:
+            loads = acting.get(target, [])
+            if target.is_there and loads != self._acting.get(target, []):
+                self._put(target, loads)
+        self._acting = acting
+        times = [time for job in self._jobs for time in (job.start_ns, job.end_ns) if time is not None and time > now]
+        self._next_ns = min(times, default=None)
+
+    def _forget(self) -> None:
+        """Time or the poses were reset, which takes away whatever pushed."""
+        self._jobs.clear()
+        self._acting.clear()
+        self._next_ns = None
