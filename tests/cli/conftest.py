@@ -39,7 +39,10 @@ def no_master(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def original(graph: Graph, tmp_path: Path) -> Callable[..., str]:
-    """Debian's own ROS 1 tools on the same graph: `original("rostopic", "list")` is what they print."""
+    """Debian's own ROS 1 tools on the same graph: `original("rostopic", "list")` is what they print.
+
+    They have to end with 0, or with the `code` that is given.
+    """
     if not Path("/usr/bin/rostopic").exists():
         pytest.skip("Debian's ROS 1 tools are not installed")
     environment = {
@@ -52,7 +55,7 @@ def original(graph: Graph, tmp_path: Path) -> Callable[..., str]:
         "PYTHONWARNINGS": "ignore",
     }
 
-    def run(command: str, *arguments: str, typed: str | None = None, path: Path | None = None) -> str:
+    def run(command: str, *arguments: str, typed: str | None = None, path: Path | None = None, code: int = 0) -> str:
         done = subprocess.run(
             [f"/usr/bin/{command}", *arguments],
             env={**environment, **({"ROS_PACKAGE_PATH": str(path)} if path else {})},
@@ -62,7 +65,7 @@ def original(graph: Graph, tmp_path: Path) -> Callable[..., str]:
             timeout=100,
             check=False,
         )
-        assert done.returncode == 0, done.stdout + done.stderr
+        assert done.returncode == code, done.stdout + done.stderr
         return done.stdout
 
     return run

@@ -27,12 +27,12 @@ def _core(*arguments: str) -> Iterator["tuple[subprocess.Popen[str], str]"]:
                 process.kill()
 
 
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 0)])
-def test_it_answers_until_it_is_stopped(number: signal.Signals, code: int) -> None:
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_it_answers_until_it_is_stopped(number: signal.Signals) -> None:
     with _core() as (process, uri):
         assert MasterProxy(uri).call("getSystemState")[0] == [["/rosout_agg", ["/rosout"]]]
         process.send_signal(number)
-        assert process.wait(20) == code
+        assert process.wait(20) == 0
         assert process.stderr is not None
         assert "Traceback" not in process.stderr.read()
 

@@ -54,6 +54,10 @@ ECHOES = [
     "/tree/transforms[0]/header/frame_id",
     "-p /tree/transforms[0]/transform/rotation",
     "/goals/status_list[1]/status",
+    "--noarr /numbers/data",
+    "--nostr /text/data",
+    "--filter m._type=='nav_msgs/Odometry' /odom/header",
+    "-n 0 /text",
 ]
 WORDS = [
     *("topic list", "topic list -v", "topic list -p", "topic list -s", "topic list -v -s", "topic list /t"),
@@ -66,6 +70,9 @@ WORDS = [
     *("service list", "service list -n", "service info /talker/switch", "service type /talker/switch"),
     *("service args /talker/switch", "service args /talker/get_loggers", "service find std_srvs/SetBool"),
     *("service uri /talker/switch", "service call /talker/switch true", "service call /talker/get_loggers"),
+    *("service args /talker/plan", "service info /talker/plan", "service call -v /talker/plan {tolerance:_1.5}"),
+    *("param set -v /new {a:_1,b:_{c:_deg(90)}}", "param load -v {file} /new", "param load -v {file}"),
+    *("param dump -v /dev/null /robot", "node machine localhost", "topic echo -n 1 /text relay:=text"),
     *("service call -v /talker/switch true", "service call /talker/switch {data:_true}", "service list /talker"),
     *("msg md5 geometry_msgs/Point", "msg md5 nav_msgs/Odometry", "srv md5 std_srvs/SetBool", "msg md5 Point"),
 ]
@@ -78,6 +85,8 @@ def talker(graph: Any) -> Any:
     for topic, (kind, fields) in TOPICS.items():
         node.advertise(topic, kind, latch=True).publish(fields)
     node.subscribe("/heard", "std_msgs/String", lambda _: None)
+    node.advertise_service("~empty", "std_srvs/Empty", lambda _: {})
+    node.advertise_service("~plan", "nav_msgs/GetPlan", lambda _: {"plan": {"poses": [{}]}})
     node.advertise_service(
         "~switch", "std_srvs/SetBool", lambda request: {"success": request.data, "message": "x: 'y'"}
     )
@@ -98,9 +107,39 @@ def test_messages_are_printed_alike(graph: Any, original: Any, talker: Any, word
 
 
 @pytest.mark.parametrize("words", WORDS)
-def test_the_graph_is_described_alike(graph: Any, original: Any, talker: Any, words: str) -> None:
-    tool, *arguments = (word.replace("_", " ") if ":" in word else word for word in words.split())
+def test_the_graph_is_described_alike(graph: Any, original: Any, talker: Any, tmp_path: Path, words: str) -> None:
+    file = tmp_path / "file.yaml"
+    file.write_text("a: 1\nb: {c: deg(90)}\n---\n_ns: sub\nd: [1, x]\n")
+    spaced = (word.replace("_", " ") if "{" in word else word for word in words.split())
+    tool, *arguments = (str(file) if word == "{file}" else word for word in spaced)
     assert graph.trundle(tool, *arguments)[1] == original(f"ros{tool}", *arguments)
+
+
+@pytest.mark.parametrize(
+    ("code", "words"),
+    [
+        *((2, f"topic echo {words}") for words in ("", "-w 1 /text", "-a /text", "--offset -b x.bag /text", "-n x /a")),
+        *((2, f"topic {words}") for words in ("info", "info /a /b", "list -p -s", "hz", "bw -w x /a", "find", "delay")),
+        *((2, f"topic pub {words}") for words in ("", "/a", "-r 2 -1 /a std_msgs/String a", "-r 0 /a std_msgs/Int8 1")),
+        *((2, f"topic pub {words}") for words in ("/a std_msgs/Int8 [", "-f x.yaml /a std_msgs/Int8 1")),
+        *((1, f"topic {words}") for words in ("info /none", "type /none", "pub -1 /a none/None", "echo -b no.bag /a")),
+        *((2, f"node {words}") for words in ("info", "ping", "ping -a /talker", "ping -a -c 2", "list a b")),
+        *((1, f"node {words}") for words in ("machine no.such.host.invalid", "kill /none")),
+        *(
+            (2, f"param {words}")
+            for words in ("get", "set", "set /a", "set -t a -b b /a", "load", "delete", "list a b")
+        ),
+        *((1, f"param {words}") for words in ("get /none", "set /a {1:_2}", "load no.yaml", "delete /none")),
+        *((2, f"service {words}") for words in ("call", "call /none", "call /talker/empty 1", "args /none", "info")),
+        *((1, f"service {words}") for words in ("info /none", "type /none", "uri /none")),
+        *((2, f"msg {words}") for words in ("show std_msgs::String", "show a b")),
+    ],
+)
+def test_what_is_wrong_ends_alike(graph: Any, original: Any, talker: Any, code: int, words: str) -> None:
+    tool, *arguments = (word.replace("_", " ") if ":" in word else word for word in words.split())
+    if tool == "msg":
+        arguments = words.split()[1:]
+    assert graph.trundle(tool, *arguments)[:2] == (code, original(f"ros{tool}", *arguments, code=code))
 
 
 @pytest.mark.parametrize("words", ["show geometry_msgs/PoseStamped", "show -r std_msgs/String", "package std_msgs"])

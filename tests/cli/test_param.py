@@ -62,7 +62,7 @@ def test_parameters_are_deleted(graph: Any) -> None:
     ("arguments", "complaint"),
     [
         (("get", "/nope"), "ERROR: Parameter [/nope] is not set\n"),
-        (("set", "/a"), "ERROR: a value is needed: YAML, -t FILE or -b FILE\n"),
+        (("set", "/a", "{1: 2}"), "ERROR: YAML dictionaries must have string keys."),
         (("set", "/a", "99999999999"), "does not fit the 32 bits"),
         (("set", "/a", "[1"), "ERROR: the value is no YAML"),
         (("set", "/a", "rad(2**9)"), "ERROR: not an angle: 'rad(2**9)'"),

@@ -97,7 +97,7 @@ def test_what_is_not_there_is_named() -> None:
     buffer = TransformBuffer()
     buffer.insert(_at(1, 0.0))
     buffer.insert(_at(1, 0.0, parent="map", child="other"))
-    with pytest.raises(TransformError, match='"nope" passed to lookupTransform argument does not exist'):
+    with pytest.raises(TransformError, match='"nope" passed to lookupTransform argument source_frame does not exist'):
         buffer.lookup("odom", "nope")
     with pytest.raises(TransformError, match="'odom' and 'map' because they are not part of the same tree"):
         buffer.lookup("odom", "map")

@@ -1,11 +1,13 @@
 """What `trundle msg` and `trundle srv` share: types by name, as rosmsg and rossrv print them."""
 
 import argparse
+import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 from trundle.diagnostics import UsageError
+from trundle.packages import Packages
 from trundle.ros import MessageError, Messages, open_bag
 
 
@@ -23,7 +25,7 @@ def configure(parser: argparse.ArgumentParser, what: str) -> None:
         add.add_argument("-r", "--raw", action="store_true", help="the text of the definition, comments and all")
         if what == "message":
             add.add_argument("-b", "--bag", metavar="BAG", help="by the definition in a bag")
-        add.set_defaults(run=_show)
+        add.set_defaults(run=_show, refuse=add.error)
     add = commands.add_parser("list", help=f"names of all {what} types")
     add.set_defaults(run=_list)
     add = commands.add_parser("md5", help="the sum that peers compare")
@@ -99,7 +101,11 @@ def _show(args: argparse.Namespace, types: _Types) -> int:
     name = args.type or _piped()
     if getattr(args, "bag", None):
         return _show_from_bag(args.bag, name, raw=args.raw)
-    for found in types.named(name):
+    try:
+        names = types.named(name)
+    except UsageError as error:
+        return args.refuse(str(error))
+    for found in names:
         if "/" not in name:
             print(f"[{found}]:")
         print(types.raw(found) if args.raw else types.text(found))
@@ -130,7 +136,7 @@ def _list(_: argparse.Namespace, types: _Types) -> int:
 def _package(args: argparse.Namespace, types: _Types) -> int:
     package = args.package or _piped()
     found = [name for name in types.names() if name.startswith(f"{package}/")]
-    if not found:
+    if not found and Packages(os.environ, start=Path.cwd()).find_package(package) is None:
         raise UsageError(f"no {types.what} types of a package {package!r}")
     print((" " if args.single_line else "\n").join(found))
     return 0

@@ -19,11 +19,14 @@ EXAMPLES = """
   trundle exec tf static_transform_publisher 0 0 0.1 0 0 0 base_link laser 100
   trundle exec my_robot drive.py _rate:=20 cmd_vel:=/base/cmd_vel
 """
+_NO_PACKAGE, _NO_PROGRAM = 2, 3
+"""Exit codes, as rosrun's."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("--prefix", default="", metavar="COMMAND", help="run the program by this: 'gdb -ex run --args'")
+    parser.add_argument("--debug", action="store_true", help="say where the program is looked for and what runs")
     parser.add_argument("--list", action=_List, help="the stock nodes that run without ROS")
     parser.add_argument("package")
     parser.add_argument("executable", help="a program anywhere in the package, or a stock node")
@@ -36,11 +39,17 @@ def main(args: argparse.Namespace) -> int:
     from trundle.packages import Packages
 
     packages = Packages(os.environ, start=Path.cwd())
+    folder = packages.find_package(args.package)
+    if args.debug:
+        print(f"[rosrun] Looking in rospack dir: {folder or 'none'}")
     match find_node(args.package, args.executable, packages.find_package, env=os.environ):
         case Missing(why):
-            raise UsageError(why)
+            print(f"trundle exec: error: {why}", file=sys.stderr)
+            return _NO_PACKAGE if folder is None else _NO_PROGRAM
         case Executable(path):
             command = [*shlex.split(args.prefix), str(path), *args.arguments]
+            if args.debug:
+                print(f"[rosrun] Running {args.prefix} {path}")
             sys.stdout.flush()
             try:
                 os.execvp(command[0], command)

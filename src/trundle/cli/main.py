@@ -45,8 +45,10 @@ COMMANDS: dict[str, str] = {
 }
 """Name and one line of help; the order of `trundle --help`."""
 
-_REMAPPED = ("service", "topic")
-"""Take `a:=b` and `__name:=n` anywhere, as rosservice and rostopic do: launch files start them."""
+_REMAPPED = ("service", "tf", "topic")
+"""Take `a:=b` and `__name:=n` anywhere, as rosservice, rostopic and tf's tools do: launch files start them."""
+_OF_ROS = ("core", "topic", "node", "param", "service", "bag", "msg", "srv", "tf", "plot", "log", "exec")
+"""Ctrl-C is how their work ends, not how it fails: exit code 0, as of the originals."""
 EXIT_OK, EXIT_INPUT, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
@@ -65,10 +67,11 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code: 0 success, 1 bad input, 2 wrong usage, 130 on Ctrl-C."""
+    arguments = list(sys.argv[1:] if argv is None else argv)
     try:
-        return _main(list(sys.argv[1:] if argv is None else argv))
+        return _main(arguments)
     except KeyboardInterrupt:
-        return EXIT_INTERRUPTED
+        return EXIT_OK if arguments[0] in _OF_ROS else EXIT_INTERRUPTED
 
 
 def _main(arguments: list[str]) -> int:

@@ -2,6 +2,7 @@
 
 import argparse
 import re
+import socket
 import sys
 import time
 from typing import Any
@@ -39,7 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("node", nargs="?")
     add.add_argument("-a", "--all", action="store_true", help="every node, once")
     add.add_argument("-c", dest="count", type=int, help="stop after so many answers")
-    add.set_defaults(run=_ping)
+    add.set_defaults(run=_ping, refuse=add.error)
     add = commands.add_parser("kill", help="ask nodes to shut down")
     add.add_argument("nodes", nargs="*")
     add.add_argument("-a", "--all", action="store_true", help="every node")
@@ -96,6 +97,7 @@ def _list(args: argparse.Namespace) -> int:
 
 def _info(args: argparse.Namespace) -> int:
     proxy = master(_SCRIPT)
+    code = 0
     for node in args.nodes:
         name = global_name(node, _SCRIPT)
         state = proxy.call("getSystemState")
@@ -104,14 +106,14 @@ def _info(args: argparse.Namespace) -> int:
         uri = _uri(proxy, name)
         if uri is None:
             print(f"cannot contact [{name}]: unknown node", file=sys.stderr)
-            return 1
-        if not args.quiet:
+            code = 1
+        elif not args.quiet:
             print(f"\ncontacting node {uri} ...")
             try:
                 print(_connections(proxy, uri, state))
             except (OSError, RosError):
                 raise RosError(f"Communication with node[{uri}] failed!") from None
-    return 0
+    return code
 
 
 def _description(node: str, state: Any, types: dict[str, str]) -> str:
@@ -152,14 +154,14 @@ def _peer(proxy: MasterProxy, state: Any, topic: str, peer: str) -> str:
 def _ping(args: argparse.Namespace) -> int:
     if args.all:
         if args.node or args.count:
-            raise UsageError("-a pings every node once; it goes with neither a node's name nor -c")
+            args.refuse("-a pings every node once; it goes with neither a node's name nor -c")
         nodes = _names(master(_SCRIPT).call("getSystemState"))
         print("Will ping the following nodes: \n" + "".join(f" * {node}\n" for node in nodes))
         answers = [_ping_one(node, 1) for node in nodes]
         return 0 if all(answers) else 1
     if not args.node:
         nodes = "\n".join(_names(master(_SCRIPT).call("getSystemState")))
-        raise UsageError(f"Please enter a node to ping. Available nodes are:\n{nodes}")
+        args.refuse(f"Please enter a node to ping. Available nodes are:\n{nodes}")
     name = global_name(args.node, _SCRIPT)
     print(f"rosnode: node is [{name}]")
     return 0 if _ping_one(name, args.count) else 1
@@ -274,7 +276,17 @@ def _machine(args: argparse.Namespace) -> int:
     proxy = master(_SCRIPT)
     hosts = {node: urlsplit(_uri(proxy, node) or "").hostname for node in _names(proxy.call("getSystemState"))}
     if args.machine:
-        print("\n".join(node for node, host in hosts.items() if host == args.machine))
+        address = _address(args.machine)
+        if address is None:
+            raise UsageError(f"cannot resolve machine name [{args.machine}] to address")
+        print("\n".join(node for node, host in hosts.items() if host and _address(host) == address))
     else:
         print("\n".join(sorted({host for host in hosts.values() if host})))
     return 0
+
+
+def _address(host: str) -> str | None:
+    try:
+        return socket.gethostbyname(host)
+    except OSError:
+        return None

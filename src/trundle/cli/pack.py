@@ -3,7 +3,7 @@
 import argparse
 import os
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 from trundle.diagnostics import TrundleError, UsageError
@@ -19,25 +19,42 @@ EXAMPLES = """
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    add = commands.add_parser("find", help="folder of a package")
-    add.add_argument("package")
-    add.set_defaults(run=_find)
+    _about_one(commands.add_parser("find", help="folder of a package"), _find)
     commands.add_parser("list", help="names and folders of all packages").set_defaults(run=_list)
     commands.add_parser("list-names", help="names of all packages").set_defaults(run=_list_names)
-    for name, run, help_ in (
-        ("depends", _depends, "packages that a package needs, and what those need"),
-        ("depends1", _depends1, "packages that a package itself names"),
-        ("depends-on", _depends_on, "packages that need a package, directly or not"),
-        ("depends-on1", _depends_on1, "packages that name a package"),
+    for name, alias, run, help_ in (
+        ("depends", ["deps"], _depends, "packages that a package needs to run, and what those need"),
+        ("depends1", ["deps1"], _depends1, "packages that a package itself names"),
+        ("depends-on", [], _depends_on, "packages that need a package, directly or not"),
+        ("depends-on1", [], _depends_on1, "packages that name a package"),
     ):
-        add = commands.add_parser(name, help=help_)
-        add.add_argument("package")
-        add.set_defaults(run=run)
+        _about_one(commands.add_parser(name, aliases=alias, help=help_), run)
+
+
+def _about_one(parser: argparse.ArgumentParser, run: Callable[[argparse.Namespace, Packages], int]) -> None:
+    parser.add_argument("package", nargs="?", help="that of the working directory if left out")
+    parser.add_argument("-q", dest="quiet", action="store_true", help="say nothing of what goes wrong")
+    parser.set_defaults(run=run)
 
 
 def main(args: argparse.Namespace) -> int:
     """Run the subcommand."""
-    return int(args.run(args, Packages(os.environ, start=Path.cwd())))
+    packages = Packages(os.environ, start=Path.cwd())
+    try:
+        if getattr(args, "package", "") is None:
+            args.package = _here(packages)
+        return int(args.run(args, packages))
+    except TrundleError:
+        if getattr(args, "quiet", False):
+            return 1
+        raise
+
+
+def _here(packages: Packages) -> str:
+    for name, folder in packages.ros_packages().items():
+        if folder.resolve() == Path.cwd():
+            return name
+    raise UsageError("name a package; the working directory is none")
 
 
 def _find(args: argparse.Namespace, packages: Packages) -> int:

@@ -48,7 +48,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("-t", "--textfile", metavar="FILE", help="the value is the text of this file")
     add.add_argument("-b", "--binfile", metavar="FILE", help="the value is the bytes of this file")
     add.add_argument("-v", dest="verbose", action="store_true", help="say what is done")
-    add.set_defaults(run=_set)
+    add.set_defaults(run=_set, refuse=add.error)
     add = commands.add_parser("load", help="set parameters from a YAML file")
     add.add_argument("file", help="- for standard input")
     add.add_argument("namespace", nargs="?", default="")
@@ -56,7 +56,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.set_defaults(run=_load)
     add = commands.add_parser("dump", help="write parameters as YAML")
     add.add_argument("file", nargs="?", help="standard output if left out")
-    add.add_argument("namespace", nargs="?", default="/")
+    add.add_argument("namespace", nargs="?", default="")
     add.add_argument("-v", dest="verbose", action="store_true", help="say what is done")
     add.set_defaults(run=_dump)
     add = commands.add_parser("delete", help="delete a parameter or a namespace")
@@ -95,8 +95,10 @@ def _get(args: argparse.Namespace) -> int:
 
 def _set(args: argparse.Namespace) -> int:
     name = global_name(args.name, _SCRIPT)
-    if (args.value is not None) + (args.textfile is not None) + (args.binfile is not None) != 1:
-        raise UsageError("a value is needed: YAML, -t FILE or -b FILE")
+    if args.value is args.textfile is args.binfile is None:
+        args.refuse("a value is needed: YAML, -t FILE or -b FILE")
+    if args.textfile is not None and args.binfile is not None:
+        args.refuse("only one of -t and -b may be given")
     if args.textfile is not None:
         _put(name, _read(args.textfile).decode("utf-8", "replace"), args.verbose)
     elif args.binfile is not None:
@@ -112,13 +114,20 @@ def _load(args: argparse.Namespace) -> int:
     if args.verbose:
         print("reading parameters from " + ("stdin" if args.file == "-" else f"[{args.file}]"))
     above = global_name(args.namespace, _SCRIPT).rstrip("/") or "/"
+    loaded: list[tuple[str, Any]] = []
     for document in _documents(text, args.file):
         namespace = above
         if isinstance(document, dict) and "_ns" in document:
             namespace = join_names(above, str(document.pop("_ns")))
+            if args.verbose:
+                print(f"reading parameters into namespace [{namespace}]")
+        loaded.append((namespace, document))
+    for namespace, document in loaded:
         if namespace == "/" and not isinstance(document, dict):
             raise UsageError("global / can only be set to a dictionary")
-        set_leaves(namespace, document, lambda n, v: _put(n, v, args.verbose))
+        if args.verbose:
+            set_leaves(namespace, document, _say)
+        set_leaves(namespace, document, lambda n, v: _put(n, v, verbose=False))
     return 0
 
 
@@ -126,8 +135,11 @@ def _dump(args: argparse.Namespace) -> int:
     name = global_name(args.namespace, _SCRIPT)
     if args.verbose:
         print(f"dumping namespace [{args.namespace}] to file [{args.file}]")
-    text = _dump_yaml(master(_SCRIPT).call("getParam", name))
-    if args.file is None:
+    tree = master(_SCRIPT).call("getParam", name)
+    if args.verbose:
+        set_leaves(name, tree, _say)
+    text = _dump_yaml(tree)
+    if not args.file:
         sys.stdout.write(text)
     else:
         try:
@@ -155,7 +167,15 @@ def _put(name: str, value: object, verbose: bool) -> None:
     except ValueError as error:
         raise UsageError(f"parameter {name}: {error}") from None
     if verbose:
-        print(f"set parameter [{name}] to [{value}]")
+        print(f"set parameter [{name}] to [{_plain(value)}]")
+
+
+def _say(name: str, value: object) -> None:
+    print(f"{name}={_plain(value)}")
+
+
+def _plain(value: object) -> object:
+    return value.decode("latin-1") if isinstance(value, bytes) else value
 
 
 def _read(path: str) -> bytes:

@@ -86,7 +86,9 @@ def _from_bag(names: Sequence[str], path: Path) -> list[Curve]:
 def _from_graph(names: Sequence[str], duration_s: float | None, *, draws: bool) -> list[Curve]:
     with running_node("plot") as (loop, node):
         clock = loop.run(follow_time(node))
-        traces = [Trace(name, wait_for_topic(master("plot"), global_name(name, "plot"))) for name in names]
+        traces = [
+            Trace(name, wait_for_topic(master("plot"), global_name(name, "plot"), loop.messages)) for name in names
+        ]
         for trace in traces:
             follow_trace(trace, node, clock)
         until_s = duration_s if duration_s is not None else None if draws else 10.0

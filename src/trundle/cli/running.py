@@ -35,7 +35,7 @@ class IntermixedParser(argparse.ArgumentParser):
 
 
 def original_errors(function: Callable[[Namespace], int]) -> Callable[[Namespace], int]:
-    """Report what a graph command cannot do as rostopic and its kin do, on stderr and with exit code 1."""
+    """Report what a graph command cannot do as rostopic and its kin do, on stderr and with `failure` or 1."""
 
     @functools.wraps(function)
     def reporting(args: Namespace) -> int:
@@ -45,7 +45,7 @@ def original_errors(function: Callable[[Namespace], int]) -> Callable[[Namespace
             print(f"ERROR: Unable to communicate with master!\n{error}", file=sys.stderr)
         except TrundleError as error:
             print(f"ERROR: {error}", file=sys.stderr)
-        return 1
+        return getattr(args, "failure", 1)
 
     return reporting
 

@@ -27,7 +27,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("values", nargs="*", help="the request as YAML; or each of its fields; or piped in")
     add.add_argument("-v", dest="verbose", action="store_true", help="print the request, too")
     add.add_argument("--wait", action="store_true", help="wait until the service is there")
-    add.set_defaults(run=_call)
+    add.set_defaults(run=_call, failure=2)
     for name, run, help_ in (
         ("info", _info, "node, address, type and arguments of a service"),
         ("type", _type, "type of a service"),
@@ -37,7 +37,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     ):
         add = commands.add_parser(name, help=help_)
         add.add_argument("service")
-        add.set_defaults(run=run)
+        add.set_defaults(run=run, failure=2 if name == "args" else 1)
     add = commands.add_parser("find", help="services of a type")
     add.add_argument("type")
     add.set_defaults(run=_find)

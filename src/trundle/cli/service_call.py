@@ -78,14 +78,6 @@ def service_type(proxy: MasterProxy, name: str) -> str:
 
 
 def argument_names(kind: str, messages: Messages | None = None) -> str:
-    """Name a request's fields, those inside others with dots."""
+    """Name a request's fields."""
     messages = messages or Messages()
-    return " ".join(_leaves(messages, messages.service(kind).request, ""))
-
-
-def _leaves(messages: Messages, type_name: str, prefix: str) -> Iterable[str]:
-    for field, text in messages.fields(type_name).items():
-        if "/" in text and "[" not in text:
-            yield from _leaves(messages, text, f"{prefix}{field}.")
-        else:
-            yield f"{prefix}{field}"
+    return " ".join(messages.fields(messages.service(kind).request))

@@ -21,7 +21,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add = commands.add_parser("echo", help="where one frame is in another, again and again")
     add.add_argument("source", help="frame to express it in")
     add.add_argument("target", help="frame asked about")
-    add.add_argument("rate", nargs="?", type=float, default=1.0, help="times a second (1)")
+    add.add_argument("rate", nargs="?", type=float, help="times a second (1); also _rate:=5, _precision:=6")
     add.add_argument("-n", dest="count", type=int, metavar="COUNT", help="stop after so many")
     add.set_defaults(run=_of("tf_echo"))
     add = commands.add_parser("tree", help="all frames as a tree, as view_frames does")
@@ -29,8 +29,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("-o", "--output", metavar="FILE", help="a picture (.svg) or a graph for Graphviz (.gv, .dot)")
     add.set_defaults(run=_of("tf_tree"))
     add = commands.add_parser("monitor", help="delays and rates of frames and of who sends them, every second")
+    add.add_argument("frames", nargs="*", metavar="FRAME", help="two: only the chain between them, and its delay")
     add.add_argument("-n", dest="count", type=int, metavar="COUNT", help="stop after so many tables")
-    add.set_defaults(run=_of("tf_monitor"))
+    add.set_defaults(run=_of("tf_monitor"), refuse=add.error)
     add = commands.add_parser("static", help="publish a transform that never changes, as tf2_ros does")
     add.add_argument(
         "numbers", nargs="+", metavar="X Y Z (YAW PITCH ROLL | QX QY QZ QW) FRAME CHILD", help="[m], [rad]"

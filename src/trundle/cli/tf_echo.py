@@ -3,22 +3,31 @@
 import argparse
 import math
 import time
+from collections.abc import Sequence
 
 from trundle.diagnostics import UsageError
 from trundle.ros import Transform, TransformBuffer, TransformError, TransformListener, follow_time
 
 from .running import running_node
+from .yaml_input import yaml_value
 
 _FIRST_S = 1.0
 """How long the first transform may take before that is said."""
+_DIGITS = range(16)
 
 
 def main(args: argparse.Namespace) -> int:
     """Print until enough or Ctrl-C."""
-    if not args.rate > 0:
+    rate = _number(args, "rate", args.rate if args.rate is not None else 1.0)
+    if not rate > 0:
         raise UsageError("the rate must be greater than zero")
+    digits = int(_number(args, "precision", 3))
+    if digits not in _DIGITS:
+        raise UsageError(f"the precision lies between 0 and {_DIGITS[-1]}, got {digits}")
+    if "precision" in args.words.params:
+        print(f"Precision default value was overriden, new value: {digits}")
     printed = 0
-    with running_node("tf_echo") as (loop, node):
+    with running_node("tf_echo", args.words) as (loop, node):
         clock = loop.run(follow_time(node))
         listener = TransformListener(node)
 
@@ -36,30 +45,50 @@ def main(args: argparse.Namespace) -> int:
             if isinstance(found, str):
                 print(f"Failure at {clock.now_ns() / 1e9:.9f}\nException thrown:{found}", flush=True)
             else:
-                print(_text(found), flush=True)
+                print(_text(found, digits), flush=True)
             printed += 1
             if args.count is not None and printed >= args.count:
                 return 1 if isinstance(found, str) else 0
-            time.sleep(1.0 / args.rate)
+            time.sleep(1.0 / rate)
             found = loop.run(look())
 
 
-def _text(transform: Transform) -> str:
+def _number(args: argparse.Namespace, name: str, default: float) -> float:
+    """What `_rate:=5` and its like say, else the default."""
+    text = args.words.params.get(name)
+    value = default if text is None else yaml_value(text)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise UsageError(f"_{name}:= takes a number, got {text!r}")
+    return value
+
+
+def _text(transform: Transform, digits: int) -> str:
     w, x, y, z = transform.rotation
-    rpy = transform.pose.rpy
+    rpy = _rpy(w, x, y, z)
     return (
-        f"At time {transform.stamp_ns / 1e9:.3f}\n"
-        f"- Translation: {_list(transform.translation)}\n"
-        f"- Rotation: in Quaternion {_list((x, y, z, w))}\n"
-        f"            in RPY (radian) {_list(rpy)}\n"
-        f"            in RPY (degree) {_list(tuple(map(math.degrees, rpy)))}"
+        f"At time {transform.stamp_ns / 1e9:.{digits}f}\n"
+        f"- Translation: {_list(transform.translation, digits)}\n"
+        f"- Rotation: in Quaternion {_list((x, y, z, w), digits)}\n"
+        f"            in RPY (radian) {_list(rpy, digits)}\n"
+        f"            in RPY (degree) {_list(tuple(map(math.degrees, rpy)), digits)}"
     )
 
 
-def _list(values: tuple[float, ...]) -> str:
-    return f"[{', '.join(f'{value:.3f}' for value in values)}]"
+def _list(values: Sequence[float], digits: int) -> str:
+    return f"[{', '.join(f'{value:.{digits}f}' for value in values)}]"
+
+
+def _rpy(w: float, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Roll, pitch, yaw as tf finds them, so that zeros have its signs: a level frame has pitch -0."""
+    sine = 2 * (x * z - w * y)
+    if abs(sine) >= 1:
+        roll = math.atan2(2 * (w * z - x * y) * math.copysign(1, sine), -2 * (x * z + w * y) * math.copysign(1, sine))
+        return roll, math.copysign(math.pi / 2, -sine), 0.0
+    roll = math.atan2(2 * (y * z + w * x), 1 - 2 * (x * x + y * y))
+    yaw = math.atan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z))
+    return roll, -math.asin(sine), yaw
 
 
 def _frames(buffer: TransformBuffer) -> str:
     frames = buffer.frames().items()
-    return "\n".join(f"Frame {child} exists with parent {parent or 'NO_PARENT'}." for child, parent in frames)
+    return "".join(f"Frame {child} exists with parent {parent}.\n" for child, parent in frames if parent is not None)

@@ -10,5 +10,5 @@ from .running import running_node
 def main(args: argparse.Namespace) -> int:
     """Be tf2_ros' static_transform_publisher."""
     stand_in = Replacement(STAND_INS["tf2_ros", "static_transform_publisher"])
-    with running_node("static_transform_publisher") as (loop, node):
+    with running_node("static_transform_publisher", args.words) as (loop, node):
         return 1 if loop.run(run_stand_in(stand_in, node, args.numbers, Host()), None) else 0

@@ -21,7 +21,7 @@ def main(args: argparse.Namespace) -> int:
     target = Path(args.output) if args.output else None
     if target is not None and target.suffix not in _SUFFIXES:
         raise UsageError(f"{target} ends in none of {', '.join(_SUFFIXES)}")
-    with running_node("view_frames") as (loop, node):
+    with running_node("view_frames", args.words) as (loop, node):
         clock = loop.run(follow_time(node))
         traffic = TransformTraffic(node, clock)
         if target is not None:

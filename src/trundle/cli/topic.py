@@ -54,7 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("--noarr", action="store_true", help="leave arrays out")
     add.add_argument("-c", "--clear", action="store_true", help="clear the screen before each message")
     add.add_argument("--offset", action="store_true", help="print times as seconds from now")
-    add.set_defaults(run=_echo)
+    add.set_defaults(run=_echo, refuse=add.error)
     add = commands.add_parser("hz", help="how often messages come")
     add.add_argument("topics", nargs="+")
     add.add_argument("-w", "--window", type=int, default=-1, help="messages to average over")
@@ -82,7 +82,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("-s", "--substitute-keywords", action="store_true", help="with -r, set 'now' and 'auto' anew")
     add.add_argument("--use-rostime", action="store_true", help="'now' and 'auto' are simulated time")
     add.add_argument("-v", "--verbose", action="store_true", help="print what is published")
-    add.set_defaults(run=_pub)
+    add.set_defaults(run=_pub, refuse=add.error)
 
 
 @original_errors

@@ -35,20 +35,20 @@ _WAITING = 1000
 def main(args: argparse.Namespace) -> int:
     """Print until enough messages came or Ctrl-C."""
     if args.width is not None and args.width < 2:
-        raise UsageError("Fixed width for numeric values must be at least 2")
+        args.refuse("Fixed width for numeric values must be at least 2")
     if args.all and not args.bag:
-        raise UsageError("Display all option is only valid when echoing from bag files")
+        args.refuse("Display all option is only valid when echoing from bag files")
     if args.offset and args.bag:
-        raise UsageError("offset time option is not valid with bag files")
+        args.refuse("offset time option is not valid with bag files")
     if not args.topic and not args.all:
-        raise UsageError("topic must be specified")
+        args.refuse("topic must be specified")
     if args.count is not None and args.count <= 0:
         return 0
     if args.bag:
         return _echo_bag(args)
     with running_node("rostopic", args.words) as (loop, node):
         clock = loop.run(follow_time(node))
-        field = wait_for_topic(master("rostopic"), global_name(str(args.topic), "rostopic"))
+        field = wait_for_topic(master("rostopic"), global_name(str(args.topic), "rostopic"), loop.messages)
         messages = loop.messages
         echo = _Echo(args, messages)
         inbox: queue.Queue[Any] = queue.Queue()

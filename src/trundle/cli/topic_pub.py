@@ -3,7 +3,7 @@
 import argparse
 import sys
 import time
-from typing import Any
+from typing import Any, NoReturn
 
 from trundle.diagnostics import UsageError
 from trundle.ros import MessageError, MessagePrinter, Node, Publisher, WallClock, follow_time
@@ -20,12 +20,15 @@ _SUBSCRIBER_S = 5.0
 def main(args: argparse.Namespace) -> int:
     """Publish until done or Ctrl-C."""
     if args.rate is not None and args.once:
-        raise UsageError("You cannot select both -r and -1 (--once)")
+        args.refuse("You cannot select both -r and -1 (--once)")
     if args.rate is not None and not args.rate > 0:
-        raise UsageError("rate must be greater than zero")
+        args.refuse("rate must be greater than zero")
     if args.values and args.file:
-        raise UsageError("args conflict with -f setting")
-    values = [yaml_value(text) for text in args.values]
+        args.refuse("args conflict with -f setting")
+    try:
+        values = [yaml_value(text) for text in args.values]
+    except UsageError as error:
+        return args.refuse(str(error))
     with running_node("rostopic", args.words) as (loop, node):
         takes_values = bool(loop.messages.fields(args.type))
         is_piped = not values and takes_values
@@ -59,16 +62,22 @@ def _publish_values(args: argparse.Namespace, node: Node, publisher: Publisher, 
             publisher.publish(message)
             due = max(due + 1 / args.rate, time.monotonic() - 1 / args.rate)
             time.sleep(max(0.0, due - time.monotonic()))
-    what = (
-        f"publishing and latching [{_text(node, args.type, message)}]"
-        if args.verbose
-        else "publishing and latching message"
-    )
-    print(f"{what} for {_ONCE_S} seconds" if args.once else f"{what}. Press ctrl-C to terminate", flush=True)
+    _announce(args, node, message, passes=args.once)
     publisher.publish(message)
     if args.once:
         time.sleep(_ONCE_S)
-        return
+    else:
+        _stay()
+
+
+def _announce(args: argparse.Namespace, node: Node, message: Any, *, passes: bool) -> None:
+    """Say what is published, as rostopic does."""
+    shown = f"[{_text(node, args.type, message)}]" if args.verbose else "message"
+    how_long = f" for {_ONCE_S} seconds" if passes else ". Press ctrl-C to terminate"
+    print(f"publishing and latching {shown}{how_long}", flush=True)
+
+
+def _stay() -> NoReturn:
     while True:
         time.sleep(3600.0)
 
@@ -76,6 +85,7 @@ def _publish_values(args: argparse.Namespace, node: Node, publisher: Publisher, 
 def _publish_documents(args: argparse.Namespace, node: Node, publisher: Publisher) -> None:
     """Publish each YAML document of a file or of standard input."""
     rate = args.rate or (None if args.latch or args.once else _PIPED_HZ)
+    stays = rate is None and not args.once
     documents = list(yaml_file(args.file)) if args.file else piped_documents()
     until = time.monotonic() + _SUBSCRIBER_S
     while not publisher.has_subscribers and time.monotonic() < until:
@@ -86,8 +96,13 @@ def _publish_documents(args: argparse.Namespace, node: Node, publisher: Publishe
     while True:
         for document in documents:
             message = _message(node, args.type, document if isinstance(document, list) else [document])
-            _say(args, node, message)
+            if repeats:
+                _say(args, node, message)
+            else:
+                _announce(args, node, message, passes=not stays)
             publisher.publish(message)
+            if stays:  # -l alone latches the first message
+                _stay()
             time.sleep(1 / rate if rate else _ONCE_S)
             if args.once:
                 return

@@ -27,7 +27,7 @@ def main(args: argparse.Namespace) -> int:
         clock = loop.run(follow_time(node)) if is_delay or (is_rate and not args.wall_time) else WallClock()
         meters: dict[str, Rate | Bandwidth | Delay] = {}
         for name in args.topics:
-            field = wait_for_topic(master("rostopic"), global_name(name, "rostopic"))
+            field = wait_for_topic(master("rostopic"), global_name(name, "rostopic"), loop.messages)
             if is_rate:
                 meter: Rate | Bandwidth | Delay = Rate(clock, args.window)
                 wanted = expression(args.filter)
@@ -47,10 +47,12 @@ def main(args: argparse.Namespace) -> int:
         if not isinstance(clock, WallClock):
             print("WARNING: may be using simulated time", file=sys.stderr, flush=True)
         while True:
-            time.sleep(1.0)
-            text = report(meters)
-            if text:
-                print(text, flush=True)
+            try:
+                time.sleep(1.0)
+            finally:  # Ctrl-C is answered with what came since, too
+                text = report(meters)
+                if text:
+                    print(text, flush=True)
 
 
 class Rate:

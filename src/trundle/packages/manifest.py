@@ -5,21 +5,13 @@ from pathlib import Path
 
 from trundle.xmlnode import XmlNode, read_xml
 
-_NEEDS = (
-    "depend",
-    "build_depend",
-    "build_export_depend",
-    "buildtool_depend",
-    "buildtool_export_depend",
-    "exec_depend",
-    "run_depend",
-    "test_depend",
-)
+_NEEDS = ("run_depend", "exec_depend", "depend")
+"""Rospack's, and in its order: what a package needs when it is built or tested is left out."""
 _FOR_VERSION = re.compile(r"\$ROS_VERSION\s*==\s*['\"]?(\d)")
 
 
 def needs(folder: Path) -> list[str]:
-    """Names of packages, and of what the system provides, that a package depends on, in order.
+    """Names of packages, and of what the system provides, that a package needs to run, in order.
 
     Raises:
         DescriptionError: its manifest cannot be read.
@@ -27,7 +19,7 @@ def needs(folder: Path) -> list[str]:
     manifest = folder / "package.xml"
     if manifest.is_file():
         root = read_xml(manifest)
-        named = [child.text.strip() for child in root.children if child.tag in _NEEDS and _is_for_ros_1(child)]
+        named = [each.text.strip() for tag in _NEEDS for each in root.all(tag) if _is_for_ros_1(each)]
     else:
         root = read_xml(folder / "manifest.xml")  # rosbuild: <depend package="…"/>
         named = [child.attribute("package") or "" for child in root.all("depend")]

@@ -63,13 +63,15 @@ def field_type(type_name: str, path: str, messages: Messages | None = None) -> s
     messages = messages or Messages()
     is_list = False
     for step in Field(topic="", type=type_name, path=path).steps:
-        base = type_name.partition("[")[0]
+        base, bracket, _ = type_name.partition("[")
+        if bracket:
+            raise UsageError(f"{step.field} is in each element of a {type_name}; write [0] or [:] before it")
         fields = {"secs": "uint32", "nsecs": "uint32"} if base in ("time", "duration") else messages.fields(base)
         if step.field not in fields:
             raise UsageError(f"no field named {step.field} in {base}; fields here: {', '.join(fields)}")
         type_name = fields[step.field]
         is_list |= isinstance(step.index, slice)
-        if isinstance(step.index, int):
+        if step.index is not None:
             type_name = type_name.partition("[")[0]
     return f"{type_name}[]" if is_list and "[" not in type_name else type_name
 

@@ -114,7 +114,7 @@ class Messages:
     def service_text(self, type_name: str) -> str:
         """Return the text of a service type."""
         self.service(type_name)
-        return self._definitions.services[type_name]
+        return self._definitions.service_text(type_name)
 
     def add(self, type_name: str, text: str) -> None:
         """Add a message type from its .msg text; a type that is already known stays as it is."""

@@ -3,6 +3,8 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeAlias
 
+from trundle.diagnostics import UsageError
+
 from .errors import ParameterError
 
 Tree: TypeAlias = "dict[str, Any]"
@@ -124,9 +126,15 @@ def updates(subscribed: Iterable[str], name: str, value: object) -> list[Update]
 
 
 def set_leaves(name: str, value: object, put: Callable[[str, object], None]) -> None:
-    """Set each value of a tree on its own, so that what else a namespace holds stays (rosparam's way)."""
+    """Set each value of a tree on its own, so that what else a namespace holds stays (rosparam's way).
+
+    Raises:
+        UsageError: a dictionary in it has keys that are no names.
+    """
     if isinstance(value, dict):
-        members: Tree = value
+        members: dict[object, Any] = value
+        if not all(isinstance(key, str) for key in members):
+            raise UsageError(f"YAML dictionaries must have string keys. Invalid dictionary is:\n{members}")
         for key, below in members.items():
             set_leaves(f"{name.rstrip('/')}/{key}", below, put)
     else:

@@ -24,6 +24,7 @@ class MessagePrinter:
 
     def text(self, value: Any, type_text: str, indent: str = "") -> str:
         """Print a value of a ROS type ('float64[36]', 'geometry_msgs/Pose', …); one below others starts a new line."""
+        value, type_text = self._shown(value, type_text)
         base, bracket, _ = type_text.partition("[")
         if bracket:
             return self._list(value, base, indent)
@@ -60,15 +61,18 @@ class MessagePrinter:
 
     def _members(self, message: Message, type_name: str, indent: str) -> Iterator[str]:
         for field, kind in self.messages.fields(type_name).items():
-            value = field_value(message, field)
-            if self.hide_arrays and "[" in kind:
-                # The original strips only brackets from the end, so a fixed length loses its last one.
-                value, kind = f"<array type: {kind.rstrip('[]')}, length: {len(value)}>", "string"
-            elif self.hide_strings and kind == "string":
-                value = f"<string length: {len(value)}>"
-            elif self.hide_strings and kind == "string[]":
-                value, kind = f"<array type: string, length: {len(value)}>", "string"
-            yield f"{field}: {self.text(value, kind, '  ' + indent)}"
+            yield f"{field}: {self.text(field_value(message, field), kind, '  ' + indent)}"
+
+    def _shown(self, value: Any, kind: str) -> tuple[Any, str]:
+        """A value with its type; in place of one that is hidden, what says so."""
+        if self.hide_arrays and "[" in kind:
+            # The original strips only brackets from the end, so a fixed length loses its last one.
+            return f"<array type: {kind.rstrip('[]')}, length: {len(value)}>", "string"
+        if self.hide_strings and kind == "string":
+            return f"<string length: {len(value)}>", "string"
+        if self.hide_strings and kind == "string[]":
+            return f"<array type: string, length: {len(value)}>", "string"
+        return value, kind
 
     def _list(self, values: Any, base: str, indent: str) -> str:
         items = _plain(values)

@@ -52,11 +52,17 @@ class Definitions:
             if (folder := self.on_path.get(package)) is not None:
                 self._read(package, folder)
 
-    def installed(self, type_name: str) -> str | None:
-        """The text of a message type as an installed ROS has it, with its comments, where `rosbag check` looks too."""
+    def service_text(self, type_name: str) -> str:
+        """The text of a known service type: as installed, with its comments, if that means the same."""
+        known = self.services[type_name]
+        text = self.installed(type_name, "srv")
+        return text if text is not None and _bare(text) == _bare(known) else known
+
+    def installed(self, type_name: str, kind: str = "msg") -> str | None:
+        """The text of a type as an installed ROS has it, with its comments, where `rosbag check` looks too."""
         package, _, name = type_name.partition("/")
         for share in (*os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep), DEBIAN_SHARE):
-            path = Path(share, package, "msg", f"{name}.msg")
+            path = Path(share, package, kind, f"{name}.{kind}")
             if share and path.is_file():
                 with suppress(OSError):
                     return _text(path)
@@ -111,6 +117,12 @@ def constant_texts(text: str) -> dict[str, str]:
         # Only string constants may hold a '#'; everything up to the end of the line is theirs (msg specification).
         found[match["name"]] = value.strip() if match["type"] == "string" else value.partition("#")[0].strip()
     return found
+
+
+def _bare(text: str) -> list[str]:
+    """What a text says beside its comments."""
+    lines = (" ".join(line.partition("#")[0].split()) for line in text.splitlines())
+    return [line for line in lines if line]
 
 
 def _text(path: Path) -> str:

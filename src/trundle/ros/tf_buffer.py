@@ -88,13 +88,7 @@ class TransformBuffer:
             TransformError: a frame is unknown, the two are not connected, or the time is outside what is known.
         """
         target, source = frame_name(target), frame_name(source)
-        up_target, up_source = self._chain(target), self._chain(source)
-        common = next((frame for frame in up_source if frame in up_target), None)
-        if common is None:
-            raise TransformError(
-                f"Could not find a connection between '{target}' and '{source}' because they are not part of the "
-                f"same tree. Tf has two or more unconnected trees."
-            )
+        up_target, up_source, common = self._meeting(target, source)
         below = [*up_source[: up_source.index(common)], *up_target[: up_target.index(common)]]
         if stamp_ns == 0:
             stamp_ns = min((self._moving[frame][-1].stamp_ns for frame in below if frame in self._moving), default=0)
@@ -104,6 +98,17 @@ class TransformBuffer:
         return Transform(
             parent=target, child=source, stamp_ns=stamp_ns, translation=found.position, rotation=found.quaternion
         )
+
+    def path(self, target: str, source: str) -> list[str]:
+        """Name the frames that lead from `target` to `source`, both included.
+
+        Raises:
+            TransformError: a frame is unknown, or the two are not connected.
+        """
+        target, source = frame_name(target), frame_name(source)
+        up_target, up_source, common = self._meeting(target, source)
+        down = up_source[: up_source.index(common)]
+        return [*up_target[: up_target.index(common) + 1], *reversed(down)]
 
     def can_transform(self, target: str, source: str, stamp_ns: int = 0) -> bool:
         """Tell whether a lookup would succeed."""
@@ -136,11 +141,22 @@ class TransformBuffer:
         """Forget what moves, as when time goes back; what is static stays, as it is sent only once."""
         self._moving.clear()
 
-    def _chain(self, frame: str) -> list[str]:
-        """Name a frame and its ancestors up to the root."""
+    def _meeting(self, target: str, source: str) -> tuple[list[str], list[str], str]:
+        """Name each frame's way to the root, and where the two ways meet."""
+        up_target, up_source = self._chain(target, "target"), self._chain(source, "source")
+        common = next((frame for frame in up_source if frame in up_target), None)
+        if common is None:
+            raise TransformError(
+                f"Could not find a connection between '{target}' and '{source}' because they are not part of the "
+                f"same tree.Tf has two or more unconnected trees."
+            )
+        return up_target, up_source, common
+
+    def _chain(self, frame: str, argument: str) -> list[str]:
+        """Name a frame and its ancestors up to the root; `argument` says in complaints which frame it is."""
         parents = self._parent
         if parents(frame) is None and not self._is_parent(frame):
-            raise TransformError(f'"{frame}" passed to lookupTransform argument does not exist. ')
+            raise TransformError(f'"{frame}" passed to lookupTransform argument {argument}_frame does not exist. ')
         chain = [frame]
         while (parent := parents(chain[-1])) is not None:
             chain.append(parent)

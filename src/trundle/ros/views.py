@@ -4,6 +4,7 @@ import functools
 from typing import Any
 
 from .messages import Message
+from .type_texts import ros_name
 
 
 @functools.total_ordering
@@ -17,9 +18,14 @@ class MessageView:
 
     def __getattr__(self, name: str) -> Any:
         message = self._message
+        if name == "_type":
+            return ros_name(message.__msgtype__)
         if hasattr(message, "nanosec") and name in ("secs", "nsecs"):
             return message.sec if name == "secs" else message.nanosec
-        return _seen(getattr(message, name) if hasattr(message, name) else getattr(message, f"{name}_"))
+        for field in (name, f"{name}_"):
+            if hasattr(message, field):
+                return _seen(getattr(message, field))
+        raise AttributeError(f"no field named {name} in {ros_name(message.__msgtype__)}")
 
     def to_nsec(self) -> int:
         """A time or duration [ns]."""
