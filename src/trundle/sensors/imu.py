@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from trundle.model import ImuNoise
 from trundle.simulation import Snapshot
-from trundle.spatial import Pose, Quaternion, Vector3
+from trundle.spatial import Pose, Quaternion, Vector3, cross
 
 from .mounted import NS, MountedSensor, Spot
 from .noise import NoiseSource, disturbed
@@ -24,7 +24,11 @@ class ImuReading:
 
 
 class ImuSensor(MountedSensor[ImuReading]):
-    """Feels how its point of the link moves, as the mean over the time since its last reading."""
+    """Feels how its point of the link moves.
+
+    How the link's centre of mass speeds up and how its turning changes are means over the time since the last reading,
+    as in Gazebo; the pull inwards is that of the instant, which a mean would turn with the link.
+    """
 
     def __init__(self, spot: Spot, *, gravity: Vector3, reference_from_world: Pose) -> None:
         """Mount an imu; see `MountedSensor`.
@@ -40,15 +44,16 @@ class ImuSensor(MountedSensor[ImuReading]):
         self._reference_from_world = reference_from_world
         self._rates = [NoiseSource(each, spot.random) for each in noise.angular_velocity]
         self._accelerations = [NoiseSource(each, spot.random) for each in noise.linear_acceleration]
-        self._before: tuple[int, Vector3] | None = None
-        """When and with which velocity it last read."""
+        self._link_from_com = spot.link.inertial.link_from_com.position
+        self._before: tuple[int, Vector3, Vector3] | None = None
+        """When it last read; the centre of mass' velocity and the rate of turning at that instant, world axes."""
 
     def take(self, snapshot: Snapshot) -> ImuReading:
         """Read at this instant; the first reading knows no acceleration but gravity."""
         world_from_sensor = self.world_from_sensor(snapshot)
-        _, _, _, wx, wy, wz = snapshot.twists[self.link_index].tolist()
+        vx, vy, vz, wx, wy, wz = snapshot.twists[self.link_index].tolist()
         turning = (wx, wy, wz)
-        felt = self._felt(snapshot.time_ns, self.velocity(snapshot))
+        felt = self._felt(snapshot, (vx, vy, vz), turning)
         sensor_from_world = Pose(quaternion=world_from_sensor.quaternion).inverse()
         return ImuReading(
             time_ns=snapshot.time_ns,
@@ -57,12 +62,28 @@ class ImuSensor(MountedSensor[ImuReading]):
             linear_acceleration=disturbed(sensor_from_world.direction(felt), self._accelerations, snapshot.time_ns),
         )
 
-    def _felt(self, time_ns: int, velocity: Vector3) -> Vector3:
-        """Acceleration less gravity, world axes."""
-        before, self._before = self._before, (time_ns, velocity)
+    def _felt(self, snapshot: Snapshot, velocity: Vector3, turning: Vector3) -> Vector3:
+        """Acceleration less gravity, world axes; velocity is that of the link's origin."""
+        world_from_link = self.world_from_link(snapshot)
+        com = world_from_link.direction(self._link_from_com)
+        speed = _sum(velocity, cross(turning, com))
+        before, self._before = self._before, (snapshot.time_ns, speed, turning)
         gx, gy, gz = self._gravity
-        if before is None or time_ns <= before[0]:
+        if before is None or snapshot.time_ns <= before[0]:
             return (-gx, -gy, -gz)
-        elapsed = (time_ns - before[0]) / NS
-        ax, ay, az = ((now - then) / elapsed for now, then in zip(velocity, before[1], strict=True))
-        return (ax - gx, ay - gy, az - gz)
+        elapsed = (snapshot.time_ns - before[0]) / NS
+        arm = _less(world_from_link.direction(self.sensor.link_from_sensor.position), com)
+        hastening = _less(turning, before[2], elapsed)
+        inwards = cross(turning, cross(turning, arm))
+        return _less(_sum(_less(speed, before[1], elapsed), cross(hastening, arm), inwards), self._gravity)
+
+
+def _sum(*vectors: Vector3) -> Vector3:
+    x, y, z = (sum(parts) for parts in zip(*vectors, strict=True))
+    return (x, y, z)
+
+
+def _less(one: Vector3, other: Vector3, scale: float = 1.0) -> Vector3:
+    """Their difference, divided by a scale."""
+    x, y, z = ((a - b) / scale for a, b in zip(one, other, strict=True))
+    return (x, y, z)
