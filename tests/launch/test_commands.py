@@ -77,7 +77,7 @@ def test_a_command_that_hangs_is_ended() -> None:
         resolve(f"{PYTHON} -c 'import time; time.sleep(600)'", timeout_s=0.2)
 
 
-def test_a_null_parameter_is_named_and_left_out() -> None:
+def test_a_null_parameter_is_named() -> None:
     report = Diagnostics()
     text = "<launch><rosparam>{a: ~, b: 1}</rosparam></launch>"
     plan = read_launch_text(text, name="t.launch", packages=NoPackages(), report=report)
@@ -86,5 +86,5 @@ def test_a_null_parameter_is_named_and_left_out() -> None:
         raise AssertionError("no xacro here")
 
     params = resolve_params(plan, report, expand_xacro=expand, env={})
-    assert [p.name for p in params] == ["/b"]
+    assert [(p.name, p.value) for p in params] == [("/a", None), ("/b", 1)]
     assert "'/a' is null" in report.warnings[0]

@@ -249,6 +249,36 @@ def test_nodes_of_another_machine_are_not_started_and_those_of_this_one_are(laun
     assert "there-1" not in done.stdout
 
 
+@pytest.mark.parametrize("how", ["word", "environment"])
+def test_a_launch_may_be_put_in_a_namespace(trundle, package: Path, how: str) -> None:
+    words, env = (("__ns:=deep",), {}) if how == "word" else ((), {"ROS_NAMESPACE": "/deep"})
+    (package / "main.launch").write_text('<launch><node pkg="p" type="talk" name="n"/></launch>')
+
+    assert trundle("launch", str(package / "main.launch"), "--nodes", *words, **env).stdout == "/deep/n\n"
+
+
+def test_options_may_stand_between_the_words(launch: Launch, package: Path) -> None:
+    done = launch("p", "--nodes", "main.launch", "--no-summary", "need:=1")
+    assert done.stdout.splitlines() == ["/sub/one", "/two", "/five", "/tt"]
+
+
+def test_a_launch_with_a_node_of_no_machine_is_refused(launch: Launch, package: Path) -> None:
+    (package / "main.launch").write_text('<launch>\n<node pkg="p" type="talk" name="n" machine="far"/></launch>')
+    done = launch("p", "main.launch", "--headless")
+
+    assert done.returncode == 1
+    assert "main.launch:2: error: node 'n': there is no machine 'far'" in done.stderr
+    assert launch("p", "main.launch", "--nodes").returncode == 0
+
+
+def test_a_null_is_no_parameter_and_the_rest_are_set(launch: Launch, trundle, package: Path) -> None:
+    (package / "main.launch").write_text("<launch><rosparam>{a: ~, b: 1}</rosparam></launch>")
+    done = launch("p", "main.launch", "--headless", "--duration", "0.1")
+
+    assert "parameter '/a' is null, which ROS has no value for; it is not set" in done.stderr
+    assert trundle("param", "list").stdout.split()[:1] == ["/b"]
+
+
 def test_quiet_leaves_what_nodes_say_and_what_goes_wrong(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="a" args="0" output="screen"/>'

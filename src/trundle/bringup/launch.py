@@ -5,7 +5,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from trundle.diagnostics import Diagnostics
+from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.launch import LaunchParam, LaunchPlan, read_arguments, read_launch, resolve_params
 from trundle.packages import Packages
 from trundle.ros import MasterProxy, MasterUnreachableError, master_uri_from_env
@@ -69,7 +69,13 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
             print(launch_print.arguments(declared))
         return None
     plan = read_launch(
-        request.files, packages=packages, report=report, arguments=request.arguments, texts=request.texts, env=env
+        request.files,
+        packages=packages,
+        report=report,
+        arguments=request.arguments,
+        texts=request.texts,
+        env=env,
+        namespace="/" + (request.namespace or env.get("ROS_NAMESPACE", "")).strip("/"),
     )
     show.findings()
     if options.only is not None and options.only != "params":
@@ -86,6 +92,9 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
     if options.only == "params":
         print(launch_print.parameters(params))
         return None
+    for node in plan.nodes:
+        if node.address is None:
+            raise DescriptionError(node.at, f"node {node.name!r}: there is no machine {node.machine!r}")
     return ReadLaunch(plan=plan, params=params, packages=packages, start=start, env=env, report=report, show=show)
 
 

@@ -71,12 +71,13 @@ class NodeStarter:
         Raises:
             DescriptionError: nothing can run it, and the launch requires it.
         """
+        assert node.address is not None, "a launch with a node of no machine is refused"
         if not is_here(node.address, self.env):
             why = f"{node.address} is another machine, and nothing is started there; run trundle launch on it, too"
             return self._missing(node, f"{why}, with ROS_MASTER_URI={self.graph.master_uri}")
-        env = {**self.env, **dict(node.env), "ROS_MASTER_URI": self.graph.master_uri}
-        if node.namespace != "/":
-            env["ROS_NAMESPACE"] = node.namespace
+        env = {**self.env, "ROS_NAMESPACE": node.namespace, "ROS_MASTER_URI": self.graph.master_uri, **dict(node.env)}
+        if env["ROS_NAMESPACE"] == "/":
+            del env["ROS_NAMESPACE"]
         name = label.replace("/", "-")
         match find_node(node.package, node.type, self.packages.find_package, env=env):
             case Executable(path):

@@ -21,6 +21,8 @@ async def set_params(node: Node, plan: LaunchPlan, params: Sequence[LaunchParam]
         if await node.has_param(namespace):
             await node.delete_param(namespace)
     for param in params:
+        if param.value is None:  # the reader has said so
+            continue
         try:
             await node.set_param(param.name, param.value)
         except ParameterError as error:

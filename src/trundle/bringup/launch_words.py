@@ -18,6 +18,8 @@ class LaunchRequest:
     arguments: dict[str, str] = field(default_factory=dict[str, str])
     texts: tuple[tuple[str, str], ...] = ()
     """(name, XML) of what came in on standard input."""
+    namespace: str = ""
+    """`__ns:=`, which everything is put in; empty: not said."""
 
 
 def read_words(words: Sequence[str], packages: Packages, *, stdin: TextIO = sys.stdin) -> LaunchRequest:
@@ -27,12 +29,13 @@ def read_words(words: Sequence[str], packages: Packages, *, stdin: TextIO = sys.
         UsageError: no such file or package, with what there is instead.
     """
     arguments: dict[str, str] = {}
+    special: dict[str, str] = {}
     rest: list[str] = []
     for word in words:
         name, assigned, value = word.partition(":=")
         if assigned:
             if name and value:  # roslaunch does not hear an empty one: the file's default holds
-                arguments[name] = value
+                (special if name.startswith("__") else arguments)[name] = value
         else:
             rest.append(word)
     if not rest:
@@ -45,13 +48,15 @@ def read_words(words: Sequence[str], packages: Packages, *, stdin: TextIO = sys.
         if len(rest) - len(files) > 1:
             raise UsageError("standard input ('-') can be read only once")
         texts = (("<stdin>", stdin.read()),) if "-" in rest else ()
-        return LaunchRequest(files=tuple(Path(word) for word in files), arguments=arguments, texts=texts)
+        found = tuple(Path(word) for word in files)
+        return LaunchRequest(files=found, arguments=arguments, texts=texts, namespace=special.get("__ns", ""))
     if len(rest) == 1:
         raise UsageError(f"no such file: {rest[0]}")
     package = packages.find_package(rest[0])
     if package is None:
         raise UsageError(f"{packages.why_not_found(rest[0])}; {rest[0]!r} is no file either")
-    return LaunchRequest(files=tuple(_in_package(package, rest[0], word) for word in rest[1:]), arguments=arguments)
+    found = tuple(_in_package(package, rest[0], word) for word in rest[1:])
+    return LaunchRequest(files=found, arguments=arguments, namespace=special.get("__ns", ""))
 
 
 def _in_package(folder: Path, package: str, name: str) -> Path:

@@ -9,11 +9,11 @@ from trundle.diagnostics import Diagnostics
 
 def say(text: str, stream: TextIO | None = None) -> None:
     """Print a line, on stdout unless told otherwise; where its reader has gone, nodes still run and are stopped."""
-    stream = stream or sys.stdout
+    there: TextIO = stream or sys.stdout
     try:
-        print(text, file=stream, flush=True)
+        print(text, file=there, flush=True)
     except BrokenPipeError:  # `trundle launch … | tee log`, whose tee Ctrl-C reaches too
-        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+        os.dup2(os.open(os.devnull, os.O_WRONLY), there.fileno())
 
 
 class Showing:

@@ -49,6 +49,8 @@ _REMAPPED = ("service", "tf", "topic")
 """Take `a:=b` and `__name:=n` anywhere, as rosservice, rostopic and tf's tools do: launch files start them."""
 _OF_ROS = ("core", "topic", "node", "param", "service", "bag", "msg", "srv", "tf", "plot", "log", "exec")
 """Ctrl-C is how their work ends, not how it fails: exit code 0, as of the originals."""
+_INTERMIXED = ("launch", "test", "xacro")
+"""Take options between their words, as roslaunch does: `trundle launch robot.launch --headless gui:=false`."""
 EXIT_OK, EXIT_INPUT, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
@@ -90,7 +92,8 @@ def _main(arguments: list[str]) -> int:
     parser = _parser(name)
     try:
         words = parse_arguments(arguments[1:]) if name in _REMAPPED else Arguments(rest=tuple(arguments[1:]))
-        parsed = parser.parse_args(words.rest, argparse.Namespace(words=words))
+        parse = parser.parse_intermixed_args if name in _INTERMIXED else parser.parse_args
+        parsed = parse(words.rest, argparse.Namespace(words=words))
         if getattr(parsed, "allow_outside", False):
             from trundle.packages import ALLOW_OUTSIDE
 

@@ -34,7 +34,9 @@ class Attributes:
                 return read_flag(wanted)
             return unwanted is None or not read_flag(unwanted)
         except ValueError as error:
-            raise DescriptionError(self.at, f"<{self.node.tag}> {'if' if wanted else 'unless'}: {error}") from None
+            raise DescriptionError(
+                self.at, f"<{self.node.tag}> {'unless' if wanted is None else 'if'}: {error}"
+            ) from None
 
     def text(self, name: str) -> str | None:
         """An attribute after substitution, or None where it is absent."""
@@ -81,9 +83,11 @@ class Attributes:
         """The attribute `ns`, or None.
 
         Raises:
-            DescriptionError: present and empty.
+            DescriptionError: present and empty, or private.
         """
         value = self.text("ns")
         if value == "":
             raise DescriptionError(self.at, f"<{self.node.tag}> has an empty 'ns'; leave it out to stay in this one")
+        if value is not None and value.startswith("~"):
+            raise DescriptionError(self.at, f"<{self.node.tag}> ns {value!r}: a namespace belongs to no single node")
         return value

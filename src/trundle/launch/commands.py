@@ -83,9 +83,7 @@ def resolve_params(
     run: CommandRunner = run_command,
     timeout_s: float = _TIMEOUT_S,
 ) -> tuple[LaunchParam, ...]:
-    """Run the plan's commands; afterwards every parameter has a value.
-
-    Values that the parameter server cannot hold are named, and left out.
+    """Run the plan's commands; afterwards every parameter has a value, or None, which is named: it cannot be set.
 
     Args:
         expand_xacro: called in place of any command whose program is `xacro` or `xacro.py`, wherever it is meant to
@@ -107,8 +105,7 @@ def resolve_params(
                 raise DescriptionError(param.at, f"param {param.name!r}: {error}") from None
         if value is None:
             report.warn(param.at, f"parameter {param.name!r} is null, which ROS has no value for; it is not set")
-        else:
-            resolved.append(replace(param, value=value))
+        resolved.append(replace(param, value=value))
     return tuple(resolved)
 
 

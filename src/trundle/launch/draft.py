@@ -17,8 +17,7 @@ class Draft:
     def __init__(self, report: Diagnostics) -> None:
         self._report = report
         self.arguments: list[LaunchArgument] = []
-        self.machines = {"": "", "localhost": ""}
-        """Name → address."""
+        self._machines: dict[str, tuple[object, ...]] = {"": ("",), "localhost": ("",)}
         self.default_machine = ""
         """That of the nodes that follow and name none."""
         self._nodes: dict[str, LaunchNode] = {}
@@ -40,6 +39,15 @@ class Draft:
         if other := self._nodes.get(node.full_name):
             raise DescriptionError(node.at, f"two nodes are named {node.full_name!r}; the other one is at {other.at}")
         self._nodes[node.full_name] = node
+
+    def add_machine(self, name: str, settings: tuple[object, ...], at: Source) -> None:
+        """Add a machine by its address and what else tells it from others.
+
+        Raises:
+            DescriptionError: another one has the same name.
+        """
+        if name != "localhost" and self._machines.setdefault(name, settings) != settings:
+            raise DescriptionError(at, f"two machines are named {name!r}, and they differ")
 
     def add_test(self, test: LaunchTest) -> None:
         self._tests.append(test)
@@ -76,6 +84,9 @@ class Draft:
 
     def _placed(self, node: LaunchNode) -> LaunchNode:
         """With its machine's address, which may come after it."""
-        if node.machine not in self.machines:
-            self._report.warn(node.at, f"node {node.name!r}: no machine {node.machine!r}; it runs here")
-        return replace(node, address=self.machines.get(node.machine, ""))
+        if node.machine not in self._machines:
+            there = ", ".join(repr(name) for name in self._machines if name not in ("", "localhost")) or "none"
+            what = f"node {node.name!r}: no machine {node.machine!r}, so it cannot be launched; machines: {there}"
+            self._report.warn(node.at, what)
+            return replace(node, address=None)
+        return replace(node, address=str(self._machines[node.machine][0]))

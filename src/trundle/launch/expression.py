@@ -5,14 +5,12 @@ nothing can be imported, and no value can grow without bound, so a file from the
 """
 
 import ast
-import math
 import operator
 import warnings
 from collections.abc import Callable, Mapping
 from typing import Any
 
-_MAX_SIZE = 100_000
-"""Characters, items or bits of any intermediate value."""
+from .bounded import ExpressionError, check_format, limit, limit_all_of
 
 _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -25,6 +23,8 @@ _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.BitAnd: operator.and_,
     ast.BitOr: operator.or_,
     ast.BitXor: operator.xor,
+    ast.LShift: operator.lshift,
+    ast.RShift: operator.rshift,
 }
 _UNARY: dict[type[ast.unaryop], Callable[[Any], Any]] = {
     ast.Not: operator.not_,
@@ -44,21 +44,25 @@ _COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.In: lambda a, b: a in b,
     ast.NotIn: lambda a, b: a not in b,
 }
-# `format` and `%` on text could reach attributes or build text of any size; they are left out.
 _METHODS = frozenset(
     {
         "capitalize",
         "count",
         "endswith",
         "find",
+        "format",
         "get",
         "index",
+        "isalnum",
+        "isalpha",
+        "isdigit",
         "items",
         "join",
         "keys",
         "lower",
         "lstrip",
         "replace",
+        "rsplit",
         "rstrip",
         "split",
         "startswith",
@@ -66,26 +70,9 @@ _METHODS = frozenset(
         "title",
         "upper",
         "values",
+        "zfill",
     }
 )
-
-_UNBOUNDED = frozenset({"factorial", "comb", "perm"})
-MATH_NAMES: Mapping[str, Any] = {
-    name: value for name, value in vars(math).items() if not name.startswith("_") and name not in _UNBOUNDED
-}
-"""What `from math import *` gives, without the functions whose results grow without bound."""
-
-BASE_NAMES: Mapping[str, Any] = {
-    "true": True,
-    "false": False,
-    **{f.__name__: f for f in (list, dict, map, str, float, int)},
-    **MATH_NAMES,
-}
-"""The names roslaunch gives every expression, beside the functions that depend on the file."""
-
-
-class ExpressionError(Exception):
-    """The expression is not one; the text says why."""
 
 
 def evaluate(text: str, names: Mapping[str, Any]) -> Any:
@@ -101,7 +88,9 @@ def evaluate(text: str, names: Mapping[str, Any]) -> Any:
         with warnings.catch_warnings():  # "1or 2" is legal, and Python says what it thinks of it
             warnings.simplefilter("ignore", SyntaxWarning)
             tree = ast.parse(text.strip(), mode="eval")
-        return _Evaluation(names).visit(tree.body)
+        value = _Evaluation(names).visit(tree.body)
+        limit_all_of(value)
+        return value
     except SyntaxError as error:
         raise ExpressionError(f"not a Python expression: {error.msg}") from None
     except (ArithmeticError, LookupError, TypeError, ValueError) as error:
@@ -142,8 +131,9 @@ class _Evaluation:
                 return {self.visit(k): self.visit(v) for k, v in zip(keys, values, strict=True) if k is not None}
             case ast.Subscript(value=value, slice=index):
                 return self.visit(value)[self._index(index)]
-            case ast.Call(func=function, args=arguments, keywords=[]):
-                return self._call(function, [self.visit(argument) for argument in arguments])
+            case ast.Call(func=function, args=arguments, keywords=named) if all(word.arg for word in named):
+                values = {str(word.arg): self.visit(word.value) for word in named}
+                return self._call(function, [self.visit(argument) for argument in arguments], values)
             case _:
                 raise ExpressionError(f"{ast.unparse(node)!r} is not allowed here")
 
@@ -154,17 +144,19 @@ class _Evaluation:
 
     def _binary(self, op: ast.operator, left: Any, right: Any) -> Any:
         if type(op) not in _BINARY:
-            raise ExpressionError("shifts and matrix products are not allowed here")
+            raise ExpressionError("matrix products are not allowed here")
         if isinstance(op, ast.Mod) and isinstance(left, str):
-            raise ExpressionError("formatting with % is not allowed here")
+            check_format(left, right if isinstance(right, tuple) else (right,))
+        if isinstance(op, ast.LShift) and isinstance(right, int):
+            limit(right)
         if isinstance(op, ast.Pow) and isinstance(left, int) and isinstance(right, int):
-            _limit(left.bit_length() * abs(right))
+            limit(left.bit_length() * abs(right))
         if isinstance(op, ast.Mult):
             for sequence, count in ((left, right), (right, left)):
                 if isinstance(sequence, str | list | tuple) and isinstance(count, int):
-                    _limit(len(sequence) * count)
+                    limit(len(sequence) * count)
         value = _BINARY[type(op)](left, right)
-        _limit(value.bit_length() if isinstance(value, int) else len(value) if hasattr(value, "__len__") else 0)
+        limit(value.bit_length() if isinstance(value, int) else len(value) if hasattr(value, "__len__") else 0)
         return value
 
     def _boolean(self, conjunction: bool, values: list[ast.expr]) -> Any:
@@ -184,26 +176,28 @@ class _Evaluation:
             left = right
         return True
 
-    def _call(self, function: ast.expr, arguments: list[Any]) -> Any:
+    def _call(self, function: ast.expr, arguments: list[Any], named: dict[str, Any]) -> Any:
         match function:
             case ast.Name(id=name):
                 callee = self.visit(function)
                 if not callable(callee):
                     raise ExpressionError(f"{name!r} is not a function")
-                value = callee(*arguments)
+                if named and name != "dict":
+                    raise ExpressionError(f"{name!r} takes no named arguments here")
+                value = callee(*arguments, **named)
             case ast.Attribute(value=owner, attr=name) if name in _METHODS:
                 subject = self.visit(owner)
                 if not isinstance(subject, str | list | tuple | dict):
                     raise ExpressionError(f"{ast.unparse(function)!r} is not allowed here")
-                if name in ("replace", "join") and isinstance(subject, str):
-                    # The longest text either can make.
-                    _limit(len(subject) * sum(len(str(a)) for a in arguments) if name == "replace" else 0)
-                value = getattr(subject, name)(*arguments)
+                if name == "replace":  # the longest text it can make
+                    limit(len(subject) * sum(len(str(a)) for a in arguments))
+                if name == "join" and arguments:
+                    limit(sum(len(subject) + len(item) for item in arguments[0]))
+                if name == "zfill":
+                    limit(*arguments)
+                if name == "format" and isinstance(subject, str):
+                    check_format(subject, (*arguments, *named.values()))
+                value = getattr(subject, name)(*arguments, **named)
             case _:
                 raise ExpressionError(f"{ast.unparse(function)!r} may not be called here")
-        return list(value) if isinstance(value, map) else value
-
-
-def _limit(size: int) -> None:
-    if size > _MAX_SIZE:
-        raise ExpressionError("the value grows too large")
+        return value

@@ -50,7 +50,7 @@ def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: Dr
                 raise DescriptionError(node.at, f"<test> takes no {name!r}")
         name = attributes.text("name") or attributes.required("test-name")
     else:
-        name = attributes.required("name")
+        name = attributes.required("name", empty=True) or substitution.anonymous(attributes.required("type"))
     if "/" in name:
         raise DescriptionError(node.at, f"node name {name!r} holds a '/'; a namespace goes into 'ns'")
     if not is_legal_name(name):
@@ -86,10 +86,10 @@ def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: Dr
         at=node.at,
     )
     if is_test:
-        limit_s = attributes.number("time-limit", default=60.0)
+        limit_s = attributes.number("time-limit", default=60.0) if attributes.text("time-limit") else 60.0
         if not limit_s > 0.0:
             raise DescriptionError(node.at, f"time-limit must be > 0 s, got {limit_s:g}")
-        test_name, retries = attributes.required("test-name"), int(attributes.number("retry", default=0.0))
+        test_name, retries = attributes.required("test-name"), _retries(attributes)
         draft.add_test(LaunchTest(name=test_name, node=read, time_limit_s=limit_s, retries=retries))
         report.info(node.at, f"test {name!r} is not run: only `trundle test` runs tests")
     else:
@@ -102,7 +102,7 @@ def _read_children(
     """Read what stands inside: remappings and environment go into `own`, ~params are handed back."""
     private: dict[str, PrivateParam] = {}
     for child in node.children:
-        match child.tag:
+        match child.tag.lower():  # roslaunch hears capitals here, and nowhere above
             case "param":
                 attributes = Attributes(child, inside, substitution, report, PARAM_ATTRIBUTES)
                 if attributes.apply:
@@ -116,14 +116,22 @@ def _read_children(
                 read_remap(child, inside, own, substitution, report)
             case "env":
                 read_env(child, inside, own, substitution, report)
-            case tag:
-                report.warn(child.at, f"<{tag}> in <{node.tag}> is not known; it is ignored")
+            case _:
+                report.warn(child.at, f"<{child.tag}> in <{node.tag}> is not known; it is ignored")
     return private
 
 
+def _retries(attributes: Attributes) -> int:
+    text = attributes.text("retry") or "0"
+    try:
+        return int(text)
+    except ValueError:
+        raise DescriptionError(attributes.at, f"<test> retry: {text!r} is not a whole number") from None
+
+
 def _output(attributes: Attributes) -> Literal["log", "screen"]:
-    match attributes.text("output") or "log":
-        case "log":
+    match attributes.text("output"):
+        case "log" | None:
             return "log"
         case "screen":
             return "screen"
@@ -132,8 +140,8 @@ def _output(attributes: Attributes) -> Literal["log", "screen"]:
 
 
 def _cwd(attributes: Attributes) -> Literal["ROS_HOME", "node"]:
-    match (attributes.text("cwd") or "ROS_HOME").lower():
-        case "ros_home" | "ros-root":
+    match attributes.text("cwd"):
+        case "ROS_HOME" | "ros_home" | None:
             return "ROS_HOME"
         case "node":
             return "node"

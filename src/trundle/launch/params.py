@@ -98,12 +98,12 @@ def _step(
 def _load(attributes: Attributes, draft: Draft, name: str, file: str | None, *, needs_mapping: bool) -> None:
     at = attributes.at
     try:
-        text = read_file(file).decode() if file else attributes.node.raw_text
+        text = read_file(file).decode() if file is not None else attributes.node.raw_text
         data = load_yaml(attributes.resolve(text) if attributes.flag("subst_value") else text)
     except UnicodeDecodeError:
         raise DescriptionError(at, f"rosparam: {file!r} is not a text file") from None
     except ValueError as error:
-        raise DescriptionError(at, f"rosparam{f' {file!r}' if file else ''}: {error}") from None
+        raise DescriptionError(at, f"rosparam{'' if file is None else f' {file!r}'}: {error}") from None
     if data is None:
         data = {}
     if needs_mapping and not isinstance(data, dict):

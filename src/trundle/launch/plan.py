@@ -55,8 +55,8 @@ class LaunchNode:
     cwd: Literal["ROS_HOME", "node"] = "ROS_HOME"
     launch_prefix: str = ""
     machine: str = ""
-    address: str = ""
-    """Of the machine it is to run on; empty: this one."""
+    address: str | None = ""
+    """Of the machine it is to run on; empty: this one, None: there is no such machine."""
     at: Source
 
     @property

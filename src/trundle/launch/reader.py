@@ -10,6 +10,7 @@ from trundle.xmlnode import XmlNode, parse_xml, read_xml
 from .attributes import Attributes
 from .draft import Draft
 from .files import is_file
+from .machines import read_machine
 from .nodes import read_node
 from .packages import PackageFinder
 from .params import read_param, read_rosparam
@@ -114,15 +115,14 @@ class _Reader:
 
     def read_declared(self, root: XmlNode, file: Path, arguments: Mapping[str, str]) -> None:
         """Read the arguments of a file; one that is required and was not given counts as empty."""
-        _check_root(root)
         scope = Scope(namespace="/", file=str(file), arguments=dict(arguments))
-        for node in root.all("arg"):
+        for node in _launch_of(root).all("arg"):
             self._arg(node, scope, scope, top=True)
             for name in scope.declared:
                 scope.arguments.setdefault(name, "")
 
     def _launch(self, root: XmlNode, scope: Scope, *, depth: int) -> None:
-        _check_root(root)
+        root = _launch_of(root)
         self.draft.add_file(Path(scope.file))
         for name in root.attributes():
             if name != "deprecated":
@@ -162,7 +162,9 @@ class _Reader:
                 case "env":
                     read_env(node, scope, scope, self._substitution, self._report)
                 case "machine":
-                    self._machine(node, scope)
+                    read_machine(node, scope, self._substitution, self.draft, self._report)
+                case "launch":
+                    raise DescriptionError(node.at, "<launch> within <launch>; a file has one")
                 case "master":
                     self._report.warn(node.at, "<master> has no effect since ROS 0.7; it is ignored")
                 case tag:
@@ -217,13 +219,13 @@ class _Reader:
         if attributes.flag("clear_params"):
             self._clear(attributes, passed)
         for child in node.children:
-            match child.tag:
+            match child.tag.lower():
                 case "arg":
                     self._arg(child, scope, passed)
                 case "env":
                     read_env(child, scope, passed, self._substitution, self._report)
-                case tag:
-                    self._report.warn(child.at, f"<{tag}> in <include> is not known; it is ignored")
+                case _:
+                    self._report.warn(child.at, f"<{child.tag}> in <include> is not known; it is ignored")
         for name in sorted(passed.declared - set(passed.arguments)):
             raise DescriptionError(node.at, f"argument {name!r} is passed to {file!r} without a value")
         given = passed.declared
@@ -241,21 +243,17 @@ class _Reader:
             known = ", ".join(map(repr, sorted(passed.declared))) or "none"
             raise DescriptionError(node.at, f"{file!r} has no argument {unused[0]!r}; its arguments: {known}")
 
-    def _machine(self, node: XmlNode, scope: Scope) -> None:
-        known = ("name", "address", "env-loader", "ssh-port", "user", "password", "default", "timeout")
-        attributes = self._attributes(node, scope, *known)
-        if attributes.apply:
-            name, address = attributes.required("name"), attributes.required("address")
-            self.draft.machines[name] = address
-            match (attributes.text("default") or "false").lower():
-                case "true":
-                    self.draft.default_machine = name
-                case "false" | "never":
-                    pass
-                case other:
-                    raise DescriptionError(node.at, f"machine {name!r}: default {other!r} is no true, false or never")
 
-
-def _check_root(root: XmlNode) -> None:
-    if root.tag != "launch":
+def _launch_of(root: XmlNode) -> XmlNode:
+    """The <launch> of a file, which roslaunch takes wherever it stands."""
+    if root.tag == "launch":
+        return root
+    found: list[XmlNode] = []
+    todo = [root]
+    while todo:
+        node = todo.pop()
+        todo += node.children
+        found += [node] if node.tag == "launch" else []
+    if len(found) != 1:
         raise DescriptionError(root.at, f"a launch file starts with <launch>, not <{root.tag}>")
+    return found[0]

@@ -53,6 +53,10 @@ class Scope:
         """Open the scope of an included file, which sees no argument but those it is passed."""
         scope = self.child(namespace)
         scope.file = file
+        if (
+            self.private_params
+        ):  # as roslaunch has it: ~params that the file sets are seen behind it, if any were before
+            scope.private_params = self.private_params
         scope.arguments = dict(arguments)
         scope.declared = set()
         scope.lenient_arguments = False

@@ -8,7 +8,8 @@ from typing import Any
 
 from trundle.diagnostics import DescriptionError, Source
 
-from .expression import BASE_NAMES, ExpressionError, evaluate
+from .bounded import BASE_NAMES, ExpressionError
+from .expression import evaluate
 from .packages import PackageFinder
 from .scope import Scope
 from .values import convert_value
@@ -47,7 +48,7 @@ class Substitution:
             body: str = match[1]
             if "$" in body or "(" in body:
                 raise DescriptionError(at, f"{match[0]!r}: substitutions cannot hold one another outside $(eval …)")
-            words = body.split()
+            words = [word for word in body.split(" ") if word]
             if not words or words[0] not in _COMMANDS:
                 known = ", ".join(_COMMANDS)
                 extra = "; eval must be the whole attribute" if words and words[0] == "eval" else ""

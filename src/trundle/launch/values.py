@@ -7,7 +7,8 @@ from typing import Any
 
 import yaml
 
-from .expression import MATH_NAMES, ExpressionError, evaluate
+from .bounded import MATH_NAMES, ExpressionError
+from .expression import evaluate
 from .plan import ParamType, ParamValue
 
 _MAX_YAML_BYTES = 16 * 1024 * 1024
