@@ -1,5 +1,6 @@
 """What `gz` could do to a world, from Python."""
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -128,6 +129,19 @@ def test_a_model_tells_how_its_frame_moves(tmp_path: Path) -> None:
     assert sim["m"].twist.angular == pytest.approx((0.0, 0.0, 3.0))
     sim["m"].set_twist(Twist((0.5, 0.0, 0.0), (0.0, 0.0, 1.0)))
     assert sim["m"].twist.linear == pytest.approx((0.5, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf])
+def test_nothing_is_put_nowhere(sim: Simulation, number: float) -> None:
+    cart, nowhere, no_speed = sim["cart"], Pose((number, 0.0, 0.0)), Twist((0.0, number, 0.0))
+    for call in (cart.set_pose, cart.link("base").set_pose):
+        with pytest.raises(UsageError, match=f"finite numbers are needed, got {number}, 0, 0, 1"):
+            call(nowhere)
+    for call in (cart.set_twist, cart.link("base").set_twist):
+        with pytest.raises(UsageError, match="finite numbers are needed, got"):
+            call(no_speed)
+
+    sim.run(0.1)
 
 
 def test_spawned_models_are_numbered_where_that_is_allowed(sim: Simulation) -> None:

@@ -3,6 +3,7 @@
 from trundle.physics import SimulationUnstableError
 
 from .actors import ActorWalk, with_actors
+from .handle import expect_finite
 from .handles import JointHandle, LinkHandle, ModelHandle
 from .hooks import AfterStep, BeforeStep
 from .line import Line
@@ -24,6 +25,7 @@ __all__ = [
     "Snapshot",
     "StateLog",
     "StateRecorder",
+    "expect_finite",
     "read_state_log",
     "with_actors",
 ]

@@ -1,5 +1,6 @@
 """What links and joints of a running simulation have in common: a number, as long as their model is there."""
 
+import math
 from typing import TYPE_CHECKING, ClassVar
 
 from trundle.diagnostics import UsageError
@@ -42,3 +43,13 @@ class Handle:
     def move_to(self, index: int | None) -> None:
         """Be at another index, or nowhere any more; for the simulation alone."""
         self._index = index
+
+
+def expect_finite(*numbers: float) -> None:
+    """Refuse what would leave nothing of a world.
+
+    Raises:
+        UsageError: a number is none, or endless.
+    """
+    if not all(map(math.isfinite, numbers)):
+        raise UsageError(f"finite numbers are needed, got {', '.join(f'{number:g}' for number in numbers)}")

@@ -15,7 +15,7 @@ from trundle.model import Link, Model, World
 from trundle.physics import GripLaw
 from trundle.spatial import Pose, Twist, Vector3, Wrench, cross
 
-from .handle import Handle
+from .handle import Handle, expect_finite
 from .joint_handle import JointHandle
 
 if TYPE_CHECKING:
@@ -52,16 +52,18 @@ class LinkHandle(Handle):
         """Put the link there at once, with all that hangs from it; speeds stay.
 
         Raises:
-            UsageError: it hangs from something itself.
+            UsageError: it hangs from something itself, or that is nowhere.
         """
+        expect_finite(*pose.position, *pose.quaternion)
         self._simulation.engine.set_tree_pose(self.index, pose)
 
     def set_twist(self, twist: Twist) -> None:
         """Give the link's origin this velocity, and this spin, at once, world axes; nothing keeps it.
 
         Raises:
-            UsageError: it hangs from something.
+            UsageError: it hangs from something, or that is no velocity.
         """
+        expect_finite(*twist.linear, *twist.angular)
         self._simulation.engine.set_tree_twist(self.index, twist)
 
     def apply_wrench(self, wrench: Wrench, *, duration_s: float | None = None) -> None:
@@ -146,7 +148,12 @@ class ModelHandle:
         return next((link for link in self.links if link.name == named), self.links[0])
 
     def set_pose(self, pose: Pose) -> None:
-        """Put the model's frame there at once; speeds stay. What hangs from the world is compiled anew there."""
+        """Put the model's frame there at once; speeds stay. What hangs from the world is compiled anew there.
+
+        Raises:
+            UsageError: that is nowhere.
+        """
+        expect_finite(*pose.position, *pose.quaternion)
         moved = pose @ self.pose.inverse()
         free = [link for link in self.links if self._simulation.engine.is_free(link.index)]
         if not free:

@@ -4,12 +4,12 @@ from typing import Any
 
 from trundle.diagnostics import UsageError
 from trundle.ros import Message, Node, ns_of
-from trundle.simulation import JointHandle, LinkHandle
+from trundle.simulation import JointHandle, LinkHandle, expect_finite
 from trundle.spatial import Wrench, cross
 
 from ..host import Simulator
 from .entities import find_joint, find_link, is_world, world_from
-from .messages import expect_finite, provide, vector_of
+from .messages import provide, vector_of
 from .schedule import Schedule
 
 

@@ -4,8 +4,9 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from trundle.diagnostics import TrundleError, UsageError
+from trundle.diagnostics import TrundleError
 from trundle.ros import Message, Node
+from trundle.simulation import expect_finite
 from trundle.spatial import IDENTITY_QUATERNION, Pose, Twist, Vector3
 
 
@@ -33,16 +34,6 @@ def vector_of(message: Message) -> Vector3:
     """
     expect_finite(message.x, message.y, message.z)
     return (float(message.x), float(message.y), float(message.z))
-
-
-def expect_finite(*numbers: float) -> None:
-    """Refuse what would leave nothing of a world.
-
-    Raises:
-        UsageError: a number is none, or endless.
-    """
-    if not all(map(math.isfinite, numbers)):
-        raise UsageError(f"finite numbers are needed, got {', '.join(f'{number:g}' for number in numbers)}")
 
 
 def pose_of(message: Message) -> Pose:

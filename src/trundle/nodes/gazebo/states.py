@@ -4,12 +4,12 @@ from typing import Any
 
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.ros import Message, Node
-from trundle.simulation import LinkHandle, Simulation
+from trundle.simulation import LinkHandle, Simulation, expect_finite
 from trundle.spatial import Pose, Twist
 
 from ..host import Simulator
 from .entities import find_link, find_model, is_world, scoped_links, world_from
-from .messages import expect_finite, pose_fields, pose_of, provide, twist_fields, twist_of
+from .messages import pose_fields, pose_of, provide, twist_fields, twist_of
 
 _STATE_RATE_HZ = 100.0
 
