@@ -89,3 +89,16 @@ def test_an_installed_definition_is_sent_along_with_its_comments(
     assert separator + others == "=" * 80 + rest
     assert messages.md5("geometry_msgs/Pose") == Messages().md5("geometry_msgs/Pose")
     assert list(messages.fields("geometry_msgs/Pose")) == ["position", "orientation"]
+
+
+def test_an_installed_definition_without_fields_is_sent_along_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A generated action's feedback may hold nothing but its header; where that lacks, `rosbag check` falls over it."""
+    file = tmp_path / "std_msgs" / "msg" / "Empty.msg"
+    file.parent.mkdir(parents=True)
+    file.write_text("# nothing to say\n")
+    monkeypatch.setattr("trundle.ros.sources.DEBIAN_SHARE", "")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", f"/nowhere:{tmp_path}")
+    assert Messages().definition("std_msgs/Empty") == "# nothing to say\n"
+    assert Messages().md5("std_msgs/Empty") == "d41d8cd98f00b204e9800998ecf8427e"

@@ -50,7 +50,7 @@ class TypeTexts:
             from rosbags.typesys import TypesysError, get_types_from_msg
 
             with suppress(TypesysError):
-                if get_types_from_msg(text, key)[key] == self._store.fielddefs[key]:
+                if get_types_from_msg(text, key)[key] == (self._store.fielddefs[key][0], fields_of(self._store, key)):
                     return text
         if key in self.own:
             return self.own[key]
