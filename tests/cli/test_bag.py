@@ -223,10 +223,11 @@ def test_what_cannot_be_done_is_one_sentence(graph: Any, arguments: list[str], c
 
 @pytest.mark.real_ros
 def test_every_line_of_info_is_rosbags(graph: Any, original: Any, bag: Path) -> None:
+    keys = ("end", "topics", "types", "topics[0]", "topics[-1].type")
     for compression in (None, "-j", "--lz4"):
         if compression:
             graph.trundle("bag", "compress", "-f", compression, str(bag))
-        for arguments in ([], ["-y"], ["--freq"], ["-y", "--freq"], ["-y", "-k", "end"]):
+        for arguments in ([], ["-y"], ["--freq"], ["-y", "--freq"], *(["-y", "-k", key] for key in keys)):
             assert graph.trundle("bag", "info", *arguments, str(bag))[1] == original(
                 "rosbag", "info", *arguments, str(bag)
             )

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from statistics import median
-from typing import Any
+from typing import Any, cast
 
 from trundle.diagnostics import UsageError
 from trundle.ros import BagReader, Messages, open_bag
@@ -192,8 +192,8 @@ def _seconds(ns: int) -> float:
     return float(ns // 10**9) + (ns % 10**9) / 1e9
 
 
-def _value(text: str, key: str) -> object:
-    """Find a key such as `duration` or `topics[0].type` in YAML."""
+def _value(text: str, key: str) -> str:
+    """Find a key such as `duration` or `topics[0].type` in YAML, and print it as rosbag does."""
     import yaml
 
     value: Any = yaml.safe_load(text)
@@ -202,7 +202,15 @@ def _value(text: str, key: str) -> object:
             value = value[name] if name else value[int(index)]
     except (KeyError, IndexError, TypeError):
         raise UsageError(f'Error getting key "{key}"') from None
-    return value
+    if isinstance(value, list):
+        return "".join(f"- {_members(item, indent='  ')}\n" for item in cast("list[object]", value))
+    return _members(value, indent="")
+
+
+def _members(value: object, *, indent: str) -> str:
+    if not isinstance(value, dict):
+        return str(value)
+    return f"\n{indent}".join(f"{key}: {member}" for key, member in cast("dict[str, object]", value).items())
 
 
 def _titled(title: str, lines: list[str]) -> list[tuple[str, str]]:
