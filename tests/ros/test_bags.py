@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -297,6 +298,30 @@ def test_playing_waits_for_whoever_controls_the_rate(graph: Any, tmp_path: Path)
         player.play(attend)
     graph.until(lambda: got == list(range(1, 41)))
     assert ahead.count(11) > 1
+
+
+def test_playing_from_within_begins_with_a_message_and_with_what_was_latched(graph: Any, tmp_path: Path) -> None:
+    """As rosbag does: no silence first, and whoever needs a map recorded before the start gets it."""
+    made = BagConnection(topic="/a", type=STRING, md5sum=Messages().md5(STRING), definition="string data\n")
+    held = replace(made, topic="/map", latching=True)
+    with create_bag(tmp_path / "x.bag") as out:
+        for connection, second in [(held, 1), (held, 2), (made, 3), (made, 500), (made, 501)]:
+            out.write(BagMessage(connection, second * 10**9, b"\x01\0\0\0%c" % (second % 100)))
+    got: list[str] = []
+    clock: list[int] = []
+    node = graph.node("listener")
+    for topic in ("/a", "/map"):
+        node.subscribe(topic, STRING, lambda m: got.append(m.data), queue_size=None)
+    following = node.subscribe("/clock", "rosgraph_msgs/Clock", lambda m: clock.append(m.clock.sec))
+    with open_bag(tmp_path / "x.bag") as bag:
+        assert Player(graph.node("late"), [bag], PlayOptions(start_s=900.0)).is_empty
+        player = Player(graph.node("play"), [bag], PlayOptions(start_s=5.0, rate=10.0, clock_hz=1000.0))
+        publishers = player.advertise()
+        graph.until(lambda: following.publishers and all(p.has_subscribers for p in publishers))
+        player.play(lambda: None)
+    graph.until(lambda: len(got) == 3)
+    assert got == ["\x02", "\0", "\x01"]
+    assert clock[0] == 500
 
 
 def test_an_older_type_is_played_as_it_was_recorded(graph: Any, tmp_path: Path) -> None:

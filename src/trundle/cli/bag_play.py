@@ -32,6 +32,9 @@ def main(args: argparse.Namespace) -> int:
             say(f"[ INFO] [{time.time():.9f}]: Opening {name}\n")
             bags.append(stack.enter_context(open_bag(Path(name))))
         player = Player(node, bags, _options(args))
+        if player.is_empty:
+            print("No messages to play on specified topics.  Exiting.\n", file=sys.stderr)
+            return 0
         publishers = player.advertise()
         player.is_paused = args.pause
         _provide_pausing(node, player)

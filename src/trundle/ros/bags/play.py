@@ -67,8 +67,13 @@ class Player:
         """How far whoever is waited for has come."""
         self.end_ns = last if options.duration_s is None else self.start_ns + round(options.duration_s * 1e9)
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether there is nothing to play."""
+        return next(self._messages(), None) is None
+
     def advertise(self) -> list[Publisher]:
-        """Publish every topic wanted; latched ones latched."""
+        """Publish every topic wanted; latched ones latched, with what they last held before the start."""
         if self._options.clock_hz is not None:
             self._clock = self._node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=1)
         if self._options.rate_control_topic is not None:
@@ -85,18 +90,22 @@ class Player:
                     queue_size=self._options.queue_size,
                     foreign=(connection.md5sum, connection.definition),
                 )
+        for connection, data in self._latched_before().items():
+            self._publishers[connection].publish(data)
         return list(dict.fromkeys(self._publishers.values()))
 
     def play(self, attend: Callable[[], None]) -> None:
-        """Publish everything once.
+        """Publish everything once, from the first message on.
 
         Args:
             attend: called again and again, between messages and while waiting; may set `is_paused` and `steps`.
         """
-        pace = _Pace(self._options.rate, self.start_ns)
+        pace = None
         clock_due_s = 0.0
         previous_ns = self.start_ns
         for message in self._messages():
+            if pace is None:
+                pace, previous_ns = _Pace(self._options.rate, message.stamp_ns), message.stamp_ns
             if message.connection.topic in self._options.pause_topics:
                 self.is_paused = True
             if (
@@ -148,6 +157,16 @@ class Player:
         assert self._options.clock_hz is not None
         self._clock.publish({"clock": ns})
         return time.monotonic() + 1.0 / self._options.clock_hz
+
+    def _latched_before(self) -> dict[BagConnection, bytes]:
+        """Find what whoever came at the start had got from latching publishers."""
+        if self._options.start_s <= 0.0:
+            return {}
+        return {
+            message.connection: message.data
+            for bag in self._bags
+            for message in bag.messages(lambda c: c.latching and self._wants(c), end_ns=self.start_ns - 1)
+        }
 
     def _messages(self) -> Iterator[BagMessage]:
         streams = [bag.messages(self._wants, start_ns=self.start_ns, end_ns=self.end_ns) for bag in self._bags]
