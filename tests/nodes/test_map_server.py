@@ -37,7 +37,7 @@ def test_negated_maps_and_modes(picture: Path) -> None:
     assert read_map(picture).cells.tolist() == [[0, 0, 0], [100, 1, 0]]
 
     picture.write_text(f"image: map.pgm\nmode: raw\n{_KEYS}")
-    assert read_map(picture).cells.tolist() == [[-1, -1, -1], [0, -1, -1]]
+    assert read_map(picture).cells.tolist() == [[-2, -2, -2], [0, -51, -1]]  # shades as signed bytes
 
 
 @pytest.mark.parametrize(
@@ -70,6 +70,18 @@ def test_a_served_map_is_what_was_saved_of_it(stage, picture: Path) -> None:
     assert (served.header.frame_id, served.info.width, served.info.height) == ("map", 3, 2)
     assert served.info.origin.position.y == -2.0
     assert list(served.data) == [0, 0, 0, 100, -1, 0]
+
+
+def test_a_picture_and_its_resolution_are_a_map_as_of_old(stage, picture: Path, capsys) -> None:
+    image = picture.with_name("map.pgm")
+    running = stage.start("map_server/map_server", f"{image} 0.1", negate=1)
+    served = stage.call("/static_map", "nav_msgs/GetMap").map
+    assert (served.info.resolution, served.info.origin.position.x) == (pytest.approx(0.1), 0.0)
+    assert list(served.data) == [100, 100, 100, 0, 100, 100]
+    assert not running.done()
+
+    assert stage.start("map_server/map_server", f"{image} wide", name="other").result(PATIENCE_S) == 255
+    assert "resolution must be a number [m], got 'wide'" in capsys.readouterr().err
 
 
 def test_a_map_that_is_not_there_ends_the_server(stage, capsys) -> None:

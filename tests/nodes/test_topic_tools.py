@@ -59,16 +59,17 @@ def test_mux_passes_on_the_selected_topic_alone(stage) -> None:
     stage.until(lambda: len(heard) == 2)
 
     assert [m.data for m in heard] == ["a", "b"]
-    assert [m.data for m in chosen] == ["/a", "/b"]
+    assert [m.data for m in chosen] == ["/a", "b"]
     assert list(stage.call("/mux/list", "topic_tools/MuxList").topics) == ["/a", "/b"]
 
 
 def test_transform_computes_fields_of_fields(stage) -> None:
     heard = stage.listen("/length", "std_msgs/Float64")
-    source = stage.client.advertise("/pose", "geometry_msgs/PoseStamped", latch=True)
-    source.publish({"pose": {"position": {"x": 3.0, "y": 4.0}}})
+    source = stage.client.advertise("/pose", "geometry_msgs/PoseStamped")
     # One word: the test's helper splits at spaces.
     stage.start("topic_tools/transform", "/pose/pose/position /length std_msgs/Float64 numpy.hypot(m.x,m.y)")
+    stage.until(lambda: source.has_subscribers and stage.connected("/length") and stage.linked("/length"))
+    source.publish({"pose": {"position": {"x": 3.0, "y": 4.0}}})
 
     stage.until(lambda: [m.data for m in heard] == [5.0])
 
@@ -107,13 +108,50 @@ def test_throttled_messages_are_a_period_apart() -> None:
     assert {b - a for a, b in pairwise(passed)} == {600_000_000}  # more than 500 ms, not as much
 
     now[0] = 1_000_000_000
-    assert gate.lets_through(1)  # time went back: what was last is forgotten
+    assert not gate.lets_through(1)  # time went back: a period counts from here
+    now[0] += 500_000_001
+    assert gate.lets_through(1)
 
 
-def test_throttled_bytes_stay_below_what_is_allowed() -> None:
+def test_bytes_are_throttled_as_the_original_counts_them() -> None:
+    """A message passes while fewer bytes than allowed lie in the window, however long that is."""
     now = [10_000_000_000]
     gate = ByteGate(100.0, 2.0, lambda: now[0])
-    assert [gate.lets_through(80) for _ in range(4)] == [True, True, False, False]
-    now[0] += 2_000_000_000
+    assert [gate.lets_through(80) for _ in range(3)] == [True, True, False]
+    now[0] += 2_000_000_001
     assert gate.lets_through(200)
     assert not gate.lets_through(1)
+
+
+def test_a_lazy_mux_listens_to_the_selected_topic_while_it_is_listened_to(stage) -> None:
+    stage.start("topic_tools/mux", "out a b", lazy=True)
+    a, b = stage.speak("/a", STRING), stage.speak("/b", STRING)
+    a.publish({"data": "to learn the type"})
+    stage.until(lambda: not a.has_subscribers and not b.has_subscribers)
+    heard = stage.listen("/out", STRING)
+    stage.until(lambda: a.has_subscribers)
+    assert stage.call("/out_select", "topic_tools/MuxSelect", topic="b").prev_topic == "/a"
+    stage.until(lambda: b.has_subscribers and not a.has_subscribers)
+    b.publish({"data": "b"})
+    stage.until(lambda: [m.data for m in heard] == ["b"])
+
+
+def test_a_mux_that_starts_with_no_input_it_has_passes_on_nothing(stage) -> None:
+    chosen = stage.listen("/mux/selected", STRING)
+    stage.start("topic_tools/mux", "out a b", initial_topic="c")
+    stage.until(lambda: [m.data for m in chosen] == ["__none"])
+    assert stage.call("/mux/select", "topic_tools/MuxSelect", topic="a").prev_topic == ""
+
+
+def test_a_lazy_throttle_and_a_hidden_relay_listen_while_others_do(stage) -> None:
+    stage.start("topic_tools/throttle", "messages in 1000 out", lazy=True)
+    stage.start("topic_tools/relay", "in copy", stealth=True, monitor_rate=0.1)
+    source = stage.speak("/in", STRING)
+    stage.until(lambda: source.subscribers == 2)
+    source.publish({"data": "to learn the type"})
+    stage.until(lambda: not source.has_subscribers)
+    heard, others = stage.listen("/out", STRING), stage.listen("/in", STRING)
+    stage.until(lambda: source.subscribers == 3)
+    source.publish({"data": "wanted"})
+    stage.until(lambda: [m.data for m in heard] == ["wanted"])
+    assert others

@@ -1,6 +1,8 @@
 """joy/joy_node: a joystick of the page, drawn or plugged in there; without a page at rest until `~set` moves it."""
 
+import math
 from collections.abc import Sequence
+from itertools import zip_longest
 
 from trundle.ros import Message, Node, Settings
 
@@ -10,6 +12,8 @@ from .rate import Rate
 _AXES, _BUTTONS = 8, 11
 """Those of the usual game pad."""
 _IDLE_RATE_HZ = 1.0
+_WIDEST = 0.9
+"""The widest dead zone there may be."""
 
 
 class JoyNode:
@@ -21,13 +25,15 @@ class JoyNode:
         self._display = host.display
         self._axes = [0.0] * _AXES
         self._buttons = [0] * _BUTTONS
+        self._pressed = self._buttons
 
     async def run(self) -> int:
         """Publish until cancelled."""
         node = self._node
         settings = Settings(await node.get_param("~", {}), node.name)
         repeat_hz = settings.number("autorepeat_rate", 0.0)
-        self._dead_zone = settings.number("deadzone", 0.05)
+        self._dead_zone = min(max(settings.number("deadzone", 0.05), 0.0), _WIDEST)
+        self._sticky = settings.flag("sticky_buttons", default=False)
         self._joy = node.advertise("joy", "sensor_msgs/Joy", queue_size=1)
         asked = node.subscribe("~set", "sensor_msgs/Joy", self._set, queue_size=1)
         device = settings.text("dev", "/dev/input/js0")
@@ -51,15 +57,26 @@ class JoyNode:
             await rate.sleep()
 
     def _set(self, message: Message) -> None:
-        self._axes = [0.0 if abs(value) < self._dead_zone else float(value) for value in message.axes]
-        self._buttons = [int(value) for value in message.buttons]
+        self._hold(message.axes, message.buttons)
         self._publish()
 
     def _move(self, axes: Sequence[float], buttons: Sequence[int]) -> None:
-        now = ([0.0 if abs(value) < self._dead_zone else value for value in axes], list(buttons))
-        if now != (self._axes, self._buttons):
-            self._axes, self._buttons = now
+        before = (self._axes, self._buttons)
+        self._hold(axes, buttons)
+        if before != (self._axes, self._buttons):
             self._publish()
+
+    def _hold(self, axes: Sequence[float], buttons: Sequence[int]) -> None:
+        """Take where a joystick is; axes begin where the dead zone ends, sticky buttons stay until pressed anew."""
+        dead = self._dead_zone
+        self._axes = [math.copysign(max(abs(value) - dead, 0.0) / (1.0 - dead), value) for value in axes]
+        pressed, before = [int(value) for value in buttons], self._pressed
+        self._pressed = pressed
+        if not self._sticky:
+            self._buttons = pressed
+            return
+        new = [now > was for now, was in zip_longest(pressed, before, fillvalue=0)]
+        self._buttons = [int(is_new) ^ held for is_new, held in zip_longest(new, self._buttons, fillvalue=0)]
 
     def _publish(self) -> None:
         header = {"stamp": self._node.clock.now_ns()}

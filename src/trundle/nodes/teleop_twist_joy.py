@@ -14,7 +14,7 @@ class TeleopTwistJoy:
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
         del arguments, host
         self._node = node
-        self._sent_stop = True
+        self._sent_stop = False
 
     async def run(self) -> int:
         """Drive until cancelled."""
@@ -26,7 +26,7 @@ class TeleopTwistJoy:
             *_axes(settings, "linear", _MOVES, single=("x", 1)),
             *_axes(settings, "angular", _TURNS, single=("yaw", 0)),
         ]
-        self._commands = node.advertise("cmd_vel", "geometry_msgs/Twist", queue_size=1)
+        self._commands = node.advertise("cmd_vel", "geometry_msgs/Twist", latch=True, queue_size=1)
         node.subscribe("joy", "sensor_msgs/Joy", self._take, queue_size=1)
         await node.closed.wait()
         return 0
@@ -38,7 +38,7 @@ class TeleopTwistJoy:
             self._send(joy, turbo=False)
         elif not self._sent_stop:  # once, so that others may drive
             self._commands.publish({})
-            self._sent_stop = True
+            self._sent_stop = False
 
     def _send(self, joy: Message, *, turbo: bool) -> None:
         twist: dict[str, dict[str, float]] = {"linear": {}, "angular": {}}

@@ -1,5 +1,6 @@
 """twist_mux: the velocity command of the highest priority that is fresh and not locked."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -8,6 +9,8 @@ from trundle.ros import Message, Node, SettingError, Settings
 from .host import Host
 
 _KIND = "geometry_msgs/Twist"
+_DIAGNOSTICS_S = 1.0
+_HIGHEST = 255
 
 
 @dataclass(slots=True)
@@ -22,15 +25,15 @@ class Source:
     closed: bool = False
     """Of a lock: what it last said."""
 
-    def fresh(self, now_ns: int) -> bool:
-        """Whether it was heard within its timeout; 0: for ever."""
-        if self.heard_ns is None:
+    def is_silent(self, now_ns: int) -> bool:
+        """Whether it was not heard within its timeout; with one of 0 it never is, even before it was heard at all."""
+        if self.timeout_s <= 0.0:
             return False
-        return self.timeout_s <= 0.0 or now_ns - self.heard_ns < self.timeout_s * 1e9
+        return self.heard_ns is None or now_ns - self.heard_ns > self.timeout_s * 1e9
 
     def locks(self, now_ns: int) -> bool:
-        """Whether it masks what has no higher priority: it says so, or it fell silent."""
-        return self.closed or (self.timeout_s > 0.0 and not self.fresh(now_ns))
+        """Whether it masks what has a lower priority: it says so, or it fell silent."""
+        return self.closed or self.is_silent(now_ns)
 
 
 def read_sources(value: object, what: str) -> list[Source]:
@@ -49,18 +52,22 @@ def read_sources(value: object, what: str) -> list[Source]:
                 section.text("name"),
                 section.text("topic"),
                 section.number("timeout", 0.0),
-                int(section.number("priority")),
+                min(max(int(section.number("priority")), 0), _HIGHEST),
             )
         )
     return sources
 
 
-def allowed(source: Source, sources: list[Source], locks: list[Source], now_ns: int) -> bool:
-    """Tell whether a source may drive now: no other that is fresh is above it, and no lock is at or above it."""
-    if any(lock.locks(now_ns) and lock.priority >= source.priority for lock in locks):
-        return False
-    above = [other.priority for other in sources if other.fresh(now_ns)]
-    return source.priority >= max(above, default=source.priority)
+def lock_priority(locks: Sequence[Source], now_ns: int) -> int:
+    """Below which nothing drives."""
+    return max((lock.priority for lock in locks if lock.locks(now_ns)), default=0)
+
+
+def find_driver(sources: Sequence[Source], locks: Sequence[Source], now_ns: int) -> Source | None:
+    """The source that drives now: that of the highest priority, the first of equal ones; one of 0 never does."""
+    lowest = max(lock_priority(locks, now_ns), 1)
+    driving = [source for source in sources if not source.is_silent(now_ns) and source.priority >= lowest]
+    return max(driving, key=lambda source: source.priority, default=None)
 
 
 class TwistMux:
@@ -86,14 +93,37 @@ class TwistMux:
             node.subscribe(source.topic, _KIND, lambda message, s=source: self._take(s, message), queue_size=1)
         for lock in self._locks:
             node.subscribe(lock.topic, "std_msgs/Bool", lambda message, s=lock: self._hear(s, message), queue_size=1)
-        await node.closed.wait()
+        for source in (*self._sources, *self._locks):
+            node.log_info(f"{source.name}: {source.topic}, timeout {source.timeout_s:g} s, priority {source.priority}")
+        diagnostics = node.advertise("/diagnostics", "diagnostic_msgs/DiagnosticArray", queue_size=1)
+        while not node.closed.is_set():
+            await node.clock.sleep(_DIAGNOSTICS_S)
+            now = node.clock.now_ns()
+            diagnostics.publish({"header": {"stamp": now}, "status": [self._status(now)]})
         return 0
 
     def _take(self, source: Source, message: Message) -> None:
         now = source.heard_ns = self._node.clock.now_ns()
-        if allowed(source, self._sources, self._locks, now):
+        if find_driver(self._sources, self._locks, now) is source:
             self._output.publish(message)
 
     def _hear(self, lock: Source, message: Any) -> None:
         lock.heard_ns = self._node.clock.now_ns()
         lock.closed = bool(message.data)
+
+    def _status(self, now_ns: int) -> dict[str, Any]:
+        """As diagnostic_updater words it."""
+        masking = lock_priority(self._locks, now_ns)
+
+        def value(kind: str, source: Source, state: str) -> dict[str, str]:
+            listens = f"listening to {source.topic} @ {source.timeout_s:f}s with priority #{source.priority}"
+            return {"key": f"{kind} {source.name}", "value": f" {state} ({listens})"}
+
+        values = [
+            value("velocity", s, "masked" if s.is_silent(now_ns) or s.priority < masking else "unmasked")
+            for s in self._sources
+        ]
+        values += [value("lock", lock, "locked" if lock.locks(now_ns) else "free") for lock in self._locks]
+        values.append({"key": "current priority", "value": str(masking)})
+        name = f"{self._node.name.lstrip('/')}: Twist mux status"
+        return {"name": name, "message": "ok", "hardware_id": "none", "values": values}

@@ -1,5 +1,6 @@
 """A map's picture as occupancies, and back: map_server's rules."""
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -48,13 +49,38 @@ def read_map(file: Path) -> OccupancyMap:
         raise UsageError(f"map {file}: the key {error} is missing") from None
     except (TypeError, ValueError) as error:
         raise UsageError(f"map {file}: {error}") from None
-    if not resolution_m > 0.0:
-        raise UsageError(f"map {file}: resolution must be > 0 m, got {resolution_m:g}")
     mode = str(described.get("mode", "trinary"))
     if mode not in ("trinary", "scale", "raw"):
         raise UsageError(f"map {file}: no mode {mode!r}; there are trinary, scale, raw")
-    cells = _cells(_pixels(picture), negate=negate, occupied=occupied, free=free, mode=mode)
-    return OccupancyMap(cells=cells, resolution_m=resolution_m, origin=(x, y, yaw))
+    cells = read_cells(picture, negate=negate, occupied=occupied, free=free, mode=mode)
+    return OccupancyMap(cells=cells, resolution_m=positive(resolution_m, file), origin=(x, y, yaw))
+
+
+def positive(resolution_m: float, file: Path) -> float:
+    """A map's resolution.
+
+    Raises:
+        UsageError: it is none.
+    """
+    if not 0.0 < resolution_m < math.inf:
+        raise UsageError(f"map {file}: resolution must be > 0 m, got {resolution_m:g}")
+    return resolution_m
+
+
+def read_cells(picture: Path, *, negate: bool, occupied: float, free: float, mode: str = "trinary") -> NDArray[np.int8]:
+    """Read a picture as occupancies.
+
+    Args:
+        picture: dark is occupied.
+        negate: light is.
+        occupied: darker than this is occupied, of 1.
+        free: lighter than this is free.
+        mode: what becomes of what is between: trinary makes it unknown, scale a number; raw takes shades as they are.
+
+    Raises:
+        UsageError: it is no picture.
+    """
+    return _cells(_pixels(picture), negate=negate, occupied=occupied, free=free, mode=mode)
 
 
 def _pixels(picture: Path) -> NDArray[np.float64]:
@@ -74,11 +100,10 @@ def _cells(pixels: NDArray[np.float64], *, negate: bool, occupied: float, free: 
     has_opacity = pixels.shape[2] in (2, 4)
     # The original takes opacity for a colour where it is not asked about.
     colours = pixels[:, :, :-1] if has_opacity and mode != "trinary" else pixels
-    shade = colours.mean(axis=2)
-    if mode == "raw":
-        raw = np.where(shade <= _OCCUPIED, shade, _UNKNOWN)
-        return np.flipud(raw).astype(np.int8)
-    occupancy = (shade if negate else 255.0 - shade) / 255.0
+    shade = 255.0 - colours.mean(axis=2) if negate else colours.mean(axis=2)
+    if mode == "raw":  # byte by byte: 255 is −1
+        return np.flipud(shade).astype(np.uint8).view(np.int8)
+    occupancy = (255.0 - shade) / 255.0
     between = np.full_like(occupancy, _UNKNOWN)
     if mode == "scale":
         between = np.floor(1.0 + 98.0 * (occupancy - free) / (occupied - free))

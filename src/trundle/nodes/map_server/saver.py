@@ -26,6 +26,9 @@ class MapSaver:
     async def run(self) -> int:
         """Save; 1 where the options or the file are at fault."""
         node = self._node
+        if "-h" in self._arguments:
+            print(_USAGE)
+            return 0
         options = {"-f": "map", "--occ": "65", "--free": "25"}
         words = iter(self._arguments)
         for word in words:

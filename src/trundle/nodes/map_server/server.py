@@ -2,14 +2,16 @@
 
 import asyncio
 import math
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from trundle.diagnostics import UsageError
-from trundle.ros import Message, Node, Settings
+from trundle.ros import Message, Node, SettingError, Settings
 
 from ..host import Host
-from .occupancy import OccupancyMap, read_map
+from .occupancy import OccupancyMap, positive, read_cells, read_map
 
 _USAGE = "usage: map_server MAP.yaml"
 _SUCCESS, _DOES_NOT_EXIST, _INVALID = 0, 1, 2
@@ -31,13 +33,16 @@ class MapServer:
         if len(self._arguments) not in (1, 2):
             node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 255
-        if len(self._arguments) == 2:
-            node.log_warn(f"a resolution on the command line is deprecated; {_USAGE}")
+        file = Path(self._arguments[0])
         self._map = node.advertise("map", "nav_msgs/OccupancyGrid", latch=True, queue_size=1)
         self._metadata = node.advertise("map_metadata", "nav_msgs/MapMetaData", latch=True, queue_size=1)
         try:
-            await self._load(Path(self._arguments[0]))
-        except UsageError as error:
+            if len(self._arguments) == 2:
+                node.log_warn(f"a picture with its resolution is deprecated; {_USAGE}")
+                await self._load(partial(_read_picture, file, self._arguments[1], settings))
+            else:
+                await self._load(partial(read_map, file))
+        except (SettingError, UsageError) as error:
             node.log_error(str(error))
             return 255
         node.advertise_service("static_map", "nav_msgs/GetMap", self._give)
@@ -45,9 +50,9 @@ class MapServer:
         await node.closed.wait()
         return 0
 
-    async def _load(self, file: Path) -> None:
+    async def _load(self, read: Callable[[], OccupancyMap]) -> None:
         with self._node.loop.work.under_way():
-            grid = await asyncio.to_thread(read_map, file)
+            grid = await asyncio.to_thread(read)
         self._fields = grid_fields(grid, frame=self._frame, stamp_ns=self._node.clock.now_ns())
         height, width = grid.cells.shape
         self._node.log_info(f"Read a {width} X {height} map @ {grid.resolution_m:.3f} m/cell")
@@ -58,13 +63,28 @@ class MapServer:
         return {"map": self._fields}
 
     async def _change(self, request: Message) -> dict[str, Any]:
+        file = Path(request.map_url.removeprefix("file://"))
         try:
-            await self._load(Path(request.map_url.removeprefix("file://")))
+            await self._load(partial(read_map, file))
         except UsageError as error:
             self._node.log_error(str(error))
-            there = Path(request.map_url.removeprefix("file://")).is_file()
-            return {"result": _INVALID if there else _DOES_NOT_EXIST}
+            return {"result": _INVALID if file.is_file() else _DOES_NOT_EXIST}
         return {"map": self._fields, "result": _SUCCESS}
+
+
+def _read_picture(picture: Path, resolution: str, settings: Settings) -> OccupancyMap:
+    """Read a picture as the command line of old has it: thresholds are parameters, its corner is the origin."""
+    try:
+        resolution_m = positive(float(resolution), picture)
+    except ValueError:
+        raise UsageError(f"map {picture}: resolution must be a number [m], got {resolution!r}") from None
+    cells = read_cells(
+        picture,
+        negate=bool(settings.number("negate", 0.0)),
+        occupied=settings.number("occupied_thresh", 0.65),
+        free=settings.number("free_thresh", 0.196),
+    )
+    return OccupancyMap(cells=cells, resolution_m=resolution_m, origin=(0.0, 0.0, 0.0))
 
 
 def grid_fields(grid: OccupancyMap, *, frame: str, stamp_ns: int) -> dict[str, Any]:

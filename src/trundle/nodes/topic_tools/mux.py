@@ -5,13 +5,13 @@ from typing import Any
 from trundle.ros import Message, Node, RawMessage, ServiceError, Settings
 
 from ..host import Host
-from .passing import Inlet, Outlet
+from .passing import Inlet, Outlet, listen_lazily
 
 _NONE = "__none"
 
 
 class Mux:
-    """Listens to all its inputs, or with ~lazy to the selected one alone."""
+    """Listens to all its inputs, or with ~lazy to the selected one alone and while somebody listens."""
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
         del host
@@ -19,8 +19,7 @@ class Mux:
         self._arguments = arguments
         self._inlets: dict[str, Inlet] = {}
         """Global name → its subscription, in the order given."""
-        self._selected = _NONE
-        self._lazy = False
+        self._selected: str | None = None
 
     async def run(self) -> int:
         """Pass on until cancelled."""
@@ -29,16 +28,20 @@ class Mux:
             node.log_error(f"usage: mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 …]; got {' '.join(words)!r}")
             return 1
         settings = Settings(await node.get_param("~", {}), node.name)
-        self._lazy = settings.flag("lazy", default=False)
-        self._outlet = Outlet(node, words[0])
+        self._outlet = Outlet(node, words[0], latch=settings.flag("latch", default=False))
         self._said = node.advertise("mux/selected", "std_msgs/String", latch=True, queue_size=1)
         for topic in words[1:]:
             self._add(topic)
-        self._choose(settings.text("initial_topic", "") or words[1])
+        self._begin(settings.text("initial_topic", ""))
         node.advertise_service("mux/select", "topic_tools/MuxSelect", self._select)
+        node.advertise_service(f"{words[0]}_select", "topic_tools/MuxSelect", self._select_as_of_old)
         node.advertise_service("mux/add", "topic_tools/MuxAdd", self._asked_to_add)
         node.advertise_service("mux/delete", "topic_tools/MuxDelete", self._delete)
         node.advertise_service("mux/list", "topic_tools/MuxList", self._list)
+        if settings.flag("lazy", default=False):
+            await listen_lazily(
+                node, self._outlet, lambda: [(each, name == self._selected) for name, each in self._inlets.items()]
+            )
         await node.closed.wait()
         return 0
 
@@ -50,26 +53,31 @@ class Mux:
                 self._outlet.put(message)
 
         self._inlets[name] = Inlet(self._node, name, take)
-        if not self._lazy:
-            self._inlets[name].open()
+        self._inlets[name].open()
+
+    def _begin(self, topic: str) -> None:
+        """Select the first input, or that of ~initial_topic; one that there is not is none."""
+        try:
+            self._choose(topic or next(iter(self._inlets)))
+        except ServiceError as error:
+            self._node.log_warn(f"~initial_topic: {error}; nothing is selected")
+            self._choose(_NONE)
 
     def _choose(self, topic: str) -> str:
         """Select a topic; return what was selected before."""
-        name = _NONE if topic == _NONE else self._node.resolve(topic)
-        if name != _NONE and name not in self._inlets:
+        name = None if topic == _NONE else self._node.resolve(topic)
+        if name is not None and name not in self._inlets:
             raise ServiceError(f"no input {name!r}; inputs: {', '.join(self._inlets) or 'none'}")
         before, self._selected = self._selected, name
-        if self._lazy:
-            for other, inlet in self._inlets.items():
-                if other == name:
-                    inlet.open()
-                else:
-                    inlet.close()
-        self._said.publish({"data": name})
-        return before
+        self._said.publish({"data": topic})
+        return before or ""
 
     def _select(self, request: Message) -> dict[str, Any]:
         return {"prev_topic": self._choose(request.topic)}
+
+    def _select_as_of_old(self, request: Message) -> dict[str, Any]:
+        self._node.log_warn("the <topic>_select service is deprecated; use mux/select instead")
+        return self._select(request)
 
     def _asked_to_add(self, request: Message) -> dict[str, Any]:
         name = self._node.resolve(request.topic)

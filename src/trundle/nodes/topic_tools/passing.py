@@ -1,19 +1,28 @@
 """Passes messages on as bytes, whatever their type; who publishes first decides the type."""
 
-from collections.abc import Callable
+import asyncio
+from collections.abc import Callable, Iterable
 
 from trundle.ros import MessageError, Node, Publisher, RawMessage, Subscription
 
 _QUEUE = 100
+_LOOK_S = 0.1
 
 
 class Outlet:
     """A topic that takes type and latching of what is first put on it; that one reaches nobody unless it is latched."""
 
-    def __init__(self, node: Node, topic: str) -> None:
+    def __init__(self, node: Node, topic: str, *, latch: bool | None = None) -> None:
+        """Have a topic; `latch` says whether it is latched, whatever is put on it."""
         self.topic = topic
         self._node = node
+        self._latch = latch
         self._publisher: Publisher | None = None
+
+    @property
+    def is_typed(self) -> bool:
+        """Whether anything was put on it yet."""
+        return self._publisher is not None
 
     @property
     def wanted(self) -> bool:
@@ -26,7 +35,8 @@ class Outlet:
         if self._publisher is None:
             try:
                 node.messages.add_definition(message.type, message.definition)
-                self._publisher = node.advertise(self.topic, message.type, queue_size=_QUEUE, latch=message.latching)
+                latch = message.latching if self._latch is None else self._latch
+                self._publisher = node.advertise(self.topic, message.type, queue_size=_QUEUE, latch=latch)
             except MessageError as error:
                 node.log_error(f"{self.topic}: {error}")
                 return
@@ -56,3 +66,20 @@ class Inlet:
         if self._subscription is not None:
             self._subscription.unregister()
             self._subscription = None
+
+
+async def listen_lazily(node: Node, outlet: Outlet, inlets: Callable[[], Iterable[tuple[Inlet, bool]]]) -> None:
+    """Listen only while somebody listens to the outlet, and to everything until its type is known.
+
+    Args:
+        node: until it is closed.
+        outlet: what is listened to.
+        inlets: every one there is now, and whether it is the one that is passed on.
+    """
+    while not node.closed.is_set():
+        for inlet, chosen in inlets():
+            if not outlet.is_typed or (chosen and outlet.wanted):
+                inlet.open()
+            else:
+                inlet.close()
+        await asyncio.sleep(_LOOK_S)

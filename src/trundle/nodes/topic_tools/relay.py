@@ -5,14 +5,13 @@ import asyncio
 from trundle.ros import Node, Settings
 
 from ..host import Host
-from .passing import Inlet, Outlet
+from .passing import Inlet, Outlet, listen_lazily
 
 _USAGE = "usage: relay IN_TOPIC [OUT_TOPIC]"
-_LOOK_S = 0.1
 
 
 class Relay:
-    """Passes on every message; with ~lazy only while somebody listens."""
+    """Passes on every message; with ~lazy only while somebody listens, with ~stealth only while others are heard."""
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
         del host
@@ -26,17 +25,25 @@ class Relay:
             node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 1
         source, target = (*self._arguments, f"{self._arguments[0]}_relay")[:2]
+        settings = Settings(await node.get_param("~", {}), node.name)
         outlet = Outlet(node, target)
         inlet = Inlet(node, source, outlet.put)
         inlet.open()
-        lazy = Settings(await node.get_param("~", {}), node.name).flag("lazy", default=False)
-        if not lazy:
-            await node.closed.wait()
-            return 0
+        if settings.flag("stealth", default=False):
+            monitored = node.resolve(settings.text("monitor_topic", source))
+            await self._hide(inlet, monitored, every_s=settings.number("monitor_rate", 1.0))
+        elif settings.flag("lazy", default=False):
+            await listen_lazily(node, outlet, lambda: [(inlet, True)])
+        await node.closed.wait()
+        return 0
+
+    async def _hide(self, inlet: Inlet, monitored: str, *, every_s: float) -> None:
+        """Listen only while another node subscribes to a topic; looks every so often: the original calls it a rate."""
+        node = self._node
         while not node.closed.is_set():
-            if outlet.wanted:
+            _, subscribers, _ = await node.ask("getSystemState")
+            if any(topic == monitored and set(nodes) - {node.name} for topic, nodes in subscribers):
                 inlet.open()
             else:
                 inlet.close()
-            await asyncio.sleep(_LOOK_S)
-        return 0
+            await asyncio.sleep(max(every_s, 0.1))

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from trundle.ros import Node, RawMessage, Settings
 
 from ..host import Host
-from .passing import Inlet, Outlet
+from .passing import Inlet, Outlet, listen_lazily
 
 _USAGE = (
     "usage: throttle messages IN_TOPIC MSGS_PER_SEC [OUT_TOPIC], "
@@ -28,8 +28,7 @@ class MessageGate:
         """Decide about a message of so many bytes that comes now."""
         del size
         now = self._now_ns()
-        if now < self._last_ns:  # simulated time went back
-            self._last_ns = 0
+        self._last_ns = min(self._last_ns, now)  # simulated time may go back
         if now - self._last_ns <= self._period_ns:
             return False
         self._last_ns = now
@@ -37,10 +36,13 @@ class MessageGate:
 
 
 class ByteGate:
-    """Lets a message through while the bytes of the last `window_s` stay below what is allowed."""
+    """Lets a message through while fewer bytes were sent in the last `window_s` than are allowed.
 
-    def __init__(self, bytes_per_s: float, window_s: float, now_ns: Callable[[], int]) -> None:
-        self._allowed = bytes_per_s * window_s
+    The original, too, counts neither the message's own bytes nor how many seconds a window has.
+    """
+
+    def __init__(self, allowed_bytes: float, window_s: float, now_ns: Callable[[], int]) -> None:
+        self._allowed = allowed_bytes
         self._window_ns = round(window_s * _NS)
         self._now_ns = now_ns
         self._sent: deque[tuple[int, int]] = deque()
@@ -48,16 +50,16 @@ class ByteGate:
     def lets_through(self, size: int) -> bool:
         """Decide about a message of so many bytes that comes now."""
         now = self._now_ns()
-        while self._sent and not 0 <= now - self._sent[0][0] < self._window_ns:
+        while self._sent and not 0 <= now - self._sent[0][0] <= self._window_ns:
             self._sent.popleft()
-        if sum(sent for _, sent in self._sent) + size > self._allowed:
+        if sum(sent for _, sent in self._sent) >= self._allowed:
             return False
         self._sent.append((now, size))
         return True
 
 
 class Throttle:
-    """Passes on what its gate lets through."""
+    """Passes on what its gate lets through; with ~lazy it listens only while somebody listens."""
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
         del host
@@ -67,20 +69,26 @@ class Throttle:
     async def run(self) -> int:
         """Throttle until cancelled."""
         node = self._node
-        wall = Settings(await node.get_param("~", {}), node.name).flag("use_wall_clock", default=False)
+        settings = Settings(await node.get_param("~", {}), node.name)
+        # The program reads the first; its manual, and so launch files, name the second.
+        wall = settings.flag("wall_clock", default=settings.flag("use_wall_clock", default=False))
+        latch = settings.flag("force_latch", default=False) if "force_latch" in settings.names() else None
         now_ns = time.time_ns if wall else lambda: node.clock.now_ns()
         try:
             gate, source, target = self._read(now_ns)
         except ValueError:
             node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 1
-        outlet = Outlet(node, target)
+        outlet = Outlet(node, target, latch=latch)
 
         def take(message: RawMessage) -> None:
             if gate.lets_through(len(message.data)):
                 outlet.put(message)
 
-        Inlet(node, source, take).open()
+        inlet = Inlet(node, source, take)
+        inlet.open()
+        if settings.flag("lazy", default=False):
+            await listen_lazily(node, outlet, lambda: [(inlet, True)])
         await node.closed.wait()
         return 0
 
