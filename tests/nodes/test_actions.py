@@ -15,7 +15,9 @@ ARBOTIX: dict[str, Any] = {
     "write_rate": 50.0,
     "read_rate": 50.0,
     "joints": {"pan": {"id": 1}, "tilt": {"id": 2}},
-    "controllers": {"arm": {"type": "follow_controller", "joints": ["pan", "tilt"]}},
+    "controllers": {
+        "arm": {"type": "follow_controller", "joints": ["pan", "tilt"], "action_name": "arm/follow_joint_trajectory"}
+    },
 }
 FOLLOW = "control_msgs/FollowJointTrajectory"
 
@@ -35,10 +37,12 @@ def point(*positions: float, at_s: float) -> dict[str, Any]:
 
 
 def test_servos_follow_a_trajectory(stage) -> None:
-    stage.start("arbotix_python/arbotix_driver", name="arbotix", **ARBOTIX)
+    """The action's name is the node's to resolve, not below the controller's."""
+    controllers = {"arm": {"type": "follow_controller", "joints": ["pan", "tilt"]}}
+    stage.start("arbotix_python/arbotix_driver", name="arbotix", **{**ARBOTIX, "controllers": controllers})
     states = stage.listen("/joint_states", "sensor_msgs/JointState")
     trajectory = {"joint_names": ["tilt", "pan"], "points": [point(0.4, -0.2, at_s=0.3), point(0.4, 0.1, at_s=0.6)]}
-    _, results = ask(stage, "/arm/follow_joint_trajectory", FOLLOW, {"trajectory": trajectory})
+    _, results = ask(stage, "/follow_joint_trajectory", FOLLOW, {"trajectory": trajectory})
     stage.until(lambda: results)
 
     assert (results[0].status.status, results[0].status.text) == (SUCCEEDED, "Trajectory execution complete")

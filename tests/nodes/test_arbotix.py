@@ -11,6 +11,8 @@ from tests.nodes.fakes import FakeClock, FakeNode, run_to_end
 from trundle.nodes import Host
 from trundle.nodes.arbotix import ArbotixDriver
 from trundle.nodes.arbotix.diff import Unicycle
+from trundle.nodes.arbotix.servos import HobbyServo
+from trundle.ros import Settings
 
 S = 1_000_000_000
 SMARTCAR: dict[str, Any] = {
@@ -191,6 +193,20 @@ def test_a_servo_moves_by_its_speed_limit_in_whole_ticks() -> None:
     steps = [b - a for a, b in itertools.pairwise(positions) if b != a]
     assert steps[:-1] == pytest.approx([math.radians(90.0) / 10.0] * (len(steps) - 1))
     assert positions[-1] == pytest.approx(1.0)
+
+
+def test_a_servo_that_a_controller_moves_does_not_obey_its_topic() -> None:
+    node = FakeNode(FakeClock(end_ns=S), {})
+    servo = HobbyServo(node, "arm", Settings({"id": 1}, "/n"))  # pyright: ignore[reportArgumentType]
+    servo.is_taken = lambda: True
+    node.hear("/arm/command", {"data": 0.5}, "std_msgs/Float64")
+    servo.interpolate(1.0)
+    assert servo.reading.position == 0.0
+
+    servo.is_taken = lambda: False
+    node.hear("/arm/command", {"data": 0.5}, "std_msgs/Float64")
+    servo.interpolate(1.0)
+    assert servo.reading.position == pytest.approx(0.5, abs=2e-3)
 
 
 def test_a_disabled_servo_takes_no_command() -> None:

@@ -34,12 +34,19 @@ class FollowController:
         if missing := sorted(set(servos) - set(self._servos)):
             raise SettingError(f"no servo {missing[0]!r}; servos here: {', '.join(joints) or 'none'}")
         action = settings.text("action_name", "follow_joint_trajectory")
-        self._server = ActionServer(node, f"{name}/{action}", "control_msgs/FollowJointTrajectory", self._asked)
+        # Not below the controller's name: configurations write `action_name: arm_controller/follow_joint_trajectory`.
+        self._server = ActionServer(node, action, "control_msgs/FollowJointTrajectory", self._asked)
         self._topic_task: asyncio.Task[ActionOutcome] | None = None
+        for servo in self._servos.values():
+            servo.is_taken = lambda: self._active
         node.subscribe(f"{name}/command", "trajectory_msgs/JointTrajectory", self._command, queue_size=1)
         node.log_info(
             f"Started FollowController ({name}). Joints: {self._joints} on C{settings.number('index', 0.0):g}"
         )
+
+    @property
+    def _active(self) -> bool:
+        return self._server.active or (self._topic_task is not None and not self._topic_task.done())
 
     async def _asked(self, goal: Message) -> ActionOutcome:
         return await self._follow(goal.trajectory)
@@ -93,5 +100,5 @@ class FollowController:
 
     def status(self) -> Status:
         """Name, OK and whether it is at work."""
-        state = "Active" if self._server.active else "Not Active"
+        state = "Active" if self._active else "Not Active"
         return Status(name=self._name, values=(("State", state),))

@@ -1,6 +1,7 @@
 """arbotix_python's servos, simulated."""
 
 import math
+from collections.abc import Callable
 
 from trundle.ros import Message, Node, Settings
 
@@ -39,6 +40,13 @@ class Servo:
         self._desired = 0.0
         self._last_command = 0.0
         self._moving = False
+        self.is_taken: Callable[[], bool] = lambda: False
+        """Whether a controller moves it just now; then its topic is not obeyed."""
+
+    def hear(self, message: Message) -> None:
+        """Take what came on its topic."""
+        if not self.is_taken():
+            self.command(float(message.data))
 
     def command(self, position: float) -> None:
         """Move there from now on [rad]."""
@@ -73,7 +81,7 @@ class HobbyServo(Servo):
 
     def __init__(self, node: Node, name: str, settings: Settings) -> None:
         super().__init__(node, name, settings, ticks=2000, neutral=1500, range_deg=180.0, max_speed_deg=90.0)
-        node.subscribe(f"{name}/command", "std_msgs/Float64", lambda message: self.command(float(message.data)))
+        node.subscribe(f"{name}/command", "std_msgs/Float64", self.hear)
 
 
 class DynamixelServo(Servo):
@@ -84,7 +92,7 @@ class DynamixelServo(Servo):
         self._enabled = True
         self._active = False
         self._last_ns = node.clock.now_ns()
-        node.subscribe(f"{name}/command", "std_msgs/Float64", lambda message: self.command(float(message.data)))
+        node.subscribe(f"{name}/command", "std_msgs/Float64", self.hear)
         node.advertise_service(f"{name}/relax", "arbotix_msgs/Relax", self.relax)
         node.advertise_service(f"{name}/enable", "arbotix_msgs/Enable", self.enable)
         # Speeds belong to the real servo; the simulated one keeps its limit.
