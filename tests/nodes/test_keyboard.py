@@ -20,7 +20,7 @@ def test_arrows_are_keys_of_their_own() -> None:
         ("teleop_twist_keyboard/teleop_twist_keyboard.py", "/cmd_vel", b"qi", (0.55, 0.0)),
         ("turtlebot_teleop/turtlebot_teleop_key", "/turtlebot_teleop_key/cmd_vel", b"qi", (0.22, 0.0)),
         ("turtlebot3_teleop/turtlebot3_teleop_key", "/cmd_vel", b"w" * 30 + b"a", (0.22, 0.1)),
-        ("turtlesim/turtle_teleop_key", "/turtle1/cmd_vel", b"\x1b[D", (0.0, 2.0)),
+        ("turtlesim/turtle_teleop_key", "/turtle1/cmd_vel", b"\x1b[D", (0.0, 3.0)),
     ],
 )
 def test_keys_of_a_terminal_drive(
@@ -30,6 +30,7 @@ def test_keys_of_a_terminal_drive(
     with os.fdopen(theirs) as terminal:
         monkeypatch.setattr(sys, "stdin", terminal)
         heard: list[Any] = stage.listen(topic, "geometry_msgs/Twist")
+        stage.set_params({"/scale_angular": 3.0})  # turtlesim's alone, beside its nodes
         stage.start(what)
         stage.until(lambda: stage.connected(topic))
         os.write(ours, keys)

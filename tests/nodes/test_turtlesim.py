@@ -35,6 +35,13 @@ def test_a_circle_closes() -> None:
     assert (turtle.x, turtle.y) == (pytest.approx(5.0, abs=1e-9), pytest.approx(5.0, abs=1e-9))
 
 
+def test_a_turtle_goes_sideways_and_tells_how_fast() -> None:
+    turtle = Turtle(5.0, 5.0, 0.0, size=SIZE_M)
+    turtle.command(-3.0, 4.0, 0.0, now_ns=0)
+    turtle.move(0.1, now_ns=0)
+    assert (turtle.x, turtle.y, turtle.linear_velocity) == (pytest.approx(4.7), pytest.approx(5.4), 5.0)
+
+
 def test_walls_hold_a_turtle() -> None:
     turtle = Turtle(SIZE_M - 0.1, 1.0, 0.0, size=SIZE_M)
     turtle.command(5.0, 0.0, 0.0, now_ns=0)
@@ -64,7 +71,10 @@ def test_the_tutorials_services(stage) -> None:
     assert poses[-1].theta == pytest.approx(0.0, abs=1e-6)
     assert (images[-1].width, images[-1].encoding) == (500, "rgb8")
     stage.call("/kill", "turtlesim/Kill", name="bob")
+    stage.call("/kill", "turtlesim/Kill", name="turtle2")
+    assert stage.call("/spawn", "turtlesim/Spawn", x=1.0, y=1.0).name == "turtle3"  # no number comes twice
     stage.call("/reset", "std_srvs/Empty")
+    assert stage.call("/spawn", "turtlesim/Spawn", x=1.0, y=1.0).name == "turtle2"
     assert stage.loop.run(stage.client.get_param("/sim/background_b")) == 255
 
 

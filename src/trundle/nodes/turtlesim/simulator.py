@@ -16,6 +16,8 @@ _PICTURE_EVERY = 6
 """Passes between two pictures: ten a second."""
 _BACKGROUND: Colour = (0x45, 0x56, 0xFF)
 _MOST_TURTLES = 1000
+_THINNEST_PX = 1
+"""Of a pen that is set without a width."""
 
 
 class _Registered:
@@ -46,6 +48,8 @@ class TurtleSim:
         self._node = node
         self._display = host.display
         self._turtles: dict[str, _Registered] = {}
+        self._named = 0
+        """How many turtles were named since the start; a number is not given twice."""
         self._background = _BACKGROUND
         self._picture = Picture(_BACKGROUND)
 
@@ -85,7 +89,8 @@ class TurtleSim:
                 image.publish(self._image())
 
     def _start(self) -> None:
-        self._spawn("turtle1", Turtle(SIZE_M / 2.0, SIZE_M / 2.0, 0.0, size=SIZE_M))
+        self._named = 0
+        self._spawn(self._new_name(), Turtle(SIZE_M / 2.0, SIZE_M / 2.0, 0.0, size=SIZE_M))
 
     def _spawn(self, name: str, turtle: Turtle) -> None:
         node = self._node
@@ -179,15 +184,19 @@ class TurtleSim:
         return {}
 
     def _asked_to_spawn(self, request: Message) -> dict[str, Any]:
-        name = request.name or next(
-            f"turtle{n}" for n in range(1, _MOST_TURTLES + 2) if f"turtle{n}" not in self._turtles
-        )
+        name = request.name or self._new_name()
         if name in self._turtles:
             raise ServiceError(f"A turtle named [{name}] already exists")
         if len(self._turtles) >= _MOST_TURTLES:
             raise ServiceError(f"{_MOST_TURTLES} turtles are the most there may be")
         self._spawn(name, Turtle(request.x, request.y, request.theta, size=SIZE_M))
         return {"name": name}
+
+    def _new_name(self) -> str:
+        while True:
+            self._named += 1
+            if (name := f"turtle{self._named}") not in self._turtles:
+                return name
 
     def _kill(self, request: Message) -> dict[str, Any]:
         registered = self._turtles.pop(request.name, None)
@@ -202,4 +211,4 @@ def _set_pen(turtle: Turtle, request: Message) -> None:
     pen.on = not request.off
     if pen.on:
         pen.colour = (request.r, request.g, request.b)
-        pen.width_px = request.width or pen.width_px
+        pen.width_px = request.width or _THINNEST_PX

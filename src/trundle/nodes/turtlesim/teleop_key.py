@@ -19,8 +19,10 @@ class TurtleTeleopKey:
     async def run(self) -> int:
         """Read keys until q, or until cancelled."""
         node = self._node
-        settings = Settings(await node.get_param("~", {}), node.name)
-        linear, angular = settings.number("scale_linear", 2.0), settings.number("scale_angular", 2.0)
+        # Not private: launch files set them beside the nodes.
+        scales = {name: await node.get_param(name, 2.0) for name in ("scale_linear", "scale_angular")}
+        settings = Settings(scales, node.resolve("scale_linear").rpartition("/")[0])
+        linear, angular = settings.number("scale_linear"), settings.number("scale_angular")
         commands = node.advertise("turtle1/cmd_vel", "geometry_msgs/Twist", queue_size=1)
         if self._display is not None:
             self._display.drive_on(commands.topic)

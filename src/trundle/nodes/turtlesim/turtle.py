@@ -46,7 +46,7 @@ class Turtle:
         x = self.x + (cos * forwards - sin * sideways) * dt_s
         y = self.y + (sin * forwards + cos * sideways) * dt_s
         self.place(x, y, self.theta)
-        self.linear_velocity, self.angular_velocity = forwards, turn
+        self.linear_velocity, self.angular_velocity = math.hypot(forwards, sideways), turn
 
     def place(self, x: float, y: float, theta: float) -> None:
         """Put it somewhere, inside the walls."""
