@@ -233,6 +233,7 @@ def test_a_launch_can_wait_for_a_master(start, until, env: dict[str, str], packa
 
     assert int(pid.read_text()) == running.process.pid
     assert running.interrupt() == 130
+    assert not pid.exists()
 
 
 def test_nodes_of_another_machine_are_not_started_and_those_of_this_one_are(launch: Launch, package: Path) -> None:
@@ -255,6 +256,24 @@ def test_a_launch_may_be_put_in_a_namespace(trundle, package: Path, how: str) ->
     (package / "main.launch").write_text('<launch><node pkg="p" type="talk" name="n"/></launch>')
 
     assert trundle("launch", str(package / "main.launch"), "--nodes", *words, **env).stdout == "/deep/n\n"
+
+
+def test_an_argument_is_for_all_the_files_that_have_it(launch: Launch, package: Path) -> None:
+    files = (str(package / "main.launch"), str(package / "other.launch"))
+    (package / "other.launch").write_text('<launch><node pkg="p" type="talk" name="six"/></launch>')
+
+    assert launch("--nodes", *files, "need:=1").stdout.splitlines()[-2:] == ["/six", "/tt"]
+    assert "no argument 'nead' to set" in launch("--nodes", *files, "need:=1", "nead:=1").stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [((), 2), (("--nodes",), 2), (("--core", "a.launch"), 2), (("a.launch", "--sigint-timeout", "0"), 1)],
+)
+def test_wrong_usage_is_told_from_what_is_wrong_in_files(trundle, words: tuple[str, ...], code: int) -> None:
+    done = trundle("launch", *words)
+    assert (done.returncode, done.stdout) == (code, "")
+    assert "trundle launch: error: " in done.stderr
 
 
 def test_options_may_stand_between_the_words(launch: Launch, package: Path) -> None:

@@ -185,7 +185,7 @@ def test_a_parent_that_does_not_want_it_is_named(trundle, parent, name: str, uri
 @pytest.mark.parametrize("words", [["-c", "a"], ["-c", "a", "-u", "b", "--run_id", "c", "x.launch"]])
 def test_its_options_go_together_and_without_files(trundle, words: list[str]) -> None:
     done = trundle("launch", *words)
-    assert done.returncode == 1
+    assert done.returncode == 2
     assert "launch: error: " in done.stderr
 
 

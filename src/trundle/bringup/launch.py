@@ -44,9 +44,15 @@ def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[st
     with stop_flag() as stop:
         if options.wait_for_master and not _wait_for_master(read.env, stop, show.line):
             return 130
-        if options.pid_file is not None:
-            options.pid_file.expanduser().write_text(str(os.getpid()))
-        return _run(read, options, stop)
+        if options.pid_file is None:
+            return _run(read, options, stop)
+        pid_file = options.pid_file.expanduser()
+        pid_file.parent.mkdir(parents=True, exist_ok=True)
+        pid_file.write_text(str(os.getpid()))
+        try:
+            return _run(read, options, stop)
+        finally:
+            pid_file.unlink(missing_ok=True)
 
 
 def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]) -> ReadLaunch | None:

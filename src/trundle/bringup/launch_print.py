@@ -1,6 +1,5 @@
 """What `trundle launch` prints instead of launching; line for line what roslaunch prints."""
 
-import os
 import shlex
 from collections.abc import Mapping, Sequence
 
@@ -30,7 +29,7 @@ def node_file(plan: LaunchPlan, name: str) -> str:
     Raises:
         UsageError: there is no such node.
     """
-    return os.path.abspath(_named(plan, name).at.file)
+    return _named(plan, name).at.file
 
 
 def node_command(plan: LaunchPlan, name: str, packages: Packages, env: Mapping[str, str]) -> str:

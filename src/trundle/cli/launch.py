@@ -41,9 +41,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("--view-port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
     add("--host", default="127.0.0.1", help="address that everything binds (127.0.0.1)")
     add("--strict", action="store_true", help="a warning about the file is an error")
-    output = parser.add_mutually_exclusive_group()
-    output.add_argument("--screen", action="store_true", help="show the output of every node")
-    output.add_argument("--log", action="store_true", help="log the output of every node")
+    add("--screen", action="store_true", help="show the output of every node")
+    add("--log", action="store_true", help="log the output of every node, whatever else is said")
     add("--required", action="store_true", help="the end of any node ends everything")
     add("--wait", action="store_true", help="wait until a master runs")
     add("--local", action="store_true", help="no remote nodes; there never are any here")
@@ -72,6 +71,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         add(option, action="store_true", help=argparse.SUPPRESS)
     for option in ("-w", "--numworkers", "-t", "--timeout", "--master-logger-level"):
         add(option, dest=f"unused_{option.strip('-')}", metavar="X", help=argparse.SUPPRESS)
+    parser.set_defaults(refuse=parser.error)
     add_renderer(parser)
     add_allow_outside(parser)
 
@@ -79,7 +79,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Launch until the duration is over, a required node dies, or Ctrl-C."""
     if args.core and args.words:
-        raise UsageError("--core launches no files")
+        args.refuse("--core launches no files")
+    if not (args.core or args.words or args.child or args.server_uri or args.run_id):
+        args.refuse("no launch file; say PKG FILE or a path, such as: trundle launch robot.launch")
+    if not min(args.sigint_timeout, args.sigterm_timeout) > 0.0:
+        raise UsageError("--sigint-timeout and --sigterm-timeout must be > 0 s")
     with quiet_imports():
         from trundle.bringup.launch import launch
         from trundle.bringup.launch_options import LaunchOptions
@@ -91,7 +95,7 @@ def main(args: argparse.Namespace) -> int:
         view_port=args.view_port,
         host=args.host,
         renderer=args.renderer,
-        output="screen" if args.screen else "log" if args.log else None,
+        output="log" if args.log else "screen" if args.screen else None,
         all_required=args.required,
         wait_for_master=args.wait,
         summary=not (args.no_summary or args.quiet),
@@ -115,9 +119,9 @@ def main(args: argparse.Namespace) -> int:
 
 def _child(args: argparse.Namespace, options: "LaunchOptions") -> int:
     if not (args.child and args.server_uri and args.run_id):
-        raise UsageError("--child, --server_uri and --run_id go together: roslaunch gives its children all three")
+        args.refuse("--child, --server_uri and --run_id go together: roslaunch gives its children all three")
     if args.words or args.core or args.port is not None:
-        raise UsageError("a child launches what its parent sends, at the parent's master: no files, --core or --port")
+        args.refuse("a child launches what its parent sends, at the parent's master: no files, --core or --port")
     from trundle.bringup.launch_child import run_child
     from trundle.bringup.launch_parent import Parent
 

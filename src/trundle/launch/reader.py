@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.names import anonymous_name, canonical_name
 from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
@@ -55,6 +55,7 @@ def read_launch(
         reader.read_root(read_xml(file), file, arguments or {}, namespace)
     for name, text in texts:
         reader.read_root(parse_xml(text, name=name), Path(name), arguments or {}, namespace)
+    reader.refuse_unknown(arguments or {})
     return reader.draft.plan()
 
 
@@ -102,16 +103,23 @@ class _Reader:
     def __init__(self, *, packages: PackageFinder, report: Diagnostics, env: Mapping[str, str]) -> None:
         self.draft = Draft(report)
         self._report = report
+        self._declared: set[str] = set()
+        self._last: Source | None = None
         self._substitution = Substitution(packages=packages, env=env, anonymous=anonymous_name)
 
     def read_root(self, root: XmlNode, file: Path, arguments: Mapping[str, str], namespace: str) -> None:
         """Read a file of the command line."""
         scope = Scope(namespace=canonical_name(namespace) or "/", file=str(file), arguments=dict(arguments))
         self._launch(root, scope, depth=0)
-        unknown = sorted(set(arguments) - scope.declared)
-        if unknown:  # roslaunch says nothing, and a misspelt argument silently does nothing
-            known = ", ".join(map(repr, sorted(scope.declared))) or "none"
-            raise DescriptionError(root.at, f"no argument {unknown[0]!r} to set; the file's arguments: {known}")
+        self._declared |= scope.declared
+        self._last = root.at
+
+    def refuse_unknown(self, arguments: Mapping[str, str]) -> None:
+        """Refuse an argument that no file has: roslaunch says nothing, and a misspelt one silently does nothing."""
+        unknown = sorted(set(arguments) - self._declared)
+        if unknown and self._last is not None:
+            known = ", ".join(map(repr, sorted(self._declared))) or "none"
+            raise DescriptionError(self._last, f"no argument {unknown[0]!r} to set; the file's arguments: {known}")
 
     def read_declared(self, root: XmlNode, file: Path, arguments: Mapping[str, str]) -> None:
         """Read the arguments of a file; one that is required and was not given counts as empty."""
