@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from trundle.ros import Node, WallClock
-from trundle.ros.rpc_client import call_value
+from trundle.ros.rpc_client import call, call_value
 
 pytestmark = [
     pytest.mark.real_ros,
@@ -197,6 +197,47 @@ def test_a_rospy_node_publishes_subscribes_serves_and_calls(graph: Any, real: Re
         assert re.fullmatch(r"\['a'\] \[1\.5\] \d+ sensor_msgs/JointState", got[0])
         assert ["/up", "std_msgs/String"] in graph.loop.run(_topics(node))
     graph.until(lambda: not publisher.has_subscribers)
+
+
+NODE_CALLS: list[tuple[Any, ...]] = [
+    ("getName",),
+    ("getName", 3),
+    ("getName", "/x"),
+    ("getMasterUri", "/x"),
+    ("getPid", "/x", 1),
+    ("getSubscriptions", "/x"),
+    ("requestTopic", "/x", "/up"),
+    ("requestTopic", "/x", "", [["TCPROS"]]),
+    ("requestTopic", "/x", 5, [["TCPROS"]]),
+    ("requestTopic", "/x", "a:b", [["TCPROS"]]),
+    ("requestTopic", "/x", "/up", []),
+    ("requestTopic", "/x", "/up", [["UDPROS", "", "host", 1, 1500]]),
+    ("requestTopic", "/x", "/nope", [["TCPROS"]]),
+    ("publisherUpdate", "/x", "/down"),
+    ("publisherUpdate", "/x", "/down", 3),
+    ("publisherUpdate", "/x", "/down", [3]),
+    ("publisherUpdate", "/x", "/down", ["here"]),
+    ("publisherUpdate", "/x", "/down", []),
+    ("paramUpdate", "/x", 3, 3),
+    ("paramUpdate", "/x", "relative", 3),
+    ("paramUpdate", "/x", "/nobody_watches", 3),
+]
+
+
+def test_a_node_answers_each_call_as_rospys_does(graph: Any, real: Real) -> None:
+    node = graph.node("ours")
+    node.advertise("/up", "std_msgs/String")
+    node.subscribe("/down", "sensor_msgs/JointState", lambda _: None)
+    graph.ready(node)
+
+    def answers(name: str) -> list[Any]:
+        uri = graph.loop.run(call_value(node.master_uri, "lookupNode", "/x", name))
+        said = [[*words, *graph.loop.run(call(uri, *words))] for words in NODE_CALLS]
+        return [str(each).replace(name, "NAME") for each in said]
+
+    with real.started("python3", "-c", ROSPY):
+        graph.loop.run(node.wait_for_service("/real_service"), PATIENCE_S)
+        assert answers("/ours") == answers("/real")
 
 
 def test_a_roscpp_node_that_prefers_udpros_gets_tcpros(graph: Any, real: Real) -> None:

@@ -9,18 +9,15 @@ from typing import Any
 
 from trundle.names import canonical_name, parent_namespace, resolve_name
 
+from .calls import BadArgumentError, Method, answer_call, name_argument
 from .errors import ParameterError
 from .network import LOOPBACK, server_address
 from .notices import Notices
 from .parameters import ParameterTree, updates
 from .registrations import Answer, Register, Registrations
-from .rpc_server import RpcServer, UnknownMethodError
+from .rpc_server import RpcServer
 
 ANY_TYPE = "*"
-
-
-class _BadArgumentError(Exception):
-    """An argument the original refuses, in its words."""
 
 
 class Master:
@@ -39,7 +36,7 @@ class Master:
         self._types: dict[str, str] = {}
         self._notices = Notices()
         self._server = RpcServer(self.dispatch)
-        self._methods: dict[str, tuple[int, object, Callable[..., Answer]]] = {
+        self._methods: dict[str, Method] = {
             "getPid": (0, -1, self._get_pid),
             "getUri": (0, "", self._get_uri),
             "shutdown": (1, 0, self._shutdown),
@@ -96,21 +93,7 @@ class Master:
             return [[self.dispatch(str(call["methodName"]), list(call["params"]))] for call in calls]
         if method == "system.listMethods":
             return sorted([*self._methods, "system.multicall"])
-        if method not in self._methods:
-            raise UnknownMethodError(f'method "{method}" is not supported')
-        count, nothing, function = self._methods[method]
-        if not arguments:
-            return -1, "missing required caller_id parameter", nothing
-        if method == "shutdown" and len(arguments) == 1:
-            arguments = [*arguments, ""]
-        if len(arguments) != count + 1:
-            return -1, "Error: bad call arity", nothing
-        if not isinstance(arguments[0], str):
-            return -1, "caller_id must be a string", nothing
-        try:
-            return function(*arguments)
-        except _BadArgumentError as error:
-            return -1, str(error), nothing
+        return answer_call(self._methods, method, arguments)
 
     def _get_pid(self, _: str) -> Answer:
         return 1, "", os.getpid()
@@ -126,12 +109,12 @@ class Master:
     # -- who is where
 
     def _lookup_node(self, caller: str, node: Any) -> Answer:
-        name = "/" if node == "/" else _name("node", node, caller)
+        name = "/" if node == "/" else name_argument("node", node, caller)
         api = self._books.nodes.get(name)
         return (1, "node api", api) if api else (-1, f"unknown node [{name}]", "")
 
     def _lookup_service(self, caller: str, service: Any) -> Answer:
-        _, api = self._books.service_apis.get(_name("service", service, caller), ("", ""))
+        _, api = self._books.service_apis.get(name_argument("service", service, caller), ("", ""))
         return (1, f"rosrpc URI: [{api}]", api) if api else (-1, "no provider", "")
 
     def _topic_types(self, _: str) -> Answer:
@@ -143,7 +126,7 @@ class Master:
 
     def _published_topics(self, caller: str, subgraph: Any) -> Answer:
         if not isinstance(subgraph, str):
-            raise _BadArgumentError("ERROR: parameter [subgraph] must be a string")
+            raise BadArgumentError("ERROR: parameter [subgraph] must be a string")
         prefix = resolve_name(subgraph, caller) if subgraph else ""
         if prefix and not prefix.endswith("/"):
             prefix += "/"
@@ -153,7 +136,7 @@ class Master:
     # -- topics and services
 
     def _register_publisher(self, caller: str, topic: Any, type_name: Any, api: Any) -> Answer:
-        name, kind, uri = _name("topic", topic, caller), _type("topic_type", type_name), _api("caller_api", api)
+        name, kind, uri = name_argument("topic", topic, caller), _type("topic_type", type_name), _api("caller_api", api)
         self._enter(self._books.publishers, name, caller, uri)
         if kind != ANY_TYPE or name not in self._types:
             self._types[name] = kind
@@ -161,30 +144,34 @@ class Master:
         return 1, f"Registered [{caller}] as publisher of [{name}]", self._books.subscribers.apis(name)
 
     def _unregister_publisher(self, caller: str, topic: Any, api: Any) -> Answer:
-        name, uri = _name("topic", topic, caller), _api("caller_api", api)
+        name, uri = name_argument("topic", topic, caller), _api("caller_api", api)
         answer = self._books.strike(self._books.publishers, name, caller, uri)
         if answer[2]:
             self._tell_subscribers(name)
         return answer
 
     def _register_subscriber(self, caller: str, topic: Any, type_name: Any, api: Any) -> Answer:
-        name, kind, uri = _name("topic", topic, caller), _type("topic_type", type_name), _api("caller_api", api)
+        name, kind, uri = name_argument("topic", topic, caller), _type("topic_type", type_name), _api("caller_api", api)
         self._enter(self._books.subscribers, name, caller, uri)
         if kind != ANY_TYPE:
             self._types.setdefault(name, kind)
         return 1, f"Subscribed to [{name}]", self._books.publishers.apis(name)
 
     def _unregister_subscriber(self, caller: str, topic: Any, api: Any) -> Answer:
-        name, uri = _name("topic", topic, caller), _api("caller_api", api)
+        name, uri = name_argument("topic", topic, caller), _api("caller_api", api)
         return self._books.strike(self._books.subscribers, name, caller, uri)
 
     def _register_service(self, caller: str, service: Any, service_api: Any, api: Any) -> Answer:
-        name, rpc, uri = _name("service", service, caller), _api("service_api", service_api), _api("caller_api", api)
+        name, rpc, uri = (
+            name_argument("service", service, caller),
+            _api("service_api", service_api),
+            _api("caller_api", api),
+        )
         self._replace(caller, self._books.enter_service(name, caller, uri, rpc))
         return 1, f"Registered [{caller}] as provider of [{name}]", 1
 
     def _unregister_service(self, caller: str, service: Any, service_api: Any) -> Answer:
-        name, rpc = _name("service", service, caller), _api("service_api", service_api)
+        name, rpc = name_argument("service", service, caller), _api("service_api", service_api)
         return self._books.strike_service(name, caller, rpc)
 
     def _enter(self, table: Register, name: str, caller: str, uri: str) -> None:
@@ -279,21 +266,11 @@ def _followed(name: str) -> str:
     return "/" if name == "/" else canonical_name(name) + "/"
 
 
-def _name(what: str, value: Any, caller: str) -> str:
-    if not isinstance(value, str) or not value:
-        raise _BadArgumentError(f"ERROR: parameter [{what}] must be a non-empty string")
-    if ":" in value or " " in value:
-        raise _BadArgumentError(f"ERROR: parameter [{what}] contains illegal chars")
-    if value == "/":
-        raise _BadArgumentError(f"ERROR: parameter [{what}] cannot be the global namespace")
-    return resolve_name(value, caller)
-
-
 def _key(value: Any) -> str:
     if not value:
-        raise _BadArgumentError("ERROR: parameter [key] must be specified and non-empty")
+        raise BadArgumentError("ERROR: parameter [key] must be specified and non-empty")
     if not isinstance(value, str):
-        raise _BadArgumentError("ERROR: parameter [key] must be a string")
+        raise BadArgumentError("ERROR: parameter [key] must be a string")
     return value
 
 
@@ -303,15 +280,15 @@ def _parameter(value: Any, caller: str) -> str:
 
 def _type(what: str, value: Any) -> str:
     if not isinstance(value, str) or not value:
-        raise _BadArgumentError(f"ERROR: parameter [{what}] must be a non-empty string")
+        raise BadArgumentError(f"ERROR: parameter [{what}] must be a non-empty string")
     if value != ANY_TYPE and value.count("/") != 1:
-        raise _BadArgumentError(f"ERROR: parameter [{what}] is not a valid package resource name")
+        raise BadArgumentError(f"ERROR: parameter [{what}] is not a valid package resource name")
     return value
 
 
 def _api(what: str, value: Any) -> str:
     if not isinstance(value, str) or not value:
-        raise _BadArgumentError(f"ERROR: parameter [{what}] is not an XMLRPC URI")
+        raise BadArgumentError(f"ERROR: parameter [{what}] is not an XMLRPC URI")
     if not value.startswith(("http://", "rosrpc://")):
-        raise _BadArgumentError(f"ERROR: parameter [{what}] is not an RPC URI")
+        raise BadArgumentError(f"ERROR: parameter [{what}] is not an RPC URI")
     return value

@@ -140,13 +140,18 @@ class NodeCalls:
         self.watched.setdefault(full, []).append(callback)
         return await self.ask("subscribeParam", self.uri, full)
 
-    def param_changed(self, key: str, value: Any) -> None:
-        """Tell those who watch a parameter."""
+    def param_changed(self, key: str, value: Any) -> bool:
+        """Tell those who watch a parameter; False: nobody does."""
         name = key.rstrip("/") or "/"
-        for watched, callbacks in self.watched.items():
-            if watched == "/" or name == watched or name.startswith(f"{watched}/"):
-                for callback in callbacks:
-                    callback(name, value)
+        told = [
+            callback
+            for watched, callbacks in self.watched.items()
+            if watched == "/" or name == watched or name.startswith(f"{watched}/")
+            for callback in callbacks
+        ]
+        for callback in told:
+            callback(name, value)
+        return bool(told)
 
     async def call_service(
         self,

@@ -2,13 +2,18 @@
 
 import asyncio
 import os
-from typing import TYPE_CHECKING, Any
+import re
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any, cast
 
+from .calls import BadArgumentError, Method, answer_call, name_argument
 from .loop import close_server
 from .nearby import UNIXROS, listen_nearby
 from .network import ServerAddress
 from .publisher import Publisher
-from .rpc_server import RpcServer, UnknownMethodError
+from .registrations import Answer
+from .rpc_server import RpcServer
 from .tcpros import FrameProtocol
 
 if TYPE_CHECKING:
@@ -17,6 +22,7 @@ if TYPE_CHECKING:
 
 _BACKLOG = 512
 """Connections waiting to be accepted: all subscribers of a big launch come at once, and one too many waits a second."""
+_URL = re.compile(r"\w[\w+.-]*://.")
 _MAX_NEWCOMERS = 512
 """Connections that have not said yet what they want; the oldest makes room."""
 
@@ -27,7 +33,7 @@ class Slave:
     def __init__(self, node: "Node", address: ServerAddress) -> None:
         self._node = node
         self._address = address
-        self._rpc = RpcServer(self._dispatch)
+        self._rpc = RpcServer(partial(answer_call, self._methods()))
         self._servers: list[asyncio.Server] = []
         self._nearby: list[str] = []
         """Where nodes of this machine connect faster, if there is such a place."""
@@ -65,39 +71,52 @@ class Slave:
     def _inbound(self) -> "_Inbound":
         return _Inbound(self._node, self._links, self._newcomers)
 
-    def _dispatch(self, method: str, arguments: list[Any]) -> Any:
-        match method, arguments:
-            case "getPid", [_]:
-                return 1, "", os.getpid()
-            case "getMasterUri", [_]:
-                return 1, self._node.master_uri, self._node.master_uri
-            case "getName", [_]:
-                return 1, "node name", self._node.name
-            case "getBusInfo", [_]:
-                return 1, "bus info", self._node.connections()
-            case "getBusStats", [_]:
-                return 1, "", self._node.statistics()
-            case "getPublications", [_]:
-                return 1, "publications", [[p.topic, p.type] for p in self._node.publishers]
-            case "getSubscriptions", [_]:
-                return 1, "subscriptions", [[topic, kind] for topic, kind in self._node.subscribed_topics()]
-            case "publisherUpdate", [_, str(topic), list(uris)]:
-                self._node.publishers_changed(topic, [str(uri) for uri in uris])
-                return 1, "", 0
-            case "paramUpdate", [_, str(key), value]:
-                self._node.param_changed(key, value)
-                return 1, "", 0
-            case "shutdown", [_, *reason]:
-                self._node.asked_to_shut_down(str(reason[0]) if reason else "")
-                return 1, "shutdown", 0
-            case "requestTopic", [_, str(topic), list(protocols)]:
-                return self._request_topic(topic, protocols)
-            case _:
-                raise UnknownMethodError(f'method "{method}" is not supported with {len(arguments)} arguments')
+    def _methods(self) -> dict[str, Method]:
+        node = self._node
+        return {
+            "getName": (0, "", _tell("", lambda: node.name)),
+            "getUri": (0, "", _tell("", lambda: self.uri)),
+            "getPid": (0, -1, _tell("", os.getpid)),
+            "getMasterUri": (0, "", _tell(node.master_uri, lambda: node.master_uri)),
+            "getBusInfo": (0, [], _tell("bus info", node.connections)),
+            "getBusStats": (0, [], _tell("", node.statistics)),
+            "getPublications": (0, [], _tell("publications", lambda: [[p.topic, p.type] for p in node.publishers])),
+            "getSubscriptions": (0, [], _tell("subscriptions", lambda: [[*t] for t in node.subscribed_topics()])),
+            "publisherUpdate": (2, -1, self._publisher_update),
+            "paramUpdate": (2, -1, self._param_update),
+            "requestTopic": (2, [], self._request_topic),
+            "shutdown": (1, 0, self._shutdown),
+        }
 
-    def _request_topic(self, topic: str, protocols: list[Any]) -> Any:
-        if self._node.publisher(topic) is None:
-            return 0, f"Not a publisher of [{topic}]", []
+    def _shutdown(self, _: str, reason: Any) -> Answer:
+        self._node.asked_to_shut_down(str(reason))
+        return 1, "shutdown", 0
+
+    def _publisher_update(self, caller: str, topic: Any, uris: Any) -> Answer:
+        name = name_argument("topic", topic, caller)
+        if not isinstance(uris, list):
+            raise BadArgumentError("ERROR: param [publishers] must be a list")
+        for uri in cast("list[Any]", uris):
+            if not isinstance(uri, str):
+                raise BadArgumentError("ERROR: param [publishers] must be a list of strings")
+            if not _URL.match(uri):
+                raise BadArgumentError(f"ERROR: param [publishers] does not contain valid URLs [{uri}]")
+        self._node.publishers_changed(name, uris)
+        return 1, "", 0
+
+    def _param_update(self, _: str, key: Any, value: Any) -> Answer:
+        if not isinstance(key, str) or not key:
+            raise BadArgumentError("ERROR: parameter [parameter_key] must be a non-empty string")
+        if not key.startswith("/"):
+            raise BadArgumentError("ERROR: parameter [parameter_key] must be a globally referenced name")
+        return (1, "", 0) if self._node.param_changed(key, value) else (-1, "not subscribed", 0)
+
+    def _request_topic(self, caller: str, topic: Any, protocols: Any) -> Answer:
+        name = name_argument("topic", topic, caller)
+        if not protocols:
+            raise BadArgumentError("ERROR: parameter [protocols] must be specified and non-empty")
+        if self._node.publisher(name) is None:
+            return -1, f"Not a publisher of [{name}]", []
         wanted = [p[0] for p in protocols if isinstance(p, list) and p]
         if "TCPROS" not in wanted:
             return 0, "no supported protocol implementations", []
@@ -107,6 +126,10 @@ class Slave:
             f"ready on {host}:{self.tcp_port}",
             ["TCPROS", host, self.tcp_port, *(self._nearby if UNIXROS in wanted else [])],
         )
+
+
+def _tell(text: str, value: Callable[[], object]) -> Callable[[str], Answer]:
+    return lambda _: (1, text, value())
 
 
 class _Inbound(FrameProtocol):
