@@ -25,12 +25,12 @@ struct Renderer::Band {
 // Each thread has a band from above and one from below: skies are less work than what is under them.
 template <typename Work>
 void Renderer::in_bands(int32_t height, const Work& work) {
-  const auto count = (int32_t)projected_.size();
+  const auto count = (int32_t)rooms_.size();
   const auto draw = [&](int32_t thread) {
     if (count == 1) return work(Band{0, 0, height});
-    for (const int32_t band : {thread, 2 * count - 1 - thread})
-      work(Band{(size_t)thread, (int32_t)((int64_t)height * band / (2 * count)),
-                (int32_t)((int64_t)height * (band + 1) / (2 * count))});
+    const int32_t tiles = (height + kTileHeight - 1) / kTileHeight;
+    const auto row = [&](int32_t band) { return std::min(tiles * band / (2 * count) * kTileHeight, height); };
+    for (const int32_t band : {thread, 2 * count - 1 - thread}) work(Band{(size_t)thread, row(band), row(band + 1)});
   };
   std::vector<std::thread> others;
   int32_t started = 1;
@@ -41,6 +41,23 @@ void Renderer::in_bands(int32_t height, const Work& work) {
   for (int32_t thread = started; thread < count; ++thread) draw(thread);
   draw(0);
   for (std::thread& other : others) other.join();
+}
+
+size_t tiles_of(const View& view) {
+  return (size_t)view.tile_stride() * (size_t)((view.height + kTileHeight - 1) / kTileHeight);
+}
+
+// What is near first: it hides the rest. What is endless may be near somewhere, and comes last.
+void Renderer::sort_by_nearness(std::vector<Solid>& solids) const {
+  const auto rank = [this](const Solid& solid) { return is_endless(scene_.shapes[solid.index]) ? -INFINITY : solid.nearest; };
+  std::stable_sort(solids.begin(), solids.end(), [&](const Solid& a, const Solid& b) { return rank(a) > rank(b); });
+}
+
+void Renderer::see_all(const View& view, const std::vector<Solid>& solids, const Band& band, Buffers buffers) {
+  const Kernel& kernel = best_kernel();
+  buffers.projected = rooms_[band.thread].projected.data(), buffers.large = rooms_[band.thread].large.data();
+  for (const Solid& solid : solids)
+    if (const auto part = band.of(solid)) kernel.see(view, *part, buffers), kernel.settle(view, *part, buffers);
 }
 
 // Flat things lie on the ground: what a plane would shade is below it.
@@ -72,10 +89,10 @@ void Renderer::draw_maps() {
       Solid solid;
       if (place(view, maps_[i]->world_from_view, caster, Detail::kSeen, solid)) solids.push_back(solid);
     }
+    sort_by_nearness(solids);
+    hidden_.assign(tiles_of(view), maps_[i]->nearness.front());  // of nothing yet
     in_bands(view.height, [&](const Band& band) {
-      const Buffers buffers{maps_[i]->nearness.data(), nullptr, nullptr, nullptr, projected_[band.thread].data()};
-      for (const Solid& solid : solids)
-        if (const auto part = band.of(solid)) best_kernel().see(view, *part, buffers);
+      see_all(view, solids, band, {maps_[i]->nearness.data(), nullptr, nullptr, nullptr, hidden_.data(), {}, {}});
     });
   }
   maps_are_old_ = false;
@@ -124,6 +141,7 @@ void Renderer::render(const Camera& camera, uint8_t* rgb, float* depth, int32_t*
     if (looks_[i].opacity > 0.0f && place(view, camera.world_from_camera, i, detail, solid))
       (looks_[i].opacity < 1.0f ? see_through : solids).push_back(solid);
   }
+  sort_by_nearness(solids);
   const auto away = [](const Solid& solid) {
     return solid.centre[0] * solid.centre[0] + solid.centre[1] * solid.centre[1] + solid.centre[2] * solid.centre[2];
   };
@@ -134,16 +152,18 @@ void Renderer::render(const Camera& camera, uint8_t* rgb, float* depth, int32_t*
   grow(nearness_), grow(id_), grow(colour_);
   if (segment) grow(segment_);
   if (!see_through.empty()) grow(nearness_through_), grow(id_through_);
+  hidden_.assign(tiles_of(view), 1.0f / view.far_), hidden_through_.resize(hidden_.size());
   in_bands(camera.height, [&](const Band& band) {
     const Kernel& kernel = best_kernel();
     const Buffers buffers{nearness_.data(), id_.data(), colour_.data(), segment ? segment_.data() : nullptr,
-                          projected_[band.thread].data()};
+                          hidden_.data(), {}, {}};
     const size_t first = (size_t)band.top * stride, area = (size_t)(band.bottom - band.top) * stride;
     std::fill_n(buffers.nearness + first, area, 1.0f / view.far_);
+    for (int32_t row = band.top; row < band.bottom; ++row)
+      std::fill_n(buffers.nearness + (size_t)row * stride + view.width, stride - view.width, INFINITY);
     std::fill_n(buffers.id + first, area, -1);
     if (segment) std::fill_n(buffers.segment + first, area, -1);
-    for (const Solid& solid : solids)
-      if (const auto part = band.of(solid)) kernel.see(view, *part, buffers);
+    see_all(view, solids, band, buffers);
     kernel.fill(view, sky, band.top, band.bottom, buffers);
     for (const Solid& solid : solids)
       if (const auto part = band.of(solid)) kernel.shade(view, *part, lighting, buffers);
@@ -153,9 +173,13 @@ void Renderer::render(const Camera& camera, uint8_t* rgb, float* depth, int32_t*
       const size_t from = (size_t)part->top * stride, rows = (size_t)(part->bottom - part->top) * stride;
       std::copy_n(nearness_.data() + from, rows, nearness_through_.data() + from);
       std::fill_n(id_through_.data() + from, rows, -1);
+      const size_t tiles = (size_t)view.tile_stride(), tile_from = (size_t)(part->top / kTileHeight) * tiles;
+      const size_t tile_to = (size_t)((part->bottom + kTileHeight - 1) / kTileHeight) * tiles;
+      std::copy(hidden_.begin() + tile_from, hidden_.begin() + tile_to, hidden_through_.begin() + tile_from);
       Buffers through = buffers;
       through.nearness = nearness_through_.data(), through.id = id_through_.data();
-      kernel.see(view, *part, through);
+      through.hidden = hidden_through_.data();
+      see_all(view, {solid}, band, through);
       kernel.shade(view, *part, lighting, through);
     }
     for (int32_t row = band.top; row < band.bottom; ++row) {

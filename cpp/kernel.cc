@@ -31,32 +31,33 @@ struct Rays {
   }
 };
 
-template <Kind kind, bool parallel>
+template <Kind kind, bool parallel, bool with_id>
 void see_along(const View& view, const Solid& solid, const Buffers& buffers) {
   Rays<parallel> rays(view, solid);
   const float nearest = parallel ? -view.near_ : 1.0f / view.near_;
   const int first = solid.left / kLanes * kLanes;
   for (int row = solid.top; row < solid.bottom; ++row) {
     rays.begin_row(row);
+    const float* hidden = buffers.hidden + row / kTileHeight * view.tile_stride();
     for (int column = first; column < solid.right; column += kLanes) {
+      if (solid.nearest < hidden[column / kTileWidth]) continue;
       const F u = counting() + ((float)column + 0.5f);
       const Meeting met = rays.template meet_at<kind>(u);
       const F nearness = parallel ? -met.depth : 1.0f / met.depth;
       const int at = row * view.stride + column;
       const F before = load(buffers.nearness + at);
-      const I seen = met.hit & (nearness > before) & (nearness <= nearest) & (u > (float)solid.left) &
-                     (u < (float)solid.right);
-      if (!any(seen)) continue;
-      store(buffers.nearness + at, select(seen, nearness, before));
-      if (buffers.id) store(buffers.id + at, select(seen, splat(solid.first_id), load(buffers.id + at)));
+      const I may = met.hit & (nearness <= nearest) & (u > (float)solid.left) & (u < (float)solid.right);
+      if (!any(may & (nearness >= before))) continue;
+      put<with_id>(buffers, at, may, nearness, before, solid.first_id);
     }
   }
 }
 
 template <Kind kind>
 void see_solid(const View& view, const Solid& solid, const Buffers& buffers) {
-  if (view.parallel) return see_along<kind, true>(view, solid, buffers);
-  see_along<kind, false>(view, solid, buffers);
+  if (view.parallel) return see_along<kind, true, false>(view, solid, buffers);
+  if (!buffers.id) return see_along<kind, false, false>(view, solid, buffers);
+  see_along<kind, false, true>(view, solid, buffers);
 }
 
 void see(const View& view, const Solid& solid, const Buffers& buffers) {
@@ -69,6 +70,19 @@ void see(const View& view, const Solid& solid, const Buffers& buffers) {
     case Kind::kEllipsoid: return see_solid<Kind::kEllipsoid>(view, solid, buffers);
     case Kind::kMesh: return see_mesh(view, solid, buffers);
   }
+}
+
+void settle(const View& view, const Solid& solid, const Buffers& buffers) {
+  const int first = solid.left / kTileWidth, last = (solid.right - 1) / kTileWidth;
+  for (int top = solid.top / kTileHeight; top <= (solid.bottom - 1) / kTileHeight; ++top)
+    for (int left = first; left <= last; ++left) {
+      const int bottom = (top + 1) * kTileHeight < view.height ? (top + 1) * kTileHeight : view.height;
+      F farthest = splat(3e38f);
+      for (int row = top * kTileHeight; row < bottom; ++row)
+        for (int column = 0; column < kTileWidth; column += kLanes)
+          farthest = min(load(buffers.nearness + row * view.stride + left * kTileWidth + column), farthest);
+      buffers.hidden[top * view.tile_stride() + left] = least(farthest);
+    }
 }
 
 void fill(const View& view, const Sky& sky, int32_t top, int32_t bottom, const Buffers& buffers) {
@@ -113,6 +127,6 @@ void shade(const View& view, const Solid& solid, const Lighting& lighting, const
 #define TRUNDLE_TEXT(name) #name
 #define TRUNDLE_NAME(name) TRUNDLE_TEXT(name)
 extern const Kernel kernel;
-const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), see, fill, shade, cast};
+const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), see, settle, fill, shade, cast};
 
 }  // namespace trundle::TRUNDLE_ISA

@@ -7,6 +7,7 @@ namespace trundle {
 
 constexpr int kWidest = 16;  // lanes; rows of buffers are padded to it
 constexpr int kMostLevels = 15;
+constexpr int kTileWidth = kWidest, kTileHeight = 8;  // [px] of what is found to be hidden as a whole
 
 enum class Kind : int32_t { kPlane, kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kMesh };
 enum class LightKind : int32_t { kDirectional, kPoint, kSpot };
@@ -20,6 +21,9 @@ struct View {
   float focal;               // [px]
   float near_, far_;         // [m]
   bool parallel;
+
+  // Tiles from the start of a row of them to the next one's.
+  int32_t tile_stride() const { return (stride / kTileWidth + kWidest - 1) / kWidest * kWidest; }
 };
 
 // Vertices and faces lie in rows of their own for each axis and corner, which are padded to kWidest: with faces that have
@@ -78,6 +82,7 @@ struct Solid {
   float eye[3];         // the camera in the shape's frame [m]
   float centre[3];      // the shape's origin in the camera frame [m]
   int32_t left, top, right, bottom;  // pixels that it may cover, the last ones excluded
+  float nearest;        // no point of it has more nearness
   int32_t first_id;     // its visible pixels carry first_id + face
   int32_t id_count;
   int32_t index;        // in the scene
@@ -131,16 +136,20 @@ struct Sky {
 
 // Rows of `stride` numbers each.
 struct Buffers {
-  float* nearness;    // 1 / depth [1/m]; of a parallel view -depth [m]
+  float* nearness;    // 1 / depth [1/m]; of a parallel view -depth [m]; endless beside the picture
   int32_t* id;        // what is seen; -1: nothing; null: of no interest
   int32_t* colour;    // red | green << 8 | blue << 16
   int32_t* segment;   // index of the shape, or -1; may be null
+  float* hidden;      // of each tile: what has less nearness is not seen there
   float* projected;   // room for 6 rows of the vertices of the largest mesh
+  int32_t* large;     // room for the numbers of the faces of the largest mesh
 };
 
 struct Kernel {
   const char* name;
+  // Of two at one place the one with the lower number is seen, in whatever order they come.
   void (*see)(const View&, const Solid&, const Buffers&);
+  void (*settle)(const View&, const Solid&, const Buffers&);  // what is hidden by what is seen by now
   void (*fill)(const View&, const Sky&, int32_t top, int32_t bottom, const Buffers&);  // where nothing is
   void (*shade)(const View&, const Solid&, const Lighting&, const Buffers&);
   void (*cast)(const Solid*, int32_t, const float* directions, int64_t count, float reach, float* ranges,

@@ -71,6 +71,8 @@ Rectangle covered(const View& view, const Frame& camera_from_box, const Vec3& lo
   for (int i = 0; i < 8; ++i)
     corners[i] = camera_from_box.move(
         {i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]});
+  double ahead = INFINITY;
+  for (const Vec3& corner : corners) ahead = std::min(ahead, corner[0]);
   double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
   const auto take = [&](double x, double y, double z) {
     const double scale = view.parallel ? view.focal : view.focal / x;
@@ -93,9 +95,9 @@ Rectangle covered(const View& view, const Frame& camera_from_box, const Vec3& lo
   const auto pixel = [](double at, int32_t last, int32_t otherwise) {
     return std::isnan(at) ? otherwise : (int32_t)std::clamp(std::floor(at), 0.0, (double)last);
   };
-  if (left > right) return {0, 0, 0, 0};
+  if (left > right) return {0, 0, 0, 0, ahead};
   return {pixel(left - 1.0, view.width, 0), pixel(top - 1.0, view.height, 0),
-          pixel(right + 2.0, view.width, view.width), pixel(bottom + 2.0, view.height, view.height)};
+          pixel(right + 2.0, view.width, view.width), pixel(bottom + 2.0, view.height, view.height), ahead};
 }
 
 }  // namespace trundle

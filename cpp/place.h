@@ -32,6 +32,7 @@ Frame operator*(const Frame& world_from_a, const Frame& a_from_b);
 
 struct Rectangle {
   int32_t left, top, right, bottom;  // the last ones excluded
+  double ahead;  // [m] how far along the view axis the nearest corner is
   bool empty() const { return left >= right || top >= bottom; }
 };
 

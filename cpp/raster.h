@@ -51,9 +51,84 @@ inline int kept_inside(float pixel, int last) {
 inline int first_at(float coordinate, int last) { return kept_inside(__builtin_ceilf(coordinate - 0.5f), last); }
 inline int first_past(float coordinate, int last) { return kept_inside(__builtin_floorf(coordinate + 0.5f), last); }
 
+// The nearer one is seen, of two that are as near the one with the lower number.
+template <bool with_id>
+inline void put(const Buffers& buffers, int at, I may, F nearness, F before, int32_t id) {
+  I seen = may & (nearness > before);
+  if constexpr (with_id) {
+    const I other = load(buffers.id + at);
+    seen |= may & (nearness == before) & (other > id);
+    store(buffers.id + at, select(seen, splat(id), other));
+  }
+  store(buffers.nearness + at, select(seen, nearness, before));
+}
+
+// A triangle of any size: of as many tiles side by side those are looked at that it may be seen in. Rounding keeps order,
+// so that what holds for a tile's best corner holds for all of it.
+struct Large {
+  Edge edges[3];
+  float u, v, nearness, along_u, along_v, nearest;
+  int32_t row0, row1, column0, column1, id;
+
+  float nearness_at(float v) const { return nearness + along_v * (v - this->v); }
+
+  template <bool with_id>
+  void draw(const View& view, const Buffers& buffers) const {
+    for (int top = row0 / kTileHeight * kTileHeight; top < row1; top += kTileHeight) {
+      const float first_v = (float)top + 0.5f, last_v = first_v + (kTileHeight - 1);
+      const float* hidden = buffers.hidden + top / kTileHeight * view.tile_stride();
+      for (int left = column0 / (kTileWidth * kLanes) * kLanes; left * kTileWidth < column1; left += kLanes) {
+        const F first_u = (counting() + (float)left) * (float)kTileWidth + 0.5f;
+        const F last_u = first_u + (float)(kTileWidth - 1);
+        I open = (last_u > (float)column0) & (first_u < (float)column1);
+        const F best = nearness_at(along_v > 0.0f ? last_v : first_v) + along_u * ((along_u > 0.0f ? last_u : first_u) - u);
+        open &= min(best, splat(nearest)) >= load(hidden + left);
+        I within = (first_u > (float)column0) & (last_u < (float)column1);
+        for (const Edge& edge : edges) {
+          const F low = edge.dv > 0.0f ? first_u : last_u, high = edge.dv > 0.0f ? last_u : first_u;
+          const float upper = edge.along_row(first_v), lower = edge.along_row(last_v);
+          open &= edge.holds(high, least_of(upper, lower)), within &= edge.holds(low, most_of(upper, lower));
+        }
+        const uint32_t all_of_it = bits(within);
+        for (uint32_t still = bits(open); still; still &= still - 1) {
+          const int i = __builtin_ctz(still), column = (left + i) * kTileWidth;
+          if (all_of_it >> i & 1) draw_tile<with_id, true>(view, buffers, top, column);
+          else draw_tile<with_id, false>(view, buffers, top, column);
+        }
+      }
+    }
+  }
+
+  template <bool with_id, bool within>
+  void draw_tile(const View& view, const Buffers& buffers, int top, int left) const {
+    const int first = top > row0 ? top : row0, last = top + kTileHeight < row1 ? top + kTileHeight : row1;
+    F farthest = splat(3e38f);
+    for (int row = first; row < last; ++row) {
+      const float v = (float)row + 0.5f, row_nearness = nearness_at(v);
+      const float along[3] = {edges[0].along_row(v), edges[1].along_row(v), edges[2].along_row(v)};
+      for (int column = left; column < left + kTileWidth; column += kLanes) {
+        const F u = counting() + ((float)column + 0.5f);
+        const int at = row * view.stride + column;
+        const F before = load(buffers.nearness + at);
+        const F here = min(row_nearness + along_u * (u - this->u), splat(nearest));
+        I inside = here >= before;
+        if constexpr (!within) {
+          inside &= (u > (float)column0) & (u < (float)column1);
+          for (int i = 0; i < 3; ++i) inside &= edges[i].holds(u, along[i]);
+        }
+        farthest = min(select(inside, here, before), farthest);
+        if (any(inside)) put<with_id>(buffers, at, inside, here, before, id);
+      }
+    }
+    const bool whole = first == top && (last == top + kTileHeight || last == view.height);
+    if (whole) buffers.hidden[top / kTileHeight * view.tile_stride() + left / kTileWidth] = least(farthest);
+  }
+};
+
 // Counter-clockwise from outside; seen from behind, nothing is drawn.
-inline void draw_triangle(const View& view, const Solid& solid, const Buffers& buffers, const Corner& a, const Corner& b, const Corner& c,
-                          int32_t id) {
+template <bool with_id>
+inline void draw_triangle(const View& view, const Solid& solid, const Buffers& buffers, const Corner& a, const Corner& b,
+                          const Corner& c, int32_t id) {
   const double bu = (double)b.u - a.u, bv = (double)b.v - a.v, cu = (double)c.u - a.u, cv = (double)c.v - a.v;
   const double area = bu * cv - bv * cu;
   if (!(area < 0.0)) return;  // v runs downwards, so that front sides turn the other way
@@ -65,27 +140,10 @@ inline void draw_triangle(const View& view, const Solid& solid, const Buffers& b
   if (column0 >= column1 || row0 >= row1) return;
   const double bn = (double)b.nearness - a.nearness, cn = (double)c.nearness - a.nearness, share = 1.0 / area;
   const float along_u = (float)((bn * cv - cn * bv) * share), along_v = (float)((cn * bu - bn * cu) * share);
-  const Edge ab(a, b), bc(b, c), ca(c, a);
   const float nearest = view.parallel ? -view.near_ : 1.0f / view.near_;
-  const int start = column0 < view.stride - kLanes ? column0 : view.stride - kLanes;
-  for (int row = row0; row < row1; ++row) {
-    const float v = (float)row + 0.5f;
-    const float row_nearness = a.nearness + along_v * (v - a.v);
-    const float row_ab = ab.along_row(v), row_bc = bc.along_row(v), row_ca = ca.along_row(v);
-    for (int column = start; column < column1; column += kLanes) {
-      // Not beyond the row: what is left of the last columns is looked at twice, and is the same.
-      const int from = column < view.stride - kLanes ? column : view.stride - kLanes;
-      const F u = counting() + ((float)from + 0.5f);
-      const I inside = ab.holds(u, row_ab) & bc.holds(u, row_bc) & ca.holds(u, row_ca);
-      if (!any(inside)) continue;
-      const int at = row * view.stride + from;
-      const F nearness = min(row_nearness + along_u * (u - a.u), splat(nearest));
-      const F before = load(buffers.nearness + at);
-      const I seen = inside & (nearness > before);
-      store(buffers.nearness + at, select(seen, nearness, before));
-      if (buffers.id) store(buffers.id + at, select(seen, splat(id), load(buffers.id + at)));
-    }
-  }
+  const Large large = {{Edge(a, b), Edge(b, c), Edge(c, a)}, a.u, a.v, a.nearness, along_u, along_v, nearest,
+                       row0, row1, column0, column1, id};
+  large.draw<with_id>(view, buffers);
 }
 
 // Where an edge goes through the near plane, from its visible end on, so that both triangles at it find one point.
@@ -100,6 +158,7 @@ struct Corners {
   Corner at[3];
 };
 
+template <bool with_id>
 inline void draw_clipped(const View& view, const Solid& solid, const Buffers& buffers, const Corners& corners, int32_t id) {
   Corner kept[4];
   int count = 0;
@@ -110,7 +169,7 @@ inline void draw_clipped(const View& view, const Solid& solid, const Buffers& bu
     if (seen && !next_seen) kept[count++] = cut(view, here, next);
     if (!seen && next_seen) kept[count++] = cut(view, next, here);
   }
-  for (int i = 2; i < count; ++i) draw_triangle(view, solid, buffers, kept[0], kept[i - 1], kept[i], id);
+  for (int i = 2; i < count; ++i) draw_triangle<with_id>(view, solid, buffers, kept[0], kept[i - 1], kept[i], id);
 }
 
 // The vertices of a mesh as a view sees them, in rows as a mesh has them.
@@ -178,9 +237,7 @@ struct Small {
         const F nearness = max(min(slope + (an[i] + along_v[i] * (v - av[i])), splat(highest[i])), splat(lowest[i]));
         const int at = row * view.stride + from;
         const F before = load(buffers.nearness + at);
-        const I seen = inside & (nearness > before);
-        store(buffers.nearness + at, select(seen, nearness, before));
-        if constexpr (with_id) store(buffers.id + at, select(seen, splat(id), load(buffers.id + at)));
+        put<with_id>(buffers, at, inside, nearness, before, id);
       }
     }
   }
@@ -195,11 +252,37 @@ inline I first_at(F coordinate, int last) {
 }
 inline I first_past(F coordinate, int last) { return to_int(max(min(coordinate + 0.5f, splat((float)last)), F{})); }
 
+// Which triangles are hidden in all tiles that they are in. Of those in more than two by two, nothing is said.
+inline I is_hidden(const View& view, const Buffers& buffers, I mask, I row0, I row1, I column0, I column1, F nearest) {
+  static_assert(kTileWidth == 16 && kTileHeight == 8);
+  const I top = row0 >> 3, bottom = (row1 - 1) >> 3, left = column0 >> 4, right = (column1 - 1) >> 4;
+  mask &= (bottom - top <= 1) & (right - left <= 1);
+  const I upper = top * view.tile_stride(), lower = bottom * view.tile_stride();
+  const auto at = [&](I tile) { return gather(buffers.hidden, tile & mask); };
+  const F least = min(min(at(upper + left), at(upper + right)), min(at(lower + left), at(lower + right)));
+  return mask & (nearest < least);
+}
+
+// A stride that leads once to each of so many things, and early to all parts of them.
+inline int32_t apart(int32_t count) {
+  int32_t stride = (int32_t)((double)count * 0.618033988749895);
+  const auto have_common = [](int32_t a, int32_t b) {
+    while (b) {
+      const int32_t rest = a % b;
+      a = b, b = rest;
+    }
+    return a > 1;
+  };
+  while (stride < 1 || have_common(count, stride)) ++stride;
+  return stride;
+}
+
 template <bool with_id>
 inline void draw_faces(const View& view, const Solid& solid, const Buffers& buffers) {
   const Triangles& mesh = *solid.mesh;
   Projected seen(buffers.projected, mesh.vertex_count);
   const bool whole = seen.take(view, solid);
+  int32_t count = 0;
   for (int32_t first = 0; first < mesh.face_count; first += kLanes) {
     const I a = load(mesh.corners[0] + first), b = load(mesh.corners[1] + first), c = load(mesh.corners[2] + first);
     const F au = gather(seen.u, a), av = gather(seen.v, a), bu = gather(seen.u, b), bv = gather(seen.v, b);
@@ -223,6 +306,7 @@ inline void draw_faces(const View& view, const Solid& solid, const Buffers& buff
     }
     if (any(drawn)) {
       const F an = gather(seen.nearness, a), bn = gather(seen.nearness, b), cn = gather(seen.nearness, c);
+      drawn &= ~is_hidden(view, buffers, drawn, row0, row1, column0, column1, most_of(an, bn, cn));
       const F share = 1.0f / area, ab_n = bn - an, ac_n = cn - an;
       const Small batch = {Edges(au, av, bu, bv), Edges(bu, bv, cu, cv), Edges(cu, cv, au, av), au, av, an,
                            (ab_n * ac_v - ac_n * ab_v) * share, (ac_n * ab_u - ab_n * ac_u) * share,
@@ -232,10 +316,14 @@ inline void draw_faces(const View& view, const Solid& solid, const Buffers& buff
         batch.draw<with_id>(view, buffers, i, solid.first_id + first + i);
       }
     }
-    for (uint32_t left = bits(others); left; left &= left - 1) {
-      const int i = __builtin_ctz(left);
-      draw_clipped(view, solid, buffers, {{seen.corner(a[i]), seen.corner(b[i]), seen.corner(c[i])}}, solid.first_id + first + i);
-    }
+    for (uint32_t left = bits(others); left; left &= left - 1) buffers.large[count++] = first + __builtin_ctz(left);
+  }
+  // Not one after the other: so many that lie behind one another, the farthest first, would all be drawn.
+  const int32_t stride = apart(count);
+  for (int32_t i = 0, at = 0; i < count; ++i, at = at < count - stride ? at + stride : at + stride - count) {
+    const int32_t face = buffers.large[at];
+    const auto corner = [&](int k) { return seen.corner(mesh.corners[k][face]); };
+    draw_clipped<with_id>(view, solid, buffers, {{corner(0), corner(1), corner(2)}}, solid.first_id + face);
   }
 }
 

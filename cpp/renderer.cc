@@ -45,13 +45,11 @@ Look look_of(const LookSpec& spec, const std::vector<Image>& textures) {
 
 Renderer::Renderer(SceneSpec scene, int32_t threads)
     : scene_(std::move(scene)), body_poses_((size_t)scene_.bodies, Frame()), maps_(scene_.lights.size()) {
-  size_t most = 0;
+  rooms_.resize((size_t)std::clamp(threads, 1, kMostThreads));
   for (const Mesh& mesh : scene_.meshes) {
     triangles_.push_back(mesh.triangles());
-    most = std::max(most, mesh.places[0].size());
+    for (Room& room : rooms_) room.fit(mesh);
   }
-  projected_.resize((size_t)std::clamp(threads, 1, kMostThreads));
-  for (auto& room : projected_) room.resize(6 * most);
   for (Image& image : scene_.textures) image.texture.texels = image.texels.data();
   const auto is_index = [](int32_t index, size_t count) { return index >= 0 && (size_t)index < count; };
   for (const ShapeSpec& shape : scene_.shapes) {
@@ -72,6 +70,11 @@ Renderer::Renderer(SceneSpec scene, int32_t threads)
   shape_poses_.resize(scene_.shapes.size());
   for (const ShapeSpec& shape : scene_.shapes) bounds_.push_back(bounds_of(shape));
   place_shapes();
+}
+
+void Renderer::Room::fit(const Mesh& mesh) {
+  projected.resize(std::max(projected.size(), 6 * mesh.places[0].size()));
+  large.resize(std::max(large.size(), mesh.corners[0].size()));
 }
 
 void Renderer::update(const double* poses) {
@@ -100,7 +103,7 @@ void Renderer::reshape(int32_t mesh, Mesh form) {
   scene_.meshes[mesh] = std::move(form);
   triangles_[mesh] = scene_.meshes[mesh].triangles();
   coarse_[mesh].emplace();  // what changes its form is not made coarser each time
-  for (auto& room : projected_) room.resize(std::max(room.size(), 6 * scene_.meshes[mesh].places[0].size()));
+  for (Room& room : rooms_) room.fit(scene_.meshes[mesh]);
   if (!trees_.empty()) trees_[mesh] = triangles_[mesh].face_count > 0 ? make_bvh(triangles_[mesh]) : Bvh();
   for (size_t i = 0; i < scene_.shapes.size(); ++i)
     if (scene_.shapes[i].kind == Kind::kMesh && scene_.shapes[i].mesh == mesh) bounds_[i] = bounds_of(scene_.shapes[i]);
@@ -206,6 +209,7 @@ bool Renderer::place(const View& view, const Frame& world_from_camera, size_t in
   const ShapeSpec& shape = scene_.shapes[index];
   if (is_endless(shape)) {
     solid.left = solid.top = 0, solid.right = view.width, solid.bottom = view.height;
+    solid.nearest = INFINITY;
     return solid.eye[2] > 0.0f;
   }
   const auto& [low, high, middle, radius] = bounds_[index];
@@ -219,6 +223,9 @@ bool Renderer::place(const View& view, const Frame& world_from_camera, size_t in
   }
   const Rectangle pixels = covered(view, *camera_from_shape, low, high);
   solid.left = pixels.left, solid.top = pixels.top, solid.right = pixels.right, solid.bottom = pixels.bottom;
+  // With more than single precision may make of it.
+  const double ahead = pixels.ahead - 1e-3 * (std::fabs(pixels.ahead) + radius);
+  solid.nearest = view.parallel ? (float)-ahead : ahead > view.near_ ? (float)(1.0 / ahead) : INFINITY;
   return !pixels.empty();
 }
 

@@ -81,6 +81,8 @@ class Renderer {
   struct Band;
   template <typename Work>
   void in_bands(int32_t height, const Work& work);
+  void sort_by_nearness(std::vector<Solid>& solids) const;
+  void see_all(const View& view, const std::vector<Solid>& solids, const Band& band, Buffers buffers);
 
   SceneSpec scene_;
   std::vector<Triangles> triangles_;
@@ -94,8 +96,13 @@ class Renderer {
   std::vector<Solid> solids_;                      // that rays may meet
   std::vector<std::optional<LightMap>> maps_;     // of each light
   bool maps_are_old_ = true;
-  std::vector<std::vector<float>> projected_;  // of each thread
-  std::vector<float> nearness_, nearness_through_;
+  struct Room {  // of each thread
+    std::vector<float> projected;
+    std::vector<int32_t> large;
+    void fit(const Mesh& mesh);
+  };
+  std::vector<Room> rooms_;
+  std::vector<float> nearness_, nearness_through_, hidden_, hidden_through_;
   std::vector<int32_t> id_, id_through_, colour_, segment_;
 };
 

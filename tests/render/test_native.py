@@ -348,3 +348,36 @@ def test_what_is_no_mesh_cannot_be_reshaped() -> None:
     made = renderer(shape(Sphere(0.3)))
     with pytest.raises(KeyError):
         made.reshape(0, np.zeros((3, 3), dtype=np.float32))
+
+
+_AWAY = np.linspace(2.0, 5.0, 500)
+
+
+@pytest.mark.parametrize(
+    "away",
+    [_AWAY, _AWAY[::-1], np.random.default_rng(1).permutation(_AWAY)],
+    ids=["near first", "far first", "mixed"],
+)
+def test_of_many_triangles_behind_one_another_the_nearest_is_seen(away: NDArray[np.float64]) -> None:
+    """Most of them are never drawn, whichever comes first."""
+    triangle = np.array([[0.004, 0, 12], [0, 9, -9], [0, -9, -9]])
+    vertices = (triangle + away[:, None, None] * np.array([1.0, 0.0, 0.0])).astype(np.float32)
+    faces = np.arange(3 * len(away), dtype=np.int32).reshape(-1, 3)
+
+    every = renderer(shape(Mesh(vertices.reshape(-1, 3), faces))).render(Pose(), WIDE, depth=True)
+    alone = renderer(shape(Mesh(vertices[away.argmin()], faces[:1]))).render(Pose(), WIDE, depth=True)
+
+    assert every.depth is not None
+    assert alone.depth is not None
+    assert np.isfinite(alone.depth).all()
+    assert every.depth.tobytes() == alone.depth.tobytes()
+
+
+def test_of_two_at_one_place_the_first_shape_is_seen_whichever_comes_nearer_elsewhere() -> None:
+    corners = np.array([[3, 1, -1], [3, -1, -1], [3, -1, 1], [3, 1, 1], [2, 1.2, 0], [2, 1.1, 0], [2, 1.1, 0.1]])
+    wall = shape(Mesh(corners.astype(np.float32), np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6]], dtype=np.int32)))
+    box = shape(Box((1.0, 1.0, 1.0)), Pose((3.5, 0.0, 0.0)), GREEN)
+    middle = (slice(110, 130), slice(150, 170))
+
+    assert is_red(renderer(wall, box).render(Pose(), WIDE).rgb[middle]).all()
+    assert not is_red(renderer(box, wall).render(Pose(), WIDE).rgb[middle]).any()
