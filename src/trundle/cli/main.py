@@ -68,12 +68,12 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one command and return its exit code: 0 success, 1 bad input, 2 wrong usage, 130 on Ctrl-C."""
+    """Run one command and return its exit code: 0 success, 1 bad input, 2 wrong usage, 130 (ROS' tools 0) on Ctrl-C."""
     arguments = list(sys.argv[1:] if argv is None else argv)
     try:
         return _main(arguments)
     except KeyboardInterrupt:
-        return EXIT_OK if arguments[0] in _OF_ROS else EXIT_INTERRUPTED
+        return EXIT_OK if arguments and arguments[0] in _OF_ROS else EXIT_INTERRUPTED
 
 
 def _main(arguments: list[str]) -> int:
