@@ -72,14 +72,17 @@ def test_two_wheels_drive_and_tell_where_to(gazebo: Gazebo, source: str) -> None
     assert {"base_footprint", "left", "right"} <= {t.child_frame_id for m in frames for t in m.transforms}
 
 
-@pytest.mark.parametrize(("distro", "legacy"), [("noetic", "<legacyMode>true</legacyMode>"), ("kinetic", "")])
-def test_an_old_package_has_its_sides_swapped(gazebo: Gazebo, distro: str, legacy: str) -> None:
+@pytest.mark.parametrize(
+    ("distro", "legacy", "sign"),
+    [("noetic", "<legacyMode>true</legacyMode>", -1), ("kinetic", "", -1), ("melodic", "", 1)],
+)
+def test_an_old_package_has_its_sides_swapped(gazebo: Gazebo, distro: str, legacy: str, sign: int) -> None:
     gazebo.server.profile = PROFILES[distro]
     gazebo.spawn(_car(_plugin("diff_drive", f"{_DIFF}{legacy}"), _TWO), "car")
     gazebo.call("unpause_physics")
     odometry = gazebo.hear("/r/odom", ODOMETRY)
     gazebo.speak("/r/cmd_vel", TWIST)({"angular": {"z": 0.5}})
-    until(lambda: odometry and _yaw(odometry[-1]) < -0.2)
+    until(lambda: odometry and sign * _yaw(odometry[-1]) > 0.2)
 
 
 def test_four_wheels_drive(gazebo: Gazebo) -> None:

@@ -62,6 +62,7 @@ def test_no_shell_is_involved() -> None:
     [
         ("/no/such/command x", "no such command '/no/such/command'"),
         (f"{PYTHON} -c 'import sys; sys.exit(\"bad link\")'", "returned 1: bad link"),
+        (f"{PYTHON} -c 'while True: print(str(7) * 9999)'", "wrote more than 64 MiB"),
         (f"{PYTHON} 'unclosed", "cannot be split into words"),
         ("xacro", "xacro wants one file, got 0"),
     ],
@@ -88,3 +89,8 @@ def test_a_null_parameter_is_named() -> None:
     params = resolve_params(plan, report, expand_xacro=expand, env={})
     assert [(p.name, p.value) for p in params] == [("/a", None), ("/b", 1)]
     assert "'/a' is null" in report.warnings[0]
+
+
+def test_what_a_command_says_beside_its_value_is_passed_on(capfd: pytest.CaptureFixture[str]) -> None:
+    assert resolve(f"{PYTHON} -c 'import sys; print(3, file=sys.stderr); print(4)'") == 4
+    assert capfd.readouterr().err == "3\n"

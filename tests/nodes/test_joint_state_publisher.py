@@ -91,6 +91,13 @@ def test_a_robot_without_joints_is_silent_in_noetic_only() -> None:
     assert len(publish({}, robot=robot, distro="indigo").sent("/joint_states")) == 11
 
 
+def test_a_planar_joint_is_moved_in_indigo_only() -> None:
+    robot = """<robot name="r"><joint name="plane" type="planar"><limit lower="0" upper="1"/></joint>
+      <joint name="turn" type="continuous"/></robot>"""
+    assert list(publish({}, robot=robot).sent("/joint_states")[0].name) == ["turn"]
+    assert list(publish({}, robot=robot, distro="indigo").sent("/joint_states")[0].name) == ["plane", "turn"]
+
+
 def test_a_joint_without_limits_is_named_and_left_out() -> None:
     node = publish(
         {}, robot='<robot name="r"><joint name="a" type="revolute"/><joint name="b" type="continuous"/></robot>'

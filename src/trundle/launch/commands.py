@@ -2,8 +2,6 @@
 
 import os
 import shlex
-import signal
-import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -13,6 +11,7 @@ from typing import Protocol
 from trundle.diagnostics import DescriptionError, Diagnostics
 
 from .plan import LaunchParam, LaunchPlan, ParamCommand
+from .programs import run_command
 from .values import convert_value
 
 _TIMEOUT_S = 60.0
@@ -37,41 +36,6 @@ class CommandRunner(Protocol):
             ValueError: it could not be run, failed or took too long; the message says which.
         """
         ...
-
-
-def run_command(argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: float) -> str:
-    """Run a program without a shell, and everything it started when it takes too long; see `CommandRunner`."""
-    pipe = subprocess.PIPE
-    try:
-        process = subprocess.Popen(
-            argv, stdin=subprocess.DEVNULL, stdout=pipe, stderr=pipe, env=dict(env), start_new_session=True
-        )
-    except FileNotFoundError:
-        raise ValueError(f"no such command {argv[0]!r}") from None
-    except OSError as error:
-        raise ValueError(f"command {argv[0]!r} cannot be run: {error.strerror}") from None
-    with process:
-        try:
-            output, errors = process.communicate(timeout=timeout_s)
-        except subprocess.TimeoutExpired:
-            _kill(process)
-            raise ValueError(f"command {argv[0]!r} gave no answer within {timeout_s:g} s") from None
-    if process.returncode != 0:
-        last = errors.decode(errors="replace").strip().splitlines()[-10:]
-        said = ": " + "\n".join(last) if last else ""
-        raise ValueError(f"command {argv[0]!r} returned {process.returncode}{said}")
-    try:
-        return output.decode()
-    except UnicodeDecodeError:
-        raise ValueError(f"command {argv[0]!r} wrote something that is no text") from None
-
-
-def _kill(process: subprocess.Popen[bytes]) -> None:
-    if os.name == "posix":
-        os.killpg(process.pid, signal.SIGKILL)
-    else:
-        process.kill()
-    process.communicate()
 
 
 def resolve_params(

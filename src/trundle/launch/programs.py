@@ -1,0 +1,94 @@
+"""Runs a program for what it prints, bounded in time and size."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import IO
+
+_MOST_BYTES = 64 * 1024 * 1024
+"""The largest robot descriptions are a few MB."""
+_CHUNK_BYTES = 65536
+_LAST_S = 1.0
+"""What was killed may have left a program behind that holds its output open."""
+
+
+def run_command(argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: float) -> str:
+    """Run a program without a shell; what it says on standard error is passed on.
+
+    Raises:
+        ValueError: it could not be run, failed, took too long or said too much, and is killed with all it started.
+    """
+    pipe = subprocess.PIPE
+    try:
+        process = subprocess.Popen(
+            argv, stdin=subprocess.DEVNULL, stdout=pipe, stderr=pipe, env=dict(env), start_new_session=True
+        )
+    except FileNotFoundError:
+        raise ValueError(f"no such command {argv[0]!r}") from None
+    except OSError as error:
+        raise ValueError(f"command {argv[0]!r} cannot be run: {error.strerror}") from None
+    with process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        readers = [_Reader(stream, lambda: _kill(process)) for stream in (process.stdout, process.stderr)]
+        due = time.monotonic() + timeout_s
+        for reader in readers:
+            reader.join(max(0.0, due - time.monotonic()))
+        is_late = any(reader.is_alive() for reader in readers)
+        try:
+            process.wait(max(0.0, due - time.monotonic()))
+        except subprocess.TimeoutExpired:
+            is_late = True
+        if is_late:
+            _kill(process)
+            for reader in readers:
+                reader.join(_LAST_S)
+    output, errors = (bytes(reader.data) for reader in readers)
+    if any(reader.is_full for reader in readers):
+        raise ValueError(f"command {argv[0]!r} wrote more than {_MOST_BYTES // 2**20} MiB")
+    if is_late:
+        raise ValueError(f"command {argv[0]!r} gave no answer within {timeout_s:g} s")
+    if process.returncode != 0:
+        last = errors.decode(errors="replace").strip().splitlines()[-10:]
+        said = ": " + "\n".join(last) if last else ""
+        raise ValueError(f"command {argv[0]!r} returned {process.returncode}{said}")
+    if errors:
+        print(errors.decode(errors="replace"), end="", file=sys.stderr)
+    try:
+        return output.decode()
+    except UnicodeDecodeError:
+        raise ValueError(f"command {argv[0]!r} wrote something that is no text") from None
+
+
+class _Reader(threading.Thread):
+    """Reads a stream to its end, or until that is too much."""
+
+    def __init__(self, stream: IO[bytes], when_full: Callable[[], None]) -> None:
+        super().__init__(daemon=True)
+        self.data = bytearray()
+        self.is_full = False
+        self._stream = stream
+        self._when_full = when_full
+        self.start()
+
+    def run(self) -> None:
+        while chunk := os.read(self._stream.fileno(), _CHUNK_BYTES):
+            self.data += chunk
+            if len(self.data) > _MOST_BYTES:
+                self.is_full = True
+                self._when_full()
+                return
+
+
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    if os.name == "posix":
+        try:
+            os.killpg(process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            return  # it has ended by itself
+    else:
+        process.kill()
