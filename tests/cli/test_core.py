@@ -46,6 +46,26 @@ def test_a_shutdown_request_ends_it() -> None:
         assert "external shutdown request from [/me]: enough" in process.stderr.read()
 
 
+def test_listening_beyond_this_machine_is_warned_of() -> None:
+    with _core("--host", "0.0.0.0") as (process, _):
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(20) == 0
+        assert process.stderr is not None
+        assert "listening on 0.0.0.0: ROS 1 and the page have no passwords" in process.stderr.read()
+
+
+def test_an_address_that_leads_elsewhere_is_one_sentence(capfd: pytest.CaptureFixture[str], monkeypatch: Any) -> None:
+    """192.0.2.1 is nobody's, by RFC 5737; as the loop gives up on it, nothing answers there."""
+    monkeypatch.setattr("trundle.cli.core._READY_S", 0.5)
+    monkeypatch.setattr("signal.signal", lambda *_: None)
+    monkeypatch.setenv("ROS_IP", "192.0.2.1")
+    assert main(["core", "-p", "0", "--host", "0.0.0.0"]) == 1
+    error = capfd.readouterr().err
+    assert "nothing answers at http://192.0.2.1:" in error
+    assert "set ROS_IP or ROS_HOSTNAME" in error
+    assert "Traceback" not in error
+
+
 def test_a_distribution_that_is_none_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["core", "--distro", "ardent"]) == 2
     assert "indigo" in capsys.readouterr().err

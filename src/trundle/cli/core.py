@@ -6,13 +6,15 @@ import sys
 from contextlib import suppress
 from queue import Empty, SimpleQueue
 
+from trundle.bringup.exposure import warn_of_exposure
 from trundle.diagnostics import UsageError
-from trundle.ros import NOETIC, PROFILES, Core, GraphLoop
+from trundle.ros import NOETIC, PROFILES, Core, GraphLoop, RosError
 
 EXAMPLES = """
   trundle core                  the usual place: http://localhost:11311
   trundle core -p 11312         beside another one
 """
+_READY_S = 10.0
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -36,7 +38,15 @@ def main(args: argparse.Namespace) -> int:
     with GraphLoop() as loop:
         core = Core(loop, port=args.port, host=args.host, profile=PROFILES[args.distro], on_shutdown=reasons.put)
         loop.run(core.start())
-        loop.run(core.ready())
+        if args.host is not None:
+            warn_of_exposure(args.host, lambda line: print(line, file=sys.stderr, flush=True))
+        try:
+            loop.run(core.ready(), timeout_s=_READY_S)
+        except TimeoutError:
+            raise RosError(
+                f"nothing answers at {core.uri}, the address that this master gives out; "
+                "set ROS_IP or ROS_HOSTNAME to an address of this machine, or neither"
+            ) from None
         print(f"ROS_MASTER_URI={core.uri}", flush=True)
         print(f"started core service [/rosout]; run_id {core.run_id}; Ctrl-C stops it", file=sys.stderr, flush=True)
         try:
