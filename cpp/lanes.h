@@ -140,7 +140,16 @@ inline F log2(F a) {
   return exponent + s * (2.88539008f + q * (0.961796694f + q * (0.577078016f + q * (0.412198583f + q * 0.320598898f))));
 }
 
-inline F pow(F a, float exponent) { return select(a > 1e-30f, exp2(log2(max(a, splat(1e-30f))) * exponent), F{}); }
+// Of a whole exponent, which most highlights have, the product.
+inline F pow(F a, float exponent) {
+  const I some = a > 1e-30f;
+  const int whole = exponent >= 0.0f && exponent <= 256.0f ? (int)exponent : -1;
+  if ((float)whole != exponent) return select(some, exp2(log2(max(a, splat(1e-30f))) * exponent), F{});
+  F product = splat(1.0f);
+  for (int left = whole; left; left >>= 1, a *= a)
+    if (left & 1) product *= a;
+  return select(some, product, F{});
+}
 inline F load(const float* at) {
   F value;
   __builtin_memcpy(&value, at, sizeof value);

@@ -21,7 +21,7 @@ inline F3 full(const F3& colour) {
 inline F between(F value) { return max(min(value, splat(1.0f)), F{}); }
 
 // What share of the four texels around a point lies open to the light, weighed by how near they are.
-inline F lit_share(const ShadowMap& map, const F3& point, const F3& normal, F slope, float off) {
+inline F lit_share(const ShadowMap& map, const F3& point, const F3& normal, F facing, float off) {
   const View& view = map.view;
   F3 p = turn(map.turn, point);
   p = {p.x + map.shift[0], p.y + map.shift[1], p.z + map.shift[2]};
@@ -32,11 +32,12 @@ inline F lit_share(const ShadowMap& map, const F3& point, const F3& normal, F sl
   p = p + n * above;
   const I ahead = p.x > view.near_;
   const F depth = select(ahead, p.x, splat(1.0f)), scale = view.parallel ? splat(view.focal) : view.focal / depth;
-  const F bias = texel * (1.0f + min(slope, splat(8.0f))) * 0.5f;
-  const F nearness = view.parallel ? bias - depth : 1.0f / max(depth - bias, splat(1e-6f));
   const F u = view.centre_u - p.y * scale - 0.5f, v = view.centre_v - p.z * scale - 0.5f;
   const I inside = ahead & (u >= 0.0f) & (v >= 0.0f) & (u < (float)(view.width - 1)) & (v < (float)(view.height - 1));
   if (!any(inside)) return splat(1.0f);
+  const F slope = sqrt(max(1.0f - facing * facing, F{})) / max(facing, splat(1e-3f));
+  const F bias = texel * (1.0f + min(slope, splat(8.0f))) * 0.5f;
+  const F nearness = view.parallel ? bias - depth : 1.0f / max(depth - bias, splat(1e-6f));
   const F left = floor(select(inside, u, F{})), top = floor(select(inside, v, F{}));
   const F x = select(inside, u, F{}) - left, y = select(inside, v, F{}) - top;
   const I at = to_int(top) * view.stride + to_int(left);
@@ -72,10 +73,7 @@ __attribute__((always_inline)) inline void add_light(const Light& lamp, const So
   const F facing = max(dot(n, towards), F{});
   const I lit_side = (facing > 0.0f) & (strength > 0.0f);
   if (!any(lit_side)) return;
-  if (lamp.shadow) {
-    const F slope = sqrt(max(1.0f - facing * facing, F{})) / max(facing, splat(1e-3f));
-    strength *= lit_share(*lamp.shadow, point, n, slope, solid.off);
-  }
+  if (lamp.shadow) strength *= lit_share(*lamp.shadow, point, n, facing, solid.off);
   strength = select(lit_side, strength, F{});
   lit.diffuse = lit.diffuse + splat(lamp.diffuse) * (facing * strength);
   float most = 0.0f;
