@@ -253,6 +253,11 @@ def test_a_force_torque_sensor_has_noise_on_each_axis(described: Any) -> None:
         ("ray", f"<ray>{PINK}{FAR}", "no noise type 'pink': gaussian, gaussian_quantized, none; none is used"),
         ("ray", f"<ray><noise><precision>-1</precision></noise>{FAR}", "a precision of -1 is not possible"),
         ("contact", "<contact><collision>b_m::l::nobody</collision></contact>", "no collision 'nobody' on link 'l';"),
+        (
+            "ray",
+            f"<ray><noise><mean>1e300</mean></noise>{FAR}",
+            "noise with a mean of 1e+300 is not possible; 0 is used",
+        ),
         ("sonar", "<sonar><geometry>cube</geometry></sonar>", "no sonar geometry 'cube': cone or sphere; cone is used"),
         ("logical_camera", "<logical_camera><near>3</near></logical_camera>", "near 3, far 1 hold nothing"),
         (
@@ -290,6 +295,7 @@ def test_a_force_torque_sensor_on_a_link_says_that_it_tells_nothing(described: A
     ("air", "height", "expected"),
     [
         ("<temperature>0</temperature>", "0", 101325.0),
+        ("<temperature>1e300</temperature>", "0", 101325.0),
         ("<pressure>-4</pressure>", "0", 101325.0),
         (
             "<temperature>1</temperature><temperature_gradient>-1e-9</temperature_gradient>",

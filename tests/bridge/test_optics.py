@@ -11,7 +11,7 @@ from PIL import Image
 
 from trundle.description import write_sdf, written_uri
 from trundle.diagnostics import Diagnostics
-from trundle.model import PluginTag
+from trundle.model import Lens, PluginTag
 from trundle.plugins.gazebo_ros.camera import keep_borders_if_told
 from trundle.render import NativeRenderer
 from trundle.sensors import mount_cameras
@@ -191,6 +191,10 @@ BROKEN = [
     ("<horizontal_fov>3.5</horizontal_fov>", "horizontal_fov 3.5 rad is not possible; 1.047 is used"),
     ("<horizontal_fov>nan</horizontal_fov>", "1.047 is used"),
     ("<clip><near>5</near><far>5</far></clip>", "clip near 5, far 5 shows nothing; 0.1 and 100 are used"),
+    ("<horizontal_fov>1e-300</horizontal_fov>", "horizontal_fov 1e-300 rad is not possible; 1.047 is used"),
+    ("<clip><near>1</near><far>1e300</far></clip>", "clip near 1, far 1e+300 shows nothing; 0.1 and 100 are used"),
+    ("<distortion><k1>1e300</k1></distortion>", "coefficients and a center of more than 1e+06 show nothing"),
+    ("<lens><intrinsics><cx>1e9</cx></intrinsics></lens>", "cx 1e+09, cy 120, s 0 pixels show nothing"),
     ("<image><format>PINK</format></image>", "no image format PINK"),
     ("<pose>nan 0 0 0 0 0</pose>", "the identity is used"),
     ("<lens><intrinsics><fx>0</fx></intrinsics></lens>", "focal lengths of 0 and 277 pixels are not possible"),
@@ -206,6 +210,33 @@ def test_a_camera_that_can_make_no_picture_is_mended_aloud(described: Any, insid
     picture = camera.take(sim.snapshot()).rgb
     assert picture.shape == (240, 320, 3)
     assert any("w.sdf:1: warning: " in warning and sentence in warning for warning in sim.report.warnings)
+
+
+@pytest.mark.parametrize(
+    "inside",
+    [
+        "<lens><intrinsics><fx>0.1</fx><fy>1e6</fy><s>900</s></intrinsics></lens>",
+        "<distortion><k1>-5</k1><k2>7</k2><center>9 9</center></distortion>",
+    ],
+)
+def test_what_is_seen_through_a_strange_lens_is_no_larger_than_a_picture_may_be(described: Any, inside: str) -> None:
+    sim = described(eye("camera", cameras=f"<camera>{inside}</camera>"))
+    (camera,) = mount_cameras(sim, NativeRenderer)
+    ((_, face),) = camera.view.faces
+
+    assert camera.take(sim.snapshot()).rgb.shape == (240, 320, 3)
+    assert max(face.width_px, face.height_px) <= 16384
+
+
+@pytest.mark.parametrize("inside", ["<c1>1e-9</c1>", "<c2>1e300</c2>", "<f>0</f>", "<c3>1e9</c3>", "<fun>cosh</fun>"])
+def test_a_custom_lens_that_cannot_be_is_mended_aloud(described: Any, inside: str) -> None:
+    lens = f"<lens><type>custom</type><custom_function>{inside}</custom_function></lens>"
+    sim = described(eye("wideanglecamera", cameras=f"<camera>{lens}</camera>"))
+    (camera,) = mount_cameras(sim, NativeRenderer)
+
+    assert camera.optics.lens == Lens(c1=1.0, c2=1.0, fun="tan")
+    (warning,) = sim.report.warnings
+    assert "a lens needs fun tan, sin or id, and c1, c2 and f neither 0 nor huge; tan is used alone" in warning
 
 
 def test_a_lens_that_cannot_be_is_mended_aloud(described: Any) -> None:

@@ -59,6 +59,8 @@ def _wide(lens: Lens, fov_rad: float, pinhole: PixelIntrinsics, width_px: int) -
     powers = np.stack([angles ** (2 * i + 1) for i in range(_TERMS + 1)], axis=-1)
     fitted, *_ = np.linalg.lstsq(powers[sound], radii[sound], rcond=None)
     focal = float(fitted[0])
+    if not focal:
+        return pinhole, [0.0] * _TERMS
     coefficients = [float(value) / focal for value in fitted[1:]]
     return PixelIntrinsics(fx=focal, fy=focal, cx=pinhole.cx, cy=pinhole.cy), coefficients
 

@@ -38,6 +38,9 @@ from .naming import WORLD_FRAME, FrameNames
 from .placing import place_sensor, topic_of
 from .readings import contacts_message, fix_message, imu_message, points_message, scan_message, wrench_message
 
+_LONGEST_S = 1e30
+"""Between two scans, in a message."""
+
 
 def sensor_topics(
     node: Node, still: StaticTransformBroadcaster, sensors: Iterable[MeasuringSensor], names: FrameNames
@@ -88,7 +91,7 @@ class ScanTopic:
     def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: RangeSensor, names: FrameNames) -> None:
         """Advertise, and place the sensor's frame."""
         self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
-        self._period_s = float(sensor.period_ns) / 1e9
+        self._period_s = min(1.0 / sensor.rate_hz, _LONGEST_S)
         if sensor.scan.vertical.values == 1:
             self._topic = node.advertise(topic_of(sensor, "scan"), "sensor_msgs/LaserScan", queue_size=5)
             sensor.listen(self._publish_scan, wanted=lambda: self._topic.has_subscribers)

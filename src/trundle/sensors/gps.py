@@ -12,6 +12,8 @@ from .noise import NoiseSource, disturbed
 
 FASTEST_HZ = 10.0
 """Of a receiver whose update_rate is 0."""
+_FARTHEST = 1e15
+"""[m] Nobody asks for the latitude of what is farther away."""
 _AXIS = 6378137.0
 """[m] WGS84's equatorial radius."""
 _FLATTENING = 1 / 298.257223563
@@ -50,8 +52,8 @@ class GpsSensor(MountedSensor[GpsReading]):
     def take(self, snapshot: Snapshot) -> GpsReading:
         """A fix at this instant."""
         place = self.world_from_link(snapshot).point(self.sensor.link_from_sensor.position)
-        noisy = disturbed(place, self._noise, snapshot.time_ns)
-        latitude, longitude, altitude = geodetic(self._origin, noisy)
+        x, y, z = (min(max(value, -_FARTHEST), _FARTHEST) for value in disturbed(place, self._noise, snapshot.time_ns))
+        latitude, longitude, altitude = geodetic(self._origin, (x, y, z))
         return GpsReading(time_ns=snapshot.time_ns, latitude_deg=latitude, longitude_deg=longitude, altitude=altitude)
 
 

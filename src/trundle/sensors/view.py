@@ -18,6 +18,8 @@ _Array = NDArray[np.float64]
 _STEEPEST = math.tan(math.radians(85.0))
 """No pinhole picture reaches farther from its axis than this slope."""
 _MOST_PX = 1 << 25
+_MOST_ALONG = 8190
+"""From the middle of a picture to its rim [px]."""
 _LEAST_SCALE = 1e-7
 
 
@@ -173,7 +175,7 @@ def _face(right: _Array, down: _Array, focal: float, intrinsics: Intrinsics) -> 
     """A pinhole picture that holds all these slopes, as sharp as the camera's own if that is possible."""
     across = float(np.abs(right).max(initial=1e-3))
     along = float(np.abs(down).max(initial=1e-3))
-    focal = min(focal, math.sqrt(_MOST_PX / (4.0 * across * along)))
+    focal = min(focal, math.sqrt(_MOST_PX / (4.0 * across * along)), _MOST_ALONG / max(across, along))
     width, height = (2 * (math.ceil(focal * slope) + 1) for slope in (across, along))
     return Intrinsics(
         width_px=width,

@@ -29,7 +29,13 @@ SEEING = WIDE | {
 _LARGEST_PX = 16384
 _MOST_PX = 1 << 25
 """Of a whole picture."""
-_WIDEST_PINHOLE = 3.1
+_NARROWEST, _WIDEST_PINHOLE = 1e-6, 3.1
+"""[rad]"""
+_FARTHEST_M = 1e30
+_MOST_BENT = 1e6
+_FOCAL_PX = (1e-3, 1e9)
+_BESIDE_PX = 1e6
+"""How far from the picture its middle may be, and how much it may be sheared."""
 _ELSEWHERE = ("triggered", "trigger_topic", "camera_info_topic", "optical_frame_id", "visibility_mask")
 _LENSES: Mapping[str, tuple[float, float, str]] = {
     "gnomonical": (1.0, 1.0, "tan"),
@@ -110,6 +116,9 @@ def _distortion(node: XmlNode | None, context: Context) -> Distortion:
     center = node.find("center")
     middle = None if center is None else center.as_numbers(2, report=report)
     node.report_unread(report)
+    if max(map(abs, (k1, k2, k3, p1, p2, *(middle or ())))) > _MOST_BENT:
+        report.warn(node.at, f"coefficients and a center of more than {_MOST_BENT:g} show nothing; none are used")
+        return Distortion()
     return Distortion(
         k1=k1, k2=k2, k3=k3, p1=p1, p2=p2, center=(0.5, 0.5) if middle is None else (middle[0], middle[1])
     )
@@ -148,15 +157,15 @@ def _mended(optics: CameraOptics, node: XmlNode, type_: str, context: Context) -
         report.warn(node.at, f"a camera of {width} x {height} pixels is not possible; {size} is used")
         optics = replace(optics, width_px=default.width_px, height_px=default.height_px)
     widest = math.tau + 1e-3 if type_ in WIDE else _WIDEST_PINHOLE
-    if not 0.0 < fov <= widest:
+    if not _NARROWEST <= fov <= widest:
         instead = default.horizontal_fov_rad
         report.warn(node.at, f"horizontal_fov {fov:g} rad is not possible; {instead:g} is used")
         optics = replace(optics, horizontal_fov_rad=instead)
-    if not 0.0 < optics.near_m < optics.far_m:
+    if not 1.0 / _FARTHEST_M <= optics.near_m < optics.far_m <= _FARTHEST_M:
         report.warn(node.at, f"clip near {optics.near_m:g}, far {optics.far_m:g} shows nothing; 0.1 and 100 are used")
         optics = replace(optics, near_m=default.near_m, far_m=default.far_m)
     near, far = optics.depth_near_m, optics.depth_far_m
-    if near is not None and far is not None and not 0.0 <= near < far:
+    if near is not None and far is not None and not 0.0 <= near < far <= _FARTHEST_M:
         report.warn(node.at, f"depth clip near {near:g}, far {far:g} shows nothing; the camera's own clip is used")
         optics = replace(optics, depth_near_m=None, depth_far_m=None)
     return optics
@@ -192,8 +201,10 @@ def _lens(node: XmlNode | None, context: Context) -> Lens:
         )
         fun = custom.string("fun").lower() or "tan"
         custom.report_unread(report)
-        if fun not in ("tan", "sin", "id") or 0.0 in (c1, c2, f):
-            report.warn(custom.at, "a lens needs fun tan, sin or id, and c1, c2 and f other than 0; tan is used alone")
+        is_lens = all(1.0 / _MOST_BENT <= abs(each) <= _MOST_BENT for each in (c1, c2, f)) and abs(c3) <= _MOST_BENT
+        if fun not in ("tan", "sin", "id") or not is_lens:
+            what = "a lens needs fun tan, sin or id, and c1, c2 and f neither 0 nor huge"
+            report.warn(custom.at, f"{what}; tan is used alone")
             c1, c2, c3, f, fun = 1.0, 1.0, 0.0, 1.0, "tan"
     elif type_ in _LENSES:
         (c1, c2, fun), c3, f = _LENSES[type_], 0.0, 1.0
@@ -226,8 +237,12 @@ def _intrinsics(node: XmlNode | None, context: Context) -> PixelIntrinsics | Non
         for tag, value in (("fx", 277.0), ("fy", 277.0), ("cx", 160.0), ("cy", 120.0), ("s", 0.0))
     )
     node.report_unread(report)
-    if not (fx > 0.0 and fy > 0.0):
+    least, most = _FOCAL_PX
+    if not (least <= fx <= most and least <= fy <= most):
         report.warn(node.at, f"focal lengths of {fx:g} and {fy:g} pixels are not possible; horizontal_fov is used")
+        return None
+    if max(abs(cx), abs(cy), abs(skew)) > _BESIDE_PX:
+        report.warn(node.at, f"cx {cx:g}, cy {cy:g}, s {skew:g} pixels show nothing; horizontal_fov is used")
         return None
     return PixelIntrinsics(fx=fx, fy=fy, cx=cx, cy=cy, skew=skew)
 

@@ -1,6 +1,7 @@
 """Reads what is around the models: <physics>, <scene>, air, earth and wind."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from trundle.model import Atmosphere, Fog, PhysicsSettings, Rgba, SceneSettings, SphericalCoordinates
 from trundle.xmlnode import XmlNode
@@ -8,8 +9,11 @@ from trundle.xmlnode import XmlNode
 from .context import Context, leave_out
 from .material import read_colour
 
-_COLDEST = 1.0
+_COLDEST, _HOTTEST = 1.0, 1e6
 """[K] That air may be at the ground."""
+_HIGHEST_M = 1e9
+_DENSEST = 1e15
+"""[Pa] Likewise."""
 _AMBIENT: Mapping[tuple[int, int], Rgba] = {(1, 3): (0.0, 0.0, 0.0, 1.0), (1, 4): (0.2, 0.2, 0.2, 1.0)}
 """The default before each version; 0.4 from 1.4 on."""
 
@@ -123,6 +127,9 @@ def read_spherical_coordinates(world: XmlNode, context: Context) -> SphericalCoo
         surface_model=node.string("surface_model") or default.surface_model,
         world_frame_orientation=node.string("world_frame_orientation") or default.world_frame_orientation,
     )
+    if abs(place.elevation) > _HIGHEST_M:
+        report.warn(node.at, f"an elevation of {place.elevation:g} m is not possible; 0 is used")
+        place = replace(place, elevation=0.0)
     node.report_unread(report)
     return place
 
@@ -141,7 +148,7 @@ def read_atmosphere(world: XmlNode, context: Context) -> Atmosphere:
         temperature_gradient=node.number("temperature_gradient", default=default.temperature_gradient, report=report),
     )
     node.report_unread(report)
-    if air.temperature < _COLDEST or not air.pressure > 0.0:
+    if not _COLDEST <= air.temperature <= _HOTTEST or not 0.0 < air.pressure <= _DENSEST:
         what = f"air of {air.temperature:g} K and {air.pressure:g} Pa is not possible"
         report.warn(node.at, f"{what}; {default.temperature:g} K and {default.pressure:g} Pa are used")
         return default

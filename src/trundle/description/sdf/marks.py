@@ -9,6 +9,8 @@ from trundle.xmlnode import XmlNode
 from .context import Context
 
 _LARGEST_LABEL = 255
+_HOTTEST = 1e6
+"""[K]"""
 
 
 def read_marks(plugins: list[XmlNode], context: Context) -> tuple[int | None, float | None]:
@@ -19,11 +21,19 @@ def read_marks(plugins: list[XmlNode], context: Context) -> tuple[int | None, fl
         if _is(node, "label"):
             label = _label(node, context.report)
         elif _is(node, "thermal"):
-            temperature = node.number("temperature", default=0.0, report=context.report)
+            temperature = _temperature(node, context.report)
         else:
             what = f"visual plugin {node.attribute('filename')!r} is not supported; the visual is drawn without it"
             context.report.warn(node.at, what)
     return label, temperature
+
+
+def _temperature(node: XmlNode, report: Diagnostics) -> float | None:
+    temperature = node.number("temperature", default=0.0, report=report)
+    if 0.0 <= temperature <= _HOTTEST:
+        return temperature
+    report.warn(node.at, f"a temperature of {temperature:g} K is not possible; it is as warm as the air")
+    return None
 
 
 def labelled(model: Model, plugins: list[XmlNode], context: Context) -> Model:

@@ -5,6 +5,8 @@ from trundle.xmlnode import XmlNode
 
 from .context import Context
 
+_LOUDEST = 1e15
+"""In whatever unit."""
 _TYPES = ("gaussian", "gaussian_quantized", "none")
 
 
@@ -20,21 +22,29 @@ def read_noise(node: XmlNode | None, context: Context) -> Noise:
     if type_ == "none":
         return Noise()
     noise = Noise(
-        mean=node.number("mean", default=0.0, report=report),
-        stddev=abs(node.number("stddev", default=0.0, report=report)),
-        bias_mean=node.number("bias_mean", default=0.0, report=report),
-        bias_stddev=abs(node.number("bias_stddev", default=0.0, report=report)),
-        wander_density=max(0.0, node.number("dynamic_bias_stddev", default=0.0, report=report)),
-        wander_time_s=max(0.0, node.number("dynamic_bias_correlation_time", default=0.0, report=report)),
+        mean=_number(node, "mean", context),
+        stddev=abs(_number(node, "stddev", context)),
+        bias_mean=_number(node, "bias_mean", context),
+        bias_stddev=abs(_number(node, "bias_stddev", context)),
+        wander_density=max(0.0, _number(node, "dynamic_bias_stddev", context)),
+        wander_time_s=max(0.0, _number(node, "dynamic_bias_correlation_time", context)),
         precision=_precision(node, context),
     )
     node.report_unread(report)
     return noise
 
 
+def _number(node: XmlNode, tag: str, context: Context) -> float:
+    value = node.number(tag, default=0.0, report=context.report)
+    if abs(value) <= _LOUDEST:
+        return value
+    context.report.warn(node.at, f"noise with a {tag} of {value:g} is not possible; 0 is used")
+    return 0.0
+
+
 def _precision(node: XmlNode, context: Context) -> float:
     precision = node.number("precision", default=0.0, report=context.report)
-    if precision >= 0.0:
+    if precision == 0.0 or 1.0 / _LOUDEST <= precision <= _LOUDEST:
         return precision
     context.report.warn(node.at, f"a precision of {precision:g} is not possible; values are not rounded")
     return 0.0
