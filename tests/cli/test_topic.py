@@ -210,6 +210,17 @@ def test_piped_documents_are_published(graph: Any, monkeypatch: pytest.MonkeyPat
     graph.until(lambda: got == ["one", "two"])
 
 
+def test_namespace_and_master_may_be_words(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    node = graph.node("/ns/other")
+    node.advertise("rel", STRING, latch=True).publish({"data": "hello"})
+    graph.ready(node)
+    monkeypatch.setenv("ROS_MASTER_URI", "http://127.0.0.1:9/")
+    monkeypatch.setenv("ROS_NAMESPACE", "/elsewhere")
+    words = ("__ns:=ns", f"__master:={graph.core.uri}")
+    assert graph.trundle("topic", "type", "rel", *words) == (0, "std_msgs/String\n", "")
+    assert _echo(graph, "rel", *words) == 'data: "hello"\n---\n'
+
+
 def test_of_piped_documents_a_latch_keeps_the_first(graph: Any) -> None:
     command = [sys.executable, "-m", "trundle", "topic", "pub", "-l", "/greeting", STRING]
     got: list[Any] = []

@@ -1,5 +1,6 @@
 """Definitions that are shipped, and those of packages on the package path."""
 
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,31 @@ def test_every_sum_is_the_originals(messages: Messages) -> None:
     wanted = dict(line.split() for line in SUMS.read_text().splitlines())
     ours = {name: messages.md5(name) if messages.has(name) else messages.service(name).md5sum for name in wanted}
     assert ours == wanted
+
+
+_DEBIANS_SUMS = """
+import glob, importlib, os
+for path in glob.glob("/usr/lib/python3/dist-packages/*/*/_*.py"):
+    package, kind, name = path.split("/")[-3:]
+    if kind in ("msg", "srv") and name != "__init__.py":
+        base = name[1:-3]
+        made = getattr(importlib.import_module(f"{package}.{kind}"), base)
+        print(kind, f"{package}/{base}", made._md5sum)
+"""
+
+
+@pytest.mark.real_ros
+def test_every_sum_is_that_of_debians_rospy(messages: Messages) -> None:
+    """These are what `rosmsg md5` prints."""
+    if not Path("/usr/lib/python3/dist-packages/std_msgs/msg").is_dir():
+        pytest.skip("Debian's python3-std-msgs is not installed")
+    done = subprocess.run(["/usr/bin/python3", "-c", _DEBIANS_SUMS], capture_output=True, text=True, timeout=100)
+    theirs = [line.split() for line in done.stdout.splitlines()]
+    assert done.returncode == 0, done.stderr
+    assert len(theirs) > 50
+    assert [
+        (name, messages.service(name).md5sum if kind == "srv" else messages.md5(name)) for kind, name, _ in theirs
+    ] == [(name, md5) for _, name, md5 in theirs]
 
 
 def test_whatever_is_shipped_can_be_read(messages: Messages) -> None:

@@ -92,6 +92,7 @@ def _main(arguments: list[str]) -> int:
     parser = _parser(name)
     try:
         words = parse_arguments(arguments[1:]) if name in _REMAPPED else Arguments(rest=tuple(arguments[1:]))
+        _heed(words)
         parse = parser.parse_intermixed_args if name in _INTERMIXED else parser.parse_args
         parsed = parse(words.rest, argparse.Namespace(words=words))
         if getattr(parsed, "allow_outside", False):
@@ -112,6 +113,12 @@ def _main(arguments: list[str]) -> int:
             raise
         print(f"trundle {name}: error: {error.filename}: {error.strerror}", file=sys.stderr)
         return EXIT_INPUT
+
+
+def _heed(words: Arguments) -> None:
+    """Have `__ns:=`, `__master:=`, `__ip:=` and `__hostname:=` mean what their environment variables do."""
+    given = {"ROS_NAMESPACE": words.namespace, "ROS_MASTER_URI": words.master_uri, "ROS_HOSTNAME": words.host}
+    os.environ.update({variable: value for variable, value in given.items() if value})
 
 
 def add_allow_outside(parser: argparse.ArgumentParser) -> None:

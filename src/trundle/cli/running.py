@@ -35,7 +35,10 @@ class IntermixedParser(argparse.ArgumentParser):
 
 
 def original_errors(function: Callable[[Namespace], int]) -> Callable[[Namespace], int]:
-    """Report what a graph command cannot do as rostopic and its kin do, on stderr and with `failure` or 1."""
+    """Report what a graph command cannot do as rostopic and its kin do, on stderr and with `failure` or 1.
+
+    Where no master answers, with `alone` or 1.
+    """
 
     @functools.wraps(function)
     def reporting(args: Namespace) -> int:
@@ -43,6 +46,7 @@ def original_errors(function: Callable[[Namespace], int]) -> Callable[[Namespace
             return function(args)
         except MasterUnreachableError as error:
             print(f"ERROR: Unable to communicate with master!\n{error}", file=sys.stderr)
+            return getattr(args, "alone", 1)
         except TrundleError as error:
             print(f"ERROR: {error}", file=sys.stderr)
         return getattr(args, "failure", 1)
@@ -75,7 +79,14 @@ def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[
     MasterProxy(caller_id=f"/{base}").call("getPid")
     with _interrupted_by_signals(), GraphLoop() as loop:
         name = words.name or anonymous_name(base)
-        node = Node(name, loop=loop, master_uri=master_uri_from_env(), remappings=words.remappings, rosout=False)
+        node = Node(
+            name,
+            loop=loop,
+            master_uri=master_uri_from_env(),
+            namespace=os.environ.get("ROS_NAMESPACE", "/"),
+            remappings=words.remappings,
+            rosout=False,
+        )
         yield loop, node
 
 

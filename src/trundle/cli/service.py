@@ -17,6 +17,7 @@ _SCRIPT = "rosservice"
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
+    parser.set_defaults(alone=2)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     add = commands.add_parser("list", help="names of all services")
     add.add_argument("namespace", nargs="?", help="only this one and those below it")
