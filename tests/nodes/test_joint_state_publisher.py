@@ -84,6 +84,10 @@ def test_safety_limits_narrow_the_range() -> None:
     wide = publish({"use_smallest_joint_limits": False}, robot=robot)
     assert list(wide.sent("/joint_states")[0].position) == [0.0]
 
+    one_sided = robot.replace('soft_upper_limit="0.9"', "")
+    assert list(publish({}, robot=one_sided).sent("/joint_states")[0].position) == pytest.approx([0.75])
+    assert list(publish({"zeros": {"a": 0}}, robot=one_sided).sent("/joint_states")[0].position) == [0.75]
+
 
 def test_a_robot_without_joints_is_silent_in_noetic_only() -> None:
     robot = '<robot name="r"/>'

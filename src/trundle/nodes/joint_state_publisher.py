@@ -83,7 +83,7 @@ class JointSet:
             kind, name = joint.attribute("type") or "", joint.attribute("name") or ""
             if kind in self._skipped:
                 continue
-            limits = (-math.pi, math.pi) if kind == "continuous" else _limits(joint, "limit", "lower", "upper")
+            limits = (-math.pi, math.pi) if kind == "continuous" else _limits(joint)
             if limits is None:
                 report.warn(joint.at, f"joint {name!r} is not fixed, nor continuous, but has no limits; it is left out")
                 continue
@@ -92,10 +92,10 @@ class JointSet:
 
     def _add(self, joint: XmlNode, name: str, limits: tuple[float, float], *, continuous: bool) -> None:
         lower, upper = limits
-        if self._options.flag("use_smallest_joint_limits", default=True):
-            soft = _limits(joint, "safety_controller", "soft_lower_limit", "soft_upper_limit")
-            if soft is not None:
-                lower, upper = max(lower, soft[0]), min(upper, soft[1])
+        safety = joint.find("safety_controller")
+        if safety is not None and self._options.flag("use_smallest_joint_limits", default=True):
+            lower = max(lower, _number(safety.attribute("soft_lower_limit"), lower))
+            upper = min(upper, _number(safety.attribute("soft_upper_limit"), upper))
         mimic = joint.find("mimic")
         if mimic is not None and self._options.flag("use_mimic_tags", default=True):
             self.dependent[name] = DependentJoint(
@@ -106,9 +106,8 @@ class JointSet:
             return
         if name in self.dependent:
             return
-        zero = 0.0 if lower <= 0.0 <= upper else (lower + upper) / 2.0
-        if name in self._zeros.names():
-            zero = self._zeros.number(name)
+        # A zero of 0 is none to the original: such a joint is in the middle where 0 lies outside its limits.
+        zero = self._zeros.number(name, 0.0) or (0.0 if lower <= 0.0 <= upper else (lower + upper) / 2.0)
         self.free[name] = FreeJoint(
             lower=lower,
             upper=upper,
@@ -255,9 +254,9 @@ def _dependent(settings: Settings) -> dict[str, DependentJoint]:
     }
 
 
-def _limits(joint: XmlNode, tag: str, lower: str, upper: str) -> tuple[float, float] | None:
-    element = joint.find(tag)
-    values = None if element is None else [parse_numbers(element.attribute(name) or "") for name in (lower, upper)]
+def _limits(joint: XmlNode) -> tuple[float, float] | None:
+    limit = joint.find("limit")
+    values = None if limit is None else [parse_numbers(limit.attribute(name) or "") for name in ("lower", "upper")]
     if values is None or not values[0] or not values[1]:
         return None
     return values[0][0], values[1][0]
