@@ -196,6 +196,23 @@ def test_a_stock_node_runs_here(graph: Any) -> None:
     graph.until(lambda: "/mount" not in graph.trundle("node", "list")[1])
 
 
+@pytest.mark.slow
+def test_gazebo_is_started_as_rosrun_starts_it(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The world answers as /gazebo, whatever the program is called."""
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
+    client = graph.node("client")
+    with _exec("gazebo_ros", "gzserver", "-u", "worlds/shapes.world") as process:
+        try:
+            graph.loop.run(client.wait_for_service("/gazebo/get_world_properties", PATIENCE_S), PATIENCE_S)
+            call = client.call_service("/gazebo/get_world_properties", "gazebo_msgs/GetWorldProperties", {})
+            names = graph.loop.run(call, PATIENCE_S).model_names
+            assert list(names) == ["ground_plane", "box", "sphere", "cylinder"]
+            process.send_signal(signal.SIGINT)
+            assert process.wait(PATIENCE_S) == 0
+        finally:
+            process.kill()
+
+
 @pytest.mark.parametrize(
     "command", ["topic list", "node list", "service list", "param list", "graph", "topic type /rosout"]
 )

@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
-from trundle.nodes import CLIENT, WINDOWS
+from trundle.nodes import CLIENTS, WINDOWS
 
 from .launch_nodes import Launched
 
@@ -30,10 +30,10 @@ def pages_of(
     Args:
         launched: the nodes.
         graph: the page of the graph, which windows open; None: headless.
-        world: the page of the simulated world, which gzclient opens.
+        world: the page of the simulated world, which gzclient or gazebo opens.
     """
     started = {(entry.node.package, entry.node.type) for entry in launched if entry.kind == "stand-in"}
-    expected = ((world, CLIENT in started), (graph, not WINDOWS.isdisjoint(started)))
+    expected = ((world, not CLIENTS.isdisjoint(started)), (graph, not WINDOWS.isdisjoint(started)))
     return [page for page, opens in expected if page is not None and opens]
 
 

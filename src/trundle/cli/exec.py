@@ -1,16 +1,23 @@
 """Run a node of a package, as rosrun does."""
 
 import argparse
+import asyncio
 import os
 import re
 import shlex
 import sys
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from trundle.diagnostics import UsageError
 
 if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from trundle.bringup.gazebo_world import GazeboWorld
+    from trundle.bringup.showing import Showing
+    from trundle.ros import Node
     from trundle.viewer import GraphPage
 
 EXAMPLES = """
@@ -21,6 +28,7 @@ EXAMPLES = """
 """
 _NO_PACKAGE, _NO_PROGRAM = 2, 3
 """Exit codes, as rosrun's."""
+_LOOK_S = 0.5
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -78,12 +86,14 @@ def _stand_in(args: argparse.Namespace, stand_in: object) -> int:
     import yaml
 
     from trundle.names import parse_arguments
-    from trundle.nodes import WINDOWS, Host, Replacement, run_stand_in
+    from trundle.nodes import CLIENTS, WINDOWS, WORLDS, Host, Replacement, run_stand_in
     from trundle.ros import GraphLoop, Node, master_uri_from_env
 
     assert isinstance(stand_in, Replacement)
     words = parse_arguments(args.arguments)
-    default = re.sub(r"\W", "_", args.executable.rpartition("/")[2].removesuffix(".py"))
+    what = (args.package, args.executable)
+    name = "gazebo" if what in WORLDS else args.executable.rpartition("/")[2].removesuffix(".py")
+    default = re.sub(r"\W", "_", name)
     with GraphLoop() as loop:
         node = Node(
             words.name or default,
@@ -94,12 +104,47 @@ def _stand_in(args: argparse.Namespace, stand_in: object) -> int:
             params={name: yaml.safe_load(text) for name, text in words.params.items()},
             host=words.host,
         )
-        page = _page() if (args.package, args.executable) in WINDOWS else None
-        try:
-            return loop.run(run_stand_in(stand_in, node, list(words.rest), Host(display=page)), None)
-        finally:
-            if page is not None:
-                page.close()
+        with ExitStack() as stack:
+            page = stack.enter_context(closing(_page())) if what in WINDOWS else None
+            world = stack.enter_context(_world(node, with_window=what in CLIENTS)) if what in WORLDS else None
+            host = Host(display=page, simulator=world)
+            return loop.run(run_stand_in(stand_in, node, list(words.rest), host), None)
+
+
+@contextmanager
+def _world(node: "Node", *, with_window: bool) -> "Generator[GazeboWorld]":
+    """What gzserver simulates in; what its files leave to be said is said."""
+    from trundle.bringup.gazebo_world import GazeboWorld
+    from trundle.bringup.graph import Graph
+    from trundle.bringup.launch_logs import log_folder
+    from trundle.bringup.showing import Showing
+    from trundle.diagnostics import Diagnostics
+
+    report = Diagnostics()
+    show = Showing(sys.stderr, report)
+    loopback = "127.0.0.1"
+    world = GazeboWorld(
+        graph=Graph(node.loop, node.master_uri, None, loopback),
+        start=Path.cwd(),
+        env=os.environ,
+        report=report,
+        folder=log_folder(os.environ, "gazebo") / "spawned",
+        say=show.line,
+        window=(loopback, None) if with_window else None,
+    )
+    telling = node.loop.spawn(_tell(show))
+    try:
+        yield world
+    finally:
+        telling.cancel()
+        world.close()
+        show.findings()
+
+
+async def _tell(show: "Showing") -> None:
+    while True:
+        show.findings()
+        await asyncio.sleep(_LOOK_S)
 
 
 def _page() -> "GraphPage":

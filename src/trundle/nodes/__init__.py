@@ -1,12 +1,12 @@
 """Stand-ins for stock executables: nodes that launch files name, run in this process."""
 
-from .catalog import CLIENT, STAND_INS, WINDOWS, WORLDS
+from .catalog import CLIENTS, STAND_INS, WINDOWS, WORLDS
 from .find import Executable, Missing, Replacement, find_node
 from .host import Display, Host, Simulator, Slider, StandIn
 from .run import run_stand_in
 
 __all__ = [
-    "CLIENT",
+    "CLIENTS",
     "STAND_INS",
     "WINDOWS",
     "WORLDS",

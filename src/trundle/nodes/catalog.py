@@ -18,7 +18,7 @@ STAND_INS: dict[tuple[str, str], str] = {
     ("dynamic_reconfigure", "dynparam"): "trundle.nodes.dynparam:Dynparam",
     ("dynamic_reconfigure", "reconfigure_gui"): "trundle.nodes.windows:ReconfigureWindow",
     ("gazebo_ros", "debug"): "trundle.nodes.gazebo:GazeboServer",
-    ("gazebo_ros", "gazebo"): "trundle.nodes.gazebo:GazeboServer",
+    ("gazebo_ros", "gazebo"): "trundle.nodes.gazebo:Gazebo",
     ("gazebo_ros", "gdbrun"): "trundle.nodes.gazebo:GazeboServer",
     ("gazebo_ros", "gzclient"): "trundle.nodes.gazebo:GazeboClient",
     ("gazebo_ros", "gzserver"): "trundle.nodes.gazebo:GazeboServer",
@@ -92,8 +92,8 @@ WINDOWS = frozenset(
 }
 """Those that are seen: each opens the page."""
 
-CLIENT = ("gazebo_ros", "gzclient")
-"""It opens the page of the simulated world."""
+CLIENTS = frozenset({("gazebo_ros", "gzclient"), ("gazebo_ros", "gazebo")})
+"""Those that open the page of the simulated world."""
 
 OURS_ALWAYS = frozenset({"gazebo_ros"})
 """Packages whose programs would start another simulator: ours stands in even where the original is installed."""

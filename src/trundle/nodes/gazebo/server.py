@@ -1,6 +1,7 @@
 """gazebo_ros/gzserver: a simulated world with the services and topics of /gazebo."""
 
 import asyncio
+import re
 
 from trundle.diagnostics import TrundleError
 from trundle.ros import Node
@@ -23,6 +24,8 @@ _TAKES_A_VALUE = frozenset(
         *("--record_path", "--record_period", "--record_filter", "--initial_sim_time", "--lockstep"),
     }
 )
+_WHAT_THIS_IS = re.compile(r"libgazebo_ros_(api_plugin|paths_plugin|init|factory|state)\.so$")
+"""Server plugins that command lines name, and that this node stands in for."""
 _UNSUPPORTED = {
     "-p": "playing a log",
     "--play": "playing a log",
@@ -66,7 +69,7 @@ class GazeboServer:
         topics, metrics = StateTopics(node, simulator), MetricsTopic(node, simulator)
         self._advertise(simulator)
         while not node.closed.is_set():
-            if topics.wanted():
+            if simulator.paused and not simulator.in_step and topics.wanted():
                 simulator.post(topics.publish)
             if metrics.due():
                 simulator.post(metrics.publish)
@@ -101,10 +104,24 @@ class GazeboServer:
                 record = record or ""
             elif option == "--record_path":
                 record = value
-            elif option in _UNSUPPORTED:
+            elif option in _UNSUPPORTED and not _WHAT_THIS_IS.search(value):
                 self._node.log_warn(f"gzserver {word} {value}: {_UNSUPPORTED[option]} is not supported")
             elif option in ("-e", "--physics") and value not in ("ode", ""):
                 self._node.log_info(f"physics engine {value!r} is asked for; MuJoCo is what there is")
             elif not word.startswith("-"):
                 world = word
         return world, paused, record
+
+
+class Gazebo(GazeboServer):
+    """gazebo_ros/gazebo: the server and its window."""
+
+    async def run(self) -> int:
+        """Simulate and show until cancelled."""
+        if self._simulator is None:
+            return await super().run()
+        window = self._node.loop.spawn(self._simulator.show(self._node))
+        try:
+            return await super().run()
+        finally:
+            window.cancel()

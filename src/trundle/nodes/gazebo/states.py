@@ -4,7 +4,7 @@ from typing import Any
 
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.ros import Message, Node
-from trundle.simulation import LinkHandle, Simulation, expect_finite
+from trundle.simulation import LinkHandle, Simulation, Snapshot, expect_finite
 from trundle.spatial import Pose, Twist
 
 from ..host import Simulator
@@ -15,7 +15,7 @@ _STATE_RATE_HZ = 100.0
 
 
 class StateTopics:
-    """/gazebo/model_states and link_states, published while somebody listens.
+    """/gazebo/model_states and link_states, published while somebody listens; by the server while time stands still.
 
     Flat out, what stands still is told of when somebody begins to listen or models come and go, so that runs repeat.
     """
@@ -29,7 +29,16 @@ class StateTopics:
             node.advertise(name, kind, queue_size=10, on_connect=lambda _: simulator.post(self._publish_at_rest))
             for name, kind in topics
         ]
-        simulator.post(lambda: simulator.simulation.on_change(self._publish_at_rest))
+        simulator.post(self._begin)
+
+    def _begin(self) -> None:
+        simulation = self._simulator.simulation
+        simulation.on_change(self._publish_at_rest)
+        simulation.add_hook(self, period_ns=round(self.period_s * 1e9), wanted=self.wanted)
+
+    def after_step(self, _snapshot: Snapshot) -> None:
+        """Say it 100 times in a second of simulation time."""
+        self.publish()
 
     def wanted(self) -> bool:
         """Whether anybody listens."""
