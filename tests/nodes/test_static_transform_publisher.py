@@ -61,11 +61,18 @@ def test_the_new_one_reads_a_parameter() -> None:
 
     del tree["child_frame_id"]
     node, code = run(Tf2StaticTransformPublisher, "mount", {"/mount": tree})
-    assert code == 1
+    assert code == 255
     assert node.logged[-1] == (
         "fatal",
         "Could not read TF: parameter mount is no transform: 'child_frame_id' is missing",
     )
+
+
+def test_the_old_one_says_that_a_frame_is_its_own_parent_and_goes_on() -> None:
+    node, code = run(TfStaticTransformPublisher, "0 0 0 0 0 0 a a 100")
+    assert code is None
+    assert ("fatal", "target_frame and source frame are the same (a, a) this cannot work") in node.logged
+    assert node.sent("/tf")
 
 
 @pytest.mark.parametrize(
@@ -73,7 +80,6 @@ def test_the_new_one_reads_a_parameter() -> None:
     [
         (TfStaticTransformPublisher, "0 0 0 0 0 0 a b", 255),
         (TfStaticTransformPublisher, "0 0 0 0 0 x a b 100", 255),
-        (TfStaticTransformPublisher, "0 0 0 0 0 0 a a 100", 1),
         (Tf2StaticTransformPublisher, "0 0 0 0 0 0 a b 100 7", 255),
         (Tf2StaticTransformPublisher, "0 0 0 0 0 nan a b", 255),
         (Tf2StaticTransformPublisher, "0 0 0 0 0 0 a a", 1),

@@ -38,8 +38,8 @@ class TfStaticTransformPublisher:
         # Leading slashes go out as they are, as the original sends them; listeners strip them.
         parent, child = arguments[-3:-1]
         if parent == child:
+            # The original says so, and goes on.
             node.log_fatal(f"target_frame and source frame are the same ({parent}, {child}) this cannot work")
-            return 1
         *values, period_ms = numbers
         translation, rotation = _pose(values)
         period_s = max(period_ms, 1.0) / 1000.0
@@ -77,7 +77,7 @@ class Tf2StaticTransformPublisher:
             node.log_error(f"{_TF2_USAGE}; got {' '.join(arguments)!r}")
             return _WRONG_ARGUMENTS
         if transform is None:
-            return 1
+            return _WRONG_ARGUMENTS
         if transform.parent == transform.child:
             frames = f"{transform.parent}, {transform.child}"
             node.log_fatal(f"target_frame and source frame are the same ({frames}) this cannot work")
