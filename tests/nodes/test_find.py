@@ -49,7 +49,8 @@ def test_old_names_of_the_arbotix_driver_lead_to_it(name: str) -> None:
 
 def test_what_is_missing_is_named(tmp_path: Path) -> None:
     assert find_node("tf", "nope", lambda _: None, env={}) == Missing(
-        "no package 'tf', and no stand-in for tf/nope; stand-ins of that package: static_transform_publisher"
+        "no package 'tf', and no stand-in for tf/nope; stand-ins of that package: "
+        "static_transform_publisher, tf_echo, tf_monitor, view_frames"
     )
     path = program(tmp_path / "x.py", 0o644)
     assert find_node("p", "x.py", lambda _: tmp_path, env={}) == Missing(

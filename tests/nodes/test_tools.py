@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import pytest
 from tests.nodes.conftest import PATIENCE_S
 
 
@@ -32,3 +33,11 @@ def test_what_was_recorded_is_played(stage, tmp_path: Path) -> None:
 
     stage.until(lambda: heard)
     assert heard[0].data == "hello"
+
+
+def test_frames_are_drawn_where_view_frames_is_run(stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    stage.start("tf2_ros/static_transform_publisher", "1 2 3 0 0 0 base camera", name="still")
+    assert stage.start("tf/view_frames").result(PATIENCE_S) == 0
+    assert "camera" in (tmp_path / "frames.svg").read_text()
+    assert stage.start("tf/tf_echo", "-n 1 base camera").result(PATIENCE_S) == 0

@@ -87,3 +87,21 @@ class RosbagPlay(Tool):
     """rosbag/play"""
 
     command = ("bag", "play")
+
+
+class TfEcho(Tool):
+    """tf/tf_echo, tf2_tools/echo.py"""
+
+    command = ("tf", "echo")
+
+
+class TfMonitor(Tool):
+    """tf/tf_monitor"""
+
+    command = ("tf", "monitor")
+
+
+class ViewFrames(Tool):
+    """tf/view_frames, tf2_tools/view_frames.py: the tree as a picture in the folder that it is run in"""
+
+    command = ("tf", "tree", "-o", "frames.svg")
