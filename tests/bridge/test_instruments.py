@@ -291,6 +291,15 @@ def test_a_force_torque_sensor_on_a_link_says_that_it_tells_nothing(described: A
     assert warning.endswith("sensor 's': force_torque sensors measure joints; on a link it tells nothing")
 
 
+def test_a_force_torque_sensor_names_the_direction_that_it_does_not_know(described: Any) -> None:
+    settings = "<force_torque><measure_direction>up</measure_direction></force_torque>"
+    joint = f"<parent>world</parent><child>l</child>{sensor('force_torque', settings)}"
+    sim = described(f'<model name="m"><link name="l"/><joint name="j" type="fixed">{joint}</joint></model>')
+
+    (warning,) = sim.report.warnings
+    assert warning.endswith("no measure_direction 'up': child_to_parent or parent_to_child; child_to_parent is used")
+
+
 @pytest.mark.parametrize(
     ("air", "height", "expected"),
     [

@@ -159,6 +159,9 @@ def read_force_torque(sensor: XmlNode, context: Context) -> ForceTorque:
         context.report.warn(node.at, f"no frame {frame!r} for forces: child, parent or sensor; child is used")
         frame = "child"
     direction = node.string("measure_direction") or "child_to_parent"
+    if direction not in ("child_to_parent", "parent_to_child"):
+        what = f"no measure_direction {direction!r}: child_to_parent or parent_to_child"
+        context.report.warn(node.at, f"{what}; child_to_parent is used")
     force, torque = (_axes(node, tag, None, context) for tag in ("force", "torque"))
     node.report_unread(context.report)
     return ForceTorque(frame=frame, parent_to_child=direction == "parent_to_child", force=force, torque=torque)
