@@ -10,12 +10,20 @@ import pytest
 
 
 @pytest.fixture
-def complete(graph: Any, tmp_path: Path) -> Any:
+def complete(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     """What a shell would offer behind a line."""
     node = graph.node("talker", params={"rate": 5})
     node.advertise("/chatter", "std_msgs/String")
     node.advertise_service("~enable", "std_srvs/SetBool", lambda _: {})
     graph.ready(node)
+
+    package = tmp_path / "my_robot"
+    (package / "launch").mkdir(parents=True)
+    (package / "launch/start.launch").write_text("<launch/>")
+    (package / "package.xml").write_text("<package><name>my_robot</name></package>")
+    (package / "drive").write_text("#!/bin/sh\n")
+    (package / "drive").chmod(0o755)
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
 
     def words(line: str, **more: str) -> list[str]:
         answer = tmp_path / "words"
@@ -39,6 +47,14 @@ def complete(graph: Any, tmp_path: Path) -> Any:
         ("trundle param get /talker/r", "/talker/rate "),
         ("trundle service call /talker/en", "/talker/enable "),
         ("trundle srv show std_srvs/SetB", "std_srvs/SetBool "),
+        ("trundle topic pub /chatter s", "std_msgs/String "),
+        ("trundle topic find std_msgs/Stri", "std_msgs/String "),
+        ("trundle msg package turtle", "turtlesim "),
+        ("trundle srv package std_s", "std_srvs "),
+        ("trundle exec turtlesim turtlesim_", "turtlesim_node "),
+        ("trundle exec my_robot dri", "drive "),
+        ("trundle launch my_ro", "my_robot "),
+        ("trundle launch my_robot st", "start.launch "),
     ],
 )
 def test_words_and_live_names_are_completed(complete: Any, line: str, offered: str) -> None:

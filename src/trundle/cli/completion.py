@@ -20,7 +20,9 @@ def complete(parser: argparse.ArgumentParser, command: str) -> None:
                 if isinstance(choice, argparse.ArgumentParser):
                     complete(choice, command)
         source = _SOURCES.get((command, action.dest)) or _SOURCES.get(("", action.dest))
-        if source is not None:
+        if (command, action.dest) in _BEHIND:
+            setattr(action, "completer", _BEHIND[command, action.dest])  # noqa: B010
+        elif source is not None:
             setattr(action, "completer", _completer(source))  # noqa: B010 - argcomplete looks for it there
 
 
@@ -72,6 +74,46 @@ def _service_types() -> list[str]:
     return Messages().service_names()
 
 
+def _message_packages() -> set[str]:
+    return {name.partition("/")[0] for name in Messages().type_names()}
+
+
+def _service_packages() -> set[str]:
+    return {name.partition("/")[0] for name in Messages().service_names()}
+
+
+def _topic_type(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """What a topic carries already, else whatever there is."""
+    try:
+        types: dict[str, str] = dict(_ask("getTopicTypes"))
+    except RosError:
+        types = {}
+    known = types.get(str(getattr(parsed_args, "topic", "")))
+    return sorted(_message_types()) if known is None else [known]
+
+
+def _programs(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    from trundle.nodes import program_names
+    from trundle.packages import Packages
+
+    packages = Packages(os.environ, start=Path.cwd())
+    return sorted(program_names(parsed_args.package, packages.find_package(parsed_args.package)))
+
+
+def _launch_words(parsed_args: argparse.Namespace, prefix: str, **_: Any) -> list[str]:
+    """A package or a file; behind a package its launch files."""
+    from argcomplete.completers import FilesCompleter
+
+    from trundle.packages import Packages
+
+    packages = Packages(os.environ, start=Path.cwd())
+    before: list[str] = list(parsed_args.words or [])
+    folder = packages.find_package(before[0]) if before else None
+    if folder is not None:
+        return sorted({path.name for path in folder.rglob("*.launch")})
+    return [*FilesCompleter(("launch", "test", "xml"))(prefix), *sorted(packages.ros_packages())]
+
+
 _SOURCES: dict[tuple[str, str], Callable[[], Iterable[str]]] = {
     ("", "topic"): _topics,
     ("", "topics"): _topics,
@@ -80,6 +122,8 @@ _SOURCES: dict[tuple[str, str], Callable[[], Iterable[str]]] = {
     ("", "nodes"): _nodes,
     ("", "service"): _services,
     ("", "package"): _packages,
+    ("msg", "package"): _message_packages,
+    ("srv", "package"): _service_packages,
     ("param", "name"): _params,
     ("param", "namespace"): _params,
     ("topic", "type"): _message_types,
@@ -88,3 +132,9 @@ _SOURCES: dict[tuple[str, str], Callable[[], Iterable[str]]] = {
     ("service", "type"): _service_types,
 }
 """(command, argument) → words; '' for any command."""
+_BEHIND: dict[tuple[str, str], Callable[..., list[str]]] = {
+    ("exec", "executable"): _programs,
+    ("launch", "words"): _launch_words,
+    ("topic", "type"): _topic_type,
+}
+"""(command, argument) → words that depend on those before."""

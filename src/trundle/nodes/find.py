@@ -85,6 +85,15 @@ def find_node(
     return Missing(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
 
 
+def program_names(package: str, folder: Path | None) -> set[str]:
+    """Names that `find_node` knows in a package."""
+    found = {name for owner, name in STAND_INS if owner == package}
+    for root, folders, files in os.walk(folder) if folder is not None else ():
+        folders[:] = [each for each in folders if not each.startswith(".") and each not in _NOT_SEARCHED]
+        found.update(name for name in files if os.access(os.path.join(root, name), os.X_OK))
+    return found
+
+
 def _can_run(path: Path, env: Mapping[str, str]) -> bool:
     """Tell whether a program needs no rospy, or finds it."""
     with path.open("rb") as program:
