@@ -50,7 +50,7 @@ def test_cases_pass_and_fail_and_a_ci_server_can_read_it(trundle, package: Path,
     junit = tmp_path / "out" / "results.xml"
     done = trundle("test", "p", "a.test", "--junit", str(junit), ROS_PACKAGE_PATH=str(package.parent))
 
-    assert done.returncode == 1
+    assert done.returncode == 2
     assert "[p.good/sees][passed]" in done.stdout
     assert "[p.bad/hears][failed]\n  no <sound>" in done.stdout
     assert done.stdout.endswith("SUMMARY\n * RESULT: FAIL\n * TESTS: 3\n * ERRORS: 0\n * FAILURES: 1\n")
@@ -71,6 +71,8 @@ def test_all_passed_is_zero_and_a_flaky_one_may_try_again(trundle, package: Path
     assert done.returncode == 0
     assert "1 more try" in done.stderr
     assert "RESULT: SUCCESS" in done.stdout
+    written_by_itself = tmp_path / ".ros/test_results/p/rostest-a.xml"
+    assert [s.get("name") for s in ET.parse(written_by_itself).getroot()] == ["p.flaky"]
 
 
 @pytest.mark.parametrize(

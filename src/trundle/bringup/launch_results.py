@@ -33,6 +33,8 @@ class SuiteResult:
     name: str
     seconds: float
     cases: tuple[CaseResult, ...]
+    did_run: bool = True
+    """Whether its program ended in time, and left results."""
 
     @property
     def failures(self) -> int:
