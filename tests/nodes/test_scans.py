@@ -116,6 +116,19 @@ def test_a_cloud_is_seen_from_another_frame(stage, messages) -> None:
     assert min(scans[0].ranges) == pytest.approx(math.hypot(2.0, 0.01), rel=1e-6)
 
 
+def test_a_cloud_waits_until_it_is_known_where_it_was(stage, messages) -> None:
+    """Points at the height of the frame or below count for nothing, unless min_height says so: as in the original."""
+    stage.start("pointcloud_to_laserscan/pointcloud_to_laserscan_node", target_frame="base")
+    scans = stage.listen("/scan", "sensor_msgs/LaserScan")
+    clouds = stage.speak("/cloud_in", "sensor_msgs/PointCloud2")
+    stage.until(lambda: stage.connected("/scan"))
+    clouds.publish(cloud(messages, [[2.0, 0.01, 0.0], [1.0, 0.01, -1.0]]))
+    stage.start("tf2_ros/static_transform_publisher", "0 0 1 0 0 0 base camera", name="still")
+
+    stage.until(lambda: scans)
+    assert min(scans[0].ranges) == pytest.approx(math.hypot(2.0, 0.01), rel=1e-6)
+
+
 def test_a_depth_camera_becomes_a_scan(stage, messages) -> None:
     stage.start("depthimage_to_laserscan/depthimage_to_laserscan", "image:=cam/depth/image_raw")
     scans = stage.listen("/scan", "sensor_msgs/LaserScan")

@@ -2,6 +2,7 @@
 
 import asyncio
 import math
+import sys
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,8 +15,9 @@ from trundle.spatial import Pose
 from .host import Host
 from .rate import Throttle
 
-_HUGE = 1.7976931348623157e308
-_LOOK_S = 0.1
+_HUGE, _LEAST = sys.float_info.max, sys.float_info.min
+"""The original's defaults are C++'s limits of numbers; what it takes for the lowest is the smallest above zero."""
+_LOOK_S = 0.02
 _FLOATS = {7: "f4", 8: "f8"}
 """sensor_msgs/PointField's numbers of floating types."""
 
@@ -55,6 +57,9 @@ class PointCloudToLaserScan:
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
         del arguments, host
         self._node = node
+        self._waiting: Message | None = None
+        """A cloud whose transform is not known yet."""
+        self._why = ""
 
     async def run(self) -> int:
         """Convert until cancelled."""
@@ -63,7 +68,7 @@ class PointCloudToLaserScan:
         farthest = settings.number("range_max", _HUGE)
         endless = settings.flag("use_inf", default=True)
         self._slice = Slice(
-            min_height_m=settings.number("min_height", -_HUGE),
+            min_height_m=settings.number("min_height", _LEAST),
             max_height_m=settings.number("max_height", _HUGE),
             angle_min=settings.number("angle_min", -math.pi),
             angle_max=settings.number("angle_max", math.pi),
@@ -84,19 +89,30 @@ class PointCloudToLaserScan:
             elif not self._scan.has_subscribers and clouds is not None:
                 clouds.unregister()
                 clouds = None
+            if self._waiting is not None:
+                self._convert(self._waiting)
             await asyncio.sleep(_LOOK_S)
         return 0
 
     def _take(self, cloud: Message) -> None:
+        if self._waiting is not None:
+            self._complaints.warn(f"a cloud is left out: {self._why}")
+        self._convert(cloud)
+
+    def _convert(self, cloud: Message) -> None:
+        """Publish its scan; where it is not known yet where it was, it waits, until the next one comes."""
+        self._waiting = None
         try:
             points = points_of(cloud)
             if self._listener is not None and self._frame != cloud.header.frame_id:
                 stamp = ns_of(cloud.header.stamp)
                 points = _moved(points, self._listener.buffer.lookup(self._frame, cloud.header.frame_id, stamp).pose)
-        except (TransformError, ValueError) as error:
+        except TransformError as error:
+            self._waiting, self._why = cloud, str(error)
+        except ValueError as error:
             self._complaints.warn(f"a cloud is left out: {error}")
-            return
-        self._scan.publish(self._fields(cloud, self._slice.ranges(points)))
+        else:
+            self._scan.publish(self._fields(cloud, self._slice.ranges(points)))
 
     def _fields(self, cloud: Message, ranges: NDArray[np.float32]) -> dict[str, Any]:
         cut = self._slice
