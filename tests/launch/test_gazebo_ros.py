@@ -18,10 +18,15 @@ def asked(plan: LaunchPlan) -> tuple[object, ...]:
 
 
 @pytest.mark.parametrize(
-    "arguments",
-    [{}, _LOUD, _ODD, {"gui_required": "true"}],
+    ("name", "arguments"),
+    [
+        *(("empty", arguments) for arguments in ({}, _LOUD, _ODD, {"gui_required": "true"})),
+        *((name, {}) for name in ("shapes", "mud", "rubble", "willowgarage", "elevator")),
+        ("elevator", _LOUD),
+        ("elevator", {"gui": "false", "use_sim_time": "false", "debug": "true", "verbose": "false"}),
+    ],
 )
-def test_an_empty_world_asks_for_the_same(shared: Path, arguments: dict[str, str]) -> None:
+def test_a_world_asks_for_the_same(shared: Path, name: str, arguments: dict[str, str]) -> None:
     originals = shared / "corpus/repos/ros-simulation+gazebo_ros_pkgs"
     ours = Packages({}, start=Path("/nonexistent")).find_package("gazebo_ros")
     theirs = Packages({"ROS_PACKAGE_PATH": str(originals)}, start=originals).find_package("gazebo_ros")
@@ -30,18 +35,19 @@ def test_an_empty_world_asks_for_the_same(shared: Path, arguments: dict[str, str
     assert theirs.is_relative_to(originals)
 
     def read(folder: Path) -> tuple[object, ...]:
-        file = folder / "launch/empty_world.launch"
+        file = folder / f"launch/{name}_world.launch"
         packages = Packages({}, start=folder)
         return asked(read_launch(file, packages=packages, report=Diagnostics(), arguments=arguments))
 
     assert read(ours) == read(theirs)
 
 
-@pytest.mark.parametrize("name", ["shapes", "mud", "rubble", "willowgarage", "elevator", "range"])
-def test_its_siblings_include_it_with_another_world(name: str) -> None:
+def test_a_range_world_is_a_test_of_gazebo_plugins() -> None:
     packages = Packages({}, start=Path("/nonexistent"))
     folder = packages.find_package("gazebo_ros")
     assert folder is not None
-    plan = read_launch(folder / f"launch/{name}_world.launch", packages=packages, report=Diagnostics())
+    file, arguments = folder / "launch/range_world.launch", {"world": "bumper", "gui": "false"}
+    plan = read_launch(file, packages=packages, report=Diagnostics(), arguments=arguments)
 
-    assert plan.nodes[0].arguments.endswith(f" worlds/{name}.world")
+    assert [node.name for node in plan.nodes] == ["gazebo"]
+    assert plan.nodes[0].arguments.endswith("gazebo_plugins/test/test_worlds/bumper.world")
