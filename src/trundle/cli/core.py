@@ -25,7 +25,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     # roscore's other switches tune its worker threads, sockets and logs; there is nothing here to tune.
     parser.add_argument("-v", "--verbose", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("-w", "--numworkers", type=int, help=argparse.SUPPRESS)
-    parser.add_argument("-t", "--timeout", type=float, help=argparse.SUPPRESS)
+    for option in (("-t", "--timeout"), ("--sigint-timeout",), ("--sigterm-timeout",)):
+        parser.add_argument(*option, type=float, help=argparse.SUPPRESS)
     parser.add_argument("--master-logger-level", help=argparse.SUPPRESS)
 
 
