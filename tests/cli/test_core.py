@@ -38,7 +38,10 @@ def test_it_answers_until_it_is_stopped(number: signal.Signals) -> None:
 
 
 def test_a_shutdown_request_ends_it() -> None:
-    with _core("--distro", "indigo") as (process, uri):
+    with _core("--distro", "indigo", "-w", "3", "-t", "3", "--sigint-timeout=9", "--sigterm-timeout=2") as (
+        process,
+        uri,
+    ):
         assert MasterProxy(uri).call("getParam", "/rosdistro") == "indigo\n"
         MasterProxy(uri, "/me").call("shutdown", "enough")
         assert process.wait(20) == 0
