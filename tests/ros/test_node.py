@@ -357,6 +357,12 @@ def test_a_node_is_told_when_a_parameter_changes(graph: Any) -> None:
     assert len(told) == 2
 
 
+def test_a_parameter_can_be_watched_before_anything_else(graph: Any) -> None:
+    """The master needs the node's address, which is not known at once."""
+    for i in range(10):
+        assert graph.loop.run(graph.node(f"n{i}").watch_param("unset", lambda *_: None)) == {}
+
+
 def test_a_node_finds_the_parameters_it_was_made_with(graph: Any) -> None:
     """Even when it asks before anything else: they were there first."""
     nodes = [graph.node(f"n{i}", params={"rate": i, "mode": "fast"}) for i in range(10)]

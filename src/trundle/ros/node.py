@@ -259,6 +259,11 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         if self._params and not self._is_down:
             await self._params_told.wait()
 
+    async def listens(self) -> None:
+        """Wait until the node has an address, or never will."""
+        if not self._is_down:
+            await self._listens.wait()
+
     # -- the end, and waiting for the beginning: on the loop
 
     async def ready(self) -> None:

@@ -44,6 +44,10 @@ class NodeCalls:
         """Wait until the node's own parameters are set."""
         raise NotImplementedError
 
+    async def listens(self) -> None:
+        """Wait until the node has an address."""
+        raise NotImplementedError
+
     @property
     def messages(self) -> Messages:
         """Message types of the loop."""
@@ -136,6 +140,7 @@ class NodeCalls:
         Returns:
             The value now; {} if it is not set.
         """
+        await self.listens()
         full = self.resolve(name)
         self.watched.setdefault(full, []).append(callback)
         return await self.ask("subscribeParam", self.uri, full)
