@@ -62,7 +62,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     only.add_argument("--ros-args", action="store_const", dest="only", const="arguments", help="the file's arguments")
     only.add_argument("--dump-params", action="store_const", dest="only", const="params", help="the parameters as YAML")
-    child = parser.add_argument_group("as a child, which a roslaunch on another machine starts here")
+    child = parser.add_argument_group(
+        "as a child, which a roslaunch on another machine starts here",
+        'The <machine>\'s env-loader is then a script of two lines: shift; exec trundle launch --host 0.0.0.0 "$@"',
+    )
     child.add_argument("-c", "--child", metavar="NAME", help="run what the parent asks for, under this name")
     child.add_argument("-u", "--server_uri", metavar="URI", help="where the parent listens")
     child.add_argument("--run_id", metavar="ID", help="of the parent's launch")
