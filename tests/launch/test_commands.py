@@ -2,6 +2,7 @@
 
 import os
 import sys
+import threading
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -76,6 +77,24 @@ def test_a_command_that_fails_ends_the_launch_with_a_sentence(command: str, mess
 def test_a_command_that_hangs_is_ended() -> None:
     with pytest.raises(DescriptionError, match=r"gave no answer within 0\.2 s"):
         resolve(f"{PYTHON} -c 'import time; time.sleep(600)'", timeout_s=0.2)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name != "posix", reason="sessions are POSIX's")
+def test_what_a_killed_command_left_behind_may_go_on_writing(tmp_path: Path) -> None:
+    """A daemon holds the output open and writes once nobody reads any more."""
+    daemon = tmp_path / "daemon.py"
+    daemon.write_text("import time\ntime.sleep(4)\nprint('late', flush=True)\ntime.sleep(1)\n")
+    starter = tmp_path / "starter.py"
+    starter.write_text(
+        "import subprocess, sys, time\n"
+        f"subprocess.Popen([sys.executable, {str(daemon)!r}], start_new_session=True)\ntime.sleep(60)\n"
+    )
+    with pytest.raises(DescriptionError, match="gave no answer within 1 s"):
+        resolve(f"{PYTHON} {starter}", timeout_s=1.0)
+    for reader in threading.enumerate():  # an exception of theirs fails the test
+        if reader is not threading.current_thread():
+            reader.join(20.0)
 
 
 def test_a_null_parameter_is_named() -> None:

@@ -1,5 +1,6 @@
 """Runs a program for what it prints, bounded in time and size."""
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -76,12 +77,13 @@ class _Reader(threading.Thread):
         self.start()
 
     def run(self) -> None:
-        while chunk := os.read(self._stream.fileno(), _CHUNK_BYTES):
-            self.data += chunk
-            if len(self.data) > _MOST_BYTES:
-                self.is_full = True
-                self._when_full()
-                return
+        with contextlib.suppress(ValueError):  # given up and closed
+            while chunk := os.read(self._stream.fileno(), _CHUNK_BYTES):
+                self.data += chunk
+                if len(self.data) > _MOST_BYTES:
+                    self.is_full = True
+                    self._when_full()
+                    return
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:
