@@ -1,7 +1,12 @@
 """`trundle node`, with rosnode's output."""
 
 import os
+from io import StringIO
 from typing import Any
+
+import pytest
+
+from trundle.ros import MasterProxy
 
 STRING = "std_msgs/String"
 
@@ -61,6 +66,30 @@ def test_a_node_is_killed(graph: Any) -> None:
     assert graph.trundle("node", "kill", "/victim")[:2] == (0, "killing /victim\nkilled\n")
     graph.until(lambda: node.closed.is_set())
     assert graph.trundle("node", "list")[1] == "/rosout\n"
+
+
+def test_the_node_to_kill_is_asked_for(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    node = graph.node("victim")
+    graph.ready(node)
+
+    monkeypatch.setattr("sys.stdin", StringIO("no\n3\n"))
+    code, out, error = graph.trundle("node", "kill")
+    assert (code, out.count("ERROR: please enter a number from 1 to 2")) == (1, 2)
+    assert "standard input ended before there was an answer" in error
+
+    monkeypatch.setattr("sys.stdin", StringIO("2\n"))
+    code, out, _ = graph.trundle("node", "kill")
+    assert code == 0
+    assert out == (
+        "1. /rosout\n2. /victim\n\nPlease enter the number of the node you wish to kill.\n> killing /victim\nkilled\n"
+    )
+    graph.until(lambda: node.closed.is_set())
+
+
+def test_cleanup_ends_where_nobody_answers(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    MasterProxy(graph.core.uri, "/gone").call("registerPublisher", "/a", STRING, "http://127.0.0.1:9/")
+    monkeypatch.setattr("sys.stdin", StringIO(""))
+    assert graph.trundle("node", "cleanup")[0] == 1
 
 
 def test_machines_are_listed(graph: Any) -> None:

@@ -208,7 +208,7 @@ def _kill(args: argparse.Namespace) -> int:
         if unknown := [node for node in nodes if node not in running]:
             raise RosError("Unknown node(s):\n" + "\n".join(f" * {node}" for node in unknown))
     else:
-        raise UsageError("name the nodes, or -a for all; running: " + (", ".join(running) or "none"))
+        nodes = [_chosen(running)] if running else []
     if not nodes:
         print("No nodes running", file=sys.stderr)
         return 0
@@ -230,6 +230,26 @@ def _kill(args: argparse.Namespace) -> int:
     return 0
 
 
+def _chosen(nodes: list[str]) -> str:
+    """Ask which one."""
+    print("\n".join(f"{i}. {node}" for i, node in enumerate(nodes, 1)))
+    print("\nPlease enter the number of the node you wish to kill.\n> ", end="", flush=True)
+    while not ((answer := _typed()).isdecimal() and 0 < int(answer) <= len(nodes)):
+        print(f"ERROR: please enter a number from 1 to {len(nodes)} (ctrl-C to cancel)", flush=True)
+    return nodes[int(answer) - 1]
+
+
+def _typed() -> str:
+    """Read a line from standard input.
+
+    Raises:
+        UsageError: it is at its end.
+    """
+    if line := sys.stdin.readline():
+        return line.strip()
+    raise UsageError("standard input ended before there was an answer; nothing was done")
+
+
 def _cleanup(_: argparse.Namespace) -> int:
     proxy = master(_SCRIPT)
     state = proxy.call("getSystemState")
@@ -241,9 +261,8 @@ def _cleanup(_: argparse.Namespace) -> int:
     print("Warning: these might include alive and functioning nodes, e.g. in unstable networks.")
     print("Cleanup will purge all information about these nodes from the master.")
     print("Please type y or n to continue:", flush=True)
-    while (answer := sys.stdin.readline().strip()) not in ("y", "n"):
-        if not answer and sys.stdin.closed:
-            break
+    while (answer := _typed()) not in ("y", "n"):
+        pass
     if answer != "y":
         print("aborting")
         return 0
