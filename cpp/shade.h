@@ -54,7 +54,8 @@ struct Lit {
   F3 diffuse, specular;
 };
 
-__attribute__((always_inline)) inline void add_light(const Light& lamp, const Solid& solid, const F3& point, const F3& n, const F3& back, Lit& lit) {
+__attribute__((always_inline)) inline void add_light(const Light& lamp, const Solid& solid, const F3& point, const F3& n,
+                                                     const F3& back, Lit& lit) {
   const Look& look = *solid.look;
   F3 towards = splat(lamp.towards);
   F strength = splat(1.0f);
