@@ -397,6 +397,22 @@ def test_a_world_that_is_not_there_is_named(launch: Launch, package: Path) -> No
     assert "Traceback" not in done.stderr + done.stdout
 
 
+@pytest.mark.parametrize("pace", [(), ("--speed", "1")])
+def test_a_launch_whose_world_ended_still_ends_at_its_duration(
+    launch: Launch, package: Path, pace: tuple[str, ...]
+) -> None:
+    (package / "main.launch").write_text(
+        '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch">'
+        '<arg name="world_name" value="worlds/nowhere.world"/><arg name="gui" value="false"/></include>'
+        '<node pkg="p" type="talk" name="stays"/></launch>'
+    )
+    done = launch("p", "main.launch", "--headless", "--duration", "0.5", *pace)
+
+    assert done.returncode == 0
+    assert "the simulation has ended, and time with it" in done.stderr
+    assert "[stays-2] killing on exit" in done.stdout
+
+
 def test_what_a_stand_in_says_goes_where_the_launch_file_wants_it(
     launch: Launch, package: Path, tmp_path: Path
 ) -> None:

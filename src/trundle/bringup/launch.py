@@ -12,13 +12,12 @@ from trundle.ros import MasterProxy, MasterUnreachableError, master_uri_from_env
 
 from . import launch_print
 from .exposure import warn_of_exposure
+from .launch_duration import Duration
 from .launch_options import LaunchOptions
 from .launch_read import ReadLaunch
 from .launch_words import LaunchRequest, read_words
 from .showing import Showing
 from .signals import StopFlag, stop_flag
-
-NS = 1_000_000_000
 
 
 def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[str, str] | None = None) -> int:
@@ -109,12 +108,18 @@ def _run(read: ReadLaunch, options: LaunchOptions, stop: StopFlag) -> int:
 
     with LaunchSession(read, options) as session:
         running, clock = session.start(read.plan.nodes, is_ending=stop.is_set), session.clock
-        end_ns = (
-            None if options.duration_s is None or session.in_step else clock.now_ns() + round(options.duration_s * NS)
-        )
+        duration = None
+        if options.duration_s is not None:
+            duration = Duration(
+                clock,
+                options.duration_s,
+                in_step=session.in_step,
+                is_worldless=running.is_worldless,
+                say=read.show.line,
+            )
         over = False
         silent = SilentClock(clock, read.show.line)
-        while not stop.wait(0.05) and not over and (end_ns is None or clock.now_ns() < end_ns):
+        while not stop.wait(0.05) and not over and not (duration is not None and duration.is_over()):
             read.show.findings()
             silent.look()
             over = session.is_over or running.required_died or (running.over and not session.has_master)

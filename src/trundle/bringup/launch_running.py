@@ -5,6 +5,7 @@ from collections.abc import Awaitable, Callable, Sequence
 from typing import TypeAlias
 
 from trundle.launch import LaunchNode
+from trundle.nodes import WORLDS
 from trundle.supervisor import Event, Patience, Supervisor
 
 from .launch_nodes import Launched, NodeStarter
@@ -31,6 +32,8 @@ class RunningNodes:
         self._supervisor: Supervisor | None = None
         self._waiting: asyncio.Task[str | None] | None = None
         self._logs: dict[str, str] = {}
+        self._worlds: set[str] = set()
+        self._ended: set[str] = set()
         self.launched: list[Launched] = []
         """What became of each node, in the file's order."""
 
@@ -43,6 +46,8 @@ class RunningNodes:
             if is_ending():
                 break
             label = f"{node.full_name.strip('/')}-{number}"
+            if (node.package, node.type) in WORLDS:
+                self._worlds.add(label)
             launched = self._starter.prepare(node, label, show=_show_output)
             if launched.job is not None:
                 self._logs[label] = launched.log_files
@@ -68,8 +73,16 @@ class RunningNodes:
         """Whether it was a required one's end that ended the launch."""
         return self.over and self._waiting is not None and self._waiting.result() is not None
 
+    def is_worldless(self) -> bool:
+        """Whether a world was started, and every one that was has ended since."""
+        return bool(self._worlds) and self._worlds <= self._ended
+
     def _tell(self, event: Event) -> None:
         name = event.name
+        if event.kind == "started":
+            self._ended.discard(name)
+        elif event.kind in ("failed", "finished", "died"):
+            self._ended.add(name)
         match event.kind:
             case "started":
                 text = f"process[{name}]: {event.text}"
