@@ -4,12 +4,15 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
+from tests.graphs import running_graph
+
+from trundle.ros import MasterProxy
 
 _MANIFEST = """<package><name>p</name><version>1.0.0</version><description>d</description>
 <maintainer email="a@b.c">m</maintainer><license>x</license></package>"""
 # What a gtest or rosunit program does: it writes its results where it is told to.
 _CHECK = """#!/usr/bin/env python3
-import sys, pathlib
+import os, sys, pathlib
 out = next(w.partition("xml:")[2] for w in sys.argv if w.startswith("--gtest_output="))
 verdict = sys.argv[1]
 cases = '<testcase name="sees" classname="C" time="0.5"/>'
@@ -19,10 +22,14 @@ if verdict == "flaky":
     mark = pathlib.Path(sys.argv[2])
     cases += "" if mark.exists() else '<testcase name="hears" classname="C"><error>first try</error></testcase>'
     mark.touch()
+if verdict == "says":
+    print("the graph is at", os.environ["ROS_MASTER_URI"])
+if "--text" in sys.argv:
+    print("no file from me"); sys.exit(verdict == "fail")
 if verdict == "silent":
     print("I crash before I write"); sys.exit(3)
 if verdict == "slow":
-    import os; os.execvp("sleep", ["sleep", "100"])
+    os.execvp("sleep", ["sleep", "100"])
 pathlib.Path(out).write_text(f'<testsuite name="s">{cases}</testsuite>')
 """
 
@@ -97,3 +104,69 @@ def test_a_file_without_tests_is_named(trundle, package: Path) -> None:
     done = trundle("test", "p", "a.test", ROS_PACKAGE_PATH=str(package.parent))
     assert done.returncode == 1
     assert "no <test>" in done.stderr
+
+
+@pytest.mark.parametrize(("verdict", "code"), [("pass", 0), ("fail", 2)])
+def test_text_leaves_no_files_and_the_exit_code_decides(
+    trundle, package: Path, tmp_path: Path, verdict: str, code: int
+) -> None:
+    written(package, a_test("t", verdict))
+    done = trundle("test", "p", "a.test", "--text", ROS_PACKAGE_PATH=str(package.parent))
+
+    assert done.returncode == code
+    assert "no file from me" in done.stdout + done.stderr
+    assert list(tmp_path.rglob("ros*-*.xml")) == []
+
+
+def test_results_lie_where_they_are_told_to(trundle, package: Path, tmp_path: Path) -> None:
+    written(package, a_test("good", "pass"))
+    path = str(package.parent)
+    named = ("--package", "q", "--results-base-dir", "out", "--results-filename", "all.v2.xml")
+    assert trundle("test", "p", "a.test", *named, ROS_PACKAGE_PATH=path).returncode == 0
+    assert trundle("test", "ws/p/a.test", "--pkgdir", path, "--results-base-dir", "out").returncode == 0
+
+    found = {str(file.relative_to(tmp_path / "out")) for file in (tmp_path / "out").rglob("*.xml")}
+    assert found == {"q/rosunit-good.xml", "q/rostest-all.v2.xml", "p/rosunit-good.xml", "p/rostest-p_a.xml"}
+    assert not (tmp_path / ".ros/test_results").exists()
+
+    refused = trundle("test", "ws/p/a.test", "--results-filename", "b/all.xml")
+    assert refused.returncode == 2
+    assert "'b/all.xml' is no file name; --results-base-dir takes the folder" in refused.stderr
+
+
+def test_a_graph_that_runs_is_taken_and_cleared_when_asked(trundle, package: Path) -> None:
+    written(package, a_test("says", "says"))
+    with running_graph() as graph:
+        master = MasterProxy(graph.core.uri)
+        mine = ("/old/deep", "/roslaunch/uris/host_a__1")
+        for name in mine:
+            master.call("setParam", name, "v")
+        where = {"ROS_PACKAGE_PATH": str(package.parent), "ROS_MASTER_URI": graph.core.uri}
+        at_first = set(master.call("getParamNames"))
+
+        alone = trundle("test", "p", "a.test", "-t", **where)
+        said = alone.stdout + alone.stderr
+        assert "the graph is at" in said
+        assert f"the graph is at {graph.core.uri}" not in said
+        assert set(master.call("getParamNames")) == at_first
+
+        reused = trundle("test", "p", "a.test", "-t", "-r", **where)
+        assert reused.returncode == 0
+        assert f"the graph is at {graph.core.uri}" in reused.stdout + reused.stderr
+        assert set(master.call("getParamNames")) == at_first | {"/x"}
+
+        cleared = trundle("test", "p", "a.test", "--reuse-master", "--clear", **where)
+        assert cleared.returncode == 0
+        assert set(master.call("getParamNames")) == (at_first | {"/x"}) - {"/old/deep"}
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [(["--clear"], "--clear is only valid with --reuse-master"), (["-r"], "--reuse-master: no ROS master answers at")],
+)
+def test_a_graph_that_cannot_be_taken_is_said(trundle, package: Path, options: list[str], said: str) -> None:
+    written(package, a_test("good", "pass"))
+    done = trundle("test", "p", "a.test", *options, ROS_PACKAGE_PATH=str(package.parent))
+    assert done.returncode == 1
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr

@@ -16,7 +16,18 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("words", nargs="+", metavar="[PKG] FILE [ARG:=VALUE]", help="which tests, and their arguments")
     where = "where to write the results as JUnit XML (rostest's place: ROS_TEST_RESULTS_DIR or ~/.ros/test_results)"
     parser.add_argument("--junit", type=Path, metavar="FILE", help=where)
-    parser.add_argument("-t", "--text", action="store_true", help="show the output of every node")
+    text = "show the output of every node; leave no files of results"
+    parser.add_argument("-t", "--text", action="store_true", help=text)
+    parser.add_argument("--package", metavar="PKG", help="whose results they are (the package that FILE lies in)")
+    parser.add_argument("--pkgdir", type=Path, metavar="DIR", help="the package's folder, to name the results by FILE")
+    parser.add_argument(
+        "--results-filename", type=_file_name, metavar="NAME", help="of the results, in rostest's place"
+    )
+    where = "has a folder of results for each package, instead of ROS_TEST_RESULTS_DIR"
+    parser.add_argument("--results-base-dir", type=Path, metavar="DIR", help=where)
+    reuse = "test on the graph of ROS_MASTER_URI, not on one of each test's own"
+    parser.add_argument("-r", "--reuse-master", action="store_true", help=reuse)
+    parser.add_argument("-c", "--clear", action="store_true", help="with -r: delete its parameters before each test")
     parser.add_argument("--strict", action="store_true", help="a warning about the file is an error")
 
 
@@ -24,7 +35,24 @@ def main(args: argparse.Namespace) -> int:
     """Run each test in a launch of its own; 0 when all passed, 1 when one did not run, 2 when a case failed."""
     with quiet_imports():
         from trundle.bringup.launch_options import LaunchOptions
+        from trundle.bringup.launch_test_options import LaunchTestOptions
         from trundle.bringup.launch_tests import run_tests
 
     options = LaunchOptions(headless=True, output="screen" if args.text else None, strict=args.strict)
-    return run_tests(args.words, options, junit=args.junit)
+    how = LaunchTestOptions(
+        junit=args.junit,
+        text=args.text,
+        package=args.package,
+        package_folder=args.pkgdir,
+        results_name=args.results_filename,
+        results_folder=args.results_base_dir,
+        reuse_master=args.reuse_master,
+        clear=args.clear,
+    )
+    return run_tests(args.words, options, how)
+
+
+def _file_name(text: str) -> str:
+    if not text or Path(text).name != text:
+        raise argparse.ArgumentTypeError(f"{text!r} is no file name; --results-base-dir takes the folder")
+    return text
