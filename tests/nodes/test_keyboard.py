@@ -38,3 +38,44 @@ def test_keys_of_a_terminal_drive(
         stage.until(lambda: any((m.linear.x, m.angular.z) == pytest.approx(wanted) for m in heard))
         stage.stop()
     os.close(ours)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="terminals of this kind are POSIX's")
+@pytest.mark.parametrize(("key_timeout", "stops"), [(0.2, True), (0.0, False)])
+def test_a_repeated_command_ends_with_its_key(
+    stage, monkeypatch: pytest.MonkeyPatch, key_timeout: float, stops: bool
+) -> None:
+    ours, theirs = os.openpty()
+    with os.fdopen(theirs) as terminal:
+        monkeypatch.setattr(sys, "stdin", terminal)
+        heard: list[Any] = stage.listen("/cmd_vel", "geometry_msgs/Twist")
+        stage.start("teleop_twist_keyboard/teleop_twist_keyboard.py", repeat_rate=50.0, key_timeout=key_timeout)
+        stage.until(lambda: stage.connected("/cmd_vel"))
+        os.write(ours, b"i")
+
+        stage.until(lambda: any(m.linear.x == 0.5 for m in heard))
+        if stops:
+            stage.until(lambda: heard[-1].linear.x == 0.0)
+        else:
+            stage.until(lambda: sum(m.linear.x == 0.5 for m in heard) > 30)
+            assert heard[-1].linear.x == 0.5
+        stage.stop()
+    os.close(ours)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="terminals of this kind are POSIX's")
+def test_without_a_time_out_a_key_is_said_once(stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    ours, theirs = os.openpty()
+    with os.fdopen(theirs) as terminal:
+        monkeypatch.setattr(sys, "stdin", terminal)
+        heard: list[Any] = stage.listen("/cmd_vel", "geometry_msgs/Twist")
+        stage.start("teleop_twist_keyboard/teleop_twist_keyboard.py", key_timeout=0.0)
+        stage.until(lambda: stage.connected("/cmd_vel"))
+        os.write(ours, b"i")
+        stage.until(lambda: heard)
+        os.write(ours, b",")
+
+        stage.until(lambda: heard[-1].linear.x == -0.5)
+        assert [m.linear.x for m in heard] == [0.5, -0.5]
+        stage.stop()
+    os.close(ours)

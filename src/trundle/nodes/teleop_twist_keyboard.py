@@ -1,5 +1,8 @@
 """teleop_twist_keyboard: drives a robot with the keys around i, and with speeds that keys change."""
 
+import asyncio
+import math
+
 from trundle.ros import Node, Settings
 
 from .host import Host
@@ -55,7 +58,10 @@ _SPEEDS = {"q": (1.1, 1.1), "z": (0.9, 0.9), "w": (1.1, 1.0), "x": (0.9, 1.0), "
 
 
 class TeleopTwistKeyboard:
-    """Publishes a Twist (or TwistStamped with ~stamped) a key press, and again every ~repeat_rate."""
+    """Publishes a Twist (or TwistStamped with ~stamped) a key press, and again at ~repeat_rate.
+
+    The robot stops ~key_timeout after the last key, however often its command is repeated; with 0, it drives on.
+    """
 
     topic = "cmd_vel"
     speed, turn = 0.5, 1.0
@@ -93,20 +99,24 @@ class TeleopTwistKeyboard:
             return 0
         print(f"{_HELP}\ncurrently:\tspeed {speed}\tturn {turn} ")
         move = (0, 0, 0, 0)
+        now_s = asyncio.get_running_loop().time
+        released_s = math.inf
         with keyboard.held():
             try:
                 while True:
-                    key = await keyboard.key(1.0 / repeat_hz if repeat_hz > 0.0 else timeout_s)
+                    waits = [released_s - now_s()] + ([1.0 / repeat_hz] if repeat_hz > 0.0 else [])
+                    key = await keyboard.key(None if math.isinf(min(waits)) else max(0.0, min(waits)))
                     if key in _SPEEDS:
                         faster, tighter = _SPEEDS[key]
                         speed, turn = speed * faster, turn * tighter
                         print(f"currently:\tspeed {speed}\tturn {turn} ")
                     elif key is not None:
                         move = _MOVES.get(key, (0, 0, 0, 0))
-                    elif repeat_hz <= 0.0:
-                        if move == (0, 0, 0, 0):
-                            continue
+                    elif now_s() >= released_s:
                         move = (0, 0, 0, 0)
+                        released_s = math.inf
+                    if key is not None and timeout_s > 0.0:
+                        released_s = math.inf if move == (0, 0, 0, 0) else now_s() + timeout_s
                     send(move)
             finally:
                 send((0, 0, 0, 0))
