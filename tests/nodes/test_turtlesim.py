@@ -139,6 +139,16 @@ class _Page:
         return 0
 
 
+@pytest.mark.parametrize(
+    ("params", "topic"), [({}, "/cmd_vel"), ({"default_topic": "turtle1/cmd_vel"}, "/turtle1/cmd_vel")]
+)
+def test_the_page_steers_for_rqt(stage, params: dict[str, str], topic: str) -> None:
+    page = _Page()
+    stage.start("rqt_robot_steering/rqt_robot_steering", host=Host(display=page), **params)  # pyright: ignore[reportArgumentType]
+    stage.until(lambda: page.shown)
+    assert page.driven == [topic]
+
+
 def test_its_picture_is_on_the_page_and_the_pad_drives_it(stage) -> None:
     page = _Page()
     stage.start("turtlesim/turtlesim_node", host=Host(display=page))  # pyright: ignore[reportArgumentType]

@@ -54,7 +54,7 @@ STAND_INS: dict[tuple[str, str], str] = {
     ("rqt_plot", "rqt_plot"): "trundle.nodes.windows:RqtPlot",
     ("rqt_reconfigure", "rqt_reconfigure"): "trundle.nodes.windows:ReconfigureWindow",
     ("rqt_robot_monitor", "rqt_robot_monitor"): "trundle.nodes.windows:Window",
-    ("rqt_robot_steering", "rqt_robot_steering"): "trundle.nodes.windows:Window",
+    ("rqt_robot_steering", "rqt_robot_steering"): "trundle.nodes.windows:RqtRobotSteering",
     ("rqt_tf_tree", "rqt_tf_tree"): "trundle.nodes.windows:Window",
     ("rqt_topic", "rqt_topic"): "trundle.nodes.windows:Window",
     ("rviz", "rviz"): "trundle.nodes.rviz:Rviz",

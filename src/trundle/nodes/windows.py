@@ -1,6 +1,7 @@
 """Programs that are windows on the graph: image_view, and those of rqt; the page stands in for all of them."""
 
-from trundle.ros import Message, Node
+from trundle.diagnostics import TrundleError
+from trundle.ros import Message, Node, Settings
 
 from .host import Display, Host
 
@@ -54,6 +55,23 @@ class RqtImageView(Window):
         for word in self._arguments:
             if not word.startswith("-"):
                 display.show_image(self._node.resolve(word))
+
+
+class RqtRobotSteering(Window):
+    """rqt_robot_steering: drives what listens on ~default_topic, by the page's pad."""
+
+    async def run(self) -> int:
+        """Steer until the page is closed for good."""
+        node = self._node
+        try:
+            self._topic = Settings(await node.get_param("~", {}), node.name).text("default_topic", "/cmd_vel")
+        except TrundleError as error:
+            node.log_error(str(error))
+            return 1
+        return await super().run()
+
+    def _prepare(self, display: Display) -> None:
+        display.drive_on(self._node.resolve(self._topic))
 
 
 class RqtGraph(Window):
