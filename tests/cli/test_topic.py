@@ -190,6 +190,23 @@ def test_a_message_is_latched_until_ctrl_c(graph: Any) -> None:
         assert process.wait(PATIENCE_S) == 0
 
 
+def test_a_subscriber_of_another_type_is_told_of_once(graph: Any) -> None:
+    node = graph.node("listener")
+    node.subscribe("/greeting", "std_msgs/Int32", lambda _: None)
+    graph.ready(node)
+    with _started("pub", "/greeting", STRING, "hello") as process:
+        assert process.stderr is not None
+        warning = process.stderr.readline()
+        assert warning.startswith("[WARN] [")
+        assert warning.endswith(
+            "]: Could not process inbound connection: topic types do not match: [std_msgs/Int32] vs. [std_msgs/String] "
+            "(/listener asks for /greeting)\n"
+        )
+        process.send_signal(signal.SIGINT)
+        assert process.wait(PATIENCE_S) == 0
+        assert process.stderr.read() == ""
+
+
 def test_a_launch_file_may_name_and_remap_what_it_publishes_with(graph: Any) -> None:
     words = ("/greeting", STRING, "hello", "__name:=talker", "/greeting:=/welcome", "_rate:=5")
     with _started("pub", *words) as process:

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 _BATCH_MESSAGES, _BATCH_BYTES = 200, 256 * 1024
 """How much is handed on before others get their turn on the loop, whoever publishes however fast."""
+_MOST_WARNINGS = 100
+"""About so many subscribers of another type, as their names are theirs to choose."""
 
 
 class Publisher:
@@ -44,6 +46,8 @@ class Publisher:
         self._foreign = foreign
         """(md5 sum, definition) of a type that need not be known here."""
         self._listeners = Listeners(topic)
+        self._refused: set[str] = set()
+        """Names of the subscribers that were warned about; they ask again and again."""
         self._wanted = 0
         """Number of links; read by any thread."""
         self._outbox: deque[Any] = deque(maxlen=queue_size)
@@ -121,16 +125,12 @@ class Publisher:
 
     def accept(self, link: FrameProtocol, header: dict[str, str]) -> None:
         """Take a subscriber's connection, or refuse it with the reason the original gives."""
-        peer, wanted = header.get("callerid", "unknown"), header.get("md5sum", "")
-        if not check_md5(wanted, self.md5sum):
-            theirs = header.get("type", self.type)
-            if theirs != self.type:
-                link.refuse(f"topic types do not match: [{theirs}] vs. [{self.type}]")
-            else:
-                link.refuse(
-                    f"Client [{peer}] wants topic [{self.topic}] to have datatype/md5sum [{theirs}/{wanted}], but "
-                    f"our version has [{self.type}/{self.md5sum}] Dropping connection."
-                )
+        peer = header.get("callerid", "unknown")
+        if (reason := self._mismatch(header, peer)) is not None:
+            if peer not in self._refused and len(self._refused) < _MOST_WARNINGS:
+                self._refused.add(peer)
+                self._node.log_warn(f"Could not process inbound connection: {reason} ({peer} asks for {self.topic})")
+            link.refuse(reason)
             return
         if header.get("tcp_nodelay", "0").strip() == "1":
             link.set_nodelay()
@@ -194,6 +194,18 @@ class Publisher:
     def dropped(self) -> int:
         """Messages that left the queue unsent: published too fast, or slow subscribers, connected now, lost them."""
         return self._lost + self._listeners.dropped
+
+    def _mismatch(self, header: dict[str, str], peer: str) -> str | None:
+        """Why a subscriber cannot read what is published here, in the original's words."""
+        wanted, theirs = header.get("md5sum", ""), header.get("type", self.type)
+        if check_md5(wanted, self.md5sum):
+            return None
+        if theirs != self.type:
+            return f"topic types do not match: [{theirs}] vs. [{self.type}]"
+        return (
+            f"Client [{peer}] wants topic [{self.topic}] to have datatype/md5sum [{theirs}/{wanted}], but "
+            f"our version has [{self.type}/{self.md5sum}] Dropping connection."
+        )
 
     def _count(self) -> None:
         before, self._wanted = self._wanted, len(self._listeners)
