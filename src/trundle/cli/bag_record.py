@@ -3,6 +3,7 @@
 import argparse
 import re
 import signal
+import sys
 import time
 from collections.abc import Generator
 from contextlib import contextmanager
@@ -19,6 +20,8 @@ def main(args: argparse.Namespace) -> int:
     """Record until a limit is reached, Ctrl-C or SIGTERM; the bag is closed and readable after each of them."""
     words = parse_arguments(args.topics)
     options = _options(args, words.rest)
+    if args.udp:
+        print("--udp: there is no UDPROS here; the messages come over TCP", file=sys.stderr)
     with running_node("record", words) as (loop, node):
         loop.run(follow_time(node), None)
         recorder = Recorder(node, options, say=(lambda _: None) if args.quiet else _say)
@@ -37,8 +40,6 @@ def main(args: argparse.Namespace) -> int:
 def _options(args: argparse.Namespace, topics: tuple[str, ...]) -> RecordOptions:
     if not topics and not args.all and not args.node:
         raise UsageError("You must specify a topic name or else use the '-a' option.")
-    if args.udp:
-        raise UsageError("there is no UDPROS here, nor in rospy; without --udp the same messages come over TCP")
     if args.split and not (args.size or args.duration):
         raise UsageError("Split specified without giving a maximum duration or size")
     for pattern in (*(topics if args.regex else ()), args.exclude):
