@@ -230,9 +230,22 @@ def test_what_cannot_be_done_is_one_sentence(graph: Any, arguments: list[str], c
     assert "Traceback" not in error
 
 
+@pytest.mark.parametrize(
+    "arguments", [["record"], ["record", "-a", "--split"], ["play"], ["info", "-k", "end", "x.bag"]]
+)
+def test_wrong_words_end_as_rosbags_do(graph: Any, arguments: list[str]) -> None:
+    code, _, error = graph.trundle("bag", *arguments)
+    assert (code, error.startswith(f"usage: trundle bag {arguments[0]} ")) == (2, True)
+
+
+def test_a_key_that_is_not_there_is_said_and_the_next_bag_follows(graph: Any, bag: Path) -> None:
+    code, out, error = graph.trundle("bag", "info", "-y", "-k", "topics[9]", str(bag), str(bag))
+    assert (code, out, error) == (0, "---\n", 'Error getting key "topics[9]"\n' * 2)
+
+
 @pytest.mark.real_ros
 def test_every_line_of_info_is_rosbags(graph: Any, original: Any, bag: Path) -> None:
-    keys = ("end", "topics", "types", "topics[0]", "topics[-1].type")
+    keys = ("end", "topics", "types", "topics[0]", "topics[-1].type", "nope")
     for compression in (None, "-j", "--lz4"):
         if compression:
             graph.trundle("bag", "compress", "-f", compression, str(bag))

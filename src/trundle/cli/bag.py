@@ -27,7 +27,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("-y", "--yaml", action="store_true", help="as YAML")
     add.add_argument("-k", "--key", help="only this key of the YAML")
     add.add_argument("--freq", action="store_true", help="with the median frequency of each topic")
-    add.set_defaults(run=_of("bag_info", "main"))
+    add.set_defaults(run=_of("bag_info", "main"), refuse=add.error)
     add = commands.add_parser("check", help="compare the types in a bag with those known here")
     add.add_argument("bag")
     add.add_argument("rules", nargs="*", metavar="RULES", help="rule files, which are not read")
@@ -94,7 +94,7 @@ def _configure_record(add: argparse.ArgumentParser) -> None:
     add.add_argument("--udp", action="store_true", help=argparse.SUPPRESS)
     _configure_compression(add)
     add.add_argument("--zstd", dest="compression", action="store_const", const="zstd", help="zstd compression (MCAP)")
-    add.set_defaults(run=_of("bag_record", "main"), compression="none")
+    add.set_defaults(run=_of("bag_record", "main"), refuse=add.error, compression="none")
 
 
 def _configure_play(add: argparse.ArgumentParser) -> None:
@@ -120,7 +120,7 @@ def _configure_play(add: argparse.ArgumentParser) -> None:
     add.add_argument("--try-future-version", action="store_true", help="as always here: 2.0 is the last there will be")
     add.add_argument("--rate-control-topic", metavar="TOPIC", help="wait for the stamps of this topic's headers")
     add.add_argument("--rate-control-max-delay", type=_positive, default=1.0, metavar="SEC", help="they may be behind")
-    add.set_defaults(run=_of("bag_play", "main"))
+    add.set_defaults(run=_of("bag_play", "main"), refuse=add.error)
 
 
 def _configure_edit(add: argparse.ArgumentParser) -> None:

@@ -2,6 +2,7 @@
 
 import argparse
 import re
+import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,7 +11,6 @@ from pathlib import Path
 from statistics import median
 from typing import Any, cast
 
-from trundle.diagnostics import UsageError
 from trundle.ros import BagReader, Messages, open_bag
 
 _KEY = re.compile(r"(\w+)|\[(-?\d+)\]")
@@ -19,13 +19,16 @@ _KEY = re.compile(r"(\w+)|\[(-?\d+)\]")
 def main(args: argparse.Namespace) -> int:
     """Describe each bag."""
     if args.key and not args.yaml:
-        raise UsageError("You can only specify key when printing in YAML format.")
+        return args.refuse("You can only specify key when printing in YAML format.")
     for i, name in enumerate(args.bags):
         if i:
             print("---")
         with open_bag(Path(name)) as bag:
             summary = Summary(bag, name, with_rates=args.freq)
-            print(_value(summary.yaml(), args.key) if args.key else summary.yaml() if args.yaml else summary.text())
+            if args.key:
+                _print_value(summary.yaml(), args.key)
+            else:
+                print(summary.yaml() if args.yaml else summary.text())
     return 0
 
 
@@ -192,8 +195,8 @@ def _seconds(ns: int) -> float:
     return float(ns // 10**9) + (ns % 10**9) / 1e9
 
 
-def _value(text: str, key: str) -> str:
-    """Find a key such as `duration` or `topics[0].type` in YAML, and print it as rosbag does."""
+def _print_value(text: str, key: str) -> None:
+    """Find a key such as `duration` or `topics[0].type` in YAML, and print it as rosbag does; none is no failure."""
     import yaml
 
     value: Any = yaml.safe_load(text)
@@ -201,10 +204,12 @@ def _value(text: str, key: str) -> str:
         for name, index in _KEY.findall(key):
             value = value[name] if name else value[int(index)]
     except (KeyError, IndexError, TypeError):
-        raise UsageError(f'Error getting key "{key}"') from None
+        print(f'Error getting key "{key}"', file=sys.stderr)
+        return
     if isinstance(value, list):
-        return "".join(f"- {_members(item, indent='  ')}\n" for item in cast("list[object]", value))
-    return _members(value, indent="")
+        print("".join(f"- {_members(item, indent='  ')}\n" for item in cast("list[object]", value)))
+    else:
+        print(_members(value, indent=""))
 
 
 def _members(value: object, *, indent: str) -> str:

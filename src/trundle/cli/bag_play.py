@@ -9,7 +9,6 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
-from trundle.diagnostics import UsageError
 from trundle.names import parse_arguments
 from trundle.ros import BagReader, Node, Player, PlayOptions, open_bag
 
@@ -24,7 +23,7 @@ def main(args: argparse.Namespace) -> int:
     """Play to the end, or until Ctrl-C."""
     words = parse_arguments([*args.bags, *args.more_bags])
     if not words.rest:
-        raise UsageError("You must specify at least 1 bag file to play back.")
+        args.refuse("You must specify at least 1 bag file to play back.")
     say = _quiet if args.quiet else _say
     with ExitStack() as stack, running_node("play", words) as (loop, node):
         bags: list[BagReader] = []

@@ -39,9 +39,9 @@ def main(args: argparse.Namespace) -> int:
 
 def _options(args: argparse.Namespace, topics: tuple[str, ...]) -> RecordOptions:
     if not topics and not args.all and not args.node:
-        raise UsageError("You must specify a topic name or else use the '-a' option.")
+        args.refuse("You must specify a topic name or else use the '-a' option.")
     if args.split and not (args.size or args.duration):
-        raise UsageError("Split specified without giving a maximum duration or size")
+        args.refuse("Split specified without giving a maximum duration or size")
     for pattern in (*(topics if args.regex else ()), args.exclude):
         try:
             re.compile(pattern)
