@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 from trundle.diagnostics import UsageError
 
+from .typed import typed_number
+
 if TYPE_CHECKING:
     from collections.abc import Generator
 
@@ -43,7 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Become the program; or run the stand-in for a stock node here, until Ctrl-C."""
-    from trundle.nodes import Executable, Missing, Replacement, find_node
+    from trundle.nodes import Executable, Missing, Replacement, find_node, namesakes
     from trundle.packages import Packages
 
     packages = Packages(os.environ, start=Path.cwd())
@@ -55,6 +57,8 @@ def main(args: argparse.Namespace) -> int:
             print(f"trundle exec: error: {why}", file=sys.stderr)
             return _NO_PACKAGE if folder is None else _NO_PROGRAM
         case Executable(path):
+            if folder is not None and "/" not in args.executable:
+                path = _chosen(path, namesakes(folder, path))
             command = [*shlex.split(args.prefix), str(path), *args.arguments]
             if args.debug:
                 print(f"[rosrun] Running {args.prefix} {path}")
@@ -67,6 +71,20 @@ def main(args: argparse.Namespace) -> int:
             if args.prefix:
                 raise UsageError(f"--prefix is for programs; {args.package}/{args.executable} runs in this process")
             return _stand_in(args, stand_in)
+
+
+def _chosen(first: Path, programs: list[Path]) -> Path:
+    """Which of the programs of one name is to run: the user's choice at a terminal, else the first."""
+    if len(programs) < 2:
+        return first
+    if not sys.stdin.isatty():
+        others = ", ".join(str(path) for path in programs if path != first)
+        print(f"[rosrun] Running {first}; of the same name are {others}", file=sys.stderr)
+        return first
+    print("[rosrun] You have chosen a non-unique executable, please pick one of the following:")
+    print("\n".join(f"{i}) {path}" for i, path in enumerate(programs, 1)))
+    print("#? ", end="", flush=True)
+    return programs[typed_number(len(programs)) - 1]
 
 
 class _List(argparse.Action):

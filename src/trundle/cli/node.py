@@ -12,6 +12,7 @@ from trundle.diagnostics import UsageError
 from trundle.ros import MasterError, MasterProxy, RosError, blocking_call
 
 from .running import global_name, master, original_errors
+from .typed import typed_line, typed_number
 
 EXAMPLES = """
   trundle node list
@@ -234,20 +235,7 @@ def _chosen(nodes: list[str]) -> str:
     """Ask which one."""
     print("\n".join(f"{i}. {node}" for i, node in enumerate(nodes, 1)))
     print("\nPlease enter the number of the node you wish to kill.\n> ", end="", flush=True)
-    while not ((answer := _typed()).isdecimal() and 0 < int(answer) <= len(nodes)):
-        print(f"ERROR: please enter a number from 1 to {len(nodes)} (ctrl-C to cancel)", flush=True)
-    return nodes[int(answer) - 1]
-
-
-def _typed() -> str:
-    """Read a line from standard input.
-
-    Raises:
-        UsageError: it is at its end.
-    """
-    if line := sys.stdin.readline():
-        return line.strip()
-    raise UsageError("standard input ended before there was an answer; nothing was done")
+    return nodes[typed_number(len(nodes)) - 1]
 
 
 def _cleanup(_: argparse.Namespace) -> int:
@@ -261,7 +249,7 @@ def _cleanup(_: argparse.Namespace) -> int:
     print("Warning: these might include alive and functioning nodes, e.g. in unstable networks.")
     print("Cleanup will purge all information about these nodes from the master.")
     print("Please type y or n to continue:", flush=True)
-    while (answer := _typed()) not in ("y", "n"):
+    while (answer := typed_line()) not in ("y", "n"):
         pass
     if answer != "y":
         print("aborting")

@@ -1,7 +1,7 @@
 """Stand-ins for stock executables: nodes that launch files name, run in this process."""
 
 from .catalog import CLIENTS, STAND_INS, WINDOWS, WORLDS
-from .find import Executable, Missing, Replacement, find_node, program_names
+from .find import Executable, Missing, Replacement, find_node, namesakes, program_names
 from .host import Display, Host, Simulator, Slider, StandIn
 from .run import run_stand_in
 
@@ -19,6 +19,7 @@ __all__ = [
     "Slider",
     "StandIn",
     "find_node",
+    "namesakes",
     "program_names",
     "run_stand_in",
 ]

@@ -94,6 +94,11 @@ def program_names(package: str, folder: Path | None) -> set[str]:
     return found
 
 
+def namesakes(folder: Path, program: Path) -> list[Path]:
+    """All programs of a package that have the name of the one given, which is among them."""
+    return [path for path in _files(folder, program.name) if os.access(path, os.X_OK)]
+
+
 def _can_run(path: Path, env: Mapping[str, str]) -> bool:
     """Tell whether a program needs no rospy, or finds it."""
     with path.open("rb") as program:

@@ -1,0 +1,24 @@
+"""What commands ask for on standard input."""
+
+import sys
+
+from trundle.diagnostics import UsageError
+
+
+def typed_line() -> str:
+    """Read a line.
+
+    Raises:
+        UsageError: standard input is at its end.
+    """
+    if line := sys.stdin.readline():
+        return line.strip()
+    raise UsageError("standard input ended before there was an answer; nothing was done")
+
+
+def typed_number(most: int) -> int:
+    """Read a number from 1 to `most`, again until it is one."""
+    numbers = {str(number): number for number in range(1, most + 1)}
+    while (answer := typed_line()) not in numbers:
+        print(f"ERROR: please enter a number from 1 to {most} (ctrl-C to cancel)", flush=True)
+    return numbers[answer]
