@@ -7,8 +7,8 @@ from tests.nodes.conftest import PATIENCE_S
 
 
 def test_rostopic_publishes(stage) -> None:
-    heard = stage.listen("/said", "std_msgs/String")
-    stage.start("rostopic/rostopic", "pub -r 10 /said std_msgs/String hello", name="pub")
+    heard = stage.listen("/told", "std_msgs/String")
+    stage.start("rostopic/rostopic", "pub -r 10 /said std_msgs/String hello said:=told", name="pub")
     stage.until(lambda: heard)
     assert heard[0].data == "hello"
 
@@ -28,8 +28,8 @@ def test_what_was_recorded_is_played(stage, tmp_path: Path) -> None:
         source.publish({"data": "hello"})
     assert recorder.result() == 0
     source.unregister()
-    heard = stage.listen("/said", "std_msgs/String")
-    stage.start("rosbag/play", f"-l {bag}", name="play")
+    heard = stage.listen("/repeated", "std_msgs/String")
+    stage.start("rosbag/play", f"-l {bag} said:=repeated", name="play")
 
     stage.until(lambda: heard)
     assert heard[0].data == "hello"

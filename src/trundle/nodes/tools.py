@@ -19,6 +19,7 @@ class Tool:
     """Runs `trundle COMMAND…` as a process of its own, and ends with its exit code."""
 
     command: tuple[str, ...]
+    takes_remappings = True
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
         self._env = host.env
@@ -34,8 +35,9 @@ class Tool:
             "ROS_MASTER_URI": node.master_uri,
             "ROS_NAMESPACE": node.name.rpartition("/")[0],
         }
+        remappings = [f"{a}:={b}" for a, b in node.remappings.items()] if self.takes_remappings else []
         process = await asyncio.create_subprocess_exec(
-            *(sys.executable, "-m", "trundle", *self.command, *self._arguments),
+            *(sys.executable, "-m", "trundle", *self.command, *self._arguments, *remappings),
             env=environment,
             stdin=subprocess.DEVNULL,
             start_new_session=os.name == "posix",
@@ -75,6 +77,7 @@ class Rosparam(Tool):
     """rosparam/rosparam"""
 
     command = ("param",)
+    takes_remappings = False
 
 
 class RosbagRecord(Tool):

@@ -114,6 +114,11 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         """Whether it has begun to shut down."""
         return self._is_down
 
+    @property
+    def remappings(self) -> Mapping[str, str]:
+        """Global name → the global name that it means."""
+        return self._remappings
+
     def resolve(self, name: str) -> str:
         """Return the global name this node means by `name`, remapped."""
         return resolve_name(name, self.name, self._remappings)
