@@ -2,8 +2,10 @@
 
 import time
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
-from trundle.ros import Clock
+if TYPE_CHECKING:
+    from trundle.ros import Clock
 
 _NS = 1_000_000_000
 
@@ -13,7 +15,7 @@ class Duration:
 
     def __init__(
         self,
-        clock: Clock,
+        clock: "Clock",
         duration_s: float,
         *,
         in_step: bool,

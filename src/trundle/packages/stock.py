@@ -12,7 +12,7 @@ _NODES = """
     joint_state_publisher joint_state_publisher_gui joy map_server nodelet pointcloud_to_laserscan
     robot_state_publisher rqt_console rqt_graph rqt_gui rqt_image_view rqt_joint_trajectory_controller rqt_plot
     rqt_reconfigure rqt_robot_monitor rqt_robot_steering rqt_tf_tree rqt_topic rviz teleop_twist_joy
-    teleop_twist_keyboard tf tf2_ros topic_tools turtlebot3_teleop turtlebot_teleop turtlesim twist_mux
+    teleop_twist_keyboard tf tf2_ros tf2_tools topic_tools turtlebot3_teleop turtlebot_teleop turtlesim twist_mux
 """
 _PLUGINS = """
     gazebo_plugins gazebo_ros_control hector_gazebo_plugins roboticsgroup_gazebo_plugins
