@@ -4,6 +4,7 @@
 // holds the signal and becomes `_trundle` beside it, the script that the installer wrote for its Python;
 // trundle.__main__ lets the signal through as soon as it can be answered (decision 0010).
 
+#include <cerrno>
 #include <climits>
 #include <csignal>
 #include <cstdint>
@@ -48,6 +49,6 @@ int main(int, char** arguments) {
   }
   std::strcpy(end, name);
   execv(script, arguments);
-  std::perror(script);
+  std::fprintf(stderr, "%s: %s; install Trundle again\n", script, std::strerror(errno));
   return 1;
 }

@@ -55,8 +55,8 @@ def test_a_link_to_it_and_arguments_of_any_kind(tmp_path: Path) -> None:
     assert "no such file" in _run(link, "check", "a 'b' \"c\" ü").stdout
 
 
-def test_without_its_script_it_says_which_is_missing(beside: Path) -> None:
+def test_without_its_script_it_says_which_is_missing_and_what_to_do(beside: Path) -> None:
     done = _run(beside, "--version")
 
     assert done.returncode == 1
-    assert done.stderr == f"{beside.with_name('_trundle')}: No such file or directory\n"
+    assert done.stderr == f"{beside.with_name('_trundle')}: No such file or directory; install Trundle again\n"

@@ -21,7 +21,7 @@ def complete(parser: argparse.ArgumentParser, command: str) -> None:
                     complete(choice, command)
         source = _SOURCES.get((command, action.dest)) or _SOURCES.get(("", action.dest))
         if (command, action.dest) in _BEHIND:
-            setattr(action, "completer", _BEHIND[command, action.dest])  # noqa: B010
+            setattr(action, "completer", _BEHIND[command, action.dest])  # noqa: B010 - as below
         elif source is not None:
             setattr(action, "completer", _completer(source))  # noqa: B010 - argcomplete looks for it there
 
