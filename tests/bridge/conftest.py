@@ -53,7 +53,7 @@ def hear(graph: SimpleNamespace, described: Described) -> Hear:
         cameras = mount_cameras(sim, NativeRenderer)
         sensors = mount_sensors(sim)
         for sensor in (*cameras, *sensors):
-            sim.add_hook(sensor, period_ns=sensor.period_ns, wanted=sensor.wanted)
+            sensor.start(sim)
         still = StaticTransformBroadcaster(graph.node)
         camera_topics(graph.node, still, cameras, FrameNames.of(sim.world))
         sensor_topics(graph.node, still, sensors, FrameNames.of(sim.world))

@@ -147,7 +147,7 @@ def test_pictures_are_saved_under_gazebo_s_names(described: Any) -> None:
     with tempfile.TemporaryDirectory() as folder:
         sim = described(eye("camera", inside=f'<save enabled="true"><path>{folder}/shots</path></save>') + WALL)
         (camera,) = mount_cameras(sim, NativeRenderer)
-        sim.add_hook(camera, period_ns=camera.period_ns, wanted=camera.wanted)
+        camera.start(sim)
         sim.run(0.1)
 
         files = sorted(Path(folder, "shots").iterdir())
@@ -170,7 +170,7 @@ def test_a_folder_that_cannot_be_made_ends_the_saving_with_one_warning(described
     with tempfile.NamedTemporaryFile() as file:
         sim = described(eye("camera", inside=f'<save enabled="true"><path>{file.name}/shots</path></save>'))
         (camera,) = mount_cameras(sim, NativeRenderer)
-        sim.add_hook(camera, period_ns=camera.period_ns, wanted=camera.wanted)
+        camera.start(sim)
         sim.run(0.2)
 
     assert camera.images == 1

@@ -59,7 +59,7 @@ def mounted(*sensors_: Sensor) -> tuple[Simulation, list[CameraSensor], Counting
     sim = Simulation(made, report)
     cameras = mount_cameras(sim, lambda _: renderer)
     for one in cameras:
-        sim.add_hook(one, period_ns=one.period_ns, wanted=one.wanted)
+        one.start(sim)
     return sim, cameras, renderer
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import trundle
-from trundle.sensors import ImuReading, ImuSensor, RangeReading, RangeSensor, mount_sensors
+from trundle.sensors import ContactReading, ImuReading, ImuSensor, RangeReading, RangeSensor, mount_sensors
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist
 
@@ -27,7 +27,7 @@ def read(sim: Simulation, seconds: float, *, before: object = None) -> list[ImuR
     (sensor,) = mount_sensors(sim)
     readings: list = []
     sensor.listen(readings.append)
-    sim.add_hook(sensor, period_ns=sensor.period_ns, wanted=sensor.wanted)
+    sensor.start(sim)
     sim.run(seconds)
     return readings
 
@@ -264,11 +264,67 @@ def test_a_bumper_carries_the_weight_of_what_rests_on_its_collisions(tmp_path: P
     link = f'<link name="a"><pose>0 0 0.1 0 0 0</pose>{body}<collision name="foot">{shape}</collision>{sensor}</link>'
     floor = thing("floor", "0 0 -0.5 0 0 0", "<box><size>9 9 1</size></box>")
 
-    touches = read(load(tmp_path, link, others=floor), 1.0)[-1].touches
+    reading = read(load(tmp_path, link, others=floor), 1.0)[-1]
 
-    assert {(touch.own, touch.other) for touch in touches} == {("m::a::foot", "floor::l::c")}
-    assert sum(touch.wrench.force[2] for touch in touches) == pytest.approx(19.6, rel=5e-3)
-    assert all(touch.normal == pytest.approx((0, 0, 1), abs=1e-9) for touch in touches)
+    assert {(touch.own, touch.other) for touch in reading.touches} == {("m::a::foot", "floor::l::c")}
+    assert {touch.time_ns for touch in reading.touches} == {reading.time_ns}
+    assert sum(touch.wrench.force[2] for touch in reading.touches) == pytest.approx(19.6, rel=5e-3)
+    assert all(touch.normal == pytest.approx((0, 0, 1), abs=1e-9) for touch in reading.touches)
+
+
+BALL = """<link name="a"><pose>0 0 0.3 0 0 0</pose>{body}<collision name="c"><geometry>
+<sphere><radius>0.1</radius></sphere></geometry><surface><bounce><restitution_coefficient>0.9</restitution_coefficient></bounce></surface></collision>
+<sensor name="b" type="contact"><update_rate>{rate}</update_rate></sensor></link>"""
+FLOOR = thing("floor", "0 0 -0.5 0 0 0", "<box><size>9 9 1</size></box>").replace(
+    "</geometry>",
+    "</geometry><surface><bounce><restitution_coefficient>1</restitution_coefficient><threshold>0</threshold></bounce>"
+    "</surface>",
+)
+
+
+def touched(readings: list[ContactReading]) -> list[int]:
+    """The times of the steps with contacts, of all readings together."""
+    return [time_ns for reading in readings for time_ns in dict.fromkeys(touch.time_ns for touch in reading.touches)]
+
+
+@pytest.mark.parametrize("rate", [1000, 30, 10])
+def test_a_bumper_tells_of_every_step_since_it_last_told(tmp_path: Path, rate: int) -> None:
+    """A ball that bounces touches the floor for a step or two, hardly ever the one at which a slow sensor is due."""
+    every = touched(read(load(tmp_path, BALL.format(body=BODY, rate=0), others=FLOOR), 2.0))
+    assert 3 < len(every) < 200
+
+    told = read(load(tmp_path, BALL.format(body=BODY, rate=rate), others=FLOOR), 2.0)
+
+    assert touched(told) == [time_ns for time_ns in every if time_ns <= told[-1].time_ns]
+    assert all(0 <= r.time_ns - t.time_ns < 1e9 / rate for r in told for t in r.touches)
+
+
+def test_a_bumper_that_tells_seldom_keeps_the_last_hundred_steps(tmp_path: Path) -> None:
+    (told,) = read(load(tmp_path, BALL.format(body=BODY, rate=1).replace("0 0 0.3", "0 0 0.1"), others=FLOOR), 1.0)
+
+    assert touched([told]) == list(range(901_000_000, 1_001_000_000, 1_000_000))
+
+
+def test_a_bumper_that_nobody_listens_to_for_a_while_forgets(tmp_path: Path) -> None:
+    """What touched before does not come up when somebody listens again; and meanwhile no step is looked at."""
+    sim = load(tmp_path, BALL.format(body=BODY, rate=10).replace("0 0 0.3", "0 0 0.1"), others=FLOOR)
+    (bumper,) = mount_sensors(sim)
+    readings: list[ContactReading] = []
+    listens = True
+    bumper.listen(readings.append, wanted=lambda: listens)
+    bumper.start(sim)
+    sim.run(0.55)
+    assert len(bumper._felt) == 50
+    listens = False
+    sim.run(0.3)
+    assert len(bumper._felt) == 50
+    listens = True
+    sim.run(0.1)
+
+    assert touched(readings[-1:]) == list(range(851_000_000, 901_000_000, 1_000_000))
+    bumper.stop(sim)
+    sim.run(0.1)
+    assert len(readings) == 6
 
 
 @pytest.mark.parametrize(

@@ -25,7 +25,7 @@ def world(tmp_path: Path, inside: str) -> tuple[Simulation, list[Any]]:
     sim = trundle.load(str(file))
     mounted = [*mount_cameras(sim, NativeRenderer), *mount_sensors(sim)]
     for one in mounted:
-        sim.add_hook(one, period_ns=one.period_ns, wanted=one.wanted)
+        one.start(sim)
     return sim, mounted
 
 

@@ -72,7 +72,7 @@ def load(tmp_path: Any) -> Any:
         sim = trundle.load(str(file))
         mounted = [*mount_cameras(sim, Blank), *mount_sensors(sim)]
         for one in mounted:
-            sim.add_hook(one, period_ns=one.period_ns, wanted=one.wanted)
+            one.start(sim)
         return sim, mounted
 
     return load

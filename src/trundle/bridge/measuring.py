@@ -143,7 +143,7 @@ class WrenchTopic:
 
 
 class ContactsTopic:
-    """gazebo_msgs/ContactsState on `…/contacts`, in the world frame; one state for each pair of collisions."""
+    """gazebo_msgs/ContactsState on `…/contacts`, in the world frame; see `contacts_message`."""
 
     def __init__(self, node: Node, sensor: ContactSensor) -> None:
         """Advertise."""

@@ -9,10 +9,12 @@ from trundle.sensors import (
     GpsSensor,
     ImuReading,
     RangeReading,
+    Touch,
     directions_of,
 )
 from trundle.spatial import Vector3, Wrench
 
+_NS = 1_000_000_000
 _FLOAT32 = 7
 """sensor_msgs/PointField's number for it."""
 
@@ -81,16 +83,18 @@ def wrench_message(reading: ForceTorqueReading) -> dict[str, object]:
 
 
 def contacts_message(reading: ContactReading) -> dict[str, object]:
-    """gazebo_msgs/ContactsState in the world frame; one state for each pair of collisions."""
+    """gazebo_msgs/ContactsState in the world frame; one state for each step and pair of collisions."""
+    found: dict[tuple[int, str, str], list[Touch]] = {}
+    for touch in reading.touches:
+        found.setdefault((touch.time_ns, touch.own, touch.other), []).append(touch)
     states: list[dict[str, object]] = []
-    for pair in dict.fromkeys((touch.own, touch.other) for touch in reading.touches):
-        touches = [touch for touch in reading.touches if (touch.own, touch.other) == pair]
+    for (time_ns, own, other), touches in found.items():
         total = sum((touch.wrench for touch in touches), start=Wrench())
         states.append(
             {
-                "info": "",
-                "collision1_name": pair[0],
-                "collision2_name": pair[1],
+                "info": f"time:{time_ns // _NS}.{time_ns % _NS:09}",
+                "collision1_name": own,
+                "collision2_name": other,
                 "wrenches": [_wrench(touch.wrench) for touch in touches],
                 "total_wrench": _wrench(total),
                 "contact_positions": [_vector(touch.position) for touch in touches],

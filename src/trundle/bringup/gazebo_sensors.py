@@ -58,7 +58,7 @@ class GazeboSensors:
         gone = [sensor for sensor in self.all if sensor.model.name == model]
         self.all = [sensor for sensor in self.all if sensor not in gone]
         for sensor in gone:
-            self._simulation.remove_hook(sensor)
+            sensor.stop(self._simulation)
         self._robots.pop(model, None)
         ends = self._ends.pop(model, [])
         shared = {id(end) for others in self._ends.values() for end in others}

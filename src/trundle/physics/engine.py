@@ -15,6 +15,7 @@ from trundle.diagnostics import TrundleError, UsageError
 from trundle.spatial import Pose, Twist, Wrench
 
 from .between import Between
+from .feeling import Feeling
 from .grip import GripLaw
 from .index import CompiledWorld, GeomPair
 from .instant import Instant, Looker
@@ -23,7 +24,7 @@ from .postmortem import Runaway, find_runaway
 from .reader import StateReader
 from .rest import EVERY, STATE, Rest
 from .settings import silence_log
-from .touching import Contact, contacts_of
+from .touching import Contact
 from .transfer import carry_over
 
 _BAD = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
@@ -71,6 +72,7 @@ class Engine:
         self.motors = Motors(compiled, self._data, self._rest.wake)
         self._between = Between(compiled, self._data)
         self._looker = Looker(compiled)
+        self._feeling = Feeling(compiled, self._data, self._looker)
         self._good = np.empty(mujoco.mj_stateSize(self._model, STATE))
         self._taken = 0
         """Steps, from which follows when to decide who may sleep."""
@@ -239,11 +241,13 @@ class Engine:
         """How many groups of links that hang together are at rest and left out of the steps."""
         return self._rest.asleep
 
-    def contacts(self) -> list[Contact]:
-        """What touches what; MuJoCo keeps no contacts of what sleeps, so these are found anew beside it."""
-        if not self.asleep:
-            return contacts_of(self.compiled, self._model, self._data)
-        return self._looker.contacts(self._state())
+    def contacts(self, among: frozenset[str] | None = None) -> list[Contact]:
+        """What touches what.
+
+        Args:
+            among: names of collisions that something touches; None: of all.
+        """
+        return self._feeling.contacts(among, self._state if self.asleep else None)
 
     def reactions(self) -> NDArray[np.float64]:
         """(links, 6) force [N] and torque [N·m] on each link by what it hangs from; see `Looker.reactions`."""

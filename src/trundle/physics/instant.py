@@ -40,11 +40,12 @@ class Looker:
             reader.show(qpos, qvel)
             return reader.link_poses(), reader.link_twists()
 
-    def contacts(self, state: _Array) -> list[Contact]:
-        """The contacts of a state, as mjSTATE_INTEGRATION has it."""
+    def contacts(self, state: _Array, apart: NDArray[np.bool_]) -> list[Contact]:
+        """The contacts of a state, as mjSTATE_INTEGRATION has it, without those of geoms that are to be kept apart."""
         with self._lock:
             model, data = self._solve(state)
-            return contacts_of(self._compiled, model, data)
+            chosen = np.flatnonzero(~apart[data.contact.geom].any(axis=1))
+            return contacts_of(self._compiled, model, data, chosen)
 
     def deep_pairs(self, state: _Array, parting: Parting) -> frozenset[GeomPair]:
         """See `Parting.deep_pairs`; of a state, as mjSTATE_INTEGRATION has it."""

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from trundle.spatial import Vector3, Wrench
 
@@ -26,28 +27,28 @@ class Contact:
     """What the first does to the second at this point, world axes."""
 
 
-def contacts_of(compiled: CompiledWorld, model: mujoco.MjModel, data: mujoco.MjData) -> list[Contact]:
-    """Every contact."""
-    found: list[Contact] = []
-    inside = np.empty(6)
-    for i in range(data.ncon):
-        contact = data.contact[i]
-        names = [compiled.geom_collisions[int(geom)] for geom in contact.geom]
-        frame = contact.frame.reshape(3, 3)
-        mujoco.mj_contactForce(model, data, i, inside)
-        force, torque = frame.T @ inside[:3], frame.T @ inside[3:]
-        found.append(
-            Contact(
-                collisions=(names[0], names[1]),
-                position=_vector(contact.pos),
-                normal=_vector(frame[0]),
-                depth=-float(contact.dist),
-                force=Wrench(_vector(force), _vector(torque)),
-            )
+def contacts_of(
+    compiled: CompiledWorld, model: mujoco.MjModel, data: mujoco.MjData, chosen: NDArray[np.intp]
+) -> list[Contact]:
+    """The contacts of these numbers."""
+    if not len(chosen):
+        return []
+    held = data.contact
+    wrenches = np.empty((len(chosen), 6))
+    for i, wrench in zip(chosen.tolist(), wrenches, strict=True):
+        mujoco.mj_contactForce(model, data, i, wrench)
+    frames = held.frame[chosen].reshape(-1, 3, 3)
+    forces, torques = (np.einsum("nji,nj->ni", frames, part) for part in (wrenches[:, :3], wrenches[:, 3:]))
+    columns = (held.geom[chosen], held.pos[chosen], frames[:, 0], held.dist[chosen], forces, torques)
+    return [
+        Contact(
+            collisions=(compiled.geom_collisions[first], compiled.geom_collisions[second]),
+            position=tuple(position),
+            normal=tuple(normal),
+            depth=-distance,
+            force=Wrench(tuple(force), tuple(torque)),
         )
-    return found
-
-
-def _vector(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> Vector3:
-    x, y, z = values.tolist()
-    return (x, y, z)
+        for (first, second), position, normal, distance, force, torque in zip(
+            *(column.tolist() for column in columns), strict=True
+        )
+    ]

@@ -4,7 +4,7 @@ from .air import AirPressureSensor, AirSpeedSensor, PressureReading
 from .altimeter import AltimeterReading, AltimeterSensor
 from .bounding_box_camera import BoundingBoxCameraSensor
 from .camera import CameraReading, CameraSensor, SeenBox
-from .contact import ContactReading, ContactSensor
+from .contact import ContactReading, ContactSensor, Touch
 from .depth_camera import DepthCameraSensor
 from .force_torque import ForceTorqueReading, ForceTorqueSensor
 from .formats import pixels_in
@@ -62,6 +62,7 @@ __all__ = [
     "Spot",
     "Surroundings",
     "ThermalCameraSensor",
+    "Touch",
     "WirelessReading",
     "WirelessSensor",
     "angles_of",

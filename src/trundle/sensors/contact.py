@@ -1,19 +1,25 @@
 """Contact sensors, also called bumpers."""
 
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from trundle.physics import Contact
-from trundle.simulation import Snapshot
+from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Vector3, Wrench
 
 from .mounted import MountedSensor, Spot
+
+MOST_STEPS = 100
+"""That one reading tells of, the last ones: Gazebo keeps no more either."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Touch:
     """One point where something touches the sensor's link."""
 
+    time_ns: int
+    """Of the step that found it."""
     own: str
     """`model::link::collision` that feels."""
     other: str
@@ -30,48 +36,74 @@ class Touch:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactReading:
-    """What touched."""
+    """What touched in the steps since the reading before, step by step."""
 
     time_ns: int
     touches: tuple[Touch, ...]
 
 
 class ContactSensor(MountedSensor[ContactReading]):
-    """Feels what touches some of its link's collisions, or all of them."""
+    """Feels at every step what touches some of its link's collisions, or all of them."""
 
-    def __init__(self, spot: Spot, *, contacts: Callable[[], list[Contact]]) -> None:
+    def __init__(self, spot: Spot, *, contacts: Callable[[frozenset[str]], list[Contact]]) -> None:
         """Mount a contact sensor; see `MountedSensor`.
 
         Args:
             spot: where it is.
-            contacts: what touched what in the last step.
+            contacts: what touched collisions of these names in the last step.
         """
         super().__init__(spot)
         names = spot.sensor.touching or tuple(collision.name for collision in spot.link.collisions)
         self._own = frozenset(f"{spot.model.name}::{spot.link.name}::{name}" for name in names)
         self._contacts = contacts
+        self._skin = _Skin(self._feel)
+        self._felt: deque[tuple[Touch, ...]] = deque(maxlen=MOST_STEPS)
+
+    def start(self, simulation: Simulation) -> None:
+        """Be called by a simulation: at every step to feel, and then at the sensor's rate to tell."""
+        simulation.add_hook(self._skin, wanted=self.wanted)
+        super().start(simulation)
+
+    def stop(self, simulation: Simulation) -> None:
+        """Be called no more."""
+        simulation.remove_hook(self._skin)
+        super().stop(simulation)
 
     def take(self, snapshot: Snapshot) -> ContactReading:
-        """What touches now."""
-        touches = [touch for contact in self._contacts() for touch in self._felt(contact)]
-        return ContactReading(time_ns=snapshot.time_ns, touches=tuple(touches))
+        """What touched within the last period; what was felt before, nobody wanted to know then."""
+        now_ns, period_ns = snapshot.time_ns, max(self.period_ns, 1)
+        felt = [touch for step in self._felt for touch in step]
+        self._felt.clear()
+        return ContactReading(
+            time_ns=now_ns, touches=tuple(touch for touch in felt if 0 <= now_ns - touch.time_ns < period_ns)
+        )
 
-    def _felt(self, contact: Contact) -> list[Touch]:
+    def _feel(self, snapshot: Snapshot) -> None:
+        touches = tuple(self._told(contact, snapshot.time_ns) for contact in self._contacts(self._own))
+        if touches:
+            self._felt.append(touches)
+
+    def _told(self, contact: Contact, time_ns: int) -> Touch:
+        """As the sensor's own link has it."""
         first, second = contact.collisions
-        if second in self._own:
-            return [_touch(contact, own=second, other=first, sign=1.0)]
-        return [_touch(contact, own=first, other=second, sign=-1.0)] if first in self._own else []
+        own, other, sign = (second, first, 1.0) if second in self._own else (first, second, -1.0)
+
+        def signed(vector: Vector3) -> Vector3:
+            return (sign * vector[0], sign * vector[1], sign * vector[2])
+
+        return Touch(
+            time_ns=time_ns,
+            own=own,
+            other=other,
+            position=contact.position,
+            normal=signed(contact.normal),
+            depth=contact.depth,
+            wrench=Wrench(signed(contact.force.force), signed(contact.force.torque)),
+        )
 
 
-def _touch(contact: Contact, *, own: str, other: str, sign: float) -> Touch:
-    def signed(vector: Vector3) -> Vector3:
-        return (sign * vector[0], sign * vector[1], sign * vector[2])
+@dataclass(frozen=True, slots=True, eq=False)
+class _Skin:
+    """A hook of its own, for a sensor feels more often than it tells."""
 
-    return Touch(
-        own=own,
-        other=other,
-        position=contact.position,
-        normal=signed(contact.normal),
-        depth=contact.depth,
-        wrench=Wrench(signed(contact.force.force), signed(contact.force.torque)),
-    )
+    after_step: Callable[[Snapshot], None]

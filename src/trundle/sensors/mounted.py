@@ -81,6 +81,10 @@ class MountedSensor(Generic[Reading]):
         self._simulation = simulation
         simulation.add_hook(self, period_ns=self.period_ns, wanted=self.wanted)
 
+    def stop(self, simulation: Simulation) -> None:
+        """Be called no more."""
+        simulation.remove_hook(self)
+
     def set_rate(self, rate_hz: float) -> None:
         """Measure so often from now on."""
         self.period_ns = _period_ns(rate_hz)

@@ -201,9 +201,9 @@ class Simulation:
             joint_axes=compiled.joint_axes,
         )
 
-    def contacts(self) -> list[Contact]:
-        """What touched what in the last step."""
-        return self.engine.contacts()
+    def contacts(self, among: frozenset[str] | None = None) -> list[Contact]:
+        """What touched what in the last step; among: only what touched collisions of these names."""
+        return self.engine.contacts(among)
 
     def save(self) -> SavedSimulation:
         """Keep the state, to go back to it exactly."""

@@ -1,4 +1,4 @@
-"""libgazebo_ros_bumper.so: what touches a link, where the plugin says."""
+"""libgazebo_ros_bumper.so: what touched a link since the last message, where the plugin says."""
 
 from trundle.bridge import contacts_message
 from trundle.diagnostics import Diagnostics, UsageError
