@@ -12,7 +12,7 @@ from trundle.bringup.graph import Graph
 from trundle.diagnostics import Diagnostics
 from trundle.nodes import Host
 from trundle.nodes.gazebo import GazeboServer
-from trundle.ros import GraphLoop, Message, Node
+from trundle.ros import PROFILES, GraphLoop, Message, Node
 
 
 class Gazebo:
@@ -34,9 +34,10 @@ class Gazebo:
         self.host = Host(simulator=self.world)
         self.client = Node("/client", loop=loop, master_uri=uri)
 
-    def start(self) -> None:
+    def start(self, distro: str = "noetic") -> None:
         """Start the server."""
         self.server = Node("/gazebo", loop=self.loop, master_uri=self.client.master_uri)
+        self.server.profile = PROFILES[distro]
         self.loop.spawn(GazeboServer(self.server, ["-u", "-e", "ode"], self.host).run())
         wait = self.client.wait_for_service("/gazebo/unpause_physics", PATIENCE_S)
         self.loop.run(wait, timeout_s=PATIENCE_S)

@@ -1,6 +1,7 @@
 """A world behind /gazebo: opened, filled, pushed, paused and turned back by services, as scripts do it."""
 
 import asyncio
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -132,6 +133,45 @@ def test_states_are_published_while_somebody_listens(gazebo: Gazebo) -> None:
     gazebo.client.subscribe("/gazebo/link_states", "gazebo_msgs/LinkStates", heard.append)
     until(lambda: heard)
     assert "ball::link" in heard[0].name
+
+
+_OFF = """<sdf version="1.6"><model name="off"><link name="link"><pose>0 0 0.5 0 0 1.570796326794896</pose>
+<inertial><mass>1</mass></inertial></link></model></sdf>"""
+
+
+def test_states_are_those_that_the_services_tell(gazebo: Gazebo) -> None:
+    """A model whose link is elsewhere, and one without a body that moves, too."""
+    assert gazebo.spawn(_OFF, "off", x=2.0).success
+    turning = {"position": {"x": 1.0, "z": 3.0}, "orientation": {"z": 1.0}}
+    there = {"model_name": "off", "pose": turning, "twist": {"linear": {"x": 0.25}, "angular": {"z": 0.5}}}
+    assert gazebo.call("set_model_state", "gazebo_msgs/SetModelState", model_state=there).success
+    models = gazebo.hear("/gazebo/model_states", "gazebo_msgs/ModelStates")
+    links = gazebo.hear("/gazebo/link_states", "gazebo_msgs/LinkStates")
+    until(lambda: models and links)
+
+    row = list(models[-1].name).index("off")
+    state = gazebo.state("off")
+    assert (models[-1].pose[row], models[-1].twist[row]) == (state.pose, state.twist)
+    assert (models[-1].pose[row].position.x, models[-1].pose[row].position.z) == (1.0, pytest.approx(3.0))
+    row = list(links[-1].name).index("off::link")
+    told = gazebo.call("get_link_state", "gazebo_msgs/GetLinkState", link_name="off::link").link_state
+    assert (links[-1].pose[row], links[-1].twist[row]) == (told.pose, told.twist)
+    assert "ground_plane::link" in list(links[-1].name)
+
+
+def test_who_counts_each_message_is_told_of_each_step(gazebo: Gazebo) -> None:
+    """A stand-in, which takes only the newest time, costs no stride of its own: ten steps are one."""
+    stamps: list[int] = []
+    time = gazebo.client.subscribe(
+        "/clock", "rosgraph_msgs/Clock", lambda m: stamps.append(m.clock.nanosec), queue_size=1
+    )
+    until(lambda: time.publishers)
+    gazebo.call("unpause_physics")
+    until(lambda: len(stamps) > 20)
+    assert {stamp % 10_000_000 for stamp in stamps} == {0}
+
+    gazebo.hear("/clock", "rosgraph_msgs/Clock")
+    until(lambda: any(b - a == 1_000_000 for a, b in pairwise(stamps)))
 
 
 def test_spawn_model_spawns_from_a_parameter_and_unpauses(gazebo: Gazebo) -> None:

@@ -144,11 +144,24 @@ def test_lights_are_changed_and_taken_away(gazebo: Gazebo) -> None:
     assert gone.status_message == "GetLightProperties: no light 'sun'; there are: none"
 
 
-@pytest.mark.parametrize(("rate", "period"), [(50.0, 0.02), (0, 0.001), ("fast", 0.01)])
-def test_the_clock_ticks_as_often_as_its_parameter_says(bare_gazebo: Gazebo, rate: object, period: float) -> None:
+@pytest.mark.parametrize(
+    ("rate", "distro", "period"),
+    [
+        (50.0, "noetic", 0.02),
+        (50, "kinetic", 0.02),
+        (50.0, "indigo", 0.001),
+        (0, "noetic", 0.001),
+        (None, "melodic", 0.001),
+        ("fast", "noetic", 0.001),
+    ],
+)
+def test_the_clock_ticks_as_often_as_its_parameter_says(
+    bare_gazebo: Gazebo, rate: object, distro: str, period: float
+) -> None:
     gazebo = bare_gazebo
-    gazebo.loop.run(gazebo.client.set_param("/gazebo/pub_clock_frequency", rate))
-    gazebo.start()
+    if rate is not None:
+        gazebo.loop.run(gazebo.client.set_param("/gazebo/pub_clock_frequency", rate))
+    gazebo.start(distro)
     heard = gazebo.hear("/clock", "rosgraph_msgs/Clock")
     gazebo.call("unpause_physics")
 

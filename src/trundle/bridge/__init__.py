@@ -1,5 +1,6 @@
 """Where the wings meet: snapshots and readings become messages on topics, /clock and tf."""
 
+from .beat import Beat
 from .calibration import calibration_of
 from .camera import CameraTopics, camera_topics
 from .clock import ClockTopic, clock_rate_hz
@@ -12,6 +13,7 @@ from .readings import contacts_message, fix_message, imu_message, points_message
 
 __all__ = [
     "WORLD_FRAME",
+    "Beat",
     "CameraTopics",
     "ClockTopic",
     "FrameNames",

@@ -1,34 +1,46 @@
 """Publishes simulation time on /clock."""
 
-import math
-
 from trundle.ros import Node
-from trundle.simulation import Snapshot
+from trundle.simulation import Simulation, Snapshot
+
+from .beat import Beat
+
+_RATE_HZ = 100.0
+_MOST_HZ = 1e6
+"""From here on each step is late."""
 
 
 class ClockTopic:
-    """/clock at 100 Hz of simulation time, unless another rate is asked for."""
+    """/clock at so many Hz of simulation time."""
 
-    RATE_HZ = 100.0
+    def __init__(self, node: Node, *, rate_hz: float | None = _RATE_HZ) -> None:
+        """Advertise.
 
-    def __init__(self, node: Node, *, rate_hz: float = RATE_HZ) -> None:
-        """Advertise; a rate of 0 is once a step."""
-        self.period_ns = round(1e9 / rate_hz) if rate_hz > 0.0 else 0
-        self._publisher = node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=10)
+        Args:
+            node: who tells the time.
+            rate_hz: how often [Hz]; None: at every step, for those to whom each counts.
+        """
+        self._period_ns = None if rate_hz is None else round(1e9 / rate_hz)
+        self._publisher = node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=Beat.QUEUE_SIZE)
 
-    def wanted(self) -> bool:
-        """Whether anybody listens."""
-        return self._publisher.has_subscribers
+    def join(self, simulation: Simulation) -> None:
+        """Begin; unheard, it costs no stride."""
+        if self._period_ns is None:
+            Beat(self._publisher, self.after_step).join(simulation)
+        else:
+            simulation.add_hook(self, period_ns=self._period_ns, wanted=lambda: self._publisher.has_subscribers)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell the time."""
         self._publisher.publish({"clock": snapshot.time_ns})
 
 
-async def clock_rate_hz(node: Node) -> float:
-    """What the graph says about /clock, as gazebo_ros reads it [Hz]; 0: once a step."""
-    rate = await node.get_param("~pub_clock_frequency", ClockTopic.RATE_HZ)
-    if isinstance(rate, bool) or not isinstance(rate, int | float) or not 0.0 <= rate < math.inf:
-        node.log_warn(f"pub_clock_frequency {rate!r} is no rate; /clock has {ClockTopic.RATE_HZ:g} Hz")
-        return ClockTopic.RATE_HZ
-    return float(rate)
+async def clock_rate_hz(node: Node) -> float | None:
+    """What the graph says about /clock, as gazebo_ros reads it [Hz]; None: once a step."""
+    if not node.profile.has_clock_frequency:
+        return None
+    rate = await node.get_param("~pub_clock_frequency", 0)
+    if isinstance(rate, bool) or not isinstance(rate, int | float):
+        node.log_warn(f"pub_clock_frequency {rate!r} is no rate; /clock ticks at each step")
+        return None
+    return float(rate) if 0.0 < rate <= _MOST_HZ else None

@@ -85,7 +85,7 @@ class GazeboWorld:
         self._nodes: dict[str, list[Node]] = {}
         """Model → nodes of its plugins; the world's have no name."""
         self._clock = SimClock(graph.loop)
-        self._clock_hz = ClockTopic.RATE_HZ
+        self._clock_hz: float | None = None
         self._pacer = Pacer(speed)
         self._page: Page | None = None
         self._record: Path | None = None
@@ -320,8 +320,7 @@ class GazeboWorld:
     def _build(self, world: World) -> None:
         assert self._node is not None
         simulation = Simulation(world, self._report)
-        clock = ClockTopic(self._node, rate_hz=self._clock_hz)
-        simulation.add_hook(clock, period_ns=clock.period_ns, wanted=clock.wanted)
+        ClockTopic(self._node, rate_hz=self._clock_hz).join(simulation)
         self._simulation = simulation
         if self._record is not None:
             self._recorder = WorldRecorder(simulation, self._record, self._say)

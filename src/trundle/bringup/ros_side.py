@@ -45,8 +45,7 @@ class RosSide:
         loop = graph.loop
         loop.run(self.node.ready())
         loop.run(self.node.set_param("/use_sim_time", True))
-        clock = ClockTopic(self.node)
-        simulation.add_hook(clock, period_ns=clock.period_ns, wanted=clock.wanted)
+        ClockTopic(self.node).join(simulation)
         still = StaticTransformBroadcaster(self.node)
         frames = SimulationFrames(self.node, still, stage.world, simulation.snapshot())
         simulation.add_hook(frames, period_ns=frames.period_ns, wanted=frames.wanted)

@@ -14,6 +14,8 @@ class LocalSubscriber(Protocol):
 
     is_raw: bool
     """Whether it wants bytes."""
+    wants_every: bool
+    """Whether each message counts; else the newest will do."""
 
     def receive(self, message: Message) -> None:
         """Take a message object."""
@@ -39,6 +41,11 @@ class Listeners:
     def is_held_up(self) -> bool:
         """Whether nobody can take a message now."""
         return bool(self.far) and not self.local and all(link.out.is_behind for link in self.far)
+
+    @property
+    def want_every(self) -> bool:
+        """Whether each message counts to one of them; what those of other processes want is not known."""
+        return bool(self.far) or any(subscriber.wants_every for subscriber in list(self.local))
 
     @property
     def dropped(self) -> int:

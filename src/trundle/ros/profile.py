@@ -29,6 +29,11 @@ class Profile:
 
     So up to Kinetic; not since gazebo_plugins 2.8.3, of Melodic (changelog, #707).
     """
+    has_clock_frequency: bool
+    """/gazebo/pub_clock_frequency slows /clock down; not before gazebo_ros 2.5.4, of Jade (changelog).
+
+    Without it /clock ticks at each step in every distribution (GazeboRosApiPlugin::publishSimTime).
+    """
 
 
 _INDIGO = Profile(
@@ -38,8 +43,14 @@ _INDIGO = Profile(
     publishes_empty_joint_states=True,
     planar_is_free=True,
     mirrored_diff_drive=True,
+    has_clock_frequency=False,
 )
-_LATER = {"use_tf_static": True, "publishes_empty_joint_states": False, "planar_is_free": False}
+_LATER = {
+    "use_tf_static": True,
+    "publishes_empty_joint_states": False,
+    "planar_is_free": False,
+    "has_clock_frequency": True,
+}
 PROFILES: dict[str, Profile] = {
     profile.distro: profile
     for profile in (

@@ -74,6 +74,11 @@ class Publisher:
         """Whether publishing reaches anybody now."""
         return self._wanted > 0
 
+    @property
+    def wants_every(self) -> bool:
+        """Whether each message counts to somebody; else, what is told again and again may be told less often."""
+        return self._wanted > 0 and self._listeners.want_every
+
     def publish(self, message: Message | dict[str, Any] | bytes) -> None:
         """Publish a message, from any thread; never blocks. The message is read-only from now on.
 

@@ -43,6 +43,8 @@ class Subscription:
         self.type = type_name
         self.is_raw = type_name == ANY_TYPE
         """Whether the callback gets bytes."""
+        self.wants_every = queue_size != 1
+        """Whether each message counts; else the newest will do."""
         self.received = 0
         self.dropped = 0
         """Messages thrown away because callbacks were too slow."""

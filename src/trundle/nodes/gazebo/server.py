@@ -14,7 +14,8 @@ from .models import advertise_models
 from .ode import OdeSettings
 from .properties import advertise_properties
 from .reconfigure import advertise_options
-from .states import StateTopics, advertise_states
+from .state_topics import StateTopics
+from .states import advertise_states
 from .timing import advertise_timing
 
 _EMPTY_WORLD = "worlds/empty.world"

@@ -122,7 +122,7 @@ class SpawnModel:
                 found.set()
 
         self._node.log_info(f"Waiting for model {model} before proceeding.")
-        listening = self._node.subscribe(f"{gazebo}/model_states", "gazebo_msgs/ModelStates", look)
+        listening = self._node.subscribe(f"{gazebo}/model_states", "gazebo_msgs/ModelStates", look, queue_size=1)
         await found.wait()
         listening.unregister()
 

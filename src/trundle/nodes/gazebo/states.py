@@ -1,61 +1,15 @@
-"""/gazebo's services and topics that read and write where models and links are."""
+"""/gazebo's services and topics by which others ask and say where models and links are."""
 
 from typing import Any
 
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.ros import Message, Node
-from trundle.simulation import LinkHandle, Simulation, Snapshot, expect_finite
+from trundle.simulation import LinkHandle, Simulation, expect_finite
 from trundle.spatial import Pose, Twist
 
 from ..host import Simulator
-from .entities import find_link, find_model, is_world, scoped_links, world_from
+from .entities import find_link, find_model, is_world, world_from
 from .messages import pose_fields, pose_of, provide, twist_fields, twist_of
-
-_STATE_RATE_HZ = 100.0
-
-
-class StateTopics:
-    """/gazebo/model_states and link_states, published while somebody listens; by the server while time stands still.
-
-    Flat out, what stands still is told of when somebody begins to listen or models come and go, so that runs repeat.
-    """
-
-    period_s = 1.0 / _STATE_RATE_HZ
-
-    def __init__(self, node: Node, simulator: Simulator) -> None:
-        self._simulator = simulator
-        topics = (("~model_states", "gazebo_msgs/ModelStates"), ("~link_states", "gazebo_msgs/LinkStates"))
-        self._models, self._links = [
-            node.advertise(name, kind, queue_size=10, on_connect=lambda _: simulator.post(self._publish_at_rest))
-            for name, kind in topics
-        ]
-        simulator.post(self._begin)
-
-    def _begin(self) -> None:
-        simulation = self._simulator.simulation
-        simulation.on_change(self._publish_at_rest)
-        simulation.add_hook(self, period_ns=round(self.period_s * 1e9), wanted=self.wanted)
-
-    def after_step(self, _snapshot: Snapshot) -> None:
-        """Say it 100 times in a second of simulation time."""
-        self.publish()
-
-    def wanted(self) -> bool:
-        """Whether anybody listens."""
-        return self._models.has_subscribers or self._links.has_subscribers
-
-    def _publish_at_rest(self) -> None:
-        if self._simulator.in_step and self._simulator.paused:
-            self.publish()
-
-    def publish(self) -> None:
-        """Say where everything is; on the simulation's thread."""
-        simulation = self._simulator.simulation
-        if self._models.has_subscribers:
-            rows = [(m.name, m.pose, m.base.twist if m.links else Twist()) for m in simulation.models]
-            self._models.publish(_arrays(rows))
-        if self._links.has_subscribers:
-            self._links.publish(_arrays([(name, link.pose, link.twist) for name, link in scoped_links(simulation)]))
 
 
 def advertise_states(node: Node, simulator: Simulator) -> None:
@@ -180,11 +134,3 @@ def _tried(node: Node, work: Any, message: Message) -> None:
         work(message)
     except TrundleError as error:
         node.log_error(str(error))
-
-
-def _arrays(rows: list[tuple[str, Pose, Twist]]) -> dict[str, Any]:
-    return {
-        "name": [name for name, *_ in rows],
-        "pose": [pose_fields(pose) for _, pose, _ in rows],
-        "twist": [twist_fields(twist) for *_, twist in rows],
-    }

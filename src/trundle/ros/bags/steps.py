@@ -18,6 +18,8 @@ class StepRecorder:
     """Hears each publisher of a loop from its birth on; messages of one instant go into the bag in a fixed order."""
 
     is_raw = True
+    wants_every = False
+    """It writes what is said; nothing is said more often for its sake."""
 
     def __init__(self, loop: GraphLoop, path: Path) -> None:
         """Open the file.
