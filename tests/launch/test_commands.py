@@ -81,6 +81,16 @@ def test_a_command_that_hangs_is_ended() -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="sessions are POSIX's")
+def test_who_waits_for_a_slow_command_is_told(
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("trundle.launch.programs._QUIET_S", 0.01)
+
+    assert resolve(f"{PYTHON} -c 'import time; time.sleep(0.5)'") == ""
+
+    assert capfd.readouterr().err == f"still waiting for command {PYTHON!r}, 60 s at most\n"
+
+
 def test_what_a_killed_command_left_behind_may_go_on_writing(tmp_path: Path) -> None:
     """A daemon holds the output open and writes once nobody reads any more."""
     daemon = tmp_path / "daemon.py"

@@ -13,6 +13,8 @@ from typing import IO
 _MOST_BYTES = 64 * 1024 * 1024
 """The largest robot descriptions are a few MB."""
 _CHUNK_BYTES = 65536
+_QUIET_S = 5.0
+"""Somebody waits for the command; after so long it is said for what."""
 _LAST_S = 1.0
 """What was killed may have left a program behind that holds its output open."""
 
@@ -37,6 +39,9 @@ def run_command(argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: fl
         assert process.stderr is not None
         readers = [_Reader(stream, lambda: _kill(process)) for stream in (process.stdout, process.stderr)]
         due = time.monotonic() + timeout_s
+        readers[0].join(min(_QUIET_S, timeout_s))
+        if readers[0].is_alive() and timeout_s > _QUIET_S:
+            print(f"still waiting for command {argv[0]!r}, {timeout_s:g} s at most", file=sys.stderr)
         for reader in readers:
             reader.join(max(0.0, due - time.monotonic()))
         is_late = any(reader.is_alive() for reader in readers)
