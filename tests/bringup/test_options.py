@@ -63,6 +63,32 @@ def test_a_camera_takes_pictures_at_the_rate_it_is_set_to(gazebo: Gazebo) -> Non
     assert shortest() == 5_000_000
 
 
+def test_both_eyes_of_a_multicamera_keep_step_at_another_rate(gazebo: Gazebo) -> None:
+    """One is asked, both follow; and where the right one is, the plugin says."""
+    one = CAMERA.partition("<camera>")[2].partition("</camera>")[0]
+    eyes = "".join(f'<camera name="my_{side}_eye">{one}</camera>' for side in ("left", "right"))
+    both = CAMERA.replace(f"<camera>{one}</camera>", eyes).replace('type="camera"', 'type="multicamera"')
+    both = both.replace("ros_camera.so", "ros_multicamera.so").replace(
+        "</plugin>", "<hackBaseline>0.1</hackBaseline></plugin>"
+    )
+    assert gazebo.spawn(both, "mast").success
+    there = gazebo.client.wait_for_service("/r/front/left/set_parameters", PATIENCE_S)
+    gazebo.loop.run(there, timeout_s=PATIENCE_S)
+    change(gazebo, "/r/front/left", imager_rate=200)
+    heard = {side: gazebo.hear(f"/r/front/{side}/image_raw", "sensor_msgs/Image") for side in ("left", "right")}
+    infos = {side: gazebo.hear(f"/r/front/{side}/camera_info", "sensor_msgs/CameraInfo") for side in ("left", "right")}
+    gazebo.call("unpause_physics")
+
+    def gaps(side: str) -> set[int]:  # a busy machine drops pictures
+        return {ns_of(b.header.stamp) - ns_of(a.header.stamp) for a, b in pairwise(list(heard[side]))}
+
+    until(lambda: all(5_000_000 in gaps(side) for side in heard))
+    assert all(gap % 5_000_000 == 0 for side in heard for gap in gaps(side))
+    until(lambda: all(infos.values()))
+    assert infos["left"][-1].P[3] == 0.0
+    assert infos["right"][-1].P[3] == pytest.approx(-0.1 * infos["right"][-1].P[0])
+
+
 def test_gains_are_changed_while_they_are_in_use(gazebo: Gazebo) -> None:
     pid = {"p": 300.0, "i": 0.0, "d": 60.0}
     controller = {"type": "effort_controllers/JointPositionController", "joint": "lift", "pid": pid}

@@ -1,5 +1,6 @@
 """Camera sensors: a snapshot becomes a picture."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,6 +77,13 @@ class CameraSensor(MountedSensor[CameraReading]):
         self.images = 0
         """Pictures finished."""
         self.scenery = scenery
+        self.together: Sequence[CameraSensor] = (self,)
+        """All cameras of its sensor, which share one clock."""
+
+    def set_rate(self, rate_hz: float) -> None:
+        """Have all cameras of the sensor take pictures so often from now on."""
+        for camera in self.together:
+            MountedSensor.set_rate(camera, rate_hz)
 
     @property
     def name(self) -> str:

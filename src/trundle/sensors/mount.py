@@ -75,12 +75,15 @@ def mount_cameras(
                 _name_unsupported(sensor, report)
                 scenery = scenery or Scenery(simulation, make)
                 _doubt_labels(sensor, kind, scenery, report)
+                together: list[CameraSensor] = []
                 for part, optics in enumerate(_made(sensor, report)):
                     random = np.random.default_rng([simulation.seed, number, part])
                     camera = kind(Spot(owner, link, sensor, index, random), optics, scenery=scenery)
                     camera.follow(simulation[owner.name].link(link.name))
+                    camera.together = together
                     _save(camera, world.name, report)
-                    cameras.append(camera)
+                    together.append(camera)
+                cameras += together
             index += 1
     return cameras
 

@@ -1,6 +1,5 @@
 """libgazebo_ros_camera.so: pictures and their calibration, where the plugin says."""
 
-from collections.abc import Sequence
 from typing import Any
 
 from trundle.bridge import calibration_of, image_maker
@@ -13,6 +12,7 @@ from .place import ignore, namespace_of, topic_in
 from .sensor import Outlet, frame_of
 
 _FASTEST_HZ = 1000.0
+_SIDES = ["left", "right"]
 
 
 def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
@@ -21,7 +21,8 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
     Parameters, with gazebo_ros' defaults: <cameraName> (none), <imageTopicName> image_raw, <cameraInfoTopicName>
     camera_info, <frameName> world, <updateRate> 0 (the sensor's), and for camera_info alone <CxPrime>, <Cx>, <Cy>,
     <focalLength> 0 (the picture's), <hackBaseline> 0, <distortionK1> to <distortionT2>. Where <borderCrop> (true) is
-    false, a distorted picture is not enlarged.
+    false, a distorted picture is not enlarged. Of a multicamera's, <hackBaseline> is how far the right one is from the
+    left; without it, what the file says.
     """
     keep_borders_if_told(sensor, tag, report)
     frame, rate_hz = frame_of(tag, "world"), _number(tag, "updateRate", report)
@@ -38,25 +39,18 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
         infos.publish(reading, lambda: calibration)
 
     sensor.listen(publish, wanted=lambda: pictures.wanted() or infos.wanted())
-    offer_rate(sensor, node, tag, (pictures, infos), rate_hz)
+    offer_rate(sensor, node, tag, rate_hz)
 
 
-def offer_rate(
-    sensor: CameraSensor, node: Node, tag: PluginTag, outlets: Sequence[Outlet], plugin_rate_hz: float
-) -> None:
+def offer_rate(sensor: CameraSensor, node: Node, tag: PluginTag, plugin_rate_hz: float) -> None:
     """Let users change how often pictures are taken, as dynamic_reconfigure's `imager_rate` of the camera.
 
-    Of a multicamera's pictures, which share one clock, the rate stays.
+    It is the sensor's rate, of all cameras of a multicamera; the plugin's <updateRate> remains the most that it tells.
     """
-    if sensor.optics.name:
-        return
     rates = [rate for rate in (sensor.rate_hz, plugin_rate_hz) if rate > 0.0]
 
     def apply(values: Options) -> Options:
-        rate_hz = float(values["imager_rate"])
-        sensor.set_rate(rate_hz)
-        for outlet in outlets:
-            outlet.throttle.set_rate(0.0)
+        sensor.set_rate(float(values["imager_rate"]))
         return values
 
     option = Option(name="imager_rate", value=min(rates), lower=0.1, upper=_FASTEST_HZ, description="Pictures a second")
@@ -76,7 +70,14 @@ def camera_topic(sensor: CameraSensor, tag: PluginTag, parameter: str, default: 
 
 def _space(sensor: CameraSensor, tag: PluginTag) -> str:
     name = tag.node.string("cameraName").strip("/")
-    return "/".join(part for part in (namespace_of(tag, sensor.model.name), name, sensor.optics.name) if part)
+    return "/".join(part for part in (namespace_of(tag, sensor.model.name), name, _eye(sensor)) if part)
+
+
+def _eye(sensor: CameraSensor) -> str:
+    """What sets a multicamera's topics apart: a pair's are `left` and `right`, whatever else they are called."""
+    names = [camera.name for camera in sensor.sensor.cameras]
+    sides = [next((side for side in _SIDES if side in name), "") for name in names]
+    return sides[names.index(sensor.optics.name)] if sorted(sides) == _SIDES else sensor.optics.name
 
 
 def told_calibration(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> dict[str, object]:
@@ -89,7 +90,10 @@ def told_calibration(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) 
         if value:
             k[index] = value
             p[index + index // 3] = value
-    p[3] -= p[0] * _number(tag, "hackBaseline", report)
+    baseline = _number(tag, "hackBaseline", report)
+    if baseline:
+        is_origin = len(sensor.sensor.cameras) > 1 and "right" not in sensor.optics.name
+        p[3] = 0.0 if is_origin else -p[0] * baseline
     bends = [_number(tag, f"distortion{name}", report) for name in ("K1", "K2", "T1", "T2", "K3")]
     return {**found, "K": k, "P": p, "D": bends if any(bends) else found["D"]}
 

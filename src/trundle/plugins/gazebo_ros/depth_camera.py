@@ -66,7 +66,7 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
 
     outlets = (pictures, infos, depths, depth_infos, points)
     sensor.listen(publish, wanted=lambda: any(each.wanted() for each in outlets))
-    offer_rate(sensor, node, tag, outlets, rate_hz)
+    offer_rate(sensor, node, tag, rate_hz)
 
 
 def _millimetres(reading: CameraReading) -> dict[str, object]:

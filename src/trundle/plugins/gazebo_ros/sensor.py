@@ -16,10 +16,6 @@ class Throttle:
         self._period_ns = period_of(rate_hz)
         self._next_ns = 0
 
-    def set_rate(self, rate_hz: float) -> None:
-        """Be another from now on."""
-        self._period_ns, self._next_ns = period_of(rate_hz), 0
-
     def passes(self, time_ns: int) -> bool:
         """Whether this reading is one of them; a rate of 0 takes all."""
         if time_ns + self._period_ns < self._next_ns:  # time was turned back
@@ -48,7 +44,7 @@ class Outlet:
         """Advertise."""
         self._topic: Publisher = node.advertise(topic, kind, queue_size=1)
         self._frame = frame
-        self.throttle = Throttle(rate_hz)
+        self._throttle = Throttle(rate_hz)
 
     def wanted(self) -> bool:
         """Whether anybody listens."""
@@ -56,7 +52,7 @@ class Outlet:
 
     def publish(self, reading: Stamped, make: Callable[[], Mapping[str, object]]) -> None:
         """Make a message of a reading and publish it, if somebody listens and it is due."""
-        if self._topic.has_subscribers and self.throttle.passes(reading.time_ns):
+        if self._topic.has_subscribers and self._throttle.passes(reading.time_ns):
             header = {"stamp": reading.time_ns, "frame_id": self._frame}
             self._topic.publish({**make(), "header": header})
 
