@@ -1,5 +1,6 @@
 """Bags: both formats there and back, cut off anywhere, recorded and played."""
 
+import os
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
@@ -377,6 +378,12 @@ def test_an_unindexed_bag_says_what_to_do(messages: Messages, tmp_path: Path) ->
         with pytest.raises(UnindexedBagError, match="Run trundle bag reindex"):
             open_bag(tmp_path / name)
         out.close()
+    with create_bag(tmp_path / "y.bag") as out:
+        for message in _stream(messages, 5):
+            out.write(message)
+    os.truncate(tmp_path / "y.bag", (tmp_path / "y.bag").stat().st_size - 100)
+    with pytest.raises(UnindexedBagError, match="Run trundle bag reindex"):
+        open_bag(tmp_path / "y.bag")
 
 
 def test_expressions_written_for_rospy_are_understood(messages: Messages) -> None:
@@ -386,6 +393,9 @@ def test_expressions_written_for_rospy_are_understood(messages: Messages) -> Non
     assert m.header.stamp.secs == 5
     assert m.header.stamp.nsecs == 500_000_000
     assert m.header.stamp > MessageView(messages.stamp(5_400_000_000))
+    assert (m.header.stamp - MessageView(messages.stamp(6_000_000_000))).to_sec() == -0.5
+    assert str(m.header.stamp) == "5500000000"
+    assert str(MessageView(messages.new("geometry_msgs/Point", {"x": 1}), messages)) == "x: 1.0\ny: 0.0\nz: 0.0"
     tree = MessageView(messages.new("tf2_msgs/TFMessage", {"transforms": [{"child_frame_id": "a"}]}))
     assert tree.transforms[0].child_frame_id == "a"
 

@@ -2,12 +2,15 @@
 
 import argparse
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Generator, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from itertools import chain, islice
 from pathlib import Path
 
 from trundle.diagnostics import UsageError
-from trundle.ros import BagError, BagMessage, Messages, MessageView, create_bag, open_bag, recovered
+from trundle.ros import BagError, BagMessage, BagReader, Messages, MessageView, create_bag, open_bag, recovered
 
+from .bag_meter import Meter
 from .expression import Expression, expression
 
 
@@ -15,27 +18,38 @@ def filter_bag(args: argparse.Namespace) -> int:
     """Copy the messages for which an expression is true."""
     source, target = Path(args.inbag), Path(args.outbag)
     if not source.is_file():
-        raise UsageError(f"Cannot locate input bag file [{source}]")
+        print(f"Cannot locate input bag file [{source}]", file=sys.stderr)
+        return 2
     if source.resolve() == target.resolve():
-        raise UsageError(f"Cannot use same file as input and output [{source}]")
+        print(f"Cannot use same file as input and output [{source}]", file=sys.stderr)
+        return 3
     wanted, printed = Expression(args.expression), expression(args.print)
     messages = Messages(bare=True)
-    target.unlink(missing_ok=True)
-    with open_bag(source) as bag, create_bag(target) as out:
-        for message in bag.messages():
-            connection = message.connection
-            messages.add_definition(connection.type, connection.definition)
-            names = {
-                "topic": connection.topic,
-                "m": MessageView(messages.deserialize(message.data, connection.type)),
-                "t": MessageView(messages.stamp(message.stamp_ns)),
-            }
-            is_wanted = bool(wanted.value(**names))
-            if printed is not None:
-                print("MATCH" if is_wanted else "NO MATCH", printed.value(**names))
-            if is_wanted:
-                out.write(message)
+    with open_bag(source) as bag:
+        target.unlink(missing_ok=True)
+        meter = Meter(args.outbag, _size(bag), is_quiet=printed is not None)
+        with create_bag(target) as out:
+            for message in bag.messages():
+                connection = message.connection
+                messages.add_definition(connection.type, connection.definition)
+                names = {
+                    "topic": connection.topic,
+                    "m": MessageView(messages.deserialize(message.data, connection.type), messages),
+                    "t": MessageView(messages.stamp(message.stamp_ns)),
+                }
+                is_wanted = bool(wanted.value(**names))
+                if printed is not None:
+                    print("MATCH" if is_wanted else "NO MATCH", printed.value(**names))
+                if is_wanted:
+                    out.write(message)
+                meter.step(len(message.data))
+        meter.finish()
     return 0
+
+
+def _size(bag: BagReader) -> int:
+    """What lies in a bag, not compressed [bytes]."""
+    return sum(chunk.size for chunk in bag.chunks)
 
 
 def compress(args: argparse.Namespace) -> int:
@@ -50,32 +64,40 @@ def decompress(args: argparse.Namespace) -> int:
 
 def reindex(args: argparse.Namespace) -> int:
     """Write bags anew from whatever whole messages are in them."""
-    return _rewrite(args, "none", recovered)
+    return _rewrite(args, "none", _cut_off)
 
 
-def _indexed(path: Path) -> Iterable[BagMessage]:
+Opened = tuple[int, Iterator[BagMessage]]
+"""Size [bytes] and messages."""
+Opening = Callable[[Path], AbstractContextManager[Opened]]
+
+
+@contextmanager
+def _indexed(path: Path) -> Generator[Opened]:
     with open_bag(path) as bag:
-        yield from bag.messages()
+        yield _size(bag), bag.messages()
 
 
-def _rewrite(args: argparse.Namespace, compression: str, read: Callable[[Path], Iterable[BagMessage]]) -> int:
+@contextmanager
+def _cut_off(path: Path) -> Generator[Opened]:
+    messages = recovered(path)
+    first = list(islice(messages, 1))  # what is no bag is said before the meter begins
+    yield path.stat().st_size, chain(first, messages)
+
+
+def _rewrite(args: argparse.Namespace, compression: str, opened: Opening) -> int:
     """Write each bag anew; one that cannot be is said, stays as it was, and the others follow."""
     failures = 0
     for name in args.bags:
         try:
-            count, target = _rewrite_one(Path(name), args, compression, read)
+            _rewrite_one(Path(name), args, compression, opened)
         except (BagError, UsageError, OSError) as error:
             print(f"ERROR: {error}", file=sys.stderr)
             failures += 1
-            continue
-        if not args.quiet:
-            print(f"{target}: {count} messages")
     return 1 if failures else 0
 
 
-def _rewrite_one(
-    path: Path, args: argparse.Namespace, compression: str, read: Callable[[Path], Iterable[BagMessage]]
-) -> tuple[int, Path]:
+def _rewrite_one(path: Path, args: argparse.Namespace, compression: str, opened: Opening) -> None:
     target = path if args.output_dir is None else Path(args.output_dir) / path.name
     backup = path.with_name(f"{path.stem}.orig{path.suffix}")
     is_in_place = target.resolve() == path.resolve()
@@ -83,15 +105,15 @@ def _rewrite_one(
         raise UsageError(f"Skipping {path}. Backup path {backup} already exists.")
     working = target.with_name(f"{target.name}.part")
     working.unlink(missing_ok=True)
-    count = 0
     try:
-        with create_bag(working, compression=compression) as out:
-            for message in read(path):
+        with opened(path) as (size, messages), create_bag(working, compression=compression) as out:
+            meter = Meter(str(target), size, is_quiet=args.quiet)
+            for message in messages:
                 out.write(message)
-                count += 1
+                meter.step(len(message.data))
+        meter.finish()
         if is_in_place:
             path.replace(backup)
         working.replace(target)
     finally:
         working.unlink(missing_ok=True)
-    return count, target

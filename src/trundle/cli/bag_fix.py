@@ -41,7 +41,7 @@ def encrypt(args: argparse.Namespace) -> int:
     del args
     raise UsageError(
         "bags are not encrypted here: rosbag's plugin needs GnuPG keys of its own; encrypt the file, "
-        "as with gpg -e drive.bag or age -e, and decrypt it before playing"
+        "as with gpg -e drive.bag or age -e, and decrypt it before playing; what rosbag encrypted, it alone decrypts"
     )
 
 

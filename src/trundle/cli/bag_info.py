@@ -13,6 +13,8 @@ from typing import Any, cast
 
 from trundle.ros import BagReader, Messages, open_bag
 
+from .bag_meter import byte_text
+
 _KEY = re.compile(r"(\w+)|\[(-?\d+)\]")
 
 
@@ -86,14 +88,14 @@ class Summary:
                 ("duration", _duration(self._end - self._start)),
                 ("start", _date(self._start)),
                 ("end", _date(self._end)),
-                ("size", _bytes(self._size)),
+                ("size", byte_text(self._size)),
                 ("messages", str(sum(self._bag.counts))),
                 *self._compression_rows(),
                 *_titled("types", self._type_lines()),
                 *_titled("topics", self._topic_lines()),
             ]
         else:
-            rows.append(("size", _bytes(self._size)))
+            rows.append(("size", byte_text(self._size)))
         width = max(len(title) for title, _ in rows) + 1
         lines = [f"{title + ':' if title else '':<{width}} {value}" for title, value in rows]
         return "\n".join(lines).rstrip()
@@ -154,10 +156,10 @@ class Summary:
             return rows
         size, compressed = self._sum(lambda c: c.size), self._sum(lambda c: c.compressed)
         share = f" ({100.0 * compressed / size:.2f}%)"
-        sizes = _aligned([_bytes(size), _bytes(compressed)])
+        sizes = _aligned([byte_text(size), byte_text(compressed)])
         duration = self._end - self._start
         if duration > 0:
-            rates = _aligned([_bytes(size / duration), _bytes(compressed / duration)])
+            rates = _aligned([byte_text(size / duration), byte_text(compressed / duration)])
             sizes = [f"{text} @ {rate}/s" for text, rate in zip(sizes, rates, strict=True)]
         else:
             share = ""
@@ -240,14 +242,6 @@ def _duration(seconds: float) -> str:
 def _date(seconds: float) -> str:
     fraction = f"{seconds - int(seconds):.2f}"[1:]
     return f"{time.strftime('%b %d %Y %H:%M:%S', time.localtime(seconds))}{fraction} ({seconds:.2f})"
-
-
-def _bytes(size: float) -> str:
-    for suffix in ("KB", "MB", "GB", "TB"):
-        size /= 1024.0
-        if size < 1024.0:
-            return f"{size:.1f} {suffix}"
-    return f"{size:.1f} TB"
 
 
 def _hertz(rate: float) -> str:

@@ -30,20 +30,28 @@ def main(args: argparse.Namespace) -> int:
         for name in words.rest:
             say(f"[ INFO] [{time.time():.9f}]: Opening {name}\n")
             bags.append(stack.enter_context(open_bag(Path(name))))
+        if args.prefix:
+            say(f"[ INFO] [{time.time():.9f}]: Using prefix '{args.prefix}'' for topics \n")
+        say("\n")
         player = Player(node, bags, _options(args))
         if player.is_empty:
-            print("No messages to play on specified topics.  Exiting.\n", file=sys.stderr)
+            print("No messages to play on specified topics.  Exiting.", file=sys.stderr)
             return 0
+        if args.rate_control_topic:
+            say("Creating rate control topic subscriber... done.\n")
         publishers = player.advertise()
         player.is_paused = args.pause
         _provide_pausing(node, player)
         loop.run(node.ready(), None)
-        say(f"\nWaiting {args.delay:g} seconds after advertising topics...")
+        say(f"Waiting {args.delay:g} seconds after advertising topics...")
         time.sleep(max(0.0, args.delay))
         say(" done.\n")
-        while args.wait_for_subscribers and not all(publisher.has_subscribers for publisher in publishers):
-            time.sleep(_CONNECTED_S)
         say("\nHit space to toggle paused, or 's' to step.\n")
+        if args.wait_for_subscribers:
+            say("Waiting for subscribers.\n")
+            while not all(publisher.has_subscribers for publisher in publishers):
+                time.sleep(_CONNECTED_S)
+            say("Finished waiting for subscribers.\n")
         with _keys() as pressed:
             attend = _Attendant(player, pressed, quiet=args.quiet)
             player.play(attend)
@@ -60,7 +68,7 @@ def _options(args: argparse.Namespace) -> PlayOptions:
     return PlayOptions(
         rate=args.rate,
         start_s=args.start,
-        duration_s=args.duration,
+        duration_s=args.duration or None,  # 0 is no limit to the original
         topics=frozenset(args.topics),
         pause_topics=frozenset(args.pause_topics),
         prefix=args.prefix,

@@ -18,10 +18,12 @@ from .running import running_node
 
 def main(args: argparse.Namespace) -> int:
     """Record until a limit is reached, Ctrl-C or SIGTERM; the bag is closed and readable after each of them."""
-    words = parse_arguments(args.topics)
+    words = parse_arguments(_without_size(args))
     options = _options(args, words.rest)
     if args.udp:
         print("--udp: there is no UDPROS here; the messages come over TCP", file=sys.stderr)
+    if args.node and not args.quiet:
+        print(f"Recording from: {args.node}", flush=True)
     with running_node("record", words) as (loop, node):
         loop.run(follow_time(node), None)
         recorder = Recorder(node, options, say=(lambda _: None) if args.quiet else _say)
@@ -35,6 +37,16 @@ def main(args: argparse.Namespace) -> int:
         if recorder.error is not None:
             raise BagError(f"recording broke off: {recorder.error}")
     return 0
+
+
+def _without_size(args: argparse.Namespace) -> list[str]:
+    """What is to be recorded, but for the size of old scripts' `--split 1024`."""
+    topics: list[str] = args.topics
+    if args.split and topics and topics[0].isdigit():
+        print(f"--split {topics[0]}: an old form, taken for --split --size {topics[0]}", file=sys.stderr)
+        args.size = int(topics[0])
+        return topics[1:]
+    return topics
 
 
 def _options(args: argparse.Namespace, topics: tuple[str, ...]) -> RecordOptions:

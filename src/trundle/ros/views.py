@@ -3,7 +3,8 @@
 import functools
 from typing import Any
 
-from .messages import Message
+from .messages import Message, Messages
+from .printing import MessagePrinter
 from .type_texts import ros_name
 
 
@@ -11,10 +12,12 @@ from .type_texts import ros_name
 class MessageView:
     """A message, or a time in it, seen as rospy shows it; arrays and numbers are as they are."""
 
-    __slots__ = ("_message",)
+    __slots__ = ("_message", "_messages")
 
-    def __init__(self, message: Message) -> None:
+    def __init__(self, message: Message, messages: Messages | None = None) -> None:
+        """Look at a message; the store it is of is needed to print it."""
         self._message = message
+        self._messages = messages
 
     def __getattr__(self, name: str) -> Any:
         message = self._message
@@ -24,7 +27,7 @@ class MessageView:
             return message.sec if name == "secs" else message.nanosec
         for field in (name, f"{name}_"):
             if hasattr(message, field):
-                return _seen(getattr(message, field))
+                return _seen(getattr(message, field), self._messages)
         raise AttributeError(f"no field named {name} in {ros_name(message.__msgtype__)}")
 
     def to_nsec(self) -> int:
@@ -45,14 +48,25 @@ class MessageView:
     def __lt__(self, other: "MessageView") -> bool:
         return self.to_nsec() < other.to_nsec()
 
+    def __sub__(self, other: "MessageView") -> "MessageView":
+        ns = self.to_nsec() - other.to_nsec()
+        return MessageView(type(self._message)(sec=ns // 10**9, nanosec=ns % 10**9))
+
     def __hash__(self) -> int:
         return hash(repr(self._message))
 
     def __repr__(self) -> str:
         return repr(self._message)
 
+    def __str__(self) -> str:
+        if hasattr(self._message, "nanosec"):
+            return str(self.to_nsec())
+        if self._messages is None:
+            return repr(self._message)
+        return MessagePrinter(messages=self._messages).text(self._message, ros_name(self._message.__msgtype__))
 
-def _seen(value: Any) -> Any:
+
+def _seen(value: Any, messages: Messages | None) -> Any:
     if isinstance(value, list):
-        return [_seen(item) for item in value]
-    return MessageView(value) if hasattr(value, "__msgtype__") else value
+        return [_seen(item, messages) for item in value]
+    return MessageView(value, messages) if hasattr(value, "__msgtype__") else value

@@ -261,6 +261,7 @@ class Recorder:
         if not options.splits:
             self.done.set()
             return
+        self._say(f"Closing '{self._path}'.")
         self._close()
         while options.max_splits and len(self._files) >= options.max_splits:
             self._files.pop(0).unlink(missing_ok=True)

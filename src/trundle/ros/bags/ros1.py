@@ -151,7 +151,7 @@ def _told(path: Path) -> Generator[None]:
     try:
         yield
     except ReaderError as error:
-        if "not indexed" in str(error):
+        if "not indexed" in str(error) or "index looks damaged" in str(error):
             raise UnindexedBagError(path) from None
         raise BagError(f"{path} cannot be read: {error}") from None
     except BagError:
