@@ -284,6 +284,22 @@ def test_shutting_down_leaves_nothing_at_the_master(graph: Any) -> None:
     assert node.is_shut_down
 
 
+def test_what_was_unregistered_just_before_the_end_is_not_left_at_the_master(graph: Any) -> None:
+    node = graph.node("n")
+    ends = [node.advertise("a", STRING), node.subscribe("b", STRING, print)]
+    ends.append(node.advertise_service("s", "std_srvs/Empty", lambda _: {}))
+    graph.ready(node)
+
+    async def end() -> None:
+        for each in ends:
+            each.unregister()
+        await node.shutdown()
+
+    graph.loop.run(end())
+    state = MasterProxy(graph.core.uri).call("getSystemState")
+    assert not [name for table in state for name, nodes in table if "/n" in nodes]
+
+
 def test_a_second_node_of_a_name_ends_the_first(graph: Any, far: Any) -> None:
     first = graph.node("twin")
     first.advertise("a", STRING)

@@ -90,6 +90,8 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         self._subscriptions: dict[str, list[Subscription]] = {}
         self._publisher_uris: dict[str, list[str]] = {}
         self._services: dict[str, Service] = {}
+        self._leaving: set[tuple[str, str]] = set()
+        """What the master has still to be told that it has ended."""
         self._noted = Noted()
         self.watched: dict[str, list[ParamCallback]] = {}
         self._rosout: Publisher | None = None
@@ -235,7 +237,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
                 return
             del self._publishers[publisher.topic]
         self.loop.call_soon(publisher.close)
-        self._errands.add(lambda: self._tell("unregisterPublisher", publisher.topic, self.uri))
+        self._leave("unregisterPublisher", publisher.topic)
 
     def unregister_subscription(self, subscription: Subscription) -> None:
         """Stop listening; the master is told when nothing in this node listens to the topic any more."""
@@ -248,7 +250,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
                 del self._subscriptions[subscription.topic]
         self.loop.call_soon(subscription.close)
         if not others:
-            self._errands.add(lambda: self._tell("unregisterSubscriber", subscription.topic, self.uri))
+            self._leave("unregisterSubscriber", subscription.topic)
 
     def unregister_service(self, service: Service) -> None:
         """Stop providing a service."""
@@ -257,7 +259,17 @@ class Node(NodeCalls, NodeLinks, NodeLog):
                 return
             del self._services[service.name]
         self.loop.call_soon(service.close)
-        self._errands.add(lambda: self._tell("unregisterService", service.name, self._slave.service_uri))
+        self._leave("unregisterService", service.name)
+
+    def _leave(self, method: str, name: str) -> None:
+        """Have the master told; if the node shuts down before, by then."""
+        self._leaving.add((method, name))
+
+        async def leave() -> None:
+            await self._farewell(method, name)
+            self._leaving.discard((method, name))
+
+        self._errands.add(leave)
 
     async def params_told(self) -> None:
         """Wait until the parameters this node was made with are set, or nobody is there to take them."""
@@ -311,9 +323,10 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         self.closed.set()
 
     async def _unregister_all(self) -> None:
-        farewells = [self._tell("unregisterService", name, self._slave.service_uri) for name in self._services]
-        farewells += [self._tell("unregisterSubscriber", topic, self.uri) for topic in self._subscriptions]
-        farewells += [self._tell("unregisterPublisher", topic, self.uri) for topic in self._publishers]
+        ended = {("unregisterService", name) for name in self._services} | self._leaving
+        ended |= {("unregisterSubscriber", topic) for topic in self._subscriptions}
+        ended |= {("unregisterPublisher", topic) for topic in self._publishers}
+        farewells = [self._farewell(method, name) for method, name in ended]
         farewells += [self._tell("unsubscribeParam", self.uri, name) for name in self.watched]
         await asyncio.gather(*farewells, return_exceptions=True)
 
@@ -358,6 +371,9 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         except MasterUnreachableError:
             self._params_told.set()  # whoever waits for them learns the reason by asking
             raise
+
+    async def _farewell(self, method: str, name: str) -> None:
+        await self._tell(method, name, self._slave.service_uri if method == "unregisterService" else self.uri)
 
     async def _tell(self, method: str, *arguments: object) -> None:
         await self.ask(method, *arguments)
