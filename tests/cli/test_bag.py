@@ -216,6 +216,19 @@ def _without_time(text: str) -> str:
     return re.sub(r"\d\d:\d\d", "00:00", text.replace("\r", "\n"))
 
 
+@pytest.mark.real_ros
+def test_a_recorded_topic_has_the_name_it_was_asked_for_by(graph: Any, original: Any, tmp_path: Path) -> None:
+    """`<remap from="scan" to="/robot/scan"/>` of a launch file changes what is heard, not what is written."""
+    node = graph.node("talker")
+    node.advertise("/robot/scan", STRING, latch=True).publish({"data": "hello"})
+    graph.ready(node)
+    for topic in ("scan", "/scan"):
+        words = ["bag", "record", "-q", "-l", "1", topic, "/scan:=/robot/scan", "-O"]
+        assert graph.trundle(*words, str(tmp_path / "ours.bag"))[0] == 0
+        original(f"ros{words[0]}", *words[1:], str(tmp_path / "theirs.bag"))
+        assert _counts(tmp_path / "ours.bag") == _counts(tmp_path / "theirs.bag") == {topic: 1}
+
+
 def test_what_udp_was_asked_for_comes_over_tcp(graph: Any, tmp_path: Path) -> None:
     node = graph.node("talker")
     node.advertise("/a", STRING, latch=True).publish({"data": "hello"})

@@ -33,7 +33,7 @@ class RecordOptions:
     """What to record, and into which files."""
 
     topics: tuple[str, ...] = ()
-    """Names, or regular expressions."""
+    """Names, or regular expressions; into the bag they go as they are here, whatever is remapped."""
     is_regex: bool = False
     all_topics: bool = False
     exclude: str = ""
@@ -111,8 +111,7 @@ class Recorder:
         if not (options.is_regex or options.all_topics or options.of_node):
             # On the loop: a latched message must not come before its subscription is known.
             for topic in options.topics:
-                name = self._node.resolve(topic)
-                self._node.loop.call_soon(lambda name=name: self._subscribe(name))
+                self._node.loop.call_soon(lambda topic=topic: self._subscribe(topic))
         else:
             self._node.loop.spawn(self._follow())
 
