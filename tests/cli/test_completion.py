@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+from trundle.ros import StaticTransformBroadcaster, Transform
+
 
 @pytest.fixture
 def complete(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
@@ -15,6 +17,7 @@ def complete(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any
     node = graph.node("talker", params={"rate": 5})
     node.advertise("/chatter", "std_msgs/String")
     node.advertise_service("~enable", "std_srvs/SetBool", lambda _: {})
+    StaticTransformBroadcaster(node).send(Transform(parent="map", child="laser", stamp_ns=0))
     graph.ready(node)
 
     package = tmp_path / "my_robot"
@@ -44,6 +47,8 @@ def complete(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any
         ("trundle topic pub /x std_msgs/Stri", "std_msgs/String "),
         ("trundle plot /ch", "/chatter "),
         ("trundle node info /ta", "/talker "),
+        ("trundle node machine 127", "127.0.0.1 "),
+        ("trundle tf echo map la", "laser "),
         ("trundle param get /talker/r", "/talker/rate "),
         ("trundle service call /talker/en", "/talker/enable "),
         ("trundle srv show std_srvs/SetB", "std_srvs/SetBool "),

@@ -3,13 +3,18 @@
 import argparse
 import os
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
+from trundle.names import anonymous_name
 from trundle.ros import MasterProxy, Messages, RosError
 
 _PATIENCE_S = 0.5
 """Somebody waits with a finger on the key."""
+_FRAMES_S = 5.0
+"""The same, where transforms are to be heard and none has come."""
 
 
 def complete(parser: argparse.ArgumentParser, command: str) -> None:
@@ -50,6 +55,36 @@ def _topics() -> set[str]:
 
 def _nodes() -> set[str]:
     return {node for table in _ask("getSystemState") for _, nodes in table for node in nodes}
+
+
+def _machines() -> set[str]:
+    proxy = MasterProxy(caller_id="/completion", timeout_s=_PATIENCE_S)
+    hosts = {urlsplit(str(proxy.call("lookupNode", node))).hostname for node in _nodes()}
+    return {host for host in hosts if host}
+
+
+def _frames() -> set[str]:
+    """Frames that are heard while somebody waits: what is sent more seldom is not offered."""
+    import asyncio
+
+    from trundle.ros import GraphLoop, Node, TransformListener
+
+    if not _state(0) & {"/tf", "/tf_static"}:
+        return set()
+    with GraphLoop() as loop:
+        node = Node(anonymous_name("completion"), loop=loop, rosout=False)
+        listener = TransformListener(node)
+
+        async def frames() -> set[str]:
+            await node.linked()
+            await asyncio.sleep(_PATIENCE_S)
+            while not listener.buffer.frames():
+                await asyncio.sleep(_PATIENCE_S)
+            return set(listener.buffer.frames())
+
+        with suppress(TimeoutError):
+            return loop.run(frames(), _FRAMES_S)
+    return set()
 
 
 def _services() -> set[str]:
@@ -122,6 +157,10 @@ _SOURCES: dict[tuple[str, str], Callable[[], Iterable[str]]] = {
     ("", "nodes"): _nodes,
     ("", "service"): _services,
     ("", "package"): _packages,
+    ("node", "machine"): _machines,
+    ("tf", "source"): _frames,
+    ("tf", "target"): _frames,
+    ("tf", "frames"): _frames,
     ("msg", "package"): _message_packages,
     ("srv", "package"): _service_packages,
     ("param", "name"): _params,
