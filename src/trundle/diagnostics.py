@@ -12,6 +12,8 @@ from collections.abc import Iterable
 from typing import Literal, NamedTuple, TypeAlias, TypedDict
 
 Severity: TypeAlias = Literal["error", "warning", "info"]
+_NAMED = 3
+"""Lines that are named beside the first where many are meant."""
 _ORDER: dict[str, int] = {"error": 0, "warning": 1, "info": 2}
 
 
@@ -112,6 +114,20 @@ class Diagnostics:
         """The errors as printed."""
         return [str(f) for f in self.findings if f.severity == "error"]
 
-    def worst_first(self) -> list[Diagnostic]:
-        """Errors, then warnings, then notes; each group in the order found."""
-        return sorted(self.findings, key=lambda f: _ORDER[f.severity])
+    def worst_first(self) -> list[str]:
+        """Errors, then warnings, then notes as printed; what is said of many lines of a file is printed once."""
+        lines: dict[Diagnostic, list[int | None]] = {}
+        for finding in sorted(self.findings, key=lambda f: _ORDER[f.severity]):
+            everywhere = finding._replace(at=Source(finding.at.file))
+            lines.setdefault(everywhere, []).append(finding.at.line)
+        return [
+            f"{said._replace(at=Source(said.at.file, first))}{_also([line for line in more if line])}"
+            for said, (first, *more) in lines.items()
+        ]
+
+
+def _also(lines: list[int]) -> str:
+    if not lines:
+        return ""
+    named, rest = ", ".join(map(str, lines[:_NAMED])), len(lines) - _NAMED
+    return f" (also on line{'s' if lines[1:] else ''} {named}{f' and {rest} more' if rest > 0 else ''})"

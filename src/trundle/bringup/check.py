@@ -57,7 +57,7 @@ class CheckOutcome:
 
     def text(self) -> str:
         """Findings, worst first, and what was understood."""
-        lines = [str(finding) for finding in self.report.worst_first()]
+        lines = self.report.worst_first()
         counts = Counter(finding.severity for finding in self.report.findings)
         plural = {"error": "errors", "warning": "warnings", "info": "notes"}
         singular = {"error": "error", "warning": "warning", "info": "note"}

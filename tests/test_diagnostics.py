@@ -1,0 +1,21 @@
+"""Findings as they are printed."""
+
+from trundle.diagnostics import Diagnostics, Source
+
+
+def test_what_is_said_of_many_lines_is_printed_once_worst_first() -> None:
+    report = Diagnostics()
+    for line in (7, 9, 11, 13, 15):
+        report.info(Source("a.urdf", line), "grey")
+    report.info(Source("b.urdf", 9), "grey")
+    for line in (20, 30):
+        report.warn(Source("a.urdf", line), "lost")
+    report.info(Source("c.urdf"), "grey")
+
+    assert report.worst_first() == [
+        "a.urdf:20: warning: lost (also on line 30)",
+        "a.urdf:7: info: grey (also on lines 9, 11, 13 and 1 more)",
+        "b.urdf:9: info: grey",
+        "c.urdf: info: grey",
+    ]
+    assert len(report.findings) == 9
