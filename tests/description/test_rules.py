@@ -317,6 +317,38 @@ def test_a_plugin_on_a_link_that_was_lumped_means_the_lump_and_an_offset(tmp_pat
 BODY = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
 
 
+def test_what_is_said_of_a_link_that_was_lumped_goes_for_the_lump(tmp_path: Path) -> None:
+    text = f"""<robot name="r"><link name="base">{BODY}</link><link name="eye"/>
+<joint name="j" type="fixed"><parent link="base"/><child link="eye"/></joint>
+<gazebo reference="base"><selfCollide>false</selfCollide><dampingFactor>0.1</dampingFactor></gazebo>
+<gazebo reference="eye"><selfCollide>true</selfCollide><turnGravityOff>true</turnGravityOff>
+<velocity_decay><angular>0.3</angular></velocity_decay></gazebo></robot>"""
+    report = Diagnostics()
+
+    (link,) = read(tmp_path, text, report, name="x.urdf").world.models[0].links
+
+    assert (link.gravity, link.self_collide, link.linear_decay, link.angular_decay) == (False, True, 0.1, 0.3)
+    assert report.warnings == []
+
+
+def test_a_link_in_a_gazebo_block_for_the_robot_is_a_body_beside_the_tree(tmp_path: Path) -> None:
+    """How the PR2 closes its gripper's four bars."""
+    bar = "<inertial><mass>0.2</mass></inertial><pose>0 0 3 0 0 0</pose>"
+    text = f"""<robot name="r"><link name="base">{BODY}</link><gazebo><link name="bar">{bar}</link>
+<link name="base">{bar}</link><joint name="j" type="revolute"><parent>base</parent><child>bar</child>
+<axis><xyz>0 1 0</xyz></axis></joint></gazebo></robot>"""
+    report = Diagnostics()
+
+    model = read(tmp_path, text, report, name="x.urdf").world.models[0]
+
+    assert [(link.name, link.inertial.mass) for link in model.links] == [("base", 1.0), ("bar", 0.2)]
+    assert model.link("bar").model_from_link.position == (0.0, 0.0, 3.0)
+    assert [(joint.parent, joint.child) for joint in model.joints] == [("base", "bar")]
+    assert [warning.partition("warning: ")[2] for warning in report.warnings] == [
+        "a second link 'base'; it is left out"
+    ]
+
+
 def test_a_ring_that_no_joint_leads_to_is_left_out_of_a_urdf(tmp_path: Path) -> None:
     ring = "".join(
         f'<joint name="{parent}{child}" type="fixed"><parent link="{parent}"/><child link="{child}"/></joint>'

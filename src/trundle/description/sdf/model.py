@@ -1,5 +1,6 @@
 """Reads <model>: links, joints, frames and nested models, with every pose resolved to the model's frame."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from trundle.diagnostics import DescriptionError
@@ -32,7 +33,7 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> Part:
         raise DescriptionError(node.at, f"models nested more than {_DEEPEST} deep")
     name = node.required_attribute("name")
     graph = FrameGraph(MODEL, context.report)
-    links = _links(node, graph, context)
+    links = placed_links(node.all("link"), graph, context)
     nested, dissolved = _nested(node, graph, context, depth)
     frames = read_frames(node, graph, context)
     joints = [joint for child in node.all("joint") if (joint := WrittenJoint(child, graph, context)).is_sound]
@@ -65,13 +66,14 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> Part:
     return Part(model=model, scope=graph.scope(model.canonical_link), raw=raw, placement_frame=placement)
 
 
-def _links(node: XmlNode, graph: FrameGraph, context: Context) -> dict[str, XmlNode]:
+def placed_links(nodes: Iterable[XmlNode], graph: FrameGraph, context: Context) -> dict[str, XmlNode]:
+    """The <link>s of a model by name, made known with their poses."""
     links: dict[str, XmlNode] = {}
-    for child in node.all("link"):
+    for child in nodes:
         name = child.required_attribute("name")
-        if name in links:
-            first = links[name].at.line
-            context.report.warn(child.at, f"a second link {name!r}, after line {first}; it is left out")
+        if name in graph:
+            after = f", after line {links[name].at.line}" if name in links else ""
+            context.report.warn(child.at, f"a second link {name!r}{after}; it is left out")
             child.mark_all_read()
             continue
         links[name] = child

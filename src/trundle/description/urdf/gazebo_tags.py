@@ -16,7 +16,7 @@ from ..sdf.frames import MODEL, FrameGraph
 from .lump import Lump
 
 if TYPE_CHECKING:
-    from trundle.model import Joint, Light, Material, PluginTag, Sensor
+    from trundle.model import Joint, Light, Link, Material, PluginTag, Sensor
 
 _TUNING = frozenset(
     {
@@ -53,6 +53,11 @@ class GazeboTags:
         """A yes or no by any of its names; None where no block says."""
         nodes = [node for tag in tags if (node := self._last(reference, tag)) is not None]
         return nodes[0].text.lower() in _TRUE if nodes else None
+
+    def lumped_flag(self, lump: Lump, *tags: str) -> bool | None:
+        """As `flag`, for all links of a lump: the last one that says something (sdformat's AddKeyValue)."""
+        said = [value for name, _ in lump.parts if (value := self.flag(name, *tags)) is not None]
+        return said[-1] if said else None
 
     def material(self, link: str) -> "Material | None":
         """<material>Gazebo/Blue</material>, or a <visual> block's <material>, which goes on every visual."""
@@ -94,14 +99,15 @@ class GazeboTags:
         node = self._last(reference, tag)
         return default if node is None else node.as_number(default=default, report=self._context.report)
 
-    def damping(self, link: str) -> tuple[float, float]:
-        """Linear and angular: <dampingFactor> for both, or SDF's own <velocity_decay>."""
-        both = self.number(link, "dampingFactor", 0.0)
-        node = self._last(link, "velocity_decay")
-        if node is None:
-            return both, both
-        report = self._context.report
-        return node.number("linear", default=both, report=report), node.number("angular", default=both, report=report)
+    def lumped_damping(self, lump: Lump) -> tuple[float, float]:
+        """Linear and angular: the last <dampingFactor> for both, or SDF's own <velocity_decay>."""
+        report, linear, angular = self._context.report, 0.0, 0.0
+        for name, _ in lump.parts:
+            linear, angular = (self.number(name, "dampingFactor", value) for value in (linear, angular))
+            if (node := self._last(name, "velocity_decay")) is not None:
+                linear = node.number("linear", default=linear, report=report)
+                angular = node.number("angular", default=angular, report=report)
+        return linear, angular
 
     def sensors(self, reference: str) -> "tuple[Sensor, ...]":
         """<sensor> elements of a link or joint, which are SDF."""
@@ -144,6 +150,17 @@ class GazeboTags:
         from ..sdf.sensor import read_plugin
 
         return tuple(map(read_plugin, nodes))
+
+    def links(self, graph: FrameGraph) -> "tuple[Link, ...]":
+        """<link> elements for the whole robot, which are SDF: bodies that a tree cannot hold."""
+        nodes = self._all("", "link")
+        if not nodes:
+            return ()
+        from ..sdf.link import read_link
+        from ..sdf.model import placed_links
+
+        placed = placed_links(nodes, graph, self._context)
+        return tuple(read_link(node, name, graph, self._context) for name, node in placed.items())
 
     def joints(self, graph: FrameGraph) -> "tuple[Joint, ...]":
         """<joint> elements for the whole robot, which are SDF: how a URDF closes a loop."""

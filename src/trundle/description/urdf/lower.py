@@ -8,6 +8,7 @@ import math
 import re
 from collections.abc import Container, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from trundle.diagnostics import DescriptionError, Diagnostics
@@ -115,6 +116,7 @@ class _Lowering:
             graph.add(link.name, RawPose(link.model_from_link), link.at)
             for part, pose in self.lumps[link.name].parts[1:]:
                 graph.add(part, RawPose(pose, link.name), self.links[part].at, attached_to=link.name)
+        links = (*links, *self.tags.links(graph))
         joints = (*joints, *self.tags.joints(graph))
         self.tags.name_tuning()
         for plugin in plugins:
@@ -174,8 +176,9 @@ class _Lowering:
             material = self.tags.material(name)
             visuals += self._visuals(lump.name, part, pose, material)
             collisions += self._collisions(lump.name, part, pose)
-        gravity_off, gravity = self.tags.flag(lump.name, "turnGravityOff"), self.tags.flag(lump.name, "gravity")
-        linear_decay, angular_decay = self.tags.damping(lump.name)
+        flag = partial(self.tags.lumped_flag, lump)
+        gravity_off, gravity = flag("turnGravityOff"), flag("gravity")
+        linear_decay, angular_decay = self.tags.lumped_damping(lump)
         return Link(
             name=lump.name,
             at=own.at,
@@ -190,9 +193,9 @@ class _Lowering:
                 for light in self.tags.lights(name)
             ),
             gravity=not gravity_off if gravity is None else gravity,
-            self_collide=self.tags.flag(lump.name, "selfCollide", "self_collide"),
-            enable_wind=self.tags.flag(lump.name, "enable_wind"),
-            kinematic=self.tags.flag(lump.name, "kinematic") or False,
+            self_collide=flag("selfCollide", "self_collide"),
+            enable_wind=flag("enable_wind"),
+            kinematic=flag("kinematic") or False,
             linear_decay=linear_decay,
             angular_decay=angular_decay,
         )
