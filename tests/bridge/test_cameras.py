@@ -168,3 +168,32 @@ def test_a_topic_in_the_file_is_where_pictures_go(hear: Any) -> None:
     heard, _ = hear(eye("camera", more="<topic>front/picture</topic>"), topics)
 
     assert heard["/front/picture"].width == heard["/front/camera_info"].width == 64
+
+
+@pytest.mark.parametrize(("mask", "expected"), [(2, 2.0), (3, 2.0), (0xFFFFFFFD, 3.0), (1, 3.0)])
+def test_a_camera_sees_what_shares_a_bit_with_its_mask(hear: Any, mask: int, expected: float) -> None:
+    """The near box has bit 2 alone."""
+    near = box("near", "2.5 0 0").replace("</visual>", "<visibility_flags>2</visibility_flags></visual>")
+    world = eye("depth", inside=f"<visibility_mask>{mask}</visibility_mask>") + near + WALL
+    heard, _ = hear(world, {"/bot/head/eye/depth/image_raw": IMAGE})
+
+    depths = np.frombuffer(bytes(heard["/bot/head/eye/depth/image_raw"].data), "<f4").reshape(48, 64)
+    assert depths[24, 32] == pytest.approx(expected, abs=1e-4)
+
+
+def test_the_file_says_where_the_calibration_is_and_what_its_frame_is_called(hear: Any) -> None:
+    told = "<camera_info_topic>/here/info</camera_info_topic><optical_frame_id>lens</optical_frame_id>"
+    heard, frames = hear(eye("camera", inside=told) + WALL, {"/here/info": INFO, "/bot/head/eye/image_raw": IMAGE})
+
+    assert {message.header.frame_id for message in heard.values()} == {"lens"}
+    assert "lens" in frames
+
+
+def test_a_frame_that_is_a_link_is_left_where_it_is(hear: Any) -> None:
+    """Which the description placed already."""
+    world = eye("camera", inside="<optical_frame_id>lens</optical_frame_id>")
+    world = world.replace("</model>", '<link name="lens"><pose>0 0 1 0 0 0</pose></link></model>')
+    heard, frames = hear(world, {"/bot/head/eye/image_raw": IMAGE})
+
+    assert heard["/bot/head/eye/image_raw"].header.frame_id == "bot/lens"
+    assert "bot/lens" not in frames  # among those that sensors place

@@ -57,3 +57,14 @@ def test_every_sensor_publishes_on_the_topic_that_the_file_names(hear: Any, type
     heard, _ = hear(f'<model name="m"><static>1</static>{link}</model>', {"/here/it_is": message})
 
     assert heard.keys() == {"/here/it_is"}
+
+
+@pytest.mark.parametrize(("type_", "message"), [("imu", "sensor_msgs/Imu"), ("contact", "gazebo_msgs/ContactsState")])
+def test_the_settings_of_imus_and_contact_sensors_may_name_the_topic(hear: Any, type_: str, message: str) -> None:
+    shape = '<collision name="c"><geometry><sphere><radius>1</radius></sphere></geometry></collision>'
+    sensor = f'<sensor name="s" type="{type_}"><{type_}><topic>/old</topic></{type_}></sensor>'
+    heard, _ = hear(
+        f'<model name="m"><static>1</static><link name="l">{shape}{sensor}</link></model>', {"/old": message}
+    )
+
+    assert heard.keys() == {"/old"}

@@ -107,6 +107,35 @@ def test_a_camera_is_where_its_plugin_says(gazebo: Gazebo) -> None:
     assert list(info.D) == pytest.approx([0.01, 0, 0, 0, 0])
 
 
+@pytest.mark.parametrize(
+    ("sensor", "trigger", "kind", "pictures"),
+    [
+        (_CAMERA.replace("<camera>", "<camera><triggered>1</triggered>"), "/mast/head/eye/trigger", "Bool", None),
+        (_CAMERA, "/front/image_trigger", "Empty", "/front/image_raw"),
+    ],
+    ids=["sdf", "plugin"],
+)
+def test_a_triggered_camera_waits_to_be_told(
+    gazebo: Gazebo, sensor: str, trigger: str, kind: str, pictures: str | None
+) -> None:
+    """It is at work, as its neighbour shows, and takes one picture for the one time it is told."""
+    if pictures is None:
+        eye = f'<sensor name="eye" type="camera"><update_rate>50</update_rate>{sensor}</sensor>'
+    else:
+        eye = _sensor("camera", sensor, "triggered_camera", "<cameraName>front</cameraName>")
+    _seeing(gazebo, eye + f'<sensor name="other" type="camera"><update_rate>50</update_rate>{_CAMERA}</sensor>')
+    told = gazebo.client.advertise(trigger, f"std_msgs/{kind}")
+    heard = gazebo.hear(pictures or "/mast/head/eye/image_raw", "sensor_msgs/Image")
+    others = gazebo.hear("/mast/head/other/image_raw", "sensor_msgs/Image")
+    until(lambda: told.has_subscribers and len(others) > 5)
+    assert not heard
+    told.publish({"data": True} if kind == "Bool" else {})
+    until(lambda: heard)
+    seen = len(others)
+    until(lambda: len(others) > seen + 5)
+    assert len(heard) == 1
+
+
 def test_a_kinect_sees_depths_and_points_within_its_reach(gazebo: Gazebo) -> None:
     parameters = (
         "<cameraName>kinect</cameraName><frameName>optical</frameName><pointCloudCutoffMax>2.05</pointCloudCutoffMax>"

@@ -229,6 +229,17 @@ def test_what_is_nearer_than_the_least_range_is_told_apart(tmp_path: Path) -> No
     assert read(load(tmp_path, ray(one), others=near), 0.1)[-1].ranges[0, 0] == -np.inf
 
 
+@pytest.mark.parametrize(("mask", "expected"), [("1", 1.9), ("2", 0.5)])
+def test_a_gpu_lidar_meets_what_shares_a_bit_with_its_mask(tmp_path: Path, mask: str, expected: float) -> None:
+    near = thing("near", "1 0 0 0 0 0", "<box><size>1 1 1</size></box>", kinds=("visual",))
+    near = near.replace("</visual>", "<visibility_flags>2</visibility_flags></visual>")
+    beam = ray("<samples>1</samples><min_angle>0</min_angle><max_angle>0</max_angle>", type_="gpu_lidar").replace(
+        "</ray>", f"<visibility_mask>{mask}</visibility_mask></ray>"
+    )
+
+    assert read(load(tmp_path, beam, others=near + WALL), 0.1)[-1].ranges[0, 0] == pytest.approx(expected, abs=1e-5)
+
+
 def gps(place: str) -> str:
     return f'<static>1</static><link name="a"><pose>{place} 0 0 0</pose><sensor name="g" type="gps"/></link>'
 

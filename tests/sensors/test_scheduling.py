@@ -161,6 +161,22 @@ def test_many_cameras_cost_each_its_own_picture_and_place_the_world_once(load: A
     assert work == {24: 240, 12: 120}
 
 
+def test_a_triggered_camera_takes_one_picture_for_each_time_it_is_told(load: Any) -> None:
+    """At the next instant it is due, 10 times a second; of several orders before that, one picture."""
+    sim, (camera,) = load(robot('<sensor name="s" type="camera"><update_rate>10</update_rate></sensor>'))
+    stamps: list[int] = []
+    camera.listen(lambda reading: stamps.append(reading.time_ns))
+    trigger = camera.await_trigger()
+    sim.run(0.25)
+    trigger()
+    trigger()
+    sim.run(0.3)
+    trigger()
+    sim.run(0.3)
+
+    assert stamps == [300_000_000, 600_000_000]
+
+
 @pytest.mark.parametrize("rate", ["-5", "nan", "inf"])
 def test_a_rate_that_cannot_be_is_mended_aloud(load: Any, rate: str) -> None:
     one = f'<sensor name="s" type="camera"><update_rate>{rate}</update_rate></sensor>'

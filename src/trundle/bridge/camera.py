@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable
 from typing import TypeAlias
 
+from trundle.names import ros_name
 from trundle.ros import Node, Publisher, StaticTransformBroadcaster, Transform
 from trundle.sensors import (
     BoundingBoxCameraSensor,
@@ -16,7 +17,7 @@ from trundle.spatial import Pose, quaternion_from_rpy
 
 from .calibration import calibration_of
 from .detections import boxes_2d, boxes_3d
-from .naming import FrameNames, sensor_topic
+from .naming import FrameNames, sensor_topic, topic_called
 from .pictures import cloud_maker, depth_image, image_maker, labels_image, thermal_image
 
 _HALF_TURN = 1.5707963267948966
@@ -51,17 +52,29 @@ class CameraTopics:
         model, link = camera.model, camera.link
         carrier = names.link(model, link.name)
         part = f"/{camera.optics.name}" if camera.optics.name else ""
-        self.frame = names.sensor(model, link.name, camera.sensor, rest=f"{part}_optical")
-        optical = camera.link_from_camera @ CAMERA_FROM_OPTICAL
-        still.send(
-            Transform(parent=carrier, child=self.frame, translation=optical.position, rotation=optical.quaternion)
+        told = camera.optics.optical_frame
+        there = names.find_link(model, told) if told else None
+        self.frame = there or (
+            ros_name(told) if told else names.sensor(model, link.name, camera.sensor, rest=f"{part}_optical")
         )
+        optical = camera.link_from_camera @ CAMERA_FROM_OPTICAL
+        if there is None:
+            still.send(
+                Transform(parent=carrier, child=self.frame, translation=optical.position, rotation=optical.quaternion)
+            )
         outputs = _outputs(camera)
         main = outputs[0][0]
         self._topics: list[tuple[Publisher, _Make]] = []
         for output, type_, make in outputs:
             topic = sensor_topic(model, link.name, camera.sensor, output, main=main, part=camera.optics.name)
+            if output == "camera_info" and camera.optics.info_topic:
+                topic = topic_called(camera.optics.info_topic)
             self._topics.append((node.advertise(topic, type_, queue_size=2), make))
+        if camera.optics.triggered:
+            own = sensor_topic(model, link.name, camera.sensor, "trigger", main=main, part=camera.optics.name)
+            topic = topic_called(camera.optics.trigger_topic) if camera.optics.trigger_topic else own
+            trigger = camera.await_trigger()
+            node.subscribe(topic, "std_msgs/Bool", lambda _: trigger(), queue_size=1)
         camera.listen(self._publish, wanted=lambda: any(topic.has_subscribers for topic, _ in self._topics))
 
     def _publish(self, reading: CameraReading) -> None:

@@ -72,6 +72,12 @@ class FrameNames:
         is_taken = frame in self.lumped or frame in (self.link(model, link.name) for link in model.links)
         return f"{frame}_sensor" if is_taken else frame
 
+    def find_link(self, model: Model, name: str) -> str | None:
+        """The frame of a link that is called so, also of one of the URDF that is not simulated."""
+        frames = {name, self.link(model, name)}
+        links = {self.link(model, link.name) for link in model.links} | self.lumped
+        return next((frame for frame in sorted(frames) if frame in links), None)
+
 
 def _links_of(robot: Robot | None) -> frozenset[str]:
     return frozenset() if robot is None else frozenset(ros_name(link.name) for link in robot.links)
@@ -94,12 +100,17 @@ def sensor_topic(model: Model, place: str, sensor: Sensor, output: str, *, main:
     given = sensor.topic.strip().removeprefix("~").strip("/")
     if not given or given in _NO_TOPIC:
         return "/" + "/".join(ros_name(name) for name in (model.name, place, sensor.name, *parts, output))
-    topic = "/" + "/".join(ros_name(name) for name in (given, *parts))
+    topic = topic_called("/".join((given, *parts)))
     if output == main and not part:
         return topic
     if output == "camera_info" and not part:
         return f"{topic.rpartition('/')[0]}/camera_info"
     return f"{topic}/{output}"
+
+
+def topic_called(name: str) -> str:
+    """The topic of a name in a file: global, whether it begins with a slash or not."""
+    return f"/{ros_name(name.strip().removeprefix('~').strip('/'))}"
 
 
 def _has_plain_frames(world: World) -> bool:

@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from .road import Road
     from .sensor import ForceTorque, GpsNoise, ImuNoise, OrientationReference, RangeScan, ScanAxis, Sensor
     from .surface import Surface
+    from .visibility import EVERY_BIT
     from .world import World
 
 _HOMES = {
@@ -66,6 +67,7 @@ _HOMES = {
     "Cone": "geometry",
     "Cylinder": "geometry",
     "Distortion": "camera",
+    "EVERY_BIT": "visibility",
     "Ellipsoid": "geometry",
     "Empty": "geometry",
     "Fog": "environment",
@@ -126,6 +128,7 @@ _HOMES = {
 __getattr__ = opened_on_use(__name__, _HOMES)
 
 __all__ = [
+    "EVERY_BIT",
     "GREY",
     "UNLIMITED",
     "Actor",

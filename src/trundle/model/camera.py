@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from trundle.spatial import Pose
 
 from .noise import Noise
+from .visibility import EVERY_BIT
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,5 +91,15 @@ class CameraOptics:
     """The folder that pictures are saved to."""
     panoptic: bool = False
     """A segmentation camera tells things of one label apart."""
+    visibility_mask: int = EVERY_BIT
+    """Visuals are seen whose flags share a bit with it."""
+    triggered: bool = False
+    """It takes a picture only when it is told to."""
+    trigger_topic: str = ""
+    """Where it is told so; empty: `trigger` below its own."""
+    info_topic: str = ""
+    """Of camera_info, where that is elsewhere."""
+    optical_frame: str = ""
+    """The frame that its pictures are in, where that has a name."""
     box_type: str = "2d"
     """Of a bounding box camera: 2d is around what is visible, full_2d around all of a thing, 3d in space."""

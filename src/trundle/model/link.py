@@ -9,6 +9,7 @@ from trundle.spatial import Pose
 from .inertial import Inertial
 from .material import GREY, Material
 from .surface import Surface
+from .visibility import EVERY_BIT
 
 if TYPE_CHECKING:
     from .geometry import Geometry
@@ -32,6 +33,8 @@ class Visual:
     """What a laser gets back, as its intensity."""
     label: int = 0
     """What segmentation cameras see in it; 0: background."""
+    visibility_flags: int = EVERY_BIT
+    """Sensors see it whose mask shares a bit with them."""
     temperature: float | None = None
     """What thermal cameras see in it [K]; None: that of the air."""
 

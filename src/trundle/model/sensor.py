@@ -9,6 +9,7 @@ from .camera import CameraOptics
 from .instrument import Instrument
 from .noise import Noise
 from .plugin import PluginTag
+from .visibility import EVERY_BIT
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,6 +39,8 @@ class RangeScan:
     min_m: float = 0.0
     max_m: float = 0.0
     noise: Noise = Noise()
+    visibility_mask: int = EVERY_BIT
+    """Of rays on Gazebo's GPU: visuals are met whose flags share a bit with it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

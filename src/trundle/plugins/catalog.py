@@ -71,6 +71,8 @@ OF_SENSORS: dict[str, str] = {
     "libgazebo_ros_openni_kinect.so": f"{_SENSORS}.depth_camera:attach",
     "libgazebo_ros_range.so": f"{_SENSORS}.range:attach",
     "libgazebo_ros_ray_sensor.so": f"{_SENSORS}.laser:attach_ray_sensor",
+    "libgazebo_ros_triggered_camera.so": f"{_SENSORS}.camera:attach_triggered",
+    "libgazebo_ros_triggered_multicamera.so": f"{_SENSORS}.camera:attach_triggered",
     "libgazebo_ros_velodyne_gpu_laser.so": f"{_SENSORS}.laser:attach_points",
     "libgazebo_ros_velodyne_laser.so": f"{_SENSORS}.laser:attach_points",
 }

@@ -6,6 +6,7 @@ from dataclasses import replace
 from trundle.diagnostics import Diagnostics, Source
 from trundle.meshes import Mesh, MeshError, cone_mesh, load_mesh, prism_mesh
 from trundle.model import (
+    EVERY_BIT,
     GREY,
     Collision,
     Cone,
@@ -33,8 +34,15 @@ _BARELY_THERE = 0.02
 """Opacity below which a visual is not drawn at all."""
 
 
-def scene_of(world: World, report: Diagnostics, *, collisions: bool = False) -> Scene:
-    """Make a scene whose bodies are the links of all models, in file order: that of `Snapshot.poses`."""
+def scene_of(world: World, report: Diagnostics, *, collisions: bool = False, mask: int = EVERY_BIT) -> Scene:
+    """Make a scene whose bodies are the links of all models, in file order: that of `Snapshot.poses`.
+
+    Args:
+        world: what there is.
+        report: takes what cannot be drawn.
+        collisions: of these shapes; else of visuals.
+        mask: only visuals whose flags share a bit with it.
+    """
     shapes: list[Shape] = []
     bodies: list[str] = []
     lights = [_light(light, None, world) for light in world.lights]
@@ -42,7 +50,8 @@ def scene_of(world: World, report: Diagnostics, *, collisions: bool = False) -> 
     skins: list[SceneSkin] = []
     for model in world.models:
         for link in model.links:
-            items = link.collisions if collisions else link.visuals
+            seen = tuple(visual for visual in link.visuals if visual.visibility_flags & mask)
+            items = link.collisions if collisions else seen
             actor = actors.get(link.name)
             moving = None
             if actor is not None and actor.name == model.name:

@@ -1,6 +1,6 @@
 """Camera sensors: a snapshot becomes a picture."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -79,6 +79,8 @@ class CameraSensor(MountedSensor[CameraReading]):
         self.scenery = scenery
         self.together: Sequence[CameraSensor] = (self,)
         """All cameras of its sensor, which share one clock."""
+        self._is_told: bool | None = None
+        """To take a picture; None: it need not be told."""
 
     def set_rate(self, rate_hz: float) -> None:
         """Have all cameras of the sensor take pictures so often from now on."""
@@ -94,6 +96,25 @@ class CameraSensor(MountedSensor[CameraReading]):
     def is_pinhole(self) -> bool:
         """Whether its picture is what a renderer draws, without lens and distortion."""
         return isinstance(self.view, PinholeView)
+
+    def await_trigger(self) -> Callable[[], None]:
+        """Take no picture until the function that this returns is called, and then one when it is due next; it may be
+        called from any thread."""
+        self._is_told = False
+
+        def trigger() -> None:
+            self._is_told = True
+
+        return trigger
+
+    def wanted(self) -> bool:
+        """Whether anybody wants its pictures, and it need not be told to take one, or has been."""
+        return self._is_told is not False and super().wanted()
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Take a picture, and show it to those who want to see it."""
+        self._is_told = self._is_told and False
+        super().after_step(snapshot)
 
     def keep_borders(self) -> None:
         """Leave what distortion shows as it is, with black borders where nothing is."""

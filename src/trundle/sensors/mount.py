@@ -54,13 +54,13 @@ def mount_cameras(
 
     Args:
         simulation: with its sensors; its seed is that of the noise.
-        make: makes the one renderer all cameras share; called only if there is a camera.
+        make: makes the one renderer that all cameras of one visibility mask share; called only if there is one.
         model: of this one alone.
-        beside: cameras that are there already; their renderer is shared, too.
+        beside: cameras that are there already; their renderers are shared, too.
     """
     world, report = simulation.world, simulation.report
     cameras: list[CameraSensor] = []
-    scenery = next((camera.scenery for camera in beside), None)
+    sceneries = {camera.scenery.mask: camera.scenery for camera in beside}
     index = number = 0
     for owner in world.models:
         for link in owner.links:
@@ -73,28 +73,28 @@ def mount_cameras(
                     report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")
                     continue
                 _name_unsupported(sensor, report)
-                scenery = scenery or Scenery(simulation, make)
-                _doubt_labels(sensor, kind, scenery, report)
                 together: list[CameraSensor] = []
                 for part, optics in enumerate(_made(sensor, report)):
                     random = np.random.default_rng([simulation.seed, number, part])
-                    camera = kind(Spot(owner, link, sensor, index, random), optics, scenery=scenery)
+                    mask = optics.visibility_mask
+                    if mask not in sceneries:
+                        sceneries[mask] = Scenery(simulation, make, mask=mask)
+                    camera = kind(Spot(owner, link, sensor, index, random), optics, scenery=sceneries[mask])
                     camera.follow(simulation[owner.name].link(link.name))
                     camera.together = together
                     _save(camera, world.name, report)
                     together.append(camera)
+                _doubt_labels(together, report)
                 cameras += together
             index += 1
     return cameras
 
 
-def _doubt_labels(sensor: Sensor, kind: type[CameraSensor], scenery: Scenery, report: Diagnostics) -> None:
-    if kind in (BoundingBoxCameraSensor, SegmentationCameraSensor) and not scenery.labels.any():
-        report.warn(
-            sensor.at,
-            f"sensor {sensor.name!r}: nothing in the world has a label (gz-sim-label-system in a <visual> or <model> "
-            "gives one); it sees background alone",
-        )
+def _doubt_labels(cameras: Sequence[CameraSensor], report: Diagnostics) -> None:
+    for camera in cameras:
+        if isinstance(camera, BoundingBoxCameraSensor | SegmentationCameraSensor) and not camera.scenery.labels.any():
+            what = "nothing in the world has a label (gz-sim-label-system in a <visual> or <model> gives one)"
+            report.warn(camera.sensor.at, f"sensor {camera.name!r}: {what}; it sees background alone")
 
 
 def _made(sensor: Sensor, report: Diagnostics) -> Iterator[CameraOptics]:

@@ -133,7 +133,8 @@ def _imu(at: _Site) -> ImuSensor:
 def _range(at: _Site) -> RangeSensor:
     sensor = at.spot.sensor
     scan = sensor.scan or RangeScan()
-    rays = at.around.light_rays(scan.min_m) if sensor.type.startswith("gpu_") else at.around.rays
+    lit = at.around.light_rays(scan.min_m, scan.visibility_mask)
+    rays = lit if sensor.type.startswith("gpu_") else at.around.rays
     return RangeSensor(at.spot, rays=rays)
 
 

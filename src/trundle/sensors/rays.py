@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import Moment, Plane, World
+from trundle.model import EVERY_BIT, Moment, Plane, World
 from trundle.render import NativeRenderer, Scene, move_skins, scene_of
 from trundle.spatial import Pose, Vector3
 
@@ -44,10 +44,10 @@ class Rays(Protocol):
 class RayCaster:
     """Casts rays against all collision shapes of a world, or all its visuals."""
 
-    def __init__(self, world: World, *, collisions: bool) -> None:
+    def __init__(self, world: World, *, collisions: bool, mask: int = EVERY_BIT) -> None:
         """Make a scene of them; what it leaves out has been said by who drew or compiled it."""
         self.world = world
-        scene = scene_of(world, Diagnostics(), collisions=collisions)
+        scene = scene_of(world, Diagnostics(), collisions=collisions, mask=mask)
         scene = _endless(scene) if collisions else scene
         self._scene, self._renderer = scene, NativeRenderer(scene)
         self._retros = np.array([*(shape.laser_retro for shape in scene.shapes), 0.0])

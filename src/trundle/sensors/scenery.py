@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.model import Visual, World
+from trundle.model import EVERY_BIT, Visual, World
 from trundle.render import Intrinsics, Picture, Renderer, Scene, move_skins, scene_of
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
@@ -14,13 +14,15 @@ from trundle.spatial import Pose
 class Scenery:
     """The world as cameras see it. Its tables are by a shape's number; number −1, no shape, is their last entry."""
 
-    def __init__(self, simulation: Simulation, make: Callable[[Scene], Renderer]) -> None:
+    def __init__(self, simulation: Simulation, make: Callable[[Scene], Renderer], *, mask: int = EVERY_BIT) -> None:
         """Make the scene and its renderer.
 
         Args:
             simulation: what there is to see; another scene is made after models came, went or were edited.
             make: makes the one renderer that all cameras share.
+            mask: which visuals they see; see `scene_of`.
         """
+        self.mask = mask
         self._simulation = simulation
         self._make = make
         self._shown: Snapshot | None = None
@@ -28,7 +30,7 @@ class Scenery:
 
     def _build(self, world: World) -> None:
         self._world = world
-        self.scene = scene_of(world, self._simulation.report)
+        self.scene = scene_of(world, self._simulation.report, mask=self.mask)
         self._renderer = self._make(self.scene)
         visuals: dict[tuple[int, str], Visual] = {}
         model_of: list[int] = []

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import Joint, Link, Model, Transceiver, World
+from trundle.model import EVERY_BIT, Joint, Link, Model, Transceiver, World
 from trundle.render import corners_of, scene_of
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Vector3
@@ -23,7 +23,8 @@ class Surroundings:
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
         self._touched: RayCaster | None = None
-        self._lit: RayCaster | None = None
+        self._lit: dict[int, RayCaster] = {}
+        """By the mask of what is seen."""
         self._bodies: list[Body] | None = None
         self._bodies_of: World | None = None
 
@@ -52,21 +53,24 @@ class Surroundings:
 
         return cast
 
-    def light_rays(self, nearest: float) -> Rays:
-        """Against visuals, and from this distance on [m]: Gazebo's GPU rays see their own link, too."""
+    def light_rays(self, nearest: float, mask: int) -> Rays:
+        """Against visuals whose flags share a bit with the mask, and from this distance on [m].
+
+        Gazebo's GPU rays see their own link, too.
+        """
 
         def cast(origin: Vector3, directions: _Array, reach: float, exclude: int) -> Found:
             del exclude
-            self._lit = self._seen_anew(self._lit, collisions=False)
-            return self._lit.cast_beyond(origin, directions, reach, nearest)
+            self._lit[mask] = self._seen_anew(self._lit.get(mask), collisions=False, mask=mask)
+            return self._lit[mask].cast_beyond(origin, directions, reach, nearest)
 
         return cast
 
-    def _seen_anew(self, caster: RayCaster | None, *, collisions: bool) -> RayCaster:
+    def _seen_anew(self, caster: RayCaster | None, *, collisions: bool, mask: int = EVERY_BIT) -> RayCaster:
         """A caster with everything where it is now; another one after models came, went or were edited."""
         simulation = self._simulation
         if caster is None or caster.world is not simulation.world:
-            caster = RayCaster(simulation.world, collisions=collisions)
+            caster = RayCaster(simulation.world, collisions=collisions, mask=mask)
         caster.update(simulation.engine.reader.link_poses(), simulation.moment_of)
         return caster
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from trundle.model import CameraOptics, Distortion, Lens, PixelIntrinsics, Projection
 from trundle.xmlnode import XmlNode
 
-from .context import Context, leave_out, read_pose
+from .context import Context, leave_out, read_bits, read_pose
 from .noise import read_noise
 
 WIDE = frozenset({"wideanglecamera", "wide_angle_camera"})
@@ -36,7 +36,6 @@ _MOST_BENT = 1e6
 _FOCAL_PX = (1e-3, 1e9)
 _BESIDE_PX = 1e6
 """How far from the picture its middle may be, and how much it may be sheared."""
-_ELSEWHERE = ("triggered", "trigger_topic", "camera_info_topic", "optical_frame_id", "visibility_mask")
 _LENSES: Mapping[str, tuple[float, float, str]] = {
     "gnomonical": (1.0, 1.0, "tan"),
     "stereographic": (2.0, 2.0, "tan"),
@@ -84,6 +83,11 @@ def _read(node: XmlNode, type_: str, context: Context) -> CameraOptics:
         distortion=_distortion(node.find("distortion"), context),
         save_path=_save_path(node.find("save"), context),
         panoptic=_one_of(node, "segmentation_type", ("semantic", "instance", "panoptic"), context) != "semantic",
+        visibility_mask=read_bits(node, "visibility_mask", context),
+        triggered=node.flag("triggered", default=False, report=report),
+        trigger_topic=node.string("trigger_topic"),
+        info_topic=_said(node, "camera_info_topic"),
+        optical_frame=_said(node, "optical_frame_id"),
         box_type=_box_type(node, context),
     )
     if depth_clip is not None:
@@ -97,15 +101,16 @@ def _read(node: XmlNode, type_: str, context: Context) -> CameraOptics:
         leave_out(image, ("anti_aliasing",), "is a wish to the renderer's quality, not to what is seen", context)
     if depth is not None:
         leave_out(depth, ("output",), "is not heeded: distances and points both are told", context)
-    for tag in _ELSEWHERE:
-        left_out = node.find(tag)
-        if left_out is not None:
-            report.info(left_out.at, f"<{tag}> of a camera is not supported; the camera works without")
     optics = _with_lens(_mended(optics, node, type_, context), node.find("lens"), type_, context)
     for each in (node, image, clip, depth, depth_clip):
         if each is not None:
             each.report_unread(report)
     return optics
+
+
+def _said(node: XmlNode, tag: str) -> str:
+    word = node.string(tag)
+    return "" if word == "__default__" else word
 
 
 def _distortion(node: XmlNode | None, context: Context) -> Distortion:

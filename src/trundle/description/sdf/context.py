@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from trundle.diagnostics import Diagnostics, Source
-from trundle.model import Model
+from trundle.model import EVERY_BIT, Model
 from trundle.packages import Packages
 from trundle.spatial import Pose
 from trundle.xmlnode import XmlNode
@@ -50,6 +50,11 @@ def leave_out(node: XmlNode, tags: Iterable[str], why: str, context: Context) ->
         if child is not None and key not in context.left_out:
             context.left_out.add(key)
             context.report.info(child.at, f"<{tag}> in <{node.tag}> {why}; it is ignored")
+
+
+def read_bits(node: XmlNode, tag: str, context: Context) -> int:
+    """Flags or a mask: every bit is set where there is none."""
+    return node.integer(tag, default=EVERY_BIT, report=context.report) & EVERY_BIT
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ from trundle.model import Collision, Link, Visual
 from trundle.xmlnode import XmlNode
 
 from .auto_inertia import inertial_of_collisions
-from .context import Context, leave_out, read_pose
+from .context import Context, leave_out, read_bits, read_pose
 from .frames import FrameGraph
 from .geometry import read_geometry
 from .inertial import read_inertial
@@ -62,10 +62,10 @@ def _read_visual(node: XmlNode, link: str, graph: FrameGraph, context: Context) 
         cast_shadows=node.flag("cast_shadows", default=True, report=context.report),
         laser_retro=node.number("laser_retro", default=0.0, report=context.report),
         label=label or 0,
+        visibility_flags=read_bits(node, "visibility_flags", context),
         temperature=temperature,
     )
     leave_out(node, ("meta",), "is for Gazebo's editor", context)
-    leave_out(node, ("visibility_flags",), "is not heeded: every camera sees every visual", context)
     node.report_unread(context.report)
     return visual
 

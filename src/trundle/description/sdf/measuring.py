@@ -3,7 +3,7 @@
 from trundle.model import ForceTorque, GpsNoise, ImuNoise, Noise, OrientationReference, RangeScan, ScanAxis
 from trundle.xmlnode import XmlNode
 
-from .context import Context, leave_out
+from .context import Context, leave_out, read_bits
 from .noise import read_noise
 
 RANGING = frozenset({"ray", "gpu_ray", "lidar", "gpu_lidar"})
@@ -32,6 +32,7 @@ def read_scan(sensor: XmlNode, context: Context) -> RangeScan:
         min_m=low,
         max_m=high,
         noise=read_noise(node.find("noise"), context),
+        visibility_mask=read_bits(node, "visibility_mask", context),
     )
     if limits is not None:
         leave_out(limits, ("resolution",), "rounds nothing, in Gazebo too", context)
@@ -84,7 +85,7 @@ def read_imu(sensor: XmlNode, context: Context) -> ImuNoise:
     rates = _axes(node, "angular_velocity", None if old is None else old.find("rate"), context)
     accelerations = _axes(node, "linear_acceleration", None if old is None else old.find("accel"), context)
     reference = _reference(node.find("orientation_reference_frame"), context)
-    leave_out(node, ("topic", "enable_orientation"), "is not heeded", context)
+    leave_out(node, ("enable_orientation",), "is not heeded: the orientation is always told", context)
     node.report_unread(context.report)
     return ImuNoise(angular_velocity=rates, linear_acceleration=accelerations, reference=reference)
 
@@ -143,7 +144,6 @@ def read_touching(sensor: XmlNode, context: Context) -> tuple[str, ...]:
     if node is None:
         return ()
     names = [child.text.rpartition("::")[2] for child in node.all("collision")]
-    leave_out(node, ("topic",), "is not heeded", context)
     node.report_unread(context.report)
     return tuple(name for name in names if name not in ("", "__default__"))
 

@@ -29,7 +29,7 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
         update_rate_hz=_rate(node, context),
         always_on=node.flag("always_on", default=False, report=report),
         visualize=node.flag("visualize", default=False, report=report),
-        topic=node.string("topic"),
+        topic=_topic(node, type_),
         cameras=read_cameras(node, type_, context) if type_ in SEEING else (),
         scan=read_scan(node, context) if type_ in RANGING else None,
         imu=read_imu(node, context) if type_ == "imu" else None,
@@ -58,6 +58,12 @@ def named_apart(sensors: Iterable[Sensor], link: str, context: Context) -> tuple
             sensor = replace(sensor, name=f"{name}_{number}")
         apart[sensor.name] = sensor
     return tuple(apart.values())
+
+
+def _topic(node: XmlNode, type_: str) -> str:
+    """Where readings are told: of an imu and of a contact sensor, the element with their settings may say it, too."""
+    settings = node.find(type_) if type_ in ("imu", "contact") else None
+    return node.string("topic") or ("" if settings is None else settings.string("topic"))
 
 
 def _rate(node: XmlNode, context: Context) -> float:

@@ -1,6 +1,6 @@
 """Writes <camera> and <noise>."""
 
-from trundle.model import CameraOptics, Distortion, Lens, Noise
+from trundle.model import EVERY_BIT, CameraOptics, Distortion, Lens, Noise
 
 from .tag import Tag
 
@@ -25,6 +25,11 @@ def add_camera(sensor: Tag, optics: CameraOptics) -> None:
     if optics.panoptic:
         camera.add("segmentation_type", "instance")
     camera.add_unless("box_type", optics.box_type, default="2d")
+    camera.add_unless("visibility_mask", optics.visibility_mask, default=EVERY_BIT)
+    camera.add_unless("triggered", optics.triggered, default=False)
+    camera.add_unless("trigger_topic", optics.trigger_topic, default="")
+    camera.add_unless("camera_info_topic", optics.info_topic, default="")
+    camera.add_unless("optical_frame_id", optics.optical_frame, default="")
     add_noise(camera, optics.noise)
     _add_distortion(camera, optics.distortion)
     _add_lens(camera.add_optional("lens"), optics)

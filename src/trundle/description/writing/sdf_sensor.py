@@ -1,7 +1,7 @@
 """Writes <sensor>."""
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import GpsNoise, ImuNoise, Noise, RangeScan, Sensor
+from trundle.model import EVERY_BIT, GpsNoise, ImuNoise, Noise, RangeScan, Sensor
 
 from .sdf_camera import add_camera, add_noise
 from .sdf_instrument import add_axes, add_instrument
@@ -59,6 +59,7 @@ def _add_scan(sensor: Tag, scan: RangeScan) -> None:
     limits.add("min", scan.min_m)
     limits.add("max", scan.max_m)
     add_noise(ray, scan.noise)
+    ray.add_unless("visibility_mask", scan.visibility_mask, default=EVERY_BIT)
 
 
 def _add_imu(sensor: Tag, imu: ImuNoise) -> None:

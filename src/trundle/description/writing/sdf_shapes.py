@@ -1,6 +1,7 @@
 """Writes what is on a link: <visual> and <collision>."""
 
 from trundle.model import (
+    EVERY_BIT,
     GREY,
     Box,
     Capsule,
@@ -34,6 +35,7 @@ def add_visual(link: Tag, visual: Visual, uri_of: UriOf) -> None:
     tag.add_unless("transparency", visual.transparency, default=0.0)
     tag.add_unless("cast_shadows", visual.cast_shadows, default=True)
     tag.add_unless("laser_retro", visual.laser_retro, default=0.0)
+    tag.add_unless("visibility_flags", visual.visibility_flags, default=EVERY_BIT)
     if visual.label:
         plugin = tag.add("plugin", filename="gz-sim-label-system", name="gz::sim::systems::Label")
         plugin.add("label", visual.label)

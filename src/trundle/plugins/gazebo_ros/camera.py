@@ -42,6 +42,14 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
     offer_rate(sensor, node, tag, rate_hz)
 
 
+def attach_triggered(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+    """Publish as `attach`, one picture for each std_msgs/Empty on <triggerTopicName> (image_trigger)."""
+    trigger = sensor.await_trigger()
+    topic = camera_topic(sensor, tag, "triggerTopicName", "image_trigger")
+    node.subscribe(topic, "std_msgs/Empty", lambda _: trigger(), queue_size=1)
+    attach(sensor, node, tag, report)
+
+
 def offer_rate(sensor: CameraSensor, node: Node, tag: PluginTag, plugin_rate_hz: float) -> None:
     """Let users change how often pictures are taken, as dynamic_reconfigure's `imager_rate` of the camera.
 
