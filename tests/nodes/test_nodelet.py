@@ -2,8 +2,8 @@
 
 from tests.nodes.conftest import PATIENCE_S
 
-from trundle.nodes import Replacement
-from trundle.nodes.nodelet import NODELETS
+from trundle.nodes import Missing, Replacement, find_node
+from trundle.nodes.catalog import NODELETS
 
 
 def test_every_nodelet_of_the_list_is_there() -> None:
@@ -17,17 +17,16 @@ def test_a_nodelet_that_a_stand_in_can_be_is_it(stage) -> None:
     stage.until(lambda: ["/scan", "sensor_msgs/LaserScan"] in stage.loop.run(stage.client.ask("getTopicTypes")))
 
 
-def test_another_is_named_and_idles(stage, capsys) -> None:
-    running = stage.start("nodelet/nodelet", "standalone image_proc/rectify", name="rectify")
-    said = ""
-
-    def named() -> bool:
-        nonlocal said
-        said += capsys.readouterr().err
-        return "nodelet image_proc/rectify: compiled code that nothing stands in for" in said
-
-    stage.until(named)
-    assert not running.done()
+def test_another_is_named_before_anything_starts(stage, capsys) -> None:
+    words = "standalone image_proc/rectify"
+    assert stage.start("nodelet/nodelet", words, name="rectify").result(PATIENCE_S) == 1
+    why = "nodelet image_proc/rectify: compiled code that nothing stands in for"
+    assert why in capsys.readouterr().err
+    found = find_node("nodelet", "nodelet", lambda _: None, env={}, arguments=words)
+    assert isinstance(found, Missing)
+    assert found.why.startswith(why)
+    for there in ("manager", "load pointcloud_to_laserscan/pointcloud_to_laserscan_nodelet m", "unload x m"):
+        assert isinstance(find_node("nodelet", "nodelet", lambda _: None, env={}, arguments=there), Replacement)
 
 
 def test_a_wrong_command_line_is_said(stage, capsys) -> None:

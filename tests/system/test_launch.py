@@ -188,17 +188,20 @@ def test_a_second_launch_takes_over_the_names_it_shares(start, trundle, until, p
 def test_what_runs_is_said_in_a_table(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="a" args="0"/><node pkg="p" type="gone" name="b"/>'
-        '<node pkg="tf2_ros" type="static_transform_publisher" name="c" args="0 0 0 0 0 0 x y"/></launch>'
+        '<node pkg="tf2_ros" type="static_transform_publisher" name="c" args="0 0 0 0 0 0 x y" launch-prefix="nice"/>'
+        '<node pkg="nodelet" type="nodelet" name="d" args="load image_proc/rectify m"/></launch>'
     )
     done = launch("p", "main.launch", "--headless", "--duration", "0.1")
 
-    table = done.stdout[done.stdout.index("WHAT RUNS") :].splitlines()[1:4]
+    *table, nodelet = done.stdout[done.stdout.index("WHAT RUNS") :].splitlines()[1:5]
     assert table == [
         f"  process   /a  {package}/talk",
         f"  missing   /b  no executable 'gone' in {package}, and no stand-in for p/gone",
         "  stand-in  /c  tf2_ros/static_transform_publisher",
     ]
+    assert nodelet.startswith("  missing   /d  nodelet image_proc/rectify: compiled code that nothing stands in for")
     assert "node /b: no executable 'gone'" in done.stderr
+    assert "node /c: launch-prefix 'nice' is not used; the stand-in runs within this process" in done.stderr
 
 
 def test_the_table_says_where_the_page_is(launch: Launch, package: Path) -> None:
@@ -394,6 +397,7 @@ def test_a_world_that_is_not_there_is_named(launch: Launch, package: Path) -> No
 
     assert done.returncode == 1
     assert "worlds/nowhere.world: error: no such file or folder" in done.stderr
+    assert "; others are searched along GAZEBO_RESOURCE_PATH" in done.stderr
     assert "Traceback" not in done.stderr + done.stdout
 
 

@@ -79,12 +79,15 @@ class NodeStarter:
         if env["ROS_NAMESPACE"] == "/":
             del env["ROS_NAMESPACE"]
         name = label.replace("/", "-")
-        match find_node(node.package, node.type, self.packages.find_package, env=env):
+        match find_node(node.package, node.type, self.packages.find_package, env=env, arguments=node.arguments):
             case Executable(path):
                 job = ProcessJob(self._command(node, label, path, env, more), show)
                 logs = f"{self.log_folder / name}*.log"
                 return Launched(node=node, kind="process", what=str(path), job=job, log_files=logs)
             case Replacement() as stand_in:
+                if node.launch_prefix:
+                    what = f"launch-prefix {node.launch_prefix!r} is not used; the stand-in runs within this process"
+                    self.report.warn(node.at, f"node {node.full_name}: {what}")
                 log = None if (self.output or node.output) == "screen" else self.log_folder / f"{name}-stdout.log"
                 job = TaskJob(label, lambda: self._run(node, stand_in, log))
                 logs = "" if log is None else str(log)

@@ -133,5 +133,7 @@ def _find(what: str, packages: Packages) -> Path:
     if world is not None:
         return world
     known = ", ".join(packages.worlds())
-    hint = f"; worlds that come with Trundle: {known}" if path.suffix == ".world" else ""
+    hint = ""
+    if path.suffix == ".world":
+        hint = f"; worlds that come with Trundle: {known}; others are searched along GAZEBO_RESOURCE_PATH"
     raise DescriptionError(Source(what), f"no such file or folder{hint}")

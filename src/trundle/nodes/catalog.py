@@ -83,6 +83,19 @@ STAND_INS: dict[tuple[str, str], str] = {
 }
 """(package, type) → "module:Class"."""
 
+NODELETS: dict[str, str] = {
+    "depthimage_to_laserscan/DepthImageToLaserScanNodelet": (
+        "trundle.nodes.depthimage_to_laserscan:DepthImageToLaserScan"
+    ),
+    "pointcloud_to_laserscan/PointCloudToLaserScanNodelet": (
+        "trundle.nodes.pointcloud_to_laserscan:PointCloudToLaserScan"
+    ),
+    "pointcloud_to_laserscan/pointcloud_to_laserscan_nodelet": (
+        "trundle.nodes.pointcloud_to_laserscan:PointCloudToLaserScan"
+    ),
+}
+"""Class of a nodelet as launch files name it → "module:Class"."""
+
 WORLDS = frozenset(("gazebo_ros", type_) for type_ in ("gzserver", "gazebo", "debug", "gdbrun", "perf"))
 """Those that open a world, and so tell the time."""
 

@@ -10,7 +10,7 @@ from typing import TypeAlias, cast
 
 from trundle.ros import Node
 
-from .catalog import OURS_ALWAYS, STAND_INS
+from .catalog import NODELETS, OURS_ALWAYS, STAND_INS
 from .host import Host, StandIn
 from .missing import WAYS_OUT
 
@@ -49,7 +49,7 @@ class Missing:
 
 
 def find_node(
-    package: str, type_name: str, find_package: FindPackage, *, env: Mapping[str, str]
+    package: str, type_name: str, find_package: FindPackage, *, env: Mapping[str, str], arguments: str = ""
 ) -> Executable | Replacement | Missing:
     """Find a node: an executable in the package's folder, else a stand-in, else what is missing.
 
@@ -61,6 +61,7 @@ def find_node(
         type_name: the executable.
         find_package: knows where packages live.
         env: what a process would be started with.
+        arguments: of its command line; of a nodelet they say what it is.
     """
     target = STAND_INS.get((package, type_name))
     if target is not None and package in OURS_ALWAYS:
@@ -74,7 +75,7 @@ def find_node(
             elif target is None or _can_run(path, env):
                 return Executable(path)
     if target is not None:
-        return Replacement(target)
+        return _nodelet(arguments) or Replacement(target) if type_name == "nodelet" else Replacement(target)
     if plain is not None:
         return Missing(f"{plain} is not executable; run chmod +x on it")
     way_out = f"; {WAYS_OUT[package]}" if package in WAYS_OUT else ""
@@ -83,6 +84,20 @@ def find_node(
     known = sorted(name for owner, name in STAND_INS if owner == package)
     there_is = f"; stand-ins of that package: {', '.join(known)}" if known else way_out
     return Missing(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
+
+
+def missing_nodelet(name: str) -> str:
+    """Why a nodelet cannot be loaded."""
+    return f"nodelet {name}: compiled code that nothing stands in for; there are: {', '.join(NODELETS)}"
+
+
+def _nodelet(arguments: str) -> Missing | None:
+    """What a nodelet's command line asks for in vain; None: there is what it asks for."""
+    match arguments.split():
+        case ["load" | "standalone", name, *_] if name not in NODELETS:
+            return Missing(missing_nodelet(name))
+        case _:
+            return None
 
 
 def program_names(package: str, folder: Path | None) -> set[str]:

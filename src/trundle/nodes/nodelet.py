@@ -2,25 +2,13 @@
 
 from trundle.ros import Node
 
-from .find import Replacement
+from .catalog import NODELETS
+from .find import Replacement, missing_nodelet
 from .host import Host
-
-NODELETS: dict[str, str] = {
-    "depthimage_to_laserscan/DepthImageToLaserScanNodelet": (
-        "trundle.nodes.depthimage_to_laserscan:DepthImageToLaserScan"
-    ),
-    "pointcloud_to_laserscan/PointCloudToLaserScanNodelet": (
-        "trundle.nodes.pointcloud_to_laserscan:PointCloudToLaserScan"
-    ),
-    "pointcloud_to_laserscan/pointcloud_to_laserscan_nodelet": (
-        "trundle.nodes.pointcloud_to_laserscan:PointCloudToLaserScan"
-    ),
-}
-"""Class as launch files name it → "module:Class"."""
 
 
 class Nodelet:
-    """Is the nodelet that it is told to load; one that nothing stands in for is named, and the launch goes on."""
+    """Is the nodelet that it is told to load; a launch names those that nothing stands in for, and starts none."""
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
         self._node = node
@@ -37,10 +25,8 @@ class Nodelet:
             case ["load", name, _, *rest] | ["standalone", name, *rest]:
                 if name in NODELETS:
                     return await Replacement(NODELETS[name]).load()(node, rest, self._host).run()
-                known = ", ".join(NODELETS)
-                node.log_warn(f"nodelet {name}: compiled code that nothing stands in for; there are: {known}")
-                await node.closed.wait()
-                return 0
+                node.log_error(missing_nodelet(name))
+                return 1
             case ["unload", *_]:
                 return 0
             case words:
