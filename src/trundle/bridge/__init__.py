@@ -7,7 +7,7 @@ from .clock import ClockTopic, clock_rate_hz
 from .frames import SimulationFrames
 from .joint_states import JointStates
 from .measuring import ImuTopic, ScanTopic, sensor_topics
-from .naming import WORLD_FRAME, FrameNames, link_frames
+from .naming import WORLD_FRAME, FrameNames, link_frames, sensor_topic
 from .pictures import cloud_maker, depth_image, image_maker
 from .readings import contacts_message, fix_message, imu_message, points_message, scan_message, wrench_message
 
@@ -33,6 +33,7 @@ __all__ = [
     "link_frames",
     "points_message",
     "scan_message",
+    "sensor_topic",
     "sensor_topics",
     "wrench_message",
 ]

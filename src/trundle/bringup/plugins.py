@@ -102,6 +102,8 @@ def _loaded(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _
         return load()
     except DescriptionError as error:
         report.warn(error.at, f"{error.what}; the run goes on without it")
+    except TrundleError as error:
+        report.warn(tag.at, f"plugin {tag.name!r}: {error}; the run goes on without it")
     except Exception as error:  # a user's code may raise anything
         report.warn(tag.at, f"plugin {tag.name!r}: {type(error).__name__}: {error}; the run goes on without it")
     return None

@@ -84,6 +84,7 @@ STAND_INS: dict[tuple[str, str], str] = {
 """(package, type) → "module:Class"."""
 
 NODELETS: dict[str, str] = {
+    "cmd_vel_mux/CmdVelMuxNodelet": "trundle.nodes.cmd_vel_mux:CmdVelMux",
     "depthimage_to_laserscan/DepthImageToLaserScanNodelet": (
         "trundle.nodes.depthimage_to_laserscan:DepthImageToLaserScan"
     ),
@@ -93,6 +94,7 @@ NODELETS: dict[str, str] = {
     "pointcloud_to_laserscan/pointcloud_to_laserscan_nodelet": (
         "trundle.nodes.pointcloud_to_laserscan:PointCloudToLaserScan"
     ),
+    "yocs_cmd_vel_mux/CmdVelMuxNodelet": "trundle.nodes.cmd_vel_mux:CmdVelMux",
 }
 """Class of a nodelet as launch files name it → "module:Class"."""
 

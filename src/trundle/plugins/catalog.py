@@ -45,6 +45,7 @@ BUILTIN: dict[str, str] = {
     "libgazebo_ros_imu.so": "trundle.plugins.gazebo_ros.imu:Imu",
     "libgazebo_ros_joint_pose_trajectory.so": "trundle.plugins.gazebo_ros.joint_pose_trajectory:JointPoseTrajectory",
     "libgazebo_ros_joint_state_publisher.so": "trundle.plugins.gazebo_ros.joint_state_publisher:JointStatePublisher",
+    "libgazebo_ros_kobuki.so": "trundle.plugins.kobuki:Kobuki",
     "libgazebo_ros_p3d.so": "trundle.plugins.gazebo_ros.p3d:P3D",
     "libgazebo_ros_planar_move.so": "trundle.plugins.gazebo_ros.planar_move:PlanarMove",
     "libgazebo_ros_skid_steer_drive.so": "trundle.plugins.gazebo_ros.skid_steer_drive:SkidSteerDrive",

@@ -18,7 +18,15 @@ class OdometryTopic:
     """Tells where a robot is in its odometry frame, and how fast it moves in its own axes."""
 
     def __init__(
-        self, node: Node, topic: str, *, frame: str, base: str, variances: tuple[float, ...], with_tf: bool
+        self,
+        node: Node,
+        topic: str,
+        *,
+        frame: str,
+        base: str,
+        variances: tuple[float, ...],
+        with_tf: bool,
+        twist_variances: tuple[float, ...] | None = None,
     ) -> None:
         """Advertise.
 
@@ -29,9 +37,11 @@ class OdometryTopic:
             base: the robot's.
             variances: of x, y, z, roll, pitch, yaw.
             with_tf: whether /tf has it, too.
+            twist_variances: of the velocities; None: the same.
         """
         self._frame, self._base = frame, base
-        self._covariance = [variances[row] if row == column else 0.0 for row in range(6) for column in range(6)]
+        self._covariance = _diagonal(variances)
+        self._twist_covariance = _diagonal(twist_variances or variances)
         self._topic = node.advertise(topic, "nav_msgs/Odometry", queue_size=1)
         self._broadcaster = TransformBroadcaster(node) if with_tf else None
 
@@ -84,9 +94,13 @@ class OdometryTopic:
                 "header": {"stamp": time_ns, "frame_id": self._frame},
                 "child_frame_id": self._base,
                 "pose": {"pose": told, "covariance": self._covariance},
-                "twist": {"twist": speeds, "covariance": self._covariance},
+                "twist": {"twist": speeds, "covariance": self._twist_covariance},
             }
         )
+
+
+def _diagonal(variances: tuple[float, ...]) -> list[float]:
+    return [variances[row] if row == column else 0.0 for row in range(6) for column in range(6)]
 
 
 def true_motion(model: ModelHandle) -> tuple[Pose, Twist]:

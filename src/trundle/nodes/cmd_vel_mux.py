@@ -1,0 +1,96 @@
+"""yocs_cmd_vel_mux: the velocity command of whoever has the highest priority and is not silent, as on a TurtleBot 2."""
+
+import asyncio
+from dataclasses import dataclass
+from pathlib import Path
+
+import yaml
+
+from trundle.ros import Message, Node, SettingError, Settings
+
+from .host import Host
+
+_KIND = "geometry_msgs/Twist"
+_IDLE = "idle"
+_LOOK_S = 0.02
+
+
+@dataclass(slots=True, eq=False)
+class Source:
+    """A topic of commands."""
+
+    name: str
+    topic: str
+    timeout_s: float
+    priority: float
+    heard_ns: int = 0
+
+    def is_silent(self, now_ns: int) -> bool:
+        """Whether it was not heard within its timeout."""
+        return now_ns - self.heard_ns > self.timeout_s * 1e9
+
+
+class CmdVelMux:
+    """Passes on one source at a time; `~active` says which, "idle" if none.
+
+    `~yaml_cfg_file` names a file with `subscribers` (name, topic, timeout, priority) and `publisher` (output); topics
+    are the node's own. A source keeps its turn until it is silent, unless one of a higher priority speaks.
+    """
+
+    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+        del arguments, host
+        self._node = node
+        self._allowed: Source | None = None
+
+    async def run(self) -> int:
+        """Mux until cancelled."""
+        node = self._node
+        path = str(await node.get_param("~yaml_cfg_file", ""))
+        try:
+            sources, output = await asyncio.to_thread(_read, path)
+        except SettingError as error:
+            node.log_error(str(error))
+            return 1
+        self._active = node.advertise("~active", "std_msgs/String", latch=True, queue_size=1)
+        self._active.publish({"data": _IDLE})
+        self._output = node.advertise(f"~{output}", _KIND, queue_size=10)
+        for source in sources:
+            node.subscribe(f"~{source.topic}", _KIND, lambda message, s=source: self._take(s, message))
+        while not node.closed.is_set():
+            await node.clock.sleep(_LOOK_S)
+            if self._allowed is not None and self._allowed.is_silent(node.clock.now_ns()):
+                self._allow(None)
+        return 0
+
+    def _take(self, source: Source, message: Message) -> None:
+        now = source.heard_ns = self._node.clock.now_ns()
+        allowed = self._allowed
+        is_free = allowed is None or allowed.is_silent(now) or source.priority > allowed.priority
+        if source is not allowed and is_free:
+            self._allow(source)
+        if self._allowed is source:
+            self._output.publish(message)
+
+    def _allow(self, source: Source | None) -> None:
+        self._allowed = source
+        self._active.publish({"data": _IDLE if source is None else source.name})
+
+
+def _read(path: str) -> tuple[list[Source], str]:
+    """Read a configuration.
+
+    Raises:
+        SettingError: there is none, or it is of no use.
+    """
+    try:
+        tree = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+    except (OSError, ValueError, yaml.YAMLError) as error:
+        raise SettingError(f"yaml_cfg_file {path!r} cannot be read: {error}") from None
+    settings = Settings(tree, path)
+    sources: list[Source] = []
+    for number, item in enumerate(settings.items("subscribers") or []):
+        each = Settings(item, f"{path}/subscribers[{number}]")
+        sources.append(Source(each.text("name"), each.text("topic"), each.number("timeout"), each.number("priority")))
+    if not sources:
+        raise SettingError(f"{path}: no subscribers")
+    return sources, settings.text("publisher", "output")

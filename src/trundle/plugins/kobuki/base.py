@@ -1,0 +1,168 @@
+"""A Kobuki's wheels, odometry and gyro; what it feels is in `feelers`."""
+
+import math
+from typing import Any
+
+from trundle.control import DifferentialDrive
+from trundle.diagnostics import UsageError
+from trundle.model import PluginTag
+from trundle.ros import Message, Node
+from trundle.simulation import ModelHandle, Simulation, Snapshot
+from trundle.spatial import Pose, Twist
+
+from ..gazebo_ros.odometry import OdometryTopic
+from ..gazebo_ros.on_graph import GraphPlugin, required
+from ..gazebo_ros.place import namespace_of, period_of, topic_in
+from .feelers import Feelers, SensorTopic
+
+_BASE = "mobile_base"
+_POSE_VARIANCES = (0.1, 0.1, 1e6, 1e6, 1e6, 0.05)
+_GYRO_COVARIANCE = [1e6, 0.0, 0.0, 0.0, 1e6, 0.0, 0.0, 0.0, 0.05]
+_ON = 1
+"""kobuki_msgs/MotorPower.ON"""
+
+
+class Kobuki(GraphPlugin):
+    """Drives by `mobile_base/commands/velocity`; tells odom, joint_states, and on `mobile_base/…` what it feels.
+
+    Parameters: <left_wheel_joint_name>, <right_wheel_joint_name>, <wheel_separation> [m], <wheel_diameter> [m],
+    <torque> [N·m], <velocity_command_timeout> [s], <imu_name> and those of `Feelers`, all required; <publish_tf> false,
+    <update_rate> 0 (every step). As in the original, the heading is the gyro's and the way the wheels'.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        names = ("left_wheel_joint_name", "right_wheel_joint_name")
+        self._wheels = [model.joint(required(parameters, name)) for name in names]
+        numbers = ("wheel_separation", "wheel_diameter", "torque", "velocity_command_timeout")
+        missing = [name for name in numbers if parameters.find(name) is None]
+        if missing:
+            raise UsageError(f"<{missing[0]}> is missing")
+        separation, diameter, self._torque, self._timeout_s = (
+            parameters.number(name, default=0.0, report=report) for name in numbers
+        )
+        if not (separation > 0.0 and diameter > 0.0):
+            raise UsageError("<wheel_separation> and <wheel_diameter> must be > 0 m")
+        self._drive = DifferentialDrive(separation=separation, wheel_radius=diameter / 2)
+        self.period_ns = period_of(parameters.number("update_rate", default=0.0, report=report))
+        self._node = node
+        namespace = namespace_of(tag, model.name)
+
+        def topic(name: str) -> str:
+            return topic_in(namespace, name)
+
+        self._odometry = OdometryTopic(
+            node,
+            topic("odom"),
+            frame="odom",
+            base="base_footprint",
+            variances=_POSE_VARIANCES,
+            twist_variances=(0.0,) * 6,
+            with_tf=parameters.flag("publish_tf", default=False, report=report),
+        )
+        self._states = node.advertise(topic("joint_states"), "sensor_msgs/JointState", queue_size=1)
+        self._imu = node.advertise(topic(f"{_BASE}/sensors/imu_data"), "sensor_msgs/Imu", queue_size=1)
+
+        def sensor(name: str) -> SensorTopic:
+            return _find_sensor(model, required(parameters, name))
+
+        self._feelers = Feelers(model, node, topic(_BASE), parameters, report, sensor)
+        self._gyro: Message | None = None
+        node.subscribe(sensor("imu_name").topic("imu"), "sensor_msgs/Imu", self._take_gyro, queue_size=1)
+        commands = topic(f"{_BASE}/commands")
+        node.subscribe(f"{commands}/velocity", "geometry_msgs/Twist", self._take, queue_size=100)
+        node.subscribe(f"{commands}/motor_power", "kobuki_msgs/MotorPower", self._take_power)
+        node.subscribe(f"{commands}/reset_odometry", "std_msgs/Empty", self._reset_odometry)
+        self.reset()
+
+    def before_step(self, sim: Simulation) -> None:
+        """Turn the wheels; a command that is too old is none."""
+        is_old = (sim.time_ns - self._commanded_ns) / 1e9 > self._timeout_s
+        speeds = (0.0, 0.0) if is_old or not self._is_powered else self._speeds
+        for wheel, speed in zip(self._wheels, speeds, strict=True):
+            wheel.set_velocity(speed, max_effort=self._torque, often=True)
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell all of it."""
+        time_ns = snapshot.time_ns
+        self._tell_joints(time_ns)
+        self._tell_odometry(time_ns)
+        if self._gyro is not None and self._imu.has_subscribers:
+            self._imu.publish(
+                {
+                    "header": {"stamp": time_ns, "frame_id": "base_link"},
+                    "orientation": self._gyro.orientation,
+                    "orientation_covariance": _GYRO_COVARIANCE,
+                    "angular_velocity": self._gyro.angular_velocity,
+                    "angular_velocity_covariance": _GYRO_COVARIANCE,
+                    "linear_acceleration": self._gyro.linear_acceleration,
+                }
+            )
+        self._feelers.tell(time_ns)
+
+    def reset(self) -> None:
+        """Stand still, powered, at the origin of the odometry."""
+        self._speeds, self._commanded_ns, self._is_powered = (0.0, 0.0), 0, True
+        self._place = [0.0, 0.0, 0.0]
+        self._turned = [wheel.position for wheel in self._wheels]
+        self._told_ns = 0
+        self._feelers.reset()
+
+    def _tell_joints(self, time_ns: int) -> None:
+        if self._states.has_subscribers:
+            self._states.publish(
+                {
+                    "header": {"stamp": time_ns, "frame_id": "base_link"},
+                    "name": [wheel.name for wheel in self._wheels],
+                    "position": [wheel.position for wheel in self._wheels],
+                    "velocity": [wheel.velocity for wheel in self._wheels],
+                    "effort": [0.0, 0.0],
+                }
+            )
+
+    def _tell_odometry(self, time_ns: int) -> None:
+        """Add what the wheels and the gyro did since the last time."""
+        turned, elapsed = [wheel.position for wheel in self._wheels], (time_ns - self._told_ns) / 1e9
+        distance = (
+            sum(now - then for now, then in zip(turned, self._turned, strict=True)) / 2 * self._drive.wheel_radius
+        )
+        self._turned, self._told_ns = turned, time_ns
+        turning = 0.0 if self._gyro is None else float(self._gyro.angular_velocity.z)
+        yaw = self._place[2]
+        self._place = [
+            self._place[0] + distance * math.cos(yaw),
+            self._place[1] + distance * math.sin(yaw),
+            yaw + turning * max(elapsed, 0.0),
+        ]
+        x, y, yaw = self._place
+        pose = Pose((x, y, 0.0), (math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)))
+        speed = distance / elapsed if elapsed > 0.0 else 0.0
+        self._odometry.publish(time_ns, pose, Twist((speed, 0.0, 0.0), (0.0, 0.0, turning)))
+
+    def _take(self, twist: Message) -> None:
+        forward, turning = float(twist.linear.x), float(twist.angular.z)
+        if math.isfinite(forward) and math.isfinite(turning):
+            self._speeds = self._drive.wheel_speeds(forward, turning)
+            self._commanded_ns = self._node.clock.now_ns()
+
+    def _take_power(self, message: Message) -> None:
+        self._is_powered = message.state == _ON
+
+    def _take_gyro(self, message: Message) -> None:
+        self._gyro = message
+
+    def _reset_odometry(self, _: Any) -> None:
+        self._place = [0.0, 0.0, 0.0]
+
+
+def _find_sensor(model: ModelHandle, name: str) -> SensorTopic:
+    """A sensor of the model, by its name.
+
+    Raises:
+        UsageError: there is none, with those there are.
+    """
+    there = [SensorTopic(model.model, link.name, each) for link in model.model.links for each in link.sensors]
+    for each in there:
+        if each.sensor.name == name:
+            return each
+    raise UsageError(f"no sensor {name!r}; there are: {', '.join(each.sensor.name for each in there) or 'none'}")

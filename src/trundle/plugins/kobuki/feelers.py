@@ -1,0 +1,150 @@
+"""What a Kobuki feels: bumpers, cliffs and dropped wheels, as events and together in `sensors/core`."""
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from trundle.bridge import sensor_topic
+from trundle.diagnostics import Diagnostics
+from trundle.model import Model, Sensor
+from trundle.ros import Message, Node, Publisher
+from trundle.simulation import ModelHandle
+from trundle.xmlnode import XmlNode
+
+_SIDES = ("left", "center", "right")
+_BITS = {"left": 4, "center": 2, "right": 1}
+"""Of `bumper` and `cliff` in kobuki_msgs/SensorState."""
+_DROP_BITS = {"left": 2, "right": 1}
+_BUMPER_M = (0.01, 0.13)
+"""Above the model's origin; what touches it lower or higher is no bump (updateBumper of the original)."""
+_STAMP_MOD_MS = 1 << 16
+
+
+@dataclass(frozen=True, slots=True)
+class SensorTopic:
+    """A sensor of the model, read as others read it."""
+
+    model: Model
+    link: str
+    sensor: Sensor
+
+    def topic(self, output: str) -> str:
+        """Where its output is published: contacts, imu, scan."""
+        return sensor_topic(self.model, self.link, self.sensor, output, main=output)
+
+
+class _Switches:
+    """Some that are on or off; an event is told when one changes."""
+
+    def __init__(self, publisher: Publisher, field: str, order: Iterable[str]) -> None:
+        self._publisher = publisher
+        self._field = field
+        self._order = list(order)
+        self.on: set[str] = set()
+
+    def set(self, side: str, *, on: bool, **more: int) -> None:
+        """One is, from now on."""
+        if on == (side in self.on):
+            return
+        self.on = self.on | {side} if on else self.on - {side}
+        if self._publisher.has_subscribers:
+            self._publisher.publish({self._field: self._order.index(side), "state": int(on), **more})
+
+
+class Feelers:
+    """Reads the model's contact and ray sensors by their own topics.
+
+    Parameters: <bumper_name> (a contact sensor), <cliff_sensor_left_name>, <cliff_sensor_center_name>,
+    <cliff_sensor_right_name> (ray sensors) and <cliff_detection_threshold> [m], all required; without
+    <wheel_drop_left_sensor_name> and <wheel_drop_right_sensor_name>, as in old files, no wheel is felt to hang.
+    """
+
+    def __init__(
+        self,
+        model: ModelHandle,
+        node: Node,
+        base: str,
+        parameters: XmlNode,
+        report: Diagnostics,
+        sensor: Callable[[str], SensorTopic],
+    ) -> None:
+        """Subscribe.
+
+        Args:
+            model: whose bumper it is.
+            node: on the graph.
+            base: where its topics are.
+            parameters: of the plugin.
+            report: takes what is wrong with them.
+            sensor: finds the sensor that a parameter names.
+        """
+        self._model = model
+        self._edge_m = parameters.number("cliff_detection_threshold", default=0.0, report=report)
+
+        def switches(name: str, kind: str, field: str, order: Iterable[str]) -> _Switches:
+            publisher = node.advertise(f"{base}/events/{name}", f"kobuki_msgs/{kind}Event", queue_size=10)
+            return _Switches(publisher, field, order)
+
+        self._bumpers = switches("bumper", "Bumper", "bumper", _SIDES)
+        self._cliffs = switches("cliff", "Cliff", "sensor", _SIDES)
+        self._drops = switches("wheel_drop", "WheelDrop", "wheel", _DROP_BITS)
+        self._core = node.advertise(f"{base}/sensors/core", "kobuki_msgs/SensorState", queue_size=1)
+
+        def hear(parameter: str, output: str, kind: str, take: Callable[[Message], None]) -> None:
+            node.subscribe(sensor(parameter).topic(output), kind, take, queue_size=1)
+
+        contacts, scan = ("contacts", "gazebo_msgs/ContactsState"), ("scan", "sensor_msgs/LaserScan")
+        hear("bumper_name", *contacts, self._take_bumps)
+        for side in _DROP_BITS:
+            if parameters.find(f"wheel_drop_{side}_sensor_name") is None:
+                continue
+            hear(f"wheel_drop_{side}_sensor_name", *contacts, lambda message, side=side: self._take_drop(side, message))
+        for side in _SIDES:
+            hear(f"cliff_sensor_{side}_name", *scan, lambda message, side=side: self._take_floor(side, message))
+
+    def reset(self) -> None:
+        """Feel nothing."""
+        for switches in (self._bumpers, self._cliffs, self._drops):
+            switches.on = set()
+
+    def tell(self, time_ns: int) -> None:
+        """Say what is felt now."""
+        if not self._core.has_subscribers:
+            return
+        state: dict[str, Any] = {
+            "header": {"stamp": time_ns, "frame_id": "base_link"},
+            "time_stamp": time_ns // 1_000_000 % _STAMP_MOD_MS,
+            "bumper": sum(_BITS[side] for side in self._bumpers.on),
+            "cliff": sum(_BITS[side] for side in self._cliffs.on),
+            "wheel_drop": sum(_DROP_BITS[side] for side in self._drops.on),
+        }
+        self._core.publish(state)
+
+    def _take_bumps(self, message: Message) -> None:
+        """Sixty degrees of the front belong to each bumper."""
+        height, yaw = self._model.pose.position[2], self._model.pose.rpy[2]
+        pressed: set[str] = set()
+        for state in message.states:
+            for position, normal in zip(state.contact_positions, state.contact_normals, strict=True):
+                if not _BUMPER_M[0] <= position.z - height <= _BUMPER_M[1]:
+                    continue
+                bearing = math.remainder(math.atan2(-normal.y, -normal.x) - yaw, math.tau)  # it points inwards
+                if abs(bearing) <= math.pi / 6:
+                    pressed.add("center")
+                elif abs(bearing) <= math.pi / 2:
+                    pressed.add("left" if bearing > 0.0 else "right")
+        for side in _SIDES:
+            self._bumpers.set(side, on=side in pressed)
+
+    def _take_drop(self, side: str, message: Message) -> None:
+        """A wheel that touches nothing hangs."""
+        self._drops.set(side, on=not message.states)
+
+    def _take_floor(self, side: str, scan: Message) -> None:
+        """What the first ray sees; nothing is far."""
+        seen = float(scan.ranges[0])
+        distance = seen if math.isfinite(seen) else float(scan.range_max)
+        # The reading of the robot's own sensor at that distance (updateCliffSensor of the original), as 16 bits.
+        raw = int(76123.0 * math.atan2(0.995, distance)) & 0xFFFF
+        self._cliffs.set(side, on=distance >= self._edge_m, bottom=raw)
