@@ -90,6 +90,17 @@ def test_an_ignored_folder_holds_no_packages(tmp_path: Path) -> None:
         resolve("package://hand/x", tmp_path, ROS_PACKAGE_PATH=str(tmp_path))
 
 
+def test_below_rospack_nosubdirs_are_no_packages(tmp_path: Path) -> None:
+    """As rospack has it: the folder itself may be one."""
+    package(tmp_path / "hand")
+    write(tmp_path / "hand/rospack_nosubdirs")
+    package(tmp_path / "old/arm")
+    write(tmp_path / "old/rospack_nosubdirs")
+    assert list(Packages({"ROS_PACKAGE_PATH": str(tmp_path)}, start=tmp_path).ros_packages())[:1] == ["hand"]
+    with pytest.raises(DescriptionError, match="no package 'arm'"):
+        resolve("package://arm/x", tmp_path, ROS_PACKAGE_PATH=str(tmp_path))
+
+
 def test_package_and_model_stand_for_one_another(tmp_path: Path) -> None:
     package(tmp_path / "ws/hand")
     model(tmp_path / "models/cup")

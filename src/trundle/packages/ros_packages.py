@@ -16,7 +16,9 @@ _MOST_GUESSED = 5000
 _NOT_CRAWLED = frozenset({"build", "node_modules", "__pycache__"})
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _NAME = re.compile(r"<name>\s*([\w.-]+)\s*</name>")
-_IGNORED_BY = ("CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE", "rospack_nosubdirs")
+_IGNORED_BY = ("CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE")
+_ALONE_BY = frozenset({*MANIFESTS, "rospack_nosubdirs"})
+"""Below a folder with one of these there are no packages."""
 SHIPPED = Path(__file__).parent / "ros"
 """Packages of our own: for the few stock ones that launch files only take a file from, and the examples."""
 _CHECKOUT_EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -102,7 +104,7 @@ def _walk(root: Path, most: int | None) -> Iterator[tuple[Path, set[str]]]:
         if names.intersection(_IGNORED_BY):
             continue
         yield folder, names
-        if depth < _DEEPEST and names.isdisjoint(MANIFESTS):
+        if depth < _DEEPEST and names.isdisjoint(_ALONE_BY):
             waiting.extend((Path(entry.path), depth + 1) for entry in entries if _may_hold_packages(entry))
 
 
