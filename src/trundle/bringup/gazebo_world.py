@@ -22,7 +22,7 @@ from .gazebo_models import read_spawned
 from .gazebo_sensors import GazeboSensors
 from .graph import Graph
 from .in_step import Steps
-from .pace import Pacer
+from .pace import Pacer, take_turns
 from .page import Page
 from .plugins import load_plugins, load_world_plugins
 from .renderers import RendererName
@@ -87,6 +87,7 @@ class GazeboWorld:
         self._clock = SimClock(graph.loop)
         self._clock_hz: float | None = None
         self._pacer = Pacer(speed)
+        take_turns()
         self._page: Page | None = None
         self._record: Path | None = None
         self._recorder: WorldRecorder | None = None

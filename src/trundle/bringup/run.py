@@ -16,7 +16,7 @@ from trundle.simulation import Simulation, SimulationUnstableError, with_actors
 
 from .exposure import warn_of_exposure
 from .outcome import Outcome
-from .pace import NS, Pacer
+from .pace import NS, Pacer, take_turns
 from .page import Page
 from .plugins import load_plugins, load_world_plugins
 from .renderers import RENDERERS, RendererName
@@ -128,6 +128,7 @@ def _drive(
     """
     end_ns = None if options.duration_s is None else round(options.duration_s * NS)
     pacer = Pacer(options.speed)
+    take_turns()
     paused = options.paused
     resets = 0
     started = time.monotonic()
