@@ -23,3 +23,6 @@ def test_addresses_given_out_lead_to_where_a_server_listens(monkeypatch: pytest.
     assert server_address().advertise == "127.0.0.1"
     assert "192.0.2.1" in (server_address().warning or "")
     assert server_address("0.0.0.0").advertise == "192.0.2.1"
+    monkeypatch.setenv("ROS_IP", "::1")
+    assert (server_address().bind, server_address().at(5)) == ("::1", "[::1]:5")
+    assert server_address("127.0.0.1").bind == "127.0.0.1"

@@ -4,7 +4,7 @@ import os
 import socket
 from dataclasses import dataclass
 
-LOOPBACK = "127.0.0.1"
+LOOPBACK, _LOOPBACK_6 = "127.0.0.1", "::1"
 DEFAULT_MASTER_URI = "http://localhost:11311"
 
 
@@ -28,13 +28,15 @@ def master_uri_from_env() -> str:
 
 
 def server_address(host: str | None = None) -> ServerAddress:
-    """Decide where to listen: on loopback unless `host` says otherwise.
+    """Decide where to listen: on loopback, IPv6's if that is asked for, unless `host` says otherwise.
 
     ROS_HOSTNAME and ROS_IP name the address to give out. They are followed where that address leads to the one
     listened at; a URI that leads nowhere would make the node unreachable.
     """
-    bind = host or LOOPBACK
     wanted = os.environ.get("ROS_HOSTNAME") or os.environ.get("ROS_IP")
+    bind = host or LOOPBACK
+    if host is None and wanted and not _leads_to(wanted, LOOPBACK) and _leads_to(wanted, _LOOPBACK_6):
+        bind = _LOOPBACK_6
     open_to_all = bind in ("0.0.0.0", "::", "")
     if wanted and (open_to_all or _leads_to(wanted, bind)):
         return ServerAddress(bind=bind, advertise=wanted)
