@@ -1,6 +1,7 @@
 """Nodes among themselves: topics, services, parameters, logs; in one process and over sockets."""
 
 import asyncio
+import io
 import queue
 import sys
 import threading
@@ -18,6 +19,7 @@ from trundle.ros import (
     ServiceError,
     SimClock,
     WallClock,
+    coloured,
     follow_time,
     probe_service,
 )
@@ -258,6 +260,19 @@ def test_what_a_node_says_is_on_stderr_and_gathered(graph: Any, far: Any, capfd:
     assert "unheard" not in capfd.readouterr().err
     loggers = graph.loop.run(node.call_service("~get_loggers", "roscpp/GetLoggers")).loggers
     assert [(logger.name, logger.level) for logger in loggers] == [("rosout", "error")]
+
+
+def test_only_a_terminal_that_wants_them_gets_colours(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    assert coloured("hot", "error", Terminal()) == "\033[31mhot\033[0m"
+    assert coloured("hot", "info", Terminal()) == "hot"
+    assert coloured("hot", "error", io.StringIO()) == "hot"
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert coloured("hot", "error", Terminal()) == "hot"
 
 
 def test_unregistering_is_told_to_the_master(graph: Any) -> None:

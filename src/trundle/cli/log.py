@@ -8,6 +8,7 @@ import sys
 from typing import Any
 
 from trundle.diagnostics import UsageError
+from trundle.ros import LEVELS, coloured
 
 from .running import original_errors, running_node
 
@@ -16,15 +17,13 @@ EXAMPLES = """
   trundle log -l warn
   trundle log -n '/move_base.*' -g 'timed? out'
 """
-_LEVELS = {"debug": 1, "info": 2, "warn": 4, "error": 8, "fatal": 16}
-_COLOURS = {1: "\033[32m", 4: "\033[33m", 8: "\033[31m", 16: "\033[31m"}
 _WAITING = 10_000
 """Lines kept for a terminal that is slower than the nodes; the oldest go."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("-l", "--level", choices=_LEVELS, default="debug", help="this level and above")
+    parser.add_argument("-l", "--level", choices=LEVELS, default="debug", help="this level and above")
     parser.add_argument("-n", "--node", metavar="REGEX", help="nodes whose whole name this matches")
     parser.add_argument("-g", "--grep", metavar="REGEX", help="lines in which this is found")
     parser.add_argument("-x", "--exclude", metavar="REGEX", help="but not lines in which this is found")
@@ -37,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Print until enough lines came or Ctrl-C."""
     node_name, found, excluded = (_pattern(text) for text in (args.node, args.grep, args.exclude))
-    least = _LEVELS[args.level]
+    least = LEVELS[args.level]
     inbox: queue.Queue[Any] = queue.Queue(_WAITING)
 
     def take(message: Any) -> None:
@@ -73,8 +72,7 @@ def _as_line(message: Any, *, verbose: bool) -> str:
     line = f"[{_name(message.level).upper():>5}] [{stamp}] [{message.name}]: {message.msg}"
     if verbose:
         line += f" ({message.file}:{message.line} {message.function})"
-    colour = _COLOURS.get(message.level, "") if sys.stdout.isatty() else ""
-    return f"{colour}{line}\033[0m" if colour else line
+    return coloured(line, _name(message.level), sys.stdout)
 
 
 def _as_json(message: Any) -> str:
@@ -93,4 +91,4 @@ def _as_json(message: Any) -> str:
 
 
 def _name(level: int) -> str:
-    return next((name for name, number in _LEVELS.items() if number == level), str(level))
+    return next((name for name, number in LEVELS.items() if number == level), str(level))

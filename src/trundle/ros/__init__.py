@@ -38,6 +38,7 @@ if TYPE_CHECKING:
         TransformError,
     )
     from .fields import Field, field_type, split_topic, value_at
+    from .log import LEVELS, coloured
     from .loop import GraphLoop
     from .master import Master
     from .messages import Message, Messages, RawMessage, ServiceType
@@ -73,6 +74,7 @@ _HOMES = {
     "End": "noted",
     "Field": "fields",
     "GraphLoop": "loop",
+    "LEVELS": "log",
     "Master": "master",
     "MasterError": "errors",
     "MasterProxy": "proxy",
@@ -120,6 +122,7 @@ _HOMES = {
     "UnknownMethodError": "rpc_server",
     "WallClock": "clock",
     "blocking_call": "proxy",
+    "coloured": "log",
     "create_bag": "bags",
     "curves_of": "traces",
     "field_type": "fields",
@@ -143,6 +146,7 @@ _HOMES = {
 __getattr__ = opened_on_use(__name__, _HOMES)
 
 __all__ = [
+    "LEVELS",
     "NOETIC",
     "PROFILES",
     "ActionOutcome",
@@ -202,6 +206,7 @@ __all__ = [
     "UnknownMethodError",
     "WallClock",
     "blocking_call",
+    "coloured",
     "create_bag",
     "curves_of",
     "field_type",

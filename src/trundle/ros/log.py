@@ -2,6 +2,7 @@
 
 import contextlib
 import inspect
+import os
 import sys
 import threading
 from typing import Literal, TextIO
@@ -22,9 +23,13 @@ def print_log(level: Level, text: str, *, wall_ns: int, sim_ns: int | None, quie
     stream = sys.stderr if quiet is None or LEVELS[level] > LEVELS["info"] else quiet
     # Whoever read this may have gone, or closed it; nothing ends for that.
     with _lock, contextlib.suppress(OSError, ValueError):
-        if stream.isatty() and level in _COLOURS:
-            line = f"{_COLOURS[level]}{line}\033[0m"
-        print(line, file=stream, flush=True)
+        print(coloured(line, level, stream), file=stream, flush=True)
+
+
+def coloured(line: str, level: str, stream: TextIO) -> str:
+    """Give a line its level's colour where a terminal shows it, unless NO_COLOR (https://no-color.org) is set."""
+    colour = _COLOURS.get(level)
+    return f"{colour}{line}\033[0m" if colour and stream.isatty() and not os.environ.get("NO_COLOR") else line
 
 
 def caller(depth: int) -> tuple[str, str, int]:
