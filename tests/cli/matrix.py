@@ -106,6 +106,11 @@ ROWS = [
     Row("pack find geometry_msgs", "/geometry_msgs", original="/usr/bin/rospack find geometry_msgs"),
     Row("pack list", "geometry_msgs /", original="/usr/bin/rospack list"),
     Row("pack depends tf2_msgs", "geometry_msgs", original="/usr/bin/rospack depends tf2_msgs"),
+    Row("pack list-names", "geometry_msgs", original="/usr/bin/rospack list-names"),
+    Row("pack depends1 tf2_msgs", "geometry_msgs", original="/usr/bin/rospack depends1 tf2_msgs"),
+    Row("pack depends-on std_msgs", "tf2_msgs", original="/usr/bin/rospack depends-on std_msgs"),
+    Row("pack depends-on1 std_msgs", "geometry_msgs", original="/usr/bin/rospack depends-on1 std_msgs"),
+    Row("plot /tick/header/seq --duration 1 -o {folder}/plot.svg", original="-"),
     Row("exec fruits apple", "an apple", original="/usr/bin/rosrun fruits apple"),
     Row("node kill /talker", "killed"),
 ]
