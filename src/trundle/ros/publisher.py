@@ -17,8 +17,9 @@ if TYPE_CHECKING:
     from .node import Node
 
 
-_BATCH_MESSAGES, _BATCH_BYTES = 200, 256 * 1024
+_BATCH_MESSAGES, _BATCH_BYTES = 200, 1024 * 1024
 """How much is handed on before others get their turn on the loop, whoever publishes however fast."""
+_BYTES = bytes, bytearray, memoryview
 _MOST_WARNINGS = 100
 """About so many subscribers of another type, as their names are theirs to choose."""
 
@@ -92,15 +93,12 @@ class Publisher:
         """
         if self._wanted == 0 and not self.latch:
             return
-        if isinstance(message, dict):
-            message = self._node.new(self.type, message)
-        if not isinstance(message, bytes | bytearray | memoryview):
-            if type(message) is not self._class:
-                self._look_at(message)
-            header = getattr(message, "header", None) if self._has_header else None
-            if header is not None and hasattr(header, "seq"):
-                self._sequence += 1
-                header.seq = self._sequence
+        if type(message) is not self._class:
+            message = self._looked_at(message)
+        header: Any = getattr(message, "header", None) if self._has_header else None
+        if header is not None and hasattr(header, "seq"):
+            self._sequence += 1
+            header.seq = self._sequence
         if self._send_at_once(message):
             return
         self._lost += len(self._outbox) == self._queue_size
@@ -275,7 +273,7 @@ class Publisher:
             self._node.loop.deliver_soon(self._flush)
 
     def _hand_over(self, message: Any, subscriber: LocalSubscriber, framed: Pieces | None) -> None:
-        if not subscriber.is_raw and not isinstance(message, bytes | bytearray | memoryview):
+        if not subscriber.is_raw and not isinstance(message, _BYTES):
             subscriber.receive(message)
             return
         framed = self._framed(message) if framed is None else framed
@@ -284,7 +282,7 @@ class Publisher:
 
     def _framed(self, message: Any) -> Pieces | None:
         """Write a message with its length in front."""
-        if isinstance(message, bytes | bytearray | memoryview):
+        if isinstance(message, _BYTES):
             return LENGTH.pack(len(message)), bytes(message)
         try:
             pieces = self._node.messages.codec(message.__msgtype__).write_pieces(message, room=LENGTH.size)
@@ -294,8 +292,14 @@ class Publisher:
         LENGTH.pack_into(cast(memoryview, pieces[0]), 0, sum(map(len, pieces)) - LENGTH.size)
         return pieces
 
-    def _look_at(self, message: Message) -> None:
+    def _looked_at(self, message: Message | dict[str, Any] | bytes) -> Any:
+        """What is handed on: bytes, or a message of the topic's type."""
+        if isinstance(message, _BYTES):
+            return message
+        if isinstance(message, dict):
+            return self._looked_at(self._node.new(self.type, message))
         given = self._node.messages.type_of(message)
         if given != self.type:
             raise MessageError(f"{self.topic} carries {self.type}, got a {given}")
         self._class, self._has_header = type(message), hasattr(message, "header")
+        return message
