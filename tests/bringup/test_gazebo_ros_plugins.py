@@ -214,6 +214,20 @@ def test_the_truth_about_a_link(gazebo: Gazebo) -> None:
     assert seen[-1].header.frame_id == "base"
 
 
+def test_plugins_of_one_name_are_all_heard(gazebo: Gazebo) -> None:
+    eyes = [f"<bodyName>body</bodyName><topicName>truth{i}</topicName>" for i in range(3)]
+    gazebo.spawn(_BOX.format(plugin="".join(_plugin("p3d", eye) for eye in eyes)), "box")
+    gazebo.call("unpause_physics")
+    heard = [gazebo.hear(f"/truth{i}", ODOMETRY) for i in range(3)]
+
+    def are_heard_for_a_second() -> bool:
+        return all(
+            len(truths) > 1 and (truths[-1].header.stamp.sec - truths[0].header.stamp.sec) > 1 for truths in heard
+        )
+
+    until(are_heard_for_a_second)
+
+
 def test_a_wrench_from_a_topic_pushes(gazebo: Gazebo) -> None:
     parameters = "<bodyName>body</bodyName><topicName>push</topicName>"
     gazebo.spawn(_BOX.format(plugin=_plugin("force", parameters)), "box")

@@ -1,6 +1,7 @@
 """Loads the plugins that a world and its models ask for."""
 
 from collections.abc import Callable, Mapping, Sequence
+from itertools import chain, count
 from typing import TypeVar
 
 from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
@@ -33,12 +34,12 @@ def load_plugins(
     """
     loaded: list[Plugin] = []
     for model in simulation.models if models is None else models:
-        for tag in model.model.plugins:
+        for tag, node_name in _named(model.name, model.model.plugins):
 
-            def load(tag: PluginTag = tag, model: ModelHandle = model) -> Plugin:
+            def load(tag: PluginTag = tag, model: ModelHandle = model, node_name: str = node_name) -> Plugin:
                 plugin_class, origin = find_plugin(tag, environment)
                 say(f"plugin {tag.name!r} of {model.name}: {origin}")
-                node = None if make_node is None else make_node(f"/{ros_name(model.name)}/{ros_name(tag.name)}")
+                node = None if make_node is None else make_node(node_name)
                 return plugin_class.load(simulation, model, node, tag)
 
             plugin = _loaded(tag, load, simulation.report)
@@ -57,12 +58,12 @@ def load_world_plugins(
 ) -> None:
     """Load the plugins that the world itself asks for; see `load_plugins`."""
     world = simulation.world
-    for tag in world.plugins:
+    for tag, node_name in _named(world.name, world.plugins):
 
-        def load(tag: PluginTag = tag) -> Hooks:
+        def load(tag: PluginTag = tag, node_name: str = node_name) -> Hooks:
             plugin_class, origin = find_world_plugin(tag, environment)
             say(f"plugin {tag.name!r} of the world: {origin}")
-            node = None if make_node is None else make_node(f"/{ros_name(world.name)}/{ros_name(tag.name)}")
+            node = None if make_node is None else make_node(node_name)
             return plugin_class.load(simulation, node, tag)
 
         plugin = _loaded(tag, load, simulation.report)
@@ -95,6 +96,16 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: Node, report: Diagno
         if not attached:
             silent.append(sensor)
     return silent
+
+
+def _named(owner: str, tags: Sequence[PluginTag]) -> list[tuple[PluginTag, str]]:
+    """Each plugin with the name of its node: of namesakes, the graph would end all but the last."""
+    names: list[str] = []
+    for tag in tags:
+        name = f"/{ros_name(owner)}/{ros_name(tag.name)}"
+        numbered = (f"{name}_{i}" for i in count(2))
+        names.append(next(free for free in chain([name], numbered) if free not in names))
+    return list(zip(tags, names, strict=True))
 
 
 def _loaded(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _Kind | None:
