@@ -6,7 +6,6 @@ A subscriber prints one JSON object when it has COUNT messages, a publisher when
 `time.monotonic()`, which all processes of a machine share.
 """
 
-import dataclasses
 import json
 import sys
 import threading
@@ -34,13 +33,15 @@ class OverTrundle:
         publisher = self._node.advertise("/bench", kind, queue_size=None)
         new = self._node.new
         if kind == "sensor_msgs/Image":
-            image = {"width": 320, "height": 240, "encoding": "rgb8", "step": 960}
+            image, header, stamp = type(new(kind)), type(new("std_msgs/Header")), type(new(kind).header.stamp)
             pixels = new(kind, {"data": _PIXELS}).data
-            empty = new(kind, image)
+            size = {"height": 240, "width": 320, "encoding": "rgb8", "is_bigendian": 0, "step": 960}
 
             def publish(number: float) -> None:
                 del number
-                publisher.publish(dataclasses.replace(empty, header=new("std_msgs/Header"), data=pixels))
+                publisher.publish(
+                    image(header=header(seq=0, stamp=stamp(sec=0, nanosec=0), frame_id=""), **size, data=pixels)
+                )
 
         else:
             twist, vector = type(new(kind)), type(new("geometry_msgs/Vector3"))
