@@ -1,7 +1,10 @@
 """OpenGL's picture of a scene, and ours: the same but for what rasterising round things costs."""
 
 import math
+import os
+import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -105,3 +108,32 @@ def test_without_opengl_one_sentence_says_what_to_do(monkeypatch: pytest.MonkeyP
     monkeypatch.setitem(sys.modules, "mujoco.egl", None)
     with pytest.raises(UsageError, match=r"no OpenGL over EGL here .*--renderer cpu needs none"):
         EglRenderer(scene())
+
+
+HIDDEN = """
+import ctypes, ctypes.util
+load, find = ctypes.CDLL.__init__, ctypes.util.find_library
+def hide(self, name, *args, **kwargs):
+    if "EGL" in str(name):
+        raise OSError(f"{name}: cannot open shared object file")
+    load(self, name, *args, **kwargs)
+ctypes.CDLL.__init__ = hide
+ctypes.util.find_library = lambda name: None if "EGL" in name else find(name)
+"""
+
+
+def test_without_the_library_a_picture_ends_with_one_sentence(tmp_path: Path) -> None:
+    """A process of its own, which finds no libEGL."""
+    (tmp_path / "sitecustomize.py").write_text(HIDDEN)
+    ball = '<visual name="v"><geometry><sphere><radius>1</radius></sphere></geometry></visual>'
+    (tmp_path / "m.sdf").write_text(f'<sdf version="1.6"><model name="m"><link name="l">{ball}</link></model></sdf>')
+    command = [sys.executable, "-m", "trundle", "render", "m.sdf", "-o", "m.png", "--renderer", "egl"]
+    ended = subprocess.run(
+        command, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path)}, capture_output=True, text=True
+    )
+
+    assert ended.returncode == 1
+    (sentence,) = ended.stderr.splitlines()
+    assert sentence.startswith("trundle render: error: no OpenGL over EGL here (")
+    assert "has no attribute" not in sentence
+    assert not (tmp_path / "m.png").exists()

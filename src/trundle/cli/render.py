@@ -61,7 +61,9 @@ def main(args: argparse.Namespace) -> int:
     if studio.unseen:
         print(f"{args.file}: {studio.unseen}", file=sys.stderr)
     if moves:
-        frames = turntable(studio) if args.orbit else run_of(studio, args.duration or _FILM_S)
+        frames = (
+            turntable(studio) if args.orbit else run_of(studio, _FILM_S if args.duration is None else args.duration)
+        )
         write_film(frames, args.output, tell=_tell)
         return 0
     try:

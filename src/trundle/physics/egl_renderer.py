@@ -153,6 +153,8 @@ def _make_context() -> _Context:
         context.make_current()
     except (ImportError, AttributeError, RuntimeError, OSError) as error:
         why = " ".join(str(error).split()) or type(error).__name__
+        if isinstance(error, AttributeError):  # what PyOpenGL says of a function whose library is not there
+            why = "libEGL cannot be loaded"
         what = "pip install 'trundle[egl]' and a driver bring it; --renderer cpu needs none"
         raise UsageError(f"no OpenGL over EGL here ({why}); {what}") from None
     return context
