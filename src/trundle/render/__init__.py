@@ -1,6 +1,6 @@
 """What there is to see, as plain data, and what a renderer makes of it."""
 
-from .extent import corners_of
+from .extent import corners_of, outline_of
 from .from_world import scene_of
 from .native import NativeRenderer
 from .renderer import Intrinsics, Picture, Renderer
@@ -19,6 +19,7 @@ __all__ = [
     "ShapeGeometry",
     "corners_of",
     "move_skins",
+    "outline_of",
     "scene_of",
     "why_stiff",
 ]

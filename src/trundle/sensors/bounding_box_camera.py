@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.render import corners_of
+from trundle.render import outline_of
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
@@ -47,7 +47,7 @@ class BoundingBoxCameraSensor(CameraSensor):
     def _in_space(self, shapes: list[int], snapshot: Snapshot) -> tuple[Pose, tuple[float, float, float]]:
         """The box along the axes of the thing's first body."""
         world_from_body = pose_of(snapshot.poses[self.scenery.scene.shapes[shapes[0]].body])
-        points = moved(world_from_body.inverse(), self._corners(shapes, snapshot))
+        points = moved(world_from_body.inverse(), self._outline(shapes, snapshot))
         low, high = points.min(axis=0), points.max(axis=0)
         x, y, z = ((low + high) / 2).tolist()
         dx, dy, dz = (high - low).tolist()
@@ -57,7 +57,7 @@ class BoundingBoxCameraSensor(CameraSensor):
         self, shapes: list[int], snapshot: Snapshot, low: tuple[int, int], high: tuple[int, int]
     ) -> tuple[tuple[float, float], tuple[float, float]]:
         """What is visible, and beyond it what other things hide, up to the picture's rim."""
-        points = moved(self.world_from_camera(snapshot).inverse(), self._corners(shapes, snapshot))
+        points = moved(self.world_from_camera(snapshot).inverse(), self._outline(shapes, snapshot))
         points = points[points[:, 0] > self.optics.near_m]
         if not len(points):
             return low, high
@@ -67,11 +67,12 @@ class BoundingBoxCameraSensor(CameraSensor):
         first = (min(float(low[0]), float(columns.min())), min(float(low[1]), float(rows.min())))
         return first, (max(float(high[0]), float(columns.max())), max(float(high[1]), float(rows.max())))
 
-    def _corners(self, shapes: list[int], snapshot: Snapshot) -> _Points:
-        """(n, 3) of the shapes' own boxes, in the world; of endless planes the place alone."""
+    def _outline(self, shapes: list[int], snapshot: Snapshot) -> _Points:
+        """(n, 3) How far the shapes reach, in the world; of endless planes the place alone."""
         found: list[_Points] = []
         for number in shapes:
             shape = self.scenery.scene.shapes[number]
-            corners = np.array(corners_of(shape.geometry) or [(0.0, 0.0, 0.0)])
-            found.append(moved(pose_of(snapshot.poses[shape.body]) @ shape.body_from_shape, corners))
+            outline = outline_of(shape.geometry)
+            points = outline if len(outline) else np.zeros((1, 3))
+            found.append(moved(pose_of(snapshot.poses[shape.body]) @ shape.body_from_shape, points))
         return np.concatenate(found)
