@@ -301,7 +301,15 @@ def test_what_cannot_be_done_is_one_sentence(graph: Any, arguments: list[str], c
 
 
 @pytest.mark.parametrize(
-    "arguments", [["record"], ["record", "-a", "--split"], ["play"], ["info", "-k", "end", "x.bag"]]
+    "arguments",
+    [
+        ["record"],
+        ["record", "-a", "--split"],
+        ["play"],
+        ["info", "-k", "end", "x.bag"],
+        ["check", "-a", "x.bag"],
+        ["fix", "x.bag", "x.bmr"],
+    ],
 )
 def test_wrong_words_end_as_rosbags_do(graph: Any, arguments: list[str]) -> None:
     code, _, error = graph.trundle("bag", *arguments)

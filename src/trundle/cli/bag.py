@@ -34,7 +34,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("-g", "--genrules", metavar="RULES", help="not written: what to do instead is said")
     add.add_argument("-a", "--append", action="store_true", help=argparse.SUPPRESS)
     add.add_argument("-n", "--noplugins", action="store_true", help="as always here")
-    add.set_defaults(run=_of("bag_info", "check"))
+    add.set_defaults(run=_of("bag_info", "check"), refuse=add.error)
     add = commands.add_parser("filter", help="copy the messages for which an expression is true")
     add.add_argument("inbag")
     add.add_argument("outbag")
@@ -53,7 +53,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("rules", nargs="*", metavar="RULES", help="rule files, which are named and refused")
     add.add_argument("--force", action="store_true", help="leave fields that are new at 0 and lose those that are gone")
     add.add_argument("-n", "--noplugins", action="store_true", help="as always here")
-    add.set_defaults(run=_of("bag_fix", "main"))
+    add.set_defaults(run=_of("bag_fix", "main"), refuse=add.error)
     for name in ("encrypt", "decrypt"):
         add = commands.add_parser(name, help="refused: says what to use instead")
         _configure_edit(add)

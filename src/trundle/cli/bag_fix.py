@@ -15,6 +15,8 @@ Migration = Callable[[bytes], bytes]
 def main(args: argparse.Namespace) -> int:
     """Write a bag in which every message is of the type that its name means here."""
     source, target = Path(args.inbag), Path(args.outbag)
+    if target.suffix not in (".bag", ".mcap"):
+        return args.refuse(f"Output file must be a bag file, not {target.name}")
     if args.rules:
         raise UsageError(
             f"{args.rules[0]}: rule files are programs for rosbag's own migrator and are not run here; fields of the "

@@ -36,6 +36,8 @@ def main(args: argparse.Namespace) -> int:
 
 def check(args: argparse.Namespace) -> int:
     """Name the types that are other ones here than when the bag was recorded."""
+    if args.append and args.genrules is None:
+        return args.refuse("Cannot specify -a without also specifying -g.")
     messages = Messages()
     with open_bag(Path(args.bag)) as bag:
         kinds = sorted({(c.type, c.md5sum) for c in bag.connections})
