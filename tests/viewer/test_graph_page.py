@@ -240,6 +240,19 @@ def test_the_graph_and_numbers_over_time_are_drawn_beside(scenery: Scenery, brow
         drawn = "".join(browser_page.evaluate(read))
 
 
+def test_beside_pictures_drawings_are_wide_enough_to_be_read(scenery: Scenery, browser_page: Any) -> None:
+    camera = scenery.robot.advertise("/camera/image_raw", "sensor_msgs/Image", latch=True)
+    camera.publish({"height": 2, "width": 2, "encoding": "mono8", "step": 2, "data": np.zeros(4, dtype=np.uint8)})
+    points = scenery.robot.advertise("/spot", "geometry_msgs/PointStamped", latch=True)
+    points.publish({"point": {"x": 7.0}})
+    scenery.loop.call_soon(lambda: scenery.page.plot(["/spot/point/x"]))
+
+    browser_page.wait_for_selector("img[src^='blob:']")
+    browser_page.wait_for_function(
+        "() => [...document.images].some(i => i.src.startsWith('data:image/svg') && i.clientWidth > 500)"
+    )
+
+
 def test_a_configuration_that_comes_later_is_followed(scenery: Scenery, browser_page: Any, tmp_path: Path) -> None:
     browser_page.wait_for_selector("text=Fixed Frame [odom] does not exist")
     later = tmp_path / "later.rviz"

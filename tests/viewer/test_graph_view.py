@@ -64,6 +64,16 @@ def test_a_fixed_frame_nobody_publishes_hides_everything(buffer: TransformBuffer
     assert state.status == ("Fixed Frame [map] does not exist",)
 
 
+@pytest.mark.parametrize(("expects", "said"), [(True, 1), (False, 0)])
+def test_a_page_of_windows_alone_misses_no_frames(expects: bool, said: int) -> None:
+    """turtlesim has none; a robot whose frames are missing is said."""
+    empty = TransformBuffer()
+    tree = FrameTree.of(empty, "base_link")
+
+    assert len(graph_state(tree, empty, Scene(bodies=(), shapes=()), time_ns=7, expects_frames=expects).status) == said
+    assert len(graph_state(tree, empty, _ROBOT, time_ns=7, expects_frames=expects).status) == 1
+
+
 def test_a_loop_in_tf_ends(buffer: TransformBuffer) -> None:
     buffer.insert(_moved("wheel", "odom", 1.0))
 

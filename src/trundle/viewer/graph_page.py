@@ -75,6 +75,11 @@ class GraphPage:
         """Whether it was served, or could not be, and is closed."""
         return self._over
 
+    @property
+    def _is_of_windows(self) -> bool:
+        """Whether it was asked for what needs no frames: pictures, drawings, a joystick."""
+        return bool(self._pictures or self._wants_graph or self._joysticks or (self._shown and self._shown.figures))
+
     def offer_sliders(self, sliders: Sequence[OfferedSlider], move: Callable[[str, float], None]) -> None:
         """Let people move joints; `move` takes a joint's name and position, on the graph's loop."""
         self._sliders = tuple(JointSlider(s.name, s.lower, s.upper, s.position) for s in sliders)
@@ -174,7 +179,12 @@ class GraphPage:
             await shown.look_for_robot(self._packages, self._report)
             if shown.look_at_frames() or self._stale:
                 viewer.replace(self._layout(shown))
-            viewer.show(graph_state(shown.tree, shown.buffer, shown.robot, time_ns=shown.node.clock.now_ns()))
+            now_ns = shown.node.clock.now_ns()
+            viewer.show(
+                graph_state(
+                    shown.tree, shown.buffer, shown.robot, time_ns=now_ns, expects_frames=not self._is_of_windows
+                )
+            )
             for request in viewer.requests():
                 self._obey(request, shown)
             shown.keep_driving()

@@ -96,11 +96,23 @@ def graph_scene(
     )
 
 
-def graph_state(tree: FrameTree, buffer: TransformBuffer, robot: Scene, *, time_ns: int) -> ViewerState:
-    """Return where everything is now, with rviz's own words about what is not known."""
+def graph_state(
+    tree: FrameTree, buffer: TransformBuffer, robot: Scene, *, time_ns: int, expects_frames: bool = True
+) -> ViewerState:
+    """Return where everything is now, with rviz's own words about what is not known.
+
+    Args:
+        tree: of frames.
+        buffer: knows where they are.
+        robot: whose links are shown.
+        time_ns: now.
+        expects_frames: whether it is worth a word that there are none at all, of frames and of links.
+    """
     known = tree.poses(buffer)
     status: list[str] = []
-    if tree.fixed_frame not in tree.parents:
+    if not expects_frames and not tree.parents and not robot.bodies:
+        pass
+    elif tree.fixed_frame not in tree.parents:
         status.append(f"Fixed Frame [{tree.fixed_frame}] does not exist")
     else:
         lost = [link for link in robot.bodies if link not in known]

@@ -61,6 +61,8 @@ class Panel:
             with server.gui.add_folder("Joystick"):
                 server.gui.add_html(_joystick_html(joystick()))
         add_options(server, scene.options, send)
+        self._left: viser.PanelHandle | None = None
+        """The lowest at the left edge."""
         self._images = self._add_cameras()
         self._figures = self._add_figures()
         self._sliders = self._add_joints()
@@ -102,7 +104,7 @@ class Panel:
         cameras = self._scene.cameras
         if not cameras:
             return []
-        panel = self._server.gui.add_panel()
+        self._left = panel = self._server.gui.add_panel()
         panel.dock_left()
         panel.set_width(_CAMERAS_WIDTH_PX)
         with panel.add_tab("Cameras"):
@@ -110,19 +112,18 @@ class Panel:
             return [self._server.gui.add_image(blank, label=camera.name, format="jpeg") for camera in cameras]
 
     def _add_figures(self) -> list[viser.GuiHtmlHandle]:
-        """Each in a panel of its own, one below the other."""
+        """Each in a panel of its own, one below the other and all below the cameras: columns would share the width."""
         handles: list[viser.GuiHtmlHandle] = []
-        above: viser.PanelHandle | None = None
         for title in self._scene.figures:
             panel = self._server.gui.add_panel()
-            if above is None:
+            if self._left is None:
                 panel.dock_left()
-                panel.set_width(_FIGURES_WIDTH_PX)
             else:
-                panel.dock_below(above)
+                panel.dock_below(self._left)
+            panel.set_width(_FIGURES_WIDTH_PX)
             with panel.add_tab(title):
                 handles.append(self._server.gui.add_html(_figure_html(None)))
-            above = panel
+            self._left = panel
         return handles
 
     def _add_joints(self) -> list["_Slider"]:
