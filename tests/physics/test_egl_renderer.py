@@ -4,6 +4,7 @@ import math
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -76,6 +77,28 @@ def test_colours_distances_and_shapes_are_those_of_opengl(opengl: EglRenderer) -
     assert both.mean() > 0.5
     assert np.median(np.abs(a.depth[flat] - b.depth[flat])) <= 1e-5
     assert set(np.unique(b.segmentation)) == {*range(len(THINGS)), -1}
+
+
+def test_the_sun_s_shadows_fall_where_ours_do() -> None:
+    """Of a box three metres from the origin: where our floor is dark, OpenGL's is."""
+    floor = shape(Plane((0.0, 0.0, 1.0), (20.0, 20.0)), 0.0, 0.0, 0.0, (1.0, 1.0, 1.0, 1.0))
+    box = shape(Box((1.0, 1.0, 1.0)), 3.0, 1.0, 0.5, (1.0, 0.0, 0.0, 1.0))
+    sun = replace(SUN, casts_shadows=True, position=(0.0, 0.0, 10.0))
+    made = Scene(bodies=("b",), shapes=(floor, box), lights=(sun,))
+    try:
+        renderers = (NativeRenderer(made), EglRenderer(made))
+    except UsageError as error:
+        pytest.skip(str(error))
+    above = Pose.from_rpy(3.0, 0.0, 9.0, 0.0, math.pi / 2, 0.0)
+    dark: list[np.ndarray] = []
+    for each in renderers:
+        each.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+        picture = each.render(above, LENS, segmentation=True)
+        green = picture.rgb[..., 1].astype(int)
+        dark.append((picture.segmentation == 0) & (green < green.max() - 30))
+    ours, theirs = dark
+    assert ours.sum() > 100
+    assert (ours != theirs).sum() <= 0.15 * ours.sum()
 
 
 def test_a_mesh_that_is_reshaped_stands_where_ours_does(opengl: EglRenderer) -> None:

@@ -130,7 +130,7 @@ def add_allow_outside(parser: argparse.ArgumentParser) -> None:
 
 def add_renderer(parser: argparse.ArgumentParser) -> None:
     """Declare the option of every command that draws."""
-    what = "what draws: Trundle's own renderer, or OpenGL over EGL (cpu)"
+    what = "what draws: Trundle's own renderer, or OpenGL over EGL, without textures and fog (cpu)"
     parser.add_argument("--renderer", choices=("cpu", "egl"), default="cpu", help=what)
 
 

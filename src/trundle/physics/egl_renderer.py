@@ -22,6 +22,8 @@ _LIGHTS = {
     "point": mujoco.mjtLightType.mjLIGHT_POINT,
     "spot": mujoco.mjtLightType.mjLIGHT_SPOT,
 }
+_SHADED_M = 20.0
+"""How far round a directional light's place its shadows fall: MuJoCo's one map then has a pixel for each centimetre."""
 _DEFAULT_LIGHTS = (SceneLight(direction=(-0.3, 0.5, -0.8)),)
 
 
@@ -132,6 +134,7 @@ def model_of(scene: Scene) -> mujoco.MjModel:
     spec.visual.headlight.ambient = scene.ambient[:3]
     spec.visual.headlight.diffuse = spec.visual.headlight.specular = (0.0, 0.0, 0.0)
     spec.stat.extent = 1.0
+    spec.visual.map.shadowclip = _SHADED_M
     bodies = [spec.worldbody.add_body(name=f"b{i}", mocap=True) for i in range(len(scene.bodies))]
     meshes: dict[int, str] = {}
     for number, shape in enumerate(scene.shapes):

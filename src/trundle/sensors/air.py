@@ -16,6 +16,8 @@ _MOLAR_MASS = 0.0289644
 """[kg/mol] Of dry air."""
 _GAS = 8.31446
 """[J/(mol K)]"""
+_EARTH = 6_356_766.0
+"""[m] The radius that gz-sim reckons with."""
 _DENSEST = 100.0
 """Logarithm of how much denser than at the ground air becomes below it."""
 _COLDEST = 1.0
@@ -66,7 +68,8 @@ class AirPressureSensor(_InAir):
         """What there is at this instant [Pa]."""
         settings = self.sensor.instrument
         assert isinstance(settings, AirPressure), f"{self.name!r} is no barometer"
-        return pressure_at(self.air, settings.reference_altitude + self.world_from_sensor(snapshot).position[2])
+        height = settings.reference_altitude + self.world_from_sensor(snapshot).position[2]
+        return pressure_at(self.air, _geopotential(height))
 
 
 class AirSpeedSensor(_InAir):
@@ -81,6 +84,12 @@ class AirSpeedSensor(_InAir):
         vx, vy, vz = (own - air for own, air in zip(self.velocity(snapshot), self.wind, strict=True))
         ahead, _, _ = Pose(quaternion=world_from_sensor.quaternion).inverse().direction((vx, vy, vz))
         return 0.5 * density_at(self.air, world_from_sensor.position[2]) * ahead * abs(ahead)
+
+
+def _geopotential(height: float) -> float:
+    """The height [m] that takes as much work where gravity does not fall off, as gz-sim's barometer reckons it."""
+    height = max(height, -_EARTH / 2.0)
+    return height / (1.0 + height / _EARTH)
 
 
 def pressure_at(air: Atmosphere, height: float) -> float:
