@@ -65,7 +65,7 @@ def test_a_script_for_a_ros_that_is_not_installed_gives_way_to_the_stand_in(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The tutorials clone arbotix_ros into the workspace."""
-    monkeypatch.setattr("trundle.nodes.find._DEBIAN_MODULES", str(tmp_path / "none"))
+    monkeypatch.setattr("trundle.nodes.scripts._DEBIAN_MODULES", str(tmp_path / "none"))
     path = program(tmp_path / "bin/arbotix_driver")
     path.write_text("#!/usr/bin/env python\n\nimport rospy\n")
     (tmp_path / "ros/rospy").mkdir(parents=True)

@@ -153,6 +153,19 @@ def test_a_required_node_ends_everything_with_exit_code_1(launch: Launch, packag
     assert "[stays-1] killing on exit" in done.stdout
 
 
+@pytest.mark.real_ros
+def test_a_script_finds_debians_rospy_where_a_virtual_environment_is_active(launch: Launch, package: Path) -> None:
+    (package / "main.launch").write_text(
+        '<launch><node pkg="p" type="asks.py" name="asks" output="screen" required="true"/></launch>'
+    )
+    script = package / "asks.py"
+    script.write_text("#!/usr/bin/env python3\nimport rospy\nrospy.init_node('x')\nprint('I am', rospy.get_name())\n")
+    script.chmod(0o755)
+    active = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+
+    assert "I am /asks" in launch("p", "main.launch", "--headless", PATH=active).stdout
+
+
 def test_a_node_that_dies_again_and_again_is_started_ever_more_slowly(start, until, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="n" args="0 1" respawn="true"/></launch>'

@@ -1,12 +1,8 @@
 """Turns a launch file's nodes into jobs: processes, or stand-ins that run here."""
 
 import contextlib
-import os
-import re
 import shlex
-import shutil
 import socket
-import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,7 +13,7 @@ import yaml
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.launch import LaunchNode
 from trundle.names import parse_arguments
-from trundle.nodes import Executable, Host, Missing, Replacement, find_node, run_stand_in
+from trundle.nodes import Executable, Host, Missing, Replacement, find_node, interpreter, run_stand_in
 from trundle.packages import Packages
 from trundle.ros import Node
 from trundle.supervisor import Command, Job, Policy, ProcessJob, TaskJob
@@ -150,17 +146,6 @@ def is_here(address: str, env: Mapping[str, str]) -> bool:
     """Tell whether a machine of a launch file is this one, by any of its names."""
     names = {"", "localhost", "::1", socket.gethostname(), env.get("ROS_HOSTNAME"), env.get("ROS_IP")}
     return address in names or address.startswith("127.")
-
-
-def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
-    """What has to run a program: Python 3, where it asks for a `python` that machines of today do not have."""
-    try:
-        with program.open("rb") as file:
-            first = file.readline(200)
-    except OSError:
-        return []
-    asks = re.match(rb"#!\s*(?:/usr/bin/env\s+python|\S*/python)\s*$", first) is not None
-    return [sys.executable] if asks and shutil.which("python", path=env.get("PATH", os.defpath)) is None else []
 
 
 def _split(text: str, node: LaunchNode) -> list[str]:

@@ -45,7 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Become the program; or run the stand-in for a stock node here, until Ctrl-C."""
-    from trundle.nodes import Executable, Missing, Replacement, find_node, namesakes
+    from trundle.nodes import Executable, Missing, Replacement, find_node, interpreter, namesakes
     from trundle.packages import Packages
 
     packages = Packages(os.environ, start=Path.cwd())
@@ -59,7 +59,7 @@ def main(args: argparse.Namespace) -> int:
         case Executable(path):
             if folder is not None and "/" not in args.executable:
                 path = _chosen(path, namesakes(folder, path))
-            command = [*shlex.split(args.prefix), str(path), *args.arguments]
+            command = [*shlex.split(args.prefix), *interpreter(path, os.environ), str(path), *args.arguments]
             if args.debug:
                 print(f"[rosrun] Running {args.prefix} {path}")
             sys.stdout.flush()

@@ -4,6 +4,7 @@ from .catalog import CLIENTS, STAND_INS, WINDOWS, WORLDS
 from .find import Executable, Missing, Replacement, find_node, namesakes, program_names
 from .host import Display, Host, Simulator, Slider, StandIn
 from .run import run_stand_in
+from .scripts import interpreter
 
 __all__ = [
     "CLIENTS",
@@ -19,6 +20,7 @@ __all__ = [
     "Slider",
     "StandIn",
     "find_node",
+    "interpreter",
     "namesakes",
     "program_names",
     "run_stand_in",

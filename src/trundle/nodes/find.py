@@ -2,7 +2,6 @@
 
 import importlib
 import os
-import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,9 +12,8 @@ from trundle.ros import Node
 from .catalog import NODELETS, OURS_ALWAYS, STAND_INS
 from .host import Host, StandIn
 from .missing import WAYS_OUT
+from .scripts import can_run
 
-_IMPORTS_ROSPY = re.compile(rb"^\s*(?:import|from)\s+(?:rospy|roslib)\b", re.MULTILINE)
-_DEBIAN_MODULES = "/usr/lib/python3/dist-packages"
 _NOT_SEARCHED = frozenset({"__pycache__", "node_modules", "build"})
 StandInClass: TypeAlias = Callable[[Node, list[str], Host], StandIn]
 FindPackage: TypeAlias = Callable[[str], Path | None]
@@ -72,7 +70,7 @@ def find_node(
         for path in _files(folder, type_name):
             if not os.access(path, os.X_OK):
                 plain = plain or path
-            elif target is None or _can_run(path, env):
+            elif target is None or can_run(path, env):
                 return Executable(path)
     if target is not None:
         return _nodelet(arguments) or Replacement(target) if type_name == "nodelet" else Replacement(target)
@@ -112,15 +110,6 @@ def program_names(package: str, folder: Path | None) -> set[str]:
 def namesakes(folder: Path, program: Path) -> list[Path]:
     """All programs of a package that have the name of the one given, which is among them."""
     return [path for path in _files(folder, program.name) if os.access(path, os.X_OK)]
-
-
-def _can_run(path: Path, env: Mapping[str, str]) -> bool:
-    """Tell whether a program needs no rospy, or finds it."""
-    with path.open("rb") as program:
-        if _IMPORTS_ROSPY.search(program.read(100_000)) is None:
-            return True
-    folders = [*env.get("PYTHONPATH", "").split(os.pathsep), _DEBIAN_MODULES]
-    return any((Path(folder) / "rospy").is_dir() for folder in folders if folder)
 
 
 def _files(folder: Path, name: str) -> Iterator[Path]:

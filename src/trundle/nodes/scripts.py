@@ -1,0 +1,57 @@
+"""Which Python runs a script of ROS 1, whose first line may ask for one that has no rospy, or that is gone."""
+
+import os
+import re
+import shutil
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+_IMPORTS_ROSPY = re.compile(rb"^\s*(?:import|from)\s+(?:rospy|roslib)\b", re.MULTILINE)
+_ASKS = re.compile(rb"#!\s*(?:/usr/bin/env\s+(?=python)|(?=/))(python3?|\S*/python)\s*$", re.MULTILINE)
+"""A first line that leaves open which Python is meant."""
+_DEBIAN_PYTHON, _DEBIAN_MODULES = "/usr/bin/python3", "/usr/lib/python3/dist-packages"
+
+
+def can_run(program: Path, env: Mapping[str, str]) -> bool:
+    """Tell whether a program needs no rospy, or finds it."""
+    return _IMPORTS_ROSPY.search(_beginning(program)) is None or _has_rospy(_DEBIAN_MODULES) or _is_told_where(env)
+
+
+def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
+    """Return what has to run a program; [] where its own first line says so well enough.
+
+    A script that leaves open which Python it means gets Debian's if it imports rospy and only that one has it, as where
+    Trundle's own virtual environment is active, and this one where there is no `python`.
+    """
+    beginning = _beginning(program)
+    asked = _ASKS.match(beginning)
+    if asked is None:
+        return []
+    found = shutil.which(os.fsdecode(asked[1]), path=env.get("PATH", os.defpath))
+    if _IMPORTS_ROSPY.search(beginning) and not _is_told_where(env) and _has_rospy(_DEBIAN_MODULES):
+        return [] if found is not None and _brings_rospy(Path(found)) else [_DEBIAN_PYTHON]
+    return [] if found is not None else [sys.executable]
+
+
+def _beginning(program: Path) -> bytes:
+    try:
+        with program.open("rb") as file:
+            return file.read(100_000)
+    except OSError:
+        return b""
+
+
+def _brings_rospy(python: Path) -> bool:
+    """Whether a Python is Debian's, or has a rospy of its own."""
+    if python.resolve().parent == Path(_DEBIAN_PYTHON).parent:
+        return True
+    return any(_has_rospy(folder) for folder in python.parent.parent.glob("lib/python3*/site-packages"))
+
+
+def _is_told_where(env: Mapping[str, str]) -> bool:
+    return any(_has_rospy(folder) for folder in env.get("PYTHONPATH", "").split(os.pathsep) if folder)
+
+
+def _has_rospy(folder: str | Path) -> bool:
+    return Path(folder, "rospy").is_dir()

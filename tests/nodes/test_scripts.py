@@ -1,0 +1,78 @@
+"""Which Python runs a script of ROS 1."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+from trundle.nodes import interpreter
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="only POSIX systems read a script's first line")
+
+
+@pytest.fixture
+def debian(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A machine whose own Python has rospy; its `bin` is returned."""
+    python = _program(tmp_path / "usr" / "bin" / "python3")
+    (tmp_path / "usr" / "modules" / "rospy").mkdir(parents=True)
+    monkeypatch.setattr("trundle.nodes.scripts._DEBIAN_PYTHON", str(python))
+    monkeypatch.setattr("trundle.nodes.scripts._DEBIAN_MODULES", str(tmp_path / "usr" / "modules"))
+    return python.parent
+
+
+@pytest.fixture
+def venv(tmp_path: Path) -> Path:
+    """The `bin` of a virtual environment that knows nothing of ROS."""
+    _program(tmp_path / "venv" / "bin" / "python")
+    return _program(tmp_path / "venv" / "bin" / "python3").parent
+
+
+def _program(path: Path, text: str = "#!/bin/sh\n") -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    path.chmod(0o755)
+    return path
+
+
+def _asked(folder: Path, first: str, *path: Path, imports: str = "rospy", **env: str) -> list[str]:
+    script = _program(folder / "node.py", f"{first}\nimport {imports}\n")
+    return interpreter(script, {"PATH": os.pathsep.join(map(str, path)), **env})
+
+
+@pytest.mark.parametrize("first", ["#!/usr/bin/env python3", "#!/usr/bin/env python", "#! /usr/bin/env python  "])
+def test_an_active_environment_without_rospy_is_passed_over(
+    tmp_path: Path, debian: Path, venv: Path, first: str
+) -> None:
+    assert _asked(tmp_path, first, venv, debian) == [str(debian / "python3")]
+
+
+def test_debians_own_python_is_left_to_the_script(tmp_path: Path, debian: Path, venv: Path) -> None:
+    assert _asked(tmp_path, "#!/usr/bin/env python3", debian, venv) == []
+
+
+def test_a_rospy_of_the_environments_own_is_used(tmp_path: Path, debian: Path, venv: Path) -> None:
+    (venv.parent / "lib" / "python3.11" / "site-packages" / "rospy").mkdir(parents=True)
+
+    assert _asked(tmp_path, "#!/usr/bin/env python3", venv, debian) == []
+
+
+def test_so_is_one_on_the_python_path(tmp_path: Path, debian: Path, venv: Path) -> None:
+    elsewhere = tmp_path / "elsewhere"
+    (elsewhere / "rospy").mkdir(parents=True)
+
+    assert _asked(tmp_path, "#!/usr/bin/env python3", venv, debian, PYTHONPATH=str(elsewhere)) == []
+
+
+@pytest.mark.parametrize(
+    ("first", "imports"), [("#!/usr/bin/env python3", "math"), ("#!/bin/sh", "rospy"), ("#!/opt/ros/python3", "rospy")]
+)
+def test_what_needs_no_rospy_or_says_where_it_is_goes_by_its_first_line(
+    tmp_path: Path, debian: Path, venv: Path, first: str, imports: str
+) -> None:
+    assert _asked(tmp_path, first, venv, debian, imports=imports) == []
+
+
+@pytest.mark.parametrize("first", ["#!/usr/bin/env python", "#!/nowhere/bin/python"])
+def test_where_there_is_no_python_this_one_runs_it(tmp_path: Path, first: str) -> None:
+    assert _asked(tmp_path, first, tmp_path, imports="math") == [sys.executable]
