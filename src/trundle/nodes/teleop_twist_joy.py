@@ -38,7 +38,7 @@ class TeleopTwistJoy:
             self._send(joy, turbo=False)
         elif not self._sent_stop:  # once, so that others may drive
             self._commands.publish({})
-            self._sent_stop = False
+            self._sent_stop = True
 
     def _send(self, joy: Message, *, turbo: bool) -> None:
         twist: dict[str, dict[str, float]] = {"linear": {}, "angular": {}}
