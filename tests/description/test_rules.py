@@ -220,6 +220,16 @@ def test_bare_macros_of_indigo_are_expanded_and_said(tmp_path: Path) -> None:
     assert len(report.warnings) == 2
 
 
+@pytest.mark.parametrize("prefix", ["", "xacro:"])
+def test_a_property_that_cannot_be_named_is_left_out(tmp_path: Path, prefix: str) -> None:
+    report = Diagnostics()
+
+    text = expand(tmp_path, f'<{prefix}property name="" value="1"/><link name="a"/>', report)
+
+    assert '<link name="a"/>' in text
+    assert report.warnings[-1].endswith("a property named '' can be used nowhere; it is left out")
+
+
 def test_plain_xml_of_a_core_tag_s_name_is_left_alone(tmp_path: Path) -> None:
     assert "<include><uri>x</uri></include>" in expand(tmp_path, "<include><uri>x</uri></include>").replace(
         "\n", ""

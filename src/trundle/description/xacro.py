@@ -217,6 +217,7 @@ def _parse_for(original: Callable[..., Any], packages: Packages, report: Diagnos
             document = xml.dom.minidom.parseString(data.lstrip()) if data.strip() else original(inp, filename)
             if any(start in data for start in _BARE):
                 _prefix_core_tags(document, filename, report)
+            _drop_unnamed(document, filename, report)
             return document
         return original(inp, filename)
 
@@ -243,6 +244,16 @@ def _prefix_core_tags(document: Any, filename: str, report: Diagnostics) -> None
                 rewritten.add(tag)
     for tag in sorted(rewritten):
         report.warn(Source(filename), f"<{tag}> without the prefix xacro: is Indigo's way; read as <xacro:{tag}>")
+
+
+def _drop_unnamed(document: Any, filename: str, report: Diagnostics) -> None:
+    """Leave out properties that no expression can name; Indigo's xacro kept them, today's refuses the file."""
+    for element in document.getElementsByTagName("xacro:property"):
+        name = str(element.getAttribute("name"))
+        if element.hasAttribute("name") and not name.isidentifier():
+            element.parentNode.removeChild(element)
+            what = f"a property named {name!r} can be used nowhere; it is left out"
+            report.warn(Source(filename), what)
 
 
 def _eval_all_for(original: Callable[..., None], path: Path) -> Callable[..., None]:
