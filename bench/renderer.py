@@ -57,13 +57,13 @@ def _rate(work: Callable[[], object]) -> float:
 def _pictures(name: str, scene: Scene, eyes: Sequence[Pose], lens: Intrinsics) -> Row:
     def drawing(renderer: Renderer) -> Callable[[], None]:
         frame = 0
+        views = [(eye, lens) for eye in eyes]
 
         def draw() -> None:
             nonlocal frame
             frame += 1
             renderer.update(scenes.poses_at(scene, frame))
-            for eye in eyes:
-                renderer.render(eye, lens)
+            renderer.render(views)
 
         return draw
 
@@ -103,13 +103,13 @@ def _many_cameras() -> list[Row]:
 
     def looking(count: int) -> Callable[[], None]:
         eyes = [Pose.from_rpy(0.0, 0.0, 1.5, 0.0, 0.2, 2 * np.pi * i / count) for i in range(count)]
+        views = [(eye, scenes.SMALL) for eye in eyes]
 
         def look() -> None:
             nonlocal frame
             frame += 1
             renderer.update(scenes.poses_at(scene, frame))
-            for eye in eyes:
-                renderer.render(eye, scenes.SMALL)
+            renderer.render(views)
 
         return look
 

@@ -140,26 +140,34 @@ NB_MODULE(_native, module) {
       .def("reshape", &Renderer::reshape, nb::arg("mesh"), nb::arg("form"))
       .def(
           "render",
-          [](Renderer& self, std::array<double, 7> world_from_camera, double focal, double near_, double far_,
-             Array<uint8_t, nb::shape<-1, -1, 3>> rgb, std::optional<Array<float, nb::shape<-1, -1>>> depth,
-             std::optional<Array<int32_t, nb::shape<-1, -1>>> segmentation) {
-            const size_t height = rgb.shape(0), width = rgb.shape(1);
-            const auto fits = [&](const auto& array) { return array.shape(0) == height && array.shape(1) == width; };
-            if ((depth && !fits(*depth)) || (segmentation && !fits(*segmentation)))
-              throw std::invalid_argument("all pictures must be of one size");
+          [](Renderer& self, const std::vector<std::array<double, 7>>& world_from_cameras,
+             const std::vector<std::array<double, 3>>& lenses, Array<uint8_t, nb::shape<-1, -1, -1, 3>> rgb,
+             std::optional<Array<float, nb::shape<-1, -1, -1>>> depth,
+             std::optional<Array<int32_t, nb::shape<-1, -1, -1>>> segmentation) {
+            const size_t count = world_from_cameras.size(), height = rgb.shape(1), width = rgb.shape(2);
+            const auto fits = [&](const auto& array) {
+              return array.shape(0) == count && array.shape(1) == height && array.shape(2) == width;
+            };
+            if (!fits(rgb) || (depth && !fits(*depth)) || (segmentation && !fits(*segmentation)))
+              throw std::invalid_argument("all pictures must be of one size, and one for each camera");
+            if (lenses.size() != count) throw std::invalid_argument("each camera must have a lens");
             if (height < 1 || width < 1 || height > 16384 || width > 16384)
               throw std::invalid_argument("a picture is 1 to 16384 pixels wide and high");
-            if (!(near_ > 0.0 && far_ > near_ && focal > 0.0))
-              throw std::invalid_argument("a camera needs 0 < near < far and a focal length above 0");
-            const Camera camera{frame_of(world_from_camera, "the camera"), (int32_t)width, (int32_t)height, focal,
-                                near_, far_};
-            float* depths = depth ? depth->data() : nullptr;
-            int32_t* segments = segmentation ? segmentation->data() : nullptr;
+            std::vector<Shot> shots;
+            for (size_t i = 0; i < count; ++i) {
+              const auto [focal, near_, far_] = lenses[i];
+              if (!(near_ > 0.0 && far_ > near_ && focal > 0.0))
+                throw std::invalid_argument("a camera needs 0 < near < far and a focal length above 0");
+              const size_t first = i * height * width;
+              shots.push_back({frame_of(world_from_cameras[i], "a camera"), (int32_t)width, (int32_t)height, focal,
+                               near_, far_, rgb.data() + 3 * first, depth ? depth->data() + first : nullptr,
+                               segmentation ? segmentation->data() + first : nullptr});
+            }
             nb::gil_scoped_release unlocked;
-            self.render(camera, rgb.data(), depths, segments);
+            self.render(shots);
           },
-          nb::arg("world_from_camera"), nb::kw_only(), nb::arg("focal"), nb::arg("near"), nb::arg("far"),
-          nb::arg("rgb"), nb::arg("depth") = nb::none(), nb::arg("segmentation") = nb::none());
+          nb::arg("world_from_cameras"), nb::kw_only(), nb::arg("lenses"), nb::arg("rgb"),
+          nb::arg("depth") = nb::none(), nb::arg("segmentation") = nb::none());
 
   renderer.def(
       "cast",

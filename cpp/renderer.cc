@@ -73,8 +73,8 @@ Renderer::Renderer(SceneSpec scene, int32_t threads)
 }
 
 void Renderer::Room::fit(const Mesh& mesh) {
-  projected.resize(std::max(projected.size(), 6 * mesh.places[0].size()));
-  large.resize(std::max(large.size(), mesh.corners[0].size()));
+  projected.fit(6 * mesh.places[0].size());
+  large.fit(mesh.corners[0].size());
 }
 
 void Renderer::update(const double* poses) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "bvh.h"
@@ -41,10 +42,32 @@ struct SceneSpec {
   Fog fog{};
 };
 
-struct Camera {
+// A picture to be drawn, and where to: (height, width, 3), (height, width), (height, width); depth and segment may be null.
+struct Shot {
   Frame world_from_camera;
   int32_t width, height;
   double focal, near_, far_;
+  uint8_t* rgb;
+  float* depth;
+  int32_t* segment;
+};
+
+// Room that grows to what is asked for, in whole lines of the cache. What lies in it is of no meaning.
+template <typename Number>
+class Scratch {
+ public:
+  void fit(size_t count) {
+    const size_t lines = (count + kWidest - 1) / kWidest;
+    if (lines > count_) lines_.reset(new Line[lines]), count_ = lines;
+  }
+  Number* data() { return lines_ ? lines_[0].numbers : nullptr; }
+
+ private:
+  struct alignas(64) Line {
+    Number numbers[kWidest];
+  };
+  std::unique_ptr<Line[]> lines_;
+  size_t count_ = 0;
 };
 
 constexpr int32_t kMostThreads = 64;
@@ -53,11 +76,12 @@ class Renderer {
  public:
   // Throws std::invalid_argument where an index leads nowhere. Pictures are the same with any number of threads.
   explicit Renderer(SceneSpec scene, int32_t threads = 1);
+  Renderer(const Renderer&) = delete;
 
   void update(const double* poses);  // (bodies, 7)
   void reshape(int32_t mesh, Mesh form);  // whatever shape bears that mesh changes
-  // Into (height, width, 3), (height, width), (height, width); depth and segment may be null.
-  void render(const Camera& camera, uint8_t* rgb, float* depth, int32_t* segment);
+  // All of one instant. Threads share the rows of all of them.
+  void render(const std::vector<Shot>& shots);
   // How far rays from one place go before they meet a shape [m], and which; infinity and -1 where they meet none. Unit
   // directions (count, 3) in the frame of that place; of the body `exclude`, nothing is met.
   void cast(const Frame& world_from_place, const float* directions, size_t count, float reach, int32_t exclude,
@@ -80,9 +104,12 @@ class Renderer {
   void draw_maps();
   struct Band;
   template <typename Work>
-  void in_bands(int32_t height, const Work& work);
+  void in_bands(const std::vector<View>& views, const Work& work);
   void sort_by_nearness(std::vector<Solid>& solids) const;
-  void see_all(const View& view, const std::vector<Solid>& solids, const Band& band, Buffers buffers);
+  void see_all(const View& view, const std::vector<Solid>& solids, const Band& band, Buffers buffers) const;
+  struct Sight;  // what a camera has before it
+  Sight sight_of(const Shot& shot, const View& view);
+  void draw(const Shot& shot, const View& view, const Sight& sight, const Band& band);
 
   SceneSpec scene_;
   std::vector<Triangles> triangles_;
@@ -96,14 +123,12 @@ class Renderer {
   std::vector<Solid> solids_;                      // that rays may meet
   std::vector<std::optional<LightMap>> maps_;     // of each light
   bool maps_are_old_ = true;
-  struct Room {  // of each thread
-    std::vector<float> projected;
-    std::vector<int32_t> large;
+  struct Room {  // of each thread; of pictures each touches the rows that it draws
+    Scratch<float> projected, nearness, nearness_through, hidden, hidden_through;
+    Scratch<int32_t> large, id, id_through, colour, segment;
     void fit(const Mesh& mesh);
   };
   std::vector<Room> rooms_;
-  std::vector<float> nearness_, nearness_through_, hidden_, hidden_through_;
-  std::vector<int32_t> id_, id_through_, colour_, segment_;
 };
 
 }  // namespace trundle

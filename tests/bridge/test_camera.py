@@ -1,7 +1,7 @@
 """Pictures and calibrations as ROS nodes receive them."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from types import SimpleNamespace
 from typing import Any
 
@@ -29,12 +29,12 @@ class Ramp:
         """Nothing moves."""
 
     def render(
-        self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
-    ) -> Picture:
+        self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False
+    ) -> list[Picture]:
         """Count up, row by row."""
-        assert (world_from_camera.position, depth, segmentation) == ((0.1, 0.0, 0.2), False, False)
-        shape = (intrinsics.height_px, intrinsics.width_px, 3)
-        return Picture(np.arange(math.prod(shape), dtype=np.uint8).reshape(shape))
+        assert ([eye.position for eye, _ in views], depth, segmentation) == ([(0.1, 0.0, 0.2)], False, False)
+        shapes = [(lens.height_px, lens.width_px, 3) for _, lens in views]
+        return [Picture(np.arange(math.prod(shape), dtype=np.uint8).reshape(shape)) for shape in shapes]
 
 
 def snapshot(time_ns: int) -> Snapshot:

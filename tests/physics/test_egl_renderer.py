@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from tests.pictures import drawn
 
 from trundle.diagnostics import UsageError
 from trundle.meshes import Mesh
@@ -63,7 +64,7 @@ def test_colours_distances_and_shapes_are_those_of_opengl(opengl: EglRenderer) -
     pictures = []
     for each in (ours, opengl):
         each.update(np.array([[0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-        pictures.append(each.render(EYE, LENS, depth=True, segmentation=True))
+        pictures.append(drawn(each, EYE, LENS, depth=True, segmentation=True))
     a, b = pictures
     assert a.depth is not None
     assert b.depth is not None
@@ -109,7 +110,7 @@ def test_a_mesh_that_is_reshaped_stands_where_ours_does(opengl: EglRenderer) -> 
     for each in (ours, opengl):
         each.update(np.array([[0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
         each.reshape(len(THINGS) - 1, mesh.vertices * np.float32([1.5, 0.3, 0.7]))
-        picture = each.render(EYE, LENS, depth=True, segmentation=True)
+        picture = drawn(each, EYE, LENS, depth=True, segmentation=True)
         assert picture.depth is not None
         assert picture.segmentation is not None
         depths.append(np.where(picture.segmentation == len(THINGS) - 1, picture.depth, np.nan))
@@ -121,7 +122,7 @@ def test_a_mesh_that_is_reshaped_stands_where_ours_does(opengl: EglRenderer) -> 
 
 def test_a_body_that_is_nowhere_is_not_seen(opengl: EglRenderer) -> None:
     opengl.update(np.full((1, 7), math.nan))
-    picture = opengl.render(EYE, LENS, segmentation=True)
+    picture = drawn(opengl, EYE, LENS, segmentation=True)
     assert picture.segmentation is not None
     assert (picture.segmentation == -1).all()
     assert (picture.rgb == [102, 128, 153]).all()

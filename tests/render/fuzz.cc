@@ -115,15 +115,20 @@ void look_at(Renderer& renderer) {
   std::vector<double> poses;
   for (int32_t i = 0; i < 7 * renderer.bodies(); ++i) poses.push_back(whole(0, 40) ? sane() : number());
   renderer.update(poses.data());
-  for (int32_t i = 0; i < 3; ++i) {
+  const int32_t count = whole(0, 4);
+  std::vector<std::vector<uint8_t>> rgb(count);
+  std::vector<std::vector<float>> depth(count);
+  std::vector<std::vector<int32_t>> segment(count);
+  std::vector<Shot> shots;
+  for (int32_t i = 0; i < count; ++i) {
     const int32_t width = whole(1, 70), height = whole(1, 50);
     const double near_ = std::ldexp(1.0, whole(-20, 4)), far_ = near_ * std::ldexp(1.5, whole(0, 40));
-    std::vector<uint8_t> rgb((size_t)(3 * width * height));
-    std::vector<float> depth((size_t)(width * height));
-    std::vector<int32_t> segment((size_t)(width * height));
-    renderer.render({frame(), width, height, std::ldexp(1.0, whole(-10, 20)), near_, far_}, rgb.data(),
-                    whole(0, 1) ? depth.data() : nullptr, whole(0, 1) ? segment.data() : nullptr);
+    const auto area = (size_t)(width * height);
+    rgb[i].resize(3 * area), depth[i].resize(area), segment[i].resize(area);
+    shots.push_back({frame(), width, height, std::ldexp(1.0, whole(-10, 20)), near_, far_, rgb[i].data(),
+                     whole(0, 1) ? depth[i].data() : nullptr, whole(0, 1) ? segment[i].data() : nullptr});
   }
+  renderer.render(shots);
   const int32_t rays = whole(0, 100);
   std::vector<float> directions, ranges((size_t)rays);
   std::vector<int32_t> shapes((size_t)rays);

@@ -2,6 +2,7 @@
 
 import hashlib
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,11 +76,20 @@ SCENES = {
 }
 
 
-def draw(name: str, *, threads: int = 1) -> NDArray[np.uint8]:
-    """One of the scenes."""
+SEVERAL = [(Pose.from_rpy(-4.0, -0.5, 2.0, 0.1 * i, 0.35, 0.1 * i), replace(LENS, far_m=20.0 - i)) for i in range(5)]
+
+
+def ready(name: str, *, threads: int = 1) -> NativeRenderer:
+    """A renderer of one of the scenes."""
     made = NativeRenderer(SCENES[name], threads=threads)
     made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    return made.render(EYE, LENS).rgb
+    return made
+
+
+def draw(name: str, *, threads: int = 1) -> NDArray[np.uint8]:
+    """One of the scenes."""
+    (picture,) = ready(name, threads=threads).render([(EYE, LENS)])
+    return picture.rgb
 
 
 if __name__ == "__main__":

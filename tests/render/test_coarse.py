@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import trimesh
+from tests import pictures
 
 from trundle.meshes import Mesh
 from trundle.model import Plane
@@ -30,7 +31,7 @@ def drawn(mesh: Mesh, away: float, *, every: bool = False) -> Picture:
     made = NativeRenderer(Scene(bodies=("a", "b"), shapes=(ground, ball), lights=(SUN,), ambient=(0.3, 0.3, 0.3, 1.0)))
     made.update(np.array([[0.0, 0, 0, 1, 0, 0, 0], [away, 0.1, 0.3, 1, 0, 0, 0]]))
     eye = Pose.from_rpy(0.0, 0.0, 1.0, 0.0, float(np.arctan2(0.7, away)), 0.0)
-    return made.render(eye, LENS, depth=every, segmentation=every)
+    return pictures.drawn(made, eye, LENS, depth=every, segmentation=every)
 
 
 @pytest.fixture(scope="module")
@@ -64,10 +65,10 @@ def test_a_mesh_that_changes_its_form_is_drawn_as_it_is(heavy: Mesh) -> None:
     ball = Shape(name="m", body=0, geometry=heavy)
     made = NativeRenderer(Scene(bodies=("a",), shapes=(ball,)))
     made.update(np.array([[8.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    small = made.render(Pose(), LENS).rgb
+    small = pictures.drawn(made, Pose(), LENS).rgb
     made.reshape(0, 2.0 * heavy.vertices)
-    large = made.render(Pose(), LENS).rgb
-    assert (large == made.render(Pose(), LENS, segmentation=True).rgb).all()
+    large = pictures.drawn(made, Pose(), LENS).rgb
+    assert (large == pictures.drawn(made, Pose(), LENS, segmentation=True).rgb).all()
     assert (large != large[0, 0]).sum() > 3 * (small != small[0, 0]).sum()
 
 
@@ -78,6 +79,6 @@ def test_rays_meet_every_triangle(heavy: Mesh) -> None:
     ways = np.stack([np.ones(50), np.linspace(-0.01, 0.01, 50), np.zeros(50)], axis=-1)
     ways = (ways / np.linalg.norm(ways, axis=1, keepdims=True)).astype(np.float32)
     before, _ = made.cast(Pose(), ways, reach_m=50.0)
-    made.render(Pose(), LENS)
+    pictures.drawn(made, Pose(), LENS)
     after, _ = made.cast(Pose(), ways, reach_m=50.0)
     assert before.tobytes() == after.tobytes()

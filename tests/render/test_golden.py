@@ -39,6 +39,20 @@ def test_any_number_of_threads_draws_the_same_bytes(name: str, threads: int) -> 
     assert golden_scenes.draw(name, threads=threads).tobytes() == golden_scenes.draw(name).tobytes()
 
 
+@pytest.mark.parametrize("threads", [1, 2, 3, 64])
+@pytest.mark.parametrize("name", golden_scenes.SCENES)
+def test_pictures_of_one_call_are_those_of_a_call_each(name: str, threads: int) -> None:
+    """However threads share their rows."""
+    alone, together = golden_scenes.ready(name), golden_scenes.ready(name, threads=threads)
+    pictures = together.render(golden_scenes.SEVERAL, depth=True, segmentation=True)
+    singly = [alone.render([view], depth=True, segmentation=True)[0] for view in golden_scenes.SEVERAL]
+    for picture, expected in zip(pictures, singly, strict=True):
+        assert (picture.rgb == expected.rgb).all()
+        assert np.array_equal(picture.depth, expected.depth)  # type: ignore[arg-type]
+        assert np.array_equal(picture.segmentation, expected.segmentation)  # type: ignore[arg-type]
+    assert len({picture.rgb.tobytes() for picture in pictures}) == len(pictures)
+
+
 def test_every_instruction_set_draws_the_same_bytes() -> None:
     def hashes(wish: str) -> str:
         program = [sys.executable, str(Path(golden_scenes.__file__))]

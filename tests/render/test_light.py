@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.pictures import drawn
 
 from trundle.meshes import Mesh
 from trundle.model import Box, Fog, Plane, Sphere
@@ -26,7 +27,7 @@ def picture(*shapes: Shape, lights: tuple[SceneLight, ...] = (SUN,), **scene: ob
     """What is seen from above."""
     made = NativeRenderer(replace(Scene(bodies=("b",), shapes=shapes, lights=lights, ambient=BLACK), **scene))
     made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    return made.render(DOWN, LENS).rgb
+    return drawn(made, DOWN, LENS).rgb
 
 
 def at(rgb: NDArray[np.uint8], x: float, y: float) -> list[int]:
@@ -80,7 +81,7 @@ def test_the_edge_of_a_shadow_is_where_it_should_be_to_a_centimetre() -> None:
     close = replace(LENS, horizontal_fov_rad=2.0 * math.atan(0.05))  # 200 px a metre
     made = NativeRenderer(Scene(bodies=("b",), shapes=(GROUND, block()), lights=(leaning(45.0),), ambient=BLACK))
     made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    rgb = made.render(Pose.from_rpy(2.0, 0.0, 10.0, 0.0, math.pi / 2, 0.0), close).rgb[:, 100, 0].astype(float)
+    rgb = drawn(made, Pose.from_rpy(2.0, 0.0, 10.0, 0.0, math.pi / 2, 0.0), close).rgb[:, 100, 0].astype(float)
     dark = float((90.0 - rgb).sum() / 90.0)  # rows in the shade, from the lowest, x = 1.5, up
     assert 1.5 + dark / 200.0 == pytest.approx(2.0, abs=0.01)
 
@@ -106,7 +107,7 @@ def test_shadows_follow_what_moves() -> None:
     seen = []
     for x in (0.0, 2.0, 0.0):
         made.update(np.array([here, [x, *here[1:]]]))
-        seen.append(made.render(DOWN, LENS).rgb)
+        seen.append(drawn(made, DOWN, LENS).rgb)
     assert at(seen[0], 1.9, 0.0) != at(seen[0], 3.9, 0.0)
     assert at(seen[0], 1.9, 0.0) == at(seen[1], 3.9, 0.0)
     assert (seen[0] == seen[2]).all()
@@ -148,7 +149,7 @@ def test_a_light_rides_on_its_body() -> None:
     lamp = SceneLight(kind="point", body=1, position=(0.0, 0.0, 1.0), diffuse=WHITE, range_m=1.5)
     made = NativeRenderer(Scene(bodies=("b", "car"), shapes=(GROUND,), lights=(lamp,), ambient=BLACK))
     made.update(np.array([[0.0, 0, 0, 1, 0, 0, 0], [2.0, 0, 0, 1, 0, 0, 0]]))
-    rgb = made.render(DOWN, LENS).rgb
+    rgb = drawn(made, DOWN, LENS).rgb
     assert at(rgb, 2.0, 0.0)[0] > 200
     assert at(rgb, 0.0, 0.0) == [0, 0, 0]
 
@@ -182,8 +183,8 @@ def test_fog_hides_what_is_far(fog: Fog, clear: float) -> None:
 def test_the_sky_runs_from_the_horizon_up() -> None:
     made = NativeRenderer(Scene(bodies=(), shapes=(), sky=((1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 1.0, 1.0))))
     made.update(np.empty((0, 7)))
-    red = made.render(Pose(), LENS).rgb[:, 100, 0].astype(int)
+    red = drawn(made, Pose(), LENS).rgb[:, 100, 0].astype(int)
     assert (red[100:] == 255).all()
     assert (np.diff(red[:99]) >= 0).all()
     assert red[0] < 200
-    assert made.render(Pose.from_rpy(0.0, 0.0, 0.0, 0.0, -math.pi / 2, 0.0), LENS).rgb[100, 100].tolist() == [0, 0, 255]
+    assert drawn(made, Pose.from_rpy(0.0, 0.0, 0.0, 0.0, -math.pi / 2, 0.0), LENS).rgb[100, 100].tolist() == [0, 0, 255]

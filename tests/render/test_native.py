@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.pictures import drawn
 
 from trundle.meshes import Mesh
 from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Rgba, Sphere
@@ -46,7 +47,7 @@ def centroid(mask: NDArray[np.bool_]) -> tuple[float, float]:
 
 
 def test_a_sphere_ahead_is_a_disc_in_the_middle_of_the_right_size() -> None:
-    picture = renderer(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0)))).render(Pose(), WIDE)
+    picture = drawn(renderer(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0)))), Pose(), WIDE)
     mask = is_red(picture.rgb)
     assert centroid(mask) == pytest.approx((159.5, 119.5), abs=0.01)
     # Its rim is seen where the line of sight touches it: tan = r / sqrt(d² - r²). Pixels cut the area to 1 %.
@@ -55,20 +56,20 @@ def test_a_sphere_ahead_is_a_disc_in_the_middle_of_the_right_size() -> None:
 
 
 def test_depth_is_along_the_view_axis_and_infinite_where_nothing_is() -> None:
-    picture = renderer(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0)))).render(Pose(), WIDE, depth=True)
+    picture = drawn(renderer(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0)))), Pose(), WIDE, depth=True)
     assert picture.depth is not None
     assert picture.depth.shape == (240, 320)
     assert picture.depth[119:121, 159:161] == pytest.approx(3.5, abs=1e-3)
     assert np.isinf(picture.depth[0, 0])
     assert (np.isfinite(picture.depth) == is_red(picture.rgb)).all()
     # A wall is equally deep everywhere, though its corners are farther away.
-    wall = renderer(shape(Box((0.2, 20.0, 20.0)), Pose((3.0, 0.0, 0.0)))).render(Pose(), WIDE, depth=True)
+    wall = drawn(renderer(shape(Box((0.2, 20.0, 20.0)), Pose((3.0, 0.0, 0.0)))), Pose(), WIDE, depth=True)
     assert wall.depth is not None
     assert wall.depth == pytest.approx(2.9, abs=1e-5)
 
 
 def test_no_depth_is_made_unless_asked_for() -> None:
-    assert renderer(shape(Sphere(0.5))).render(Pose(), WIDE).depth is None
+    assert drawn(renderer(shape(Sphere(0.5))), Pose(), WIDE).depth is None
 
 
 @pytest.mark.parametrize(
@@ -76,7 +77,7 @@ def test_no_depth_is_made_unless_asked_for() -> None:
     [((4.0, 1.0, 0.0), -1, 0), ((4.0, -1.0, 0.0), 1, 0), ((4.0, 0.0, 1.0), 0, -1), ((4.0, 0.0, -1.0), 0, 1)],
 )
 def test_y_is_left_of_the_image_and_z_is_up(place: tuple[float, float, float], column_sign: int, row_sign: int) -> None:
-    column, row = centroid(is_red(renderer(shape(Sphere(0.2), Pose(place))).render(Pose(), WIDE).rgb))
+    column, row = centroid(is_red(drawn(renderer(shape(Sphere(0.2), Pose(place))), Pose(), WIDE).rgb))
     # A sphere off the axis is seen a little farther out than its centre: 1 px.
     shift = WIDE.focal_px * 1.0 / 4.0
     assert (column - 159.5, row - 119.5) == pytest.approx((column_sign * shift, row_sign * shift), abs=1.0)
@@ -84,12 +85,12 @@ def test_y_is_left_of_the_image_and_z_is_up(place: tuple[float, float, float], c
 
 def test_the_camera_looks_along_its_own_x() -> None:
     made = renderer(shape(Sphere(0.5), Pose((1.0, 6.0, 2.0))))
-    picture = made.render(Pose.from_rpy(1.0, 2.0, 2.0, 0.0, 0.0, math.pi / 2), WIDE)
+    picture = drawn(made, Pose.from_rpy(1.0, 2.0, 2.0, 0.0, 0.0, math.pi / 2), WIDE)
     assert centroid(is_red(picture.rgb)) == pytest.approx((159.5, 119.5), abs=0.1)
 
 
 def test_the_background_is_the_scenes() -> None:
-    picture = renderer(shape(Sphere(0.5), Pose((-4.0, 0.0, 0.0)))).render(Pose(), WIDE)
+    picture = drawn(renderer(shape(Sphere(0.5), Pose((-4.0, 0.0, 0.0)))), Pose(), WIDE)
     assert picture.rgb.dtype == np.uint8
     assert picture.rgb.shape == (240, 320, 3)
     assert (picture.rgb == (51, 102, 153)).all()
@@ -98,24 +99,24 @@ def test_the_background_is_the_scenes() -> None:
 def test_a_scene_of_nothing_is_background() -> None:
     made = NativeRenderer(scene(bodies=0))
     made.update(np.empty((0, 7)))
-    assert (made.render(Pose(), WIDE).rgb == (51, 102, 153)).all()
+    assert (drawn(made, Pose(), WIDE).rgb == (51, 102, 153)).all()
 
 
 def test_what_is_nearer_than_near_or_farther_than_far_is_not_seen() -> None:
     made = renderer(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0))))
     for near, far in ((3.9, 100.0), (0.1, 3.4)):
         clipped = Intrinsics(width_px=64, height_px=48, horizontal_fov_rad=0.2, near_m=near, far_m=far)
-        centre = made.render(Pose(), clipped).rgb[20:28, 28:36]
+        centre = drawn(made, Pose(), clipped).rgb[20:28, 28:36]
         assert (centre == (51, 102, 153)).all()
     clear = Intrinsics(width_px=64, height_px=48, horizontal_fov_rad=0.2, near_m=3.4, far_m=3.6)
-    assert is_red(made.render(Pose(), clear).rgb[20:28, 28:36]).all()
+    assert is_red(drawn(made, Pose(), clear).rgb[20:28, 28:36]).all()
 
 
 def test_what_is_in_front_hides_what_is_behind() -> None:
     front = shape(Sphere(0.3), Pose((3.0, 0.0, 0.0)))
     behind = shape(Sphere(0.9), Pose((6.0, 0.0, 0.0)), GREEN)
     for order in ((front, behind), (behind, front)):
-        rgb = renderer(*order).render(Pose(), WIDE).rgb
+        rgb = drawn(renderer(*order), Pose(), WIDE).rgb
         assert is_red(rgb)[120, 160]
         assert rgb[120, 160 + 38, 1] > 50
 
@@ -123,7 +124,7 @@ def test_what_is_in_front_hides_what_is_behind() -> None:
 def test_a_shape_stands_on_the_ground_before_it() -> None:
     ground = shape(Plane((0.0, 0.0, 1.0), (100.0, 100.0)), rgba=GREEN)
     post = shape(Box((0.2, 0.2, 1.0)), Pose((5.0, 0.0, 0.5)))
-    picture = renderer(ground, post).render(Pose((0.0, 0.0, 1.0)), WIDE, depth=True)
+    picture = drawn(renderer(ground, post), Pose((0.0, 0.0, 1.0)), WIDE, depth=True)
     rgb = picture.rgb
     assert picture.depth is not None
     assert is_red(rgb)[120 + 20, 160]
@@ -135,7 +136,7 @@ def test_a_shape_stands_on_the_ground_before_it() -> None:
 
 def test_a_ground_seen_edge_on_or_from_below_hides_no_sky() -> None:
     ground = shape(Plane((0.0, 0.0, 1.0), (100.0, 100.0)), rgba=GREEN)
-    level = renderer(ground).render(Pose((0.0, 0.0, 1.0)), WIDE)
+    level = drawn(renderer(ground), Pose((0.0, 0.0, 1.0)), WIDE)
     assert (level.rgb[:110] == (51, 102, 153)).all()
     assert (level.rgb[130:, :, 1] > 50).all()
 
@@ -157,19 +158,19 @@ def cube(size: float) -> Mesh:
 def test_a_single_triangle_is_drawn_and_one_without_area_is_not() -> None:
     corners = np.array([[4, -1, -1], [4, 1, -1], [4, 0, 1]], dtype=np.float32)
     face = np.array([[0, 2, 1]], dtype=np.int32)
-    seen = is_red(renderer(shape(Mesh(corners, face))).render(Pose(), WIDE).rgb)
+    seen = is_red(drawn(renderer(shape(Mesh(corners, face))), Pose(), WIDE).rgb)
     # 2 m² at 4 m.
     assert seen.sum() == pytest.approx(2.0 * (WIDE.focal_px / 4.0) ** 2, rel=0.02)
     nothing = Mesh(np.zeros((3, 3), dtype=np.float32), face)
-    assert (renderer(shape(nothing)).render(Pose(), WIDE).rgb == (51, 102, 153)).all()
+    assert (drawn(renderer(shape(nothing)), Pose(), WIDE).rgb == (51, 102, 153)).all()
 
 
 def test_a_mesh_is_drawn_where_its_triangles_are() -> None:
     # Off centre and turned.
     offset = Mesh(cube(0.5).vertices + np.array([0.0, 0.7, 0.3], dtype=np.float32), cube(0.5).faces)
     pose = Pose.from_rpy(4.0, -0.2, 0.1, 0.3, 0.0, 0.0)
-    as_mesh = renderer(shape(offset, pose)).render(Pose(), WIDE, depth=True)
-    as_box = renderer(shape(Box((0.5, 0.5, 0.5)), pose @ Pose((0.0, 0.7, 0.3)))).render(Pose(), WIDE, depth=True)
+    as_mesh = drawn(renderer(shape(offset, pose)), Pose(), WIDE, depth=True)
+    as_box = drawn(renderer(shape(Box((0.5, 0.5, 0.5)), pose @ Pose((0.0, 0.7, 0.3)))), Pose(), WIDE, depth=True)
     assert as_mesh.depth is not None
     assert as_box.depth is not None
     differ = is_red(as_mesh.rgb) ^ is_red(as_box.rgb)
@@ -195,7 +196,7 @@ def test_every_shape_is_seen_from_every_side_and_only_where_it_is(geometry: Shap
     made = renderer(shape(geometry))
     for yaw in np.arange(0.0, 2 * math.pi, math.pi / 3):
         away = Pose.from_rpy(-3.0 * math.cos(yaw), -3.0 * math.sin(yaw), 0.0, 0.0, 0.0, float(yaw))
-        picture = made.render(away, WIDE, depth=True)
+        picture = drawn(made, away, WIDE, depth=True)
         assert picture.depth is not None
         seen = np.isfinite(picture.depth)
         assert seen[120, 160]
@@ -207,10 +208,10 @@ def test_every_shape_is_seen_from_every_side_and_only_where_it_is(geometry: Shap
 
 def test_a_shape_around_the_camera_is_drawn_all_over() -> None:
     room = renderer(shape(cube(4.0)))
-    picture = room.render(Pose(), WIDE, depth=True)
+    picture = drawn(room, Pose(), WIDE, depth=True)
     assert picture.depth is not None
     assert (np.isinf(picture.depth) | (picture.depth <= 2.0 + 1e-5)).all()
-    inside_box = renderer(shape(Box((0.2, 9.0, 9.0)), Pose((0.5, 0.0, 0.0)))).render(Pose(), WIDE, depth=True)
+    inside_box = drawn(renderer(shape(Box((0.2, 9.0, 9.0)), Pose((0.5, 0.0, 0.0)))), Pose(), WIDE, depth=True)
     assert inside_box.depth is not None
     assert inside_box.depth == pytest.approx(0.4, abs=1e-5)
 
@@ -219,9 +220,9 @@ def test_shapes_ride_on_their_bodies() -> None:
     made = NativeRenderer(scene(shape(Sphere(0.3)), shape(Sphere(0.3), rgba=GREEN, body=1), bodies=2))
     poses = np.array([[4.0, 1.0, 0.0, 1, 0, 0, 0], [4.0, -1.0, 0.0, 1, 0, 0, 0]])
     made.update(poses)
-    before = made.render(Pose(), WIDE).rgb
+    before = drawn(made, Pose(), WIDE).rgb
     made.update(poses[::-1])
-    after = made.render(Pose(), WIDE).rgb
+    after = drawn(made, Pose(), WIDE).rgb
     assert centroid(is_red(before))[0] < 159
     assert centroid(is_red(after))[0] > 160
 
@@ -231,7 +232,7 @@ def test_a_body_that_is_nowhere_is_not_seen(geometry: ShapeGeometry) -> None:
     """A body without a pose has NaN for one."""
     made = NativeRenderer(scene(shape(geometry)))
     made.update(np.full((1, 7), np.nan))
-    picture = made.render(Pose((0.0, 0.0, 1.0)), WIDE, depth=True)
+    picture = drawn(made, Pose((0.0, 0.0, 1.0)), WIDE, depth=True)
     assert picture.depth is not None
     assert np.isinf(picture.depth).all()
 
@@ -244,16 +245,16 @@ def test_light_comes_from_where_it_comes_from() -> None:
     )
     made = NativeRenderer(lit_from_left)
     made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    red = made.render(Pose(), WIDE).rgb[120, :, 0].astype(int)
+    red = drawn(made, Pose(), WIDE).rgb[120, :, 0].astype(int)
     assert red[160 - 25] > red[160 + 25] + 50
 
 
 def test_glass_is_looked_through_in_its_colour() -> None:
     pane = shape(Box((0.1, 9.0, 9.0)), Pose((2.0, 0.0, 0.0)), (0.0, 0.0, 1.0, 0.25))
     red = shape(Sphere(0.5), Pose((4.0, 0.0, 0.0)))
-    without = renderer(red).render(Pose(), WIDE).rgb.astype(float)
+    without = drawn(renderer(red), Pose(), WIDE).rgb.astype(float)
     for order in ((pane, red), (red, pane)):
-        picture = renderer(*order).render(Pose(), WIDE, depth=True, segmentation=True)
+        picture = drawn(renderer(*order), Pose(), WIDE, depth=True, segmentation=True)
         glass = np.array([0.0, 0.0, 255.0])  # ambient and headlight together
         assert picture.rgb[120, 160] == pytest.approx(0.75 * without[120, 160] + 0.25 * glass, abs=1.0)
         assert picture.depth is not None
@@ -266,7 +267,7 @@ def test_panes_lie_over_each_other_from_the_far_one_to_the_near_one() -> None:
     near = shape(Box((0.1, 9.0, 9.0)), Pose((2.0, 0.0, 0.0)), (1.0, 0.0, 0.0, 0.5))
     far = shape(Box((0.1, 9.0, 9.0)), Pose((3.0, 0.0, 0.0)), (0.0, 1.0, 0.0, 0.5))
     for order in ((near, far), (far, near)):
-        rgb = renderer(*order).render(Pose(), WIDE).rgb[120, 160]
+        rgb = drawn(renderer(*order), Pose(), WIDE).rgb[120, 160]
         assert rgb == pytest.approx([0.5 * 255 + 0.25 * 51, 0.25 * 255 + 0.25 * 102, 0.25 * 153], abs=1.5)
 
 
@@ -291,8 +292,8 @@ def test_a_camera_that_cannot_be_is_refused_in_one_sentence(wrong: dict[str, Any
 def test_a_camera_or_a_fan_of_rays_that_is_nowhere_is_refused() -> None:
     made = renderer(shape(Sphere(0.5)))
     nowhere = Pose((math.nan, 0.0, 0.0))
-    with pytest.raises(ValueError, match="the pose of the camera is not of finite numbers"):
-        made.render(nowhere, WIDE)
+    with pytest.raises(ValueError, match="the pose of a camera is not of finite numbers"):
+        drawn(made, nowhere, WIDE)
     with pytest.raises(ValueError, match="the place that rays start from is not of finite numbers"):
         made.cast(nowhere, np.array([[1.0, 0.0, 0.0]], dtype=np.float32), reach_m=1.0)
 
@@ -302,7 +303,7 @@ def test_a_million_triangles_without_area_are_not_seen() -> None:
     assert len(faces) == 1_000_000
     vertices = np.random.default_rng(0).random((1000, 3)).astype(np.float32)
     made = renderer(shape(Mesh(vertices, faces)))
-    assert (made.render(Pose((-3.0, 0.0, 0.0)), WIDE).rgb == (51, 102, 153)).all()
+    assert (drawn(made, Pose((-3.0, 0.0, 0.0)), WIDE).rgb == (51, 102, 153)).all()
     assert np.isinf(made.cast(Pose((-3.0, 0.0, 0.0)), np.eye(3, dtype=np.float32), reach_m=9.0)[0]).all()
 
 
@@ -311,10 +312,10 @@ def test_the_same_world_is_the_same_picture_to_the_last_byte() -> None:
         shape(Sphere(0.5), Pose((4.0, 0.3, 0.1))),
         shape(cube(0.6), Pose.from_rpy(3.0, -0.5, 0.0, 0.1, 0.2, 0.3), GREEN),
     )
-    first = renderer(*parts).render(Pose(), WIDE, depth=True)
+    first = drawn(renderer(*parts), Pose(), WIDE, depth=True)
     made = renderer(*parts)
-    made.render(Pose((0.0, 1.0, 0.0)), WIDE)
-    second = made.render(Pose(), WIDE, depth=True)
+    drawn(made, Pose((0.0, 1.0, 0.0)), WIDE)
+    second = drawn(made, Pose(), WIDE, depth=True)
     assert first.rgb.tobytes() == second.rgb.tobytes()
     assert first.depth is not None
     assert second.depth is not None
@@ -330,10 +331,10 @@ def test_a_mesh_that_is_reshaped_is_drawn_and_met_as_it_is_now() -> None:
     ahead = np.array([[1.0, 0.0, 0.2]], dtype=np.float32)
     ahead /= np.linalg.norm(ahead)
 
-    assert not is_red(made.render(Pose(), WIDE).rgb).any()
+    assert not is_red(drawn(made, Pose(), WIDE).rgb).any()
     assert made.cast(Pose(), ahead, reach_m=50)[1].tolist() == [-1]
     made.reshape(0, square)
-    picture = made.render(Pose(), WIDE, segmentation=True)
+    picture = drawn(made, Pose(), WIDE, segmentation=True)
 
     assert picture.segmentation is not None
     side = 2 * WIDE.focal_px / 4
@@ -341,7 +342,7 @@ def test_a_mesh_that_is_reshaped_is_drawn_and_met_as_it_is_now() -> None:
     assert (picture.rgb[picture.segmentation == 1][:, 1] > 0).all()
     assert made.cast(Pose(), ahead, reach_m=50)[1].tolist() == [0]
     made.reshape(0, square * np.float32([1, 0.5, 0.5]))
-    assert is_red(made.render(Pose(), WIDE).rgb).sum() < side**2 / 3
+    assert is_red(drawn(made, Pose(), WIDE).rgb).sum() < side**2 / 3
 
 
 def test_what_is_no_mesh_cannot_be_reshaped() -> None:
@@ -364,8 +365,8 @@ def test_of_many_triangles_behind_one_another_the_nearest_is_seen(away: NDArray[
     vertices = (triangle + away[:, None, None] * np.array([1.0, 0.0, 0.0])).astype(np.float32)
     faces = np.arange(3 * len(away), dtype=np.int32).reshape(-1, 3)
 
-    every = renderer(shape(Mesh(vertices.reshape(-1, 3), faces))).render(Pose(), WIDE, depth=True)
-    alone = renderer(shape(Mesh(vertices[away.argmin()], faces[:1]))).render(Pose(), WIDE, depth=True)
+    every = drawn(renderer(shape(Mesh(vertices.reshape(-1, 3), faces))), Pose(), WIDE, depth=True)
+    alone = drawn(renderer(shape(Mesh(vertices[away.argmin()], faces[:1]))), Pose(), WIDE, depth=True)
 
     assert every.depth is not None
     assert alone.depth is not None
@@ -379,5 +380,13 @@ def test_of_two_at_one_place_the_first_shape_is_seen_whichever_comes_nearer_else
     box = shape(Box((1.0, 1.0, 1.0)), Pose((3.5, 0.0, 0.0)), GREEN)
     middle = (slice(110, 130), slice(150, 170))
 
-    assert is_red(renderer(wall, box).render(Pose(), WIDE).rgb[middle]).all()
-    assert not is_red(renderer(box, wall).render(Pose(), WIDE).rgb[middle]).any()
+    assert is_red(drawn(renderer(wall, box), Pose(), WIDE).rgb[middle]).all()
+    assert not is_red(drawn(renderer(box, wall), Pose(), WIDE).rgb[middle]).any()
+
+
+def test_no_views_and_views_of_two_sizes_are_refused() -> None:
+    made = renderer(shape(Sphere(0.5)))
+    wider = replace(WIDE, width_px=WIDE.width_px + 1)
+    for views in ([], [(Pose(), WIDE), (Pose(), wider)]):
+        with pytest.raises(ValueError, match="a call draws one picture or more, all of one size"):
+            made.render(views)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
+from tests.pictures import drawn
 
 from trundle.meshes import Mesh
 from trundle.model import Box, Cylinder, Plane, Sphere
@@ -33,7 +34,7 @@ def seen(geometry: ShapeGeometry, texture: Path | bytes, view: Pose, **change: o
     dark = SceneLight(diffuse=(0.0, 0.0, 0.0, 1.0))
     made = NativeRenderer(Scene(bodies=("b",), shapes=(shape,), lights=(dark,), ambient=WHITE))
     made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    return made.render(view, LENS).rgb
+    return drawn(made, view, LENS).rgb
 
 
 def corners(rgb: NDArray[np.uint8], away: int = 30) -> list[list[int]]:

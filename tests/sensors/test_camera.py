@@ -1,6 +1,8 @@
 """Cameras take pictures when they are due, of the instant they are due, and only for somebody."""
 
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -25,16 +27,19 @@ class CountingRenderer:
     def __init__(self) -> None:
         self.updates: list[NDArray[np.float64]] = []
         self.views: list[tuple[Pose, Intrinsics]] = []
+        self.calls: list[int] = []
+        """How many pictures each drew."""
 
     def update(self, poses: NDArray[np.float64]) -> None:
         self.updates.append(poses)
 
     def render(
-        self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
-    ) -> Picture:
+        self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False
+    ) -> list[Picture]:
         assert (depth, segmentation) == (False, False)
-        self.views.append((world_from_camera, intrinsics))
-        return Picture(np.zeros((intrinsics.height_px, intrinsics.width_px, 3), dtype=np.uint8))
+        self.calls.append(len(views))
+        self.views += views
+        return [Picture(np.zeros((lens.height_px, lens.width_px, 3), dtype=np.uint8)) for _, lens in views]
 
 
 def camera(name: str = "eye", **rest: object) -> Sensor:
@@ -100,6 +105,47 @@ def test_thirty_a_second_are_three_hundred_in_ten_seconds_each_stamped_with_its_
     assert all(0 <= reading.time_ns - (i + 1) * period_ns < 1.001 * MS for i, reading in enumerate(taken))
     assert all(reading.time_ns % MS == 0 for reading in taken)
     assert taken[0].rgb.shape == (6, 8, 3)
+
+
+def test_cameras_that_are_due_together_are_drawn_by_one_call_and_told_of_in_their_order() -> None:
+    """The last one is due at every second instant only, and of the third nobody wants to know."""
+    rates = {"left": 10.0, "right": 10.0, "blind": 10.0, "slow": 5.0}
+    sim, cameras, renderer = mounted(*(camera(name, update_rate_hz=rate) for name, rate in rates.items()))
+    told: list[tuple[str, int]] = []
+    for eye in cameras:
+        note = partial(lambda name, reading: told.append((name, reading.time_ns // MS)), eye.name)
+        eye.listen(note, wanted=partial(str.__ne__, eye.name, "blind"))
+    sim.run(0.2)
+    assert told == [("left", 100), ("right", 100), ("left", 200), ("right", 200), ("slow", 200)]
+    assert renderer.calls == [2, 3]
+    assert len(renderer.updates) == 2
+
+
+def test_large_pictures_are_not_all_kept_at_once() -> None:
+    """Three of two million pixels each: a call draws two."""
+    large = replace(OPTICS, width_px=2048, height_px=1024)
+    sim, _, renderer = mounted(*(camera(name, cameras=(large,), always_on=True) for name in "abc"))
+    sim.run(0.04)
+    assert renderer.calls == [2, 1]
+    assert len(renderer.updates) == 1
+
+
+def test_sizes_are_drawn_apart() -> None:
+    wide = replace(OPTICS, width_px=9)
+    kinds = {"a": OPTICS, "b": wide, "c": OPTICS}
+    sim, _, renderer = mounted(*(camera(name, cameras=(each,), always_on=True) for name, each in kinds.items()))
+    sim.run(0.04)
+    assert renderer.calls == [2, 1]
+
+
+def test_a_camera_that_is_asked_by_itself_draws_by_itself() -> None:
+    sim, cameras, renderer = mounted(camera("left"), camera("right"))
+    sim.step()
+    for eye in cameras:
+        eye.before_look(sim.snapshot())
+    left, right = (eye.take(sim.snapshot()) for eye in cameras)
+    assert left.rgb.shape == right.rgb.shape == (6, 8, 3)
+    assert renderer.calls == [1, 1]
 
 
 def test_a_rate_of_zero_is_thirty() -> None:

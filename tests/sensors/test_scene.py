@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.pictures import drawn
 
 from trundle.description import load
 from trundle.diagnostics import Diagnostics
@@ -34,7 +35,7 @@ def picture(scene_world: World) -> NDArray[np.int_]:
     """(240, 320, 3)"""
     renderer = NativeRenderer(scene_of(scene_world, Diagnostics()))
     renderer.update(Simulation(scene_world, Diagnostics()).snapshot().poses)
-    seen = renderer.render(WORLD_FROM_CAMERA, Intrinsics(width_px=320, height_px=240, horizontal_fov_rad=1.047))
+    seen = drawn(renderer, WORLD_FROM_CAMERA, Intrinsics(width_px=320, height_px=240, horizontal_fov_rad=1.047))
     return seen.rgb.astype(int)
 
 

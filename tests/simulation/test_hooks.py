@@ -125,6 +125,22 @@ def test_at_one_instant_who_looks_comes_before_who_acts_each_in_the_order_added(
     assert at_ten == ["look 1", "look 2", "act 1", "act 2"]
 
 
+def test_who_shares_work_is_told_before_anybody_who_is_due_with_it_looks() -> None:
+    @dataclass
+    class Shares(Looks):
+        def before_look(self, snapshot: Snapshot) -> None:
+            self.track.calls.append((snapshot.time_ns, f"before {self.name}"))
+
+    sim, track = empty_world(), Track()
+    sim.add_hook(Looks(track, "look 1"), period_ns=10 * MS)
+    sim.add_hook(Shares(track, "look 2"), period_ns=10 * MS)
+    sim.add_hook(Shares(track, "look 3"), period_ns=20 * MS)
+    sim.run(0.02)
+    sharing = ["before look 2", "before look 3", "look 1", "look 2", "look 3"]
+    assert [what for time, what in track.calls if time == 10 * MS] == ["before look 2", "look 1", "look 2"]
+    assert [what for time, what in track.calls if time == 20 * MS] == sharing
+
+
 def test_hooks_that_are_due_together_look_at_the_same_snapshot() -> None:
     seen: list[Snapshot] = []
 

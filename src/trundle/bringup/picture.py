@@ -15,7 +15,7 @@ from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import World
 from trundle.packages import Packages
 from trundle.render import Intrinsics, Picture, Scene, corners_of, move_skins, scene_of
-from trundle.sensors import CameraSensor, mount_cameras
+from trundle.sensors import CameraSensor, PinholeView, View, mount_cameras
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
@@ -131,29 +131,30 @@ class Studio:
         self._renderer.update(self._poses(snapshot))
         move_skins(self._renderer, self._scene, self.simulation.moment_of)
         if self._sensor is not None:
-            view = self._sensor.world_from_camera(snapshot)
+            eye = self._sensor.world_from_camera(snapshot)
         else:
-            view = _good_side(self._cloud, self._lens, turned_rad)
+            eye = _good_side(self._cloud, self._lens, turned_rad)
+        bent = None if self._sensor is None or self._sensor.is_pinhole else self._sensor.view
 
-        def drawn(*, depth: bool = False, segmentation: bool = False) -> Picture:
-            if self._sensor is not None and not self._sensor.is_pinhole:
-                return self._sensor.look(snapshot, depth=depth, segmentation=segmentation)
-            return self._renderer.render(view, self._lens, depth=depth, segmentation=segmentation)
+        def drawn(view: View, *, depth: bool = False, segmentation: bool = False) -> Picture:
+            views = [(eye @ face, lens) for face, lens in view.faces]
+            return view.developed(self._renderer.render(views, depth=depth, segmentation=segmentation))
 
+        view = bent or PinholeView(self._lens)
         if self._content == "depth":
-            ranges = drawn(depth=True).depth
+            ranges = drawn(view, depth=True).depth
             assert ranges is not None
             millimetres = np.where(np.isfinite(ranges), np.minimum(ranges * 1000.0, 65535.0), 0.0)
             return Image.fromarray(millimetres.astype(np.uint16))
         if self._content == "segmentation":
-            segments = drawn(segmentation=True).segmentation
+            segments = drawn(view, segmentation=True).segmentation
             assert segments is not None
             return Image.fromarray(_PALETTE[np.where(segments < 0, 0, segments % (len(_PALETTE) - 1) + 1)])
-        if self._sensor is not None and not self._sensor.is_pinhole:
-            return Image.fromarray(drawn().rgb)
+        if bent is not None:
+            return Image.fromarray(drawn(bent).rgb)
         width, height = self._lens.width_px, self._lens.height_px
         large = replace(self._lens, width_px=width * _SAMPLES, height_px=height * _SAMPLES)
-        picture = Image.fromarray(self._renderer.render(view, large).rgb)
+        picture = Image.fromarray(drawn(PinholeView(large)).rgb)
         return picture.resize((width, height), Image.Resampling.BOX)
 
 

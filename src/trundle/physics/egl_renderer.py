@@ -1,5 +1,6 @@
 """MuJoCo's own OpenGL renderer behind our interface: for machines with a GPU, and to compare ours with."""
 
+from collections.abc import Sequence
 from typing import Protocol
 
 import mujoco
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 from trundle.diagnostics import UsageError
 from trundle.meshes import Mesh
 from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
-from trundle.render import Intrinsics, Picture, Scene, SceneLight, Shape
+from trundle.render import Intrinsics, Picture, Scene, SceneLight, Shape, size_of
 from trundle.spatial import Pose, upright
 
 _NOWHERE = (0.0, 0.0, -1e6)
@@ -73,17 +74,21 @@ class EglRenderer:
         mujoco.mjr_uploadMesh(self._model, self._gl, mesh)
 
     def render(
-        self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
-    ) -> Picture:
+        self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False
+    ) -> list[Picture]:
         """See `Renderer.render`."""
         self._context.make_current()
-        width, height = intrinsics.width_px, intrinsics.height_px
-        if (self._gl.offWidth, self._gl.offHeight) != (width, height):
-            mujoco.mjr_resizeOffscreen(width, height, self._gl)
         everything = mujoco.mjtCatBit.mjCAT_ALL
         mujoco.mjv_updateScene(
             self._model, self._data, mujoco.MjvOption(), None, mujoco.MjvCamera(), everything, self._drawn
         )
+        height, width = size_of(views)
+        if (self._gl.offWidth, self._gl.offHeight) != (width, height):
+            mujoco.mjr_resizeOffscreen(width, height, self._gl)
+        return [self._draw(eye, lens, depth=depth, segmentation=segmentation) for eye, lens in views]
+
+    def _draw(self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool, segmentation: bool) -> Picture:
+        width, height = intrinsics.width_px, intrinsics.height_px
         near = intrinsics.near_m
         for camera in self._drawn.camera:
             camera.pos = world_from_camera.position

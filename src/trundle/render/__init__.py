@@ -3,7 +3,7 @@
 from .extent import corners_of, outline_of
 from .from_world import scene_of
 from .native import NativeRenderer
-from .renderer import Intrinsics, Picture, Renderer
+from .renderer import Intrinsics, Picture, Renderer, size_of
 from .scene import Scene, SceneLight, SceneSkin, Shape, ShapeGeometry
 from .skins import move_skins, why_stiff
 
@@ -21,5 +21,6 @@ __all__ = [
     "move_skins",
     "outline_of",
     "scene_of",
+    "size_of",
     "why_stiff",
 ]

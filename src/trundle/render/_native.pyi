@@ -104,11 +104,9 @@ class Renderer:
     def reshape(self, mesh: int, form: Mesh) -> None: ...
     def render(
         self,
-        world_from_camera: Sequence[float],
+        world_from_cameras: Sequence[Sequence[float]],
         *,
-        focal: float,
-        near: float,
-        far: float,
+        lenses: Sequence[Sequence[float]],
         rgb: NDArray[np.uint8],
         depth: NDArray[np.float32] | None = None,
         segmentation: NDArray[np.int32] | None = None,

@@ -1,6 +1,6 @@
 """Trundle's own renderer: pictures made on the CPU, in C++; no GPU, no display."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -11,7 +11,7 @@ from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, Plane, Sphere
 from trundle.spatial import Pose, upright
 
 from . import _native
-from .renderer import Intrinsics, Picture
+from .renderer import Intrinsics, Picture, size_of
 from .scene import Scene, SceneLight, Shape
 from .textures import load_texture
 
@@ -56,7 +56,7 @@ class NativeRenderer:
 
         Args:
             scene: what there is to see.
-            threads: that share the rows of each picture, at most 64; the picture is the same with any number.
+            threads: that share the rows of all pictures of a call, at most 64; they are the same with any number.
         """
         meshes = _Numbered[int, _native.Mesh]()
         textures = _Numbered[Texture, _native.Texture]()
@@ -114,23 +114,25 @@ class NativeRenderer:
         self._renderer.reshape(number, _native_mesh(mesh.bent(vertices)))
 
     def render(
-        self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
-    ) -> Picture:
+        self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False
+    ) -> list[Picture]:
         """See `Renderer.render`."""
-        size = (intrinsics.height_px, intrinsics.width_px)
-        rgb = np.empty((*size, 3), dtype=np.uint8)
-        depths = np.empty(size, dtype=np.float32) if depth else None
-        segments = np.empty(size, dtype=np.int32) if segmentation else None
+        # In one piece: the memory of many small pictures would go back to the system after each call, to come anew.
+        shape = (len(views), *size_of(views))
+        rgb = np.empty((*shape, 3), dtype=np.uint8)
+        depths = np.empty(shape, dtype=np.float32) if depth else None
+        segments = np.empty(shape, dtype=np.int32) if segmentation else None
         self._renderer.render(
-            (*world_from_camera.position, *world_from_camera.quaternion),
-            focal=intrinsics.focal_px,
-            near=intrinsics.near_m,
-            far=intrinsics.far_m,
+            [(*world_from_camera.position, *world_from_camera.quaternion) for world_from_camera, _ in views],
+            lenses=[(lens.focal_px, lens.near_m, lens.far_m) for _, lens in views],
             rgb=rgb,
             depth=depths,
             segmentation=segments,
         )
-        return Picture(rgb, depths, segments)
+        return [
+            Picture(rgb[i], None if depths is None else depths[i], None if segments is None else segments[i])
+            for i in range(len(views))
+        ]
 
     def cast(
         self, world_from_place: Pose, directions: NDArray[np.float32], *, reach_m: float, exclude: int | None = None

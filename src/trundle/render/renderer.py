@@ -1,6 +1,7 @@
 """What a renderer does: poses in, pictures out. Implementations live where their engines do."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -56,6 +57,18 @@ class Picture:
     """(height, width) index of the shape in the scene; -1 where nothing is."""
 
 
+def size_of(views: Sequence[tuple[Pose, Intrinsics]]) -> tuple[int, int]:
+    """The height and width of all of them [px].
+
+    Raises:
+        ValueError: there are none, or not all are of one size.
+    """
+    sizes = {(lens.height_px, lens.width_px) for _, lens in views}
+    if len(sizes) != 1:
+        raise ValueError("a call draws one picture or more, all of one size")
+    return sizes.pop()
+
+
 class Renderer(Protocol):
     """Draws one scene from anywhere."""
 
@@ -68,7 +81,20 @@ class Renderer(Protocol):
         ...
 
     def render(
-        self, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool = False, segmentation: bool = False
-    ) -> Picture:
-        """Draw; the camera looks along its +x, with y to the left and z up, as in SDF."""
+        self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False
+    ) -> list[Picture]:
+        """Draw what cameras see at one instant, all in one call.
+
+        Args:
+            views: world_from_camera and the lens of each; a camera looks along its +x, with y to the left and z up, as
+                in SDF.
+            depth: whether distances are wanted, too.
+            segmentation: likewise.
+
+        Returns:
+            A picture for each, in their order.
+
+        Raises:
+            ValueError: there are none, or not all are of one size.
+        """
         ...

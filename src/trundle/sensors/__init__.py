@@ -23,6 +23,7 @@ from .segmentation_camera import SegmentationCameraSensor
 from .sonar import SonarReading, SonarSensor
 from .surroundings import Surroundings
 from .thermal_camera import ThermalCameraSensor
+from .view import PinholeView, View
 from .wireless import RfidReading, RfidSensor, WirelessReading, WirelessSensor
 
 __all__ = [
@@ -49,6 +50,7 @@ __all__ = [
     "MagnetometerSensor",
     "MeasuringSensor",
     "NoiseSource",
+    "PinholeView",
     "PressureReading",
     "RangeReading",
     "RangeSensor",
@@ -63,6 +65,7 @@ __all__ = [
     "Surroundings",
     "ThermalCameraSensor",
     "Touch",
+    "View",
     "WirelessReading",
     "WirelessSensor",
     "angles_of",

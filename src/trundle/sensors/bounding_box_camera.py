@@ -17,9 +17,11 @@ _Points = NDArray[np.float64]
 class BoundingBoxCameraSensor(CameraSensor):
     """Tells a box around each labelled model of which a pixel can be seen."""
 
+    sees_shapes = True
+
     def take(self, snapshot: Snapshot) -> CameraReading:
         """Look, and draw a box round each thing."""
-        picture = self.look(snapshot, segmentation=True)
+        picture = self.look(snapshot)
         assert picture.segmentation is not None
         things = instances_of(self.scenery)
         seen = things[picture.segmentation]

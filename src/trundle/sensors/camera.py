@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
 from .mounted import MountedSensor, Spot
-from .scenery import Scenery
+from .scenery import Order, Scenery
 from .view import PinholeView, view_of
 
 FASTEST_HZ = 30.0
@@ -52,7 +53,14 @@ class CameraReading:
 
 
 class CameraSensor(MountedSensor[CameraReading]):
-    """A hook that takes a picture when it is due and somebody wants it."""
+    """A hook that takes a picture when it is due and somebody wants it.
+
+    Pictures of one size that are due at one instant are drawn by one call.
+    """
+
+    sees_depth: ClassVar[bool] = False
+    sees_shapes: ClassVar[bool] = False
+    """What its kind needs besides colours."""
 
     def __init__(self, spot: Spot, optics: CameraOptics, *, scenery: Scenery) -> None:
         """Mount a camera.
@@ -81,6 +89,7 @@ class CameraSensor(MountedSensor[CameraReading]):
         """All cameras of its sensor, which share one clock."""
         self._is_told: bool | None = None
         """To take a picture; None: it need not be told."""
+        self._order: Order | None = None
 
     def set_rate(self, rate_hz: float) -> None:
         """Have all cameras of the sensor take pictures so often from now on."""
@@ -124,16 +133,20 @@ class CameraSensor(MountedSensor[CameraReading]):
         """Take a picture of this instant."""
         return CameraReading(time_ns=snapshot.time_ns, rgb=self.noisy(self.look(snapshot).rgb))
 
-    def look(self, snapshot: Snapshot, *, depth: bool = False, segmentation: bool = False) -> Picture:
+    def before_look(self, snapshot: Snapshot) -> None:
+        """Order its pictures of this instant, with those of the other cameras that are due."""
+        eye = self.world_from_camera(snapshot)
+        views = [(eye @ face, lens) for face, lens in self.view.faces]
+        self._order = self.scenery.order(snapshot, views, depth=self.sees_depth, segmentation=self.sees_shapes)
+
+    def look(self, snapshot: Snapshot) -> Picture:
         """What the camera sees at this instant."""
         self.images += 1
-        camera = self.world_from_camera(snapshot)
-        return self.view.developed(
-            [
-                self.scenery.render(snapshot, camera @ face, seen, depth=depth, segmentation=segmentation)
-                for face, seen in self.view.faces
-            ]
-        )
+        if self._order is None or self._order.snapshot is not snapshot:
+            self.before_look(snapshot)
+        assert self._order is not None
+        order, self._order = self._order, None
+        return self.view.developed(self.scenery.fetch(order))
 
     def noisy(self, rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """The picture with noise of the same size on all colours of a pixel, as Gazebo's shader adds it."""

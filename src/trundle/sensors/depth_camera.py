@@ -11,9 +11,11 @@ from .camera import CameraReading, CameraSensor
 class DepthCameraSensor(CameraSensor):
     """Sees colours and depths from one place, as Gazebo's depth cameras do."""
 
+    sees_depth = True
+
     def take(self, snapshot: Snapshot) -> CameraReading:
         """Take both pictures; as in gazebo_ros' openni plugin, depths out of range are not numbers."""
-        picture = self.look(snapshot, depth=True)
+        picture = self.look(snapshot)
         assert picture.depth is not None
         noise = self.optics.noise
         near, far = self.optics.depth_near_m, self.optics.depth_far_m

@@ -1,14 +1,32 @@
 """What all cameras look at: one renderer, and what each shape that it draws is."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trundle.model import EVERY_BIT, Visual, World
-from trundle.render import Intrinsics, Picture, Renderer, Scene, move_skins, scene_of
+from trundle.render import Intrinsics, Picture, Renderer, Scene, move_skins, scene_of, size_of
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
+
+_MOST_TOGETHER_PX = 1 << 22
+"""Of one call: pictures that are large gain nothing by it, and all of them are kept until the last one is fetched."""
+
+
+@dataclass(slots=True, eq=False)
+class Order:
+    """Pictures that a camera wants of an instant."""
+
+    snapshot: Snapshot
+    views: list[tuple[Pose, Intrinsics]]
+    depth: bool
+    segmentation: bool
+    together: list["Order"]
+    """Those that are drawn when the first of them is fetched; afterwards none."""
+    pictures: list[Picture] | None = None
+    """None: not drawn yet."""
 
 
 class Scenery:
@@ -26,6 +44,9 @@ class Scenery:
         self._simulation = simulation
         self._make = make
         self._shown: Snapshot | None = None
+        self._ordered: Snapshot | None = None
+        self._open: dict[tuple[int, int, bool, bool], list[Order]] = {}
+        """Of that instant, and not drawn yet: by height, width and kind."""
         self._build(simulation.world)
 
     def _build(self, world: World) -> None:
@@ -47,10 +68,35 @@ class Scenery:
         self.temperatures: NDArray[np.float32] = np.array([*heats, air], dtype=np.float32)
         """[K]"""
 
-    def render(
-        self, snapshot: Snapshot, world_from_camera: Pose, intrinsics: Intrinsics, *, depth: bool, segmentation: bool
-    ) -> Picture:
-        """Draw an instant; the shapes are put in place once for all cameras."""
+    def order(
+        self, snapshot: Snapshot, views: list[tuple[Pose, Intrinsics]], *, depth: bool, segmentation: bool
+    ) -> Order:
+        """Have pictures of one size drawn, by one call with those that are ordered before any of them is fetched."""
+        if self._ordered is not snapshot:
+            self._ordered, self._open = snapshot, {}
+        height, width = size_of(views)
+        kind = (height, width, depth, segmentation)
+        together = self._open.get(kind, [])
+        if (len(together) + 1) * len(views) * height * width > _MOST_TOGETHER_PX:
+            together = []
+        self._open[kind] = together
+        order = Order(snapshot, views, depth, segmentation, together)
+        together.append(order)
+        return order
+
+    def fetch(self, order: Order) -> list[Picture]:
+        """The pictures that were ordered; the shapes are put in place once for all cameras."""
+        if order.pictures is None:
+            self._show(order.snapshot)
+            views = [view for each in order.together for view in each.views]
+            pictures = iter(self._renderer.render(views, depth=order.depth, segmentation=order.segmentation))
+            for each in order.together:
+                each.pictures = [next(pictures) for _ in each.views]
+            order.together.clear()
+        assert order.pictures is not None
+        return order.pictures
+
+    def _show(self, snapshot: Snapshot) -> None:
         if self._world is not self._simulation.world:
             self._build(self._simulation.world)
             self._shown = None
@@ -58,4 +104,3 @@ class Scenery:
             self._renderer.update(snapshot.poses)
             move_skins(self._renderer, self.scene, self._simulation.moment_of)
             self._shown = snapshot
-        return self._renderer.render(world_from_camera, intrinsics, depth=depth, segmentation=segmentation)

@@ -22,9 +22,11 @@ class SegmentationCameraSensor(CameraSensor):
     Semantic pictures hold labels; panoptic ones also number the models that share a label, from 1 on.
     """
 
+    sees_shapes = True
+
     def take(self, snapshot: Snapshot) -> CameraReading:
         """See what is where."""
-        shapes = self.look(snapshot, segmentation=True).segmentation
+        shapes = self.look(snapshot).segmentation
         assert shapes is not None
         values = instances_of(self.scenery) if self.optics.panoptic else self.scenery.labels
         kinds, kind_of = np.unique(values, return_inverse=True)

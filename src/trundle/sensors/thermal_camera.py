@@ -10,9 +10,11 @@ from .camera import CameraReading, CameraSensor
 class ThermalCameraSensor(CameraSensor):
     """Sees the temperatures that gz's Thermal plugin gave visuals; all else is as warm as the air."""
 
+    sees_shapes = True
+
     def take(self, snapshot: Snapshot) -> CameraReading:
         """See how warm it is; for the eye the coldest thing is black and the warmest white."""
-        shapes = self.look(snapshot, segmentation=True).segmentation
+        shapes = self.look(snapshot).segmentation
         assert shapes is not None
         known = self.scenery.temperatures
         span = max(float(known.max() - known.min()), 1.0)

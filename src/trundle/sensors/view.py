@@ -28,7 +28,7 @@ class View(Protocol):
 
     @property
     def faces(self) -> list[tuple[Pose, Intrinsics]]:
-        """The pinhole pictures it needs: camera_from_face, and their sizes."""
+        """The pinhole pictures it needs, of one size: camera_from_face, and their lenses."""
         ...
 
     def developed(self, pictures: list[Picture]) -> Picture:

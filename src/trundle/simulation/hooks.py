@@ -2,7 +2,8 @@
 
 A hook is any object with `before_step(simulation)`, `after_step(snapshot)` or both. It is due at multiples of its
 period; between two due times the engine runs in C. At one instant the order is: every `after_step` that is due sees
-the world, then every `before_step` that is due acts on it; each in the order the hooks were added.
+the world, then every `before_step` that is due acts on it; each in the order the hooks were added. Hooks that share
+work have a `before_look(snapshot)`, too, which is called of all that are due before any of them sees the world.
 """
 
 from collections.abc import Callable
@@ -75,6 +76,7 @@ class ScheduledHook:
         """Whether it was wanted at the last look."""
         self.before: Callable[[Simulation], None] | None = getattr(hook, "before_step", None)
         self.after: Callable[[Snapshot], None] | None = getattr(hook, "after_step", None)
+        self.before_look: Callable[[Snapshot], None] | None = getattr(hook, "before_look", None)
         assert self.before or self.after, f"{hook!r} has neither before_step nor after_step"
         self._timeline = timeline
         self.retime(period_ns, now_ns=now_ns)

@@ -162,11 +162,15 @@ class Simulation:
         self._look(hooks)
 
     def _look(self, hooks: list[ScheduledHook]) -> None:
-        due = [hook.after for hook in hooks if hook.after is not None and hook.after_alarm.rings(self.steps)]
+        due = [hook for hook in hooks if hook.after is not None and hook.after_alarm.rings(self.steps)]
         if due:
             snapshot = self.snapshot()
-            for after in due:
-                after(snapshot)
+            for hook in due:
+                if hook.before_look is not None:
+                    hook.before_look(snapshot)
+            for hook in due:
+                if hook.after is not None:
+                    hook.after(snapshot)
 
     def add_hook(
         self, hook: BeforeStep | AfterStep, *, period_ns: Period = 0, wanted: Callable[[], bool] | None = None
