@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+import yaml
 
 from trundle.ros import Core, GraphLoop, open_bag
 
@@ -215,6 +216,19 @@ def test_what_runs_is_said_in_a_table(launch: Launch, package: Path) -> None:
     assert nodelet.startswith("  missing   /d  nodelet image_proc/rectify: compiled code that nothing stands in for")
     assert "node /b: no executable 'gone'" in done.stderr
     assert "node /c: launch-prefix 'nice' is not used; the stand-in runs within this process" in done.stderr
+
+
+def test_rosparam_dumps_and_deletes_what_was_there_before(launch: Launch, trundle, package: Path) -> None:
+    """As roslaunch does, which runs both before it sets anything: launch files clear a node's old parameters so."""
+    (package / "main.launch").write_text(
+        '<launch><param name="costs/fresh" value="1"/><rosparam command="dump" file="$(dirname)/were.yaml"/>'
+        '<rosparam command="delete" param="/costs"/><node pkg="p" type="talk" name="a" args="0"/></launch>'
+    )
+    assert trundle("param", "set", "/costs/stale", "2").returncode == 0
+    assert launch("p", "main.launch", "--headless").returncode == 0
+
+    assert trundle("param", "get", "/costs").stdout.split() == ["fresh:", "1"]
+    assert yaml.safe_load((package / "were.yaml").read_text())["costs"] == {"stale": 2}
 
 
 def test_the_table_says_where_the_page_is(launch: Launch, package: Path) -> None:

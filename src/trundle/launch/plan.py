@@ -78,7 +78,7 @@ class LaunchTest:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ParamStep:
-    """A `<rosparam command="dump|delete">`: done after all parameters are set, before any node starts."""
+    """A `<rosparam command="dump|delete">`: done before any parameter is set, in the order of the file."""
 
     command: Literal["dump", "delete"]
     name: str
