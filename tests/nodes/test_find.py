@@ -79,6 +79,19 @@ def test_a_script_for_a_ros_that_is_not_installed_gives_way_to_the_stand_in(
     assert found == Replacement("trundle.nodes.arbotix:ArbotixDriver")
 
 
+def test_so_does_one_whose_messages_nobody_built(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Debian has rospy, but no ros_control, whose sources may lie in the workspace."""
+    monkeypatch.setattr("trundle.nodes.scripts._DEBIAN_MODULES", str(tmp_path / "modules"))
+    (tmp_path / "modules/rospy").mkdir(parents=True)
+    path = program(tmp_path / "scripts/spawner")
+    path.write_text("import rospy\nfrom controller_manager_msgs.srv import *\n")
+
+    found = find_node("controller_manager", "spawner", lambda _: tmp_path, env={})
+    assert isinstance(found, Replacement)
+    (tmp_path / "modules/controller_manager_msgs").mkdir()
+    assert find_node("controller_manager", "spawner", lambda _: tmp_path, env={}) == Executable(path)
+
+
 def test_what_is_out_of_scope_is_named_with_a_way_out() -> None:
     found = find_node("move_base", "move_base", lambda _: None, env={})
     assert isinstance(found, Missing)

@@ -52,7 +52,7 @@ def find_node(
     """Find a node: an executable in the package's folder, else a stand-in, else what is missing.
 
     Where a package's sources lie in the workspace, its program is a script for a ROS that need not be installed:
-    one that imports rospy gives way to the stand-in on a machine without.
+    one that imports rospy, or messages, gives way to the stand-in on a machine without.
 
     Args:
         package: as the launch file names it.

@@ -8,14 +8,18 @@ from collections.abc import Mapping
 from pathlib import Path
 
 _IMPORTS_ROSPY = re.compile(rb"^\s*(?:import|from)\s+(?:rospy|roslib)\b", re.MULTILINE)
+_WANTED = re.compile(rb"^\s*(?:import|from)\s+(rospy|roslib|\w+(?=\.(?:msg|srv)\b))", re.MULTILINE)
+"""Modules that only a ROS has, or a workspace that was built."""
 _ASKS = re.compile(rb"#!\s*(?:/usr/bin/env\s+(?=python)|(?=/))(python3?|\S*/python)\s*$", re.MULTILINE)
 """A first line that leaves open which Python is meant."""
 _DEBIAN_PYTHON, _DEBIAN_MODULES = "/usr/bin/python3", "/usr/lib/python3/dist-packages"
 
 
 def can_run(program: Path, env: Mapping[str, str]) -> bool:
-    """Tell whether a program needs no rospy, or finds it."""
-    return _IMPORTS_ROSPY.search(_beginning(program)) is None or _has_rospy(_DEBIAN_MODULES) or _is_told_where(env)
+    """Tell whether a program finds the modules of ROS it wants, rospy and messages."""
+    wanted = {os.fsdecode(name) for name in _WANTED.findall(_beginning(program))}
+    folders = [_DEBIAN_MODULES, *_told(env)]
+    return all(any(Path(folder, name).is_dir() for folder in folders) for name in wanted)
 
 
 def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
@@ -29,7 +33,7 @@ def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
     if asked is None:
         return []
     found = shutil.which(os.fsdecode(asked[1]), path=env.get("PATH", os.defpath))
-    if _IMPORTS_ROSPY.search(beginning) and not _is_told_where(env) and _has_rospy(_DEBIAN_MODULES):
+    if _IMPORTS_ROSPY.search(beginning) and _has_rospy(_DEBIAN_MODULES) and not any(map(_has_rospy, _told(env))):
         return [] if found is not None and _brings_rospy(Path(found)) else [_DEBIAN_PYTHON]
     return [] if found is not None else [sys.executable]
 
@@ -49,8 +53,8 @@ def _brings_rospy(python: Path) -> bool:
     return any(_has_rospy(folder) for folder in python.parent.parent.glob("lib/python3*/site-packages"))
 
 
-def _is_told_where(env: Mapping[str, str]) -> bool:
-    return any(_has_rospy(folder) for folder in env.get("PYTHONPATH", "").split(os.pathsep) if folder)
+def _told(env: Mapping[str, str]) -> list[str]:
+    return [folder for folder in env.get("PYTHONPATH", "").split(os.pathsep) if folder]
 
 
 def _has_rospy(folder: str | Path) -> bool:
