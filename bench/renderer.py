@@ -83,7 +83,6 @@ def _scans(name: str, scene: Scene, beams: int, height: int) -> Row:
     ours, eye = NativeRenderer(scene), Pose((0.0, 0.0, 0.5))
     poses = scenes.poses_at(scene, 0)
     ours.update(poses)
-    narrow = ways.astype(np.float32)
     model = model_of(scene)
     data = mujoco.MjData(model)
     for i, pose in enumerate(poses):
@@ -91,7 +90,7 @@ def _scans(name: str, scene: Scene, beams: int, height: int) -> Row:
     mujoco.mj_forward(model, data)
     geoms, far = np.empty(len(ways), dtype=np.int32), np.empty(len(ways))
     flat, origin = ways.reshape(-1), np.array(eye.position)
-    rate = _rate(lambda: ours.cast(eye, narrow, reach_m=30.0))
+    rate = _rate(lambda: ours.cast(eye, ways, reach_m=30.0))
     peer = _rate(lambda: mujoco.mj_multiRay(model, data, origin, flat, None, 1, -1, geoms, far, None, len(ways), 30.0))
     return Row(name, rate, "scans/s", "mj_multiRay", rate / peer)
 

@@ -85,7 +85,7 @@ NB_MODULE(_native, module) {
   nb::class_<ShapeSpec>(module, "Shape")
       .def(
           "__init__",
-          [](ShapeSpec* self, Kind kind, int32_t body, int32_t mesh, std::array<float, 3> size,
+          [](ShapeSpec* self, Kind kind, int32_t body, int32_t mesh, Vec3 size,
              std::array<double, 7> body_from_shape, LookSpec look, bool casts_shadow) {
             new (self) ShapeSpec{kind, body, mesh, size, frame_of(body_from_shape, "a shape"), look, casts_shadow};
           },
@@ -171,8 +171,8 @@ NB_MODULE(_native, module) {
 
   renderer.def(
       "cast",
-      [](Renderer& self, std::array<double, 7> world_from_place, Array<const float, nb::shape<-1, 3>> directions,
-         float reach, int32_t exclude, Array<float, nb::shape<-1>> ranges, Array<int32_t, nb::shape<-1>> shapes) {
+      [](Renderer& self, std::array<double, 7> world_from_place, Array<const double, nb::shape<-1, 3>> directions,
+         double reach, int32_t exclude, Array<double, nb::shape<-1>> ranges, Array<int32_t, nb::shape<-1>> shapes) {
         const size_t count = directions.shape(0);
         if (ranges.shape(0) != count || shapes.shape(0) != count)
           throw std::invalid_argument("there must be one range and one shape for each direction");
@@ -180,9 +180,7 @@ NB_MODULE(_native, module) {
         const Frame place = frame_of(world_from_place, "the place that rays start from");
         nb::gil_scoped_release unlocked;
         self.cast(place, directions.data(), count, reach, exclude, ranges.data(), shapes.data());
-      },
-      nb::arg("world_from_place"), nb::arg("directions"), nb::kw_only(), nb::arg("reach"), nb::arg("exclude") = -1,
-      nb::arg("ranges"), nb::arg("shapes"));
+      });  // by position: to look for names takes a while
 
   module.def("instruction_set", [] { return best_kernel().name; }, "Of the kernel that draws on this machine.");
 }

@@ -91,7 +91,7 @@ void Renderer::draw_maps() {
     const ShapeSpec& shape = scene_.shapes[i];
     const auto& world_from_shape = shape_poses_[i];
     if (!shape.casts_shadow || shape.kind == Kind::kPlane || looks_[i].opacity < 1.0f || !world_from_shape) continue;
-    const auto& [low, high, middle, radius] = bounds_[i];
+    const Vec3 &low = bounds_[i].low, &high = bounds_[i].high;
     if (!(low[0] <= high[0])) continue;
     Corners box;
     for (int corner = 0; corner < 8; ++corner)

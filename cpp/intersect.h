@@ -8,27 +8,30 @@
 
 namespace trundle::TRUNDLE_ISA {
 
+template <typename N>
 struct Meeting {
-  I hit;
-  F depth;
+  Mask<N> hit;
+  N depth;
 };
 
-inline Meeting meet_plane(const F3& o, const F3& d, const float* half) {
-  const F depth = -o.z / d.z;
-  I hit = (o.z > 0.0f) & (d.z < 0.0f);
+template <typename N, typename Number>
+inline Meeting<N> meet_plane(const Three<N>& o, const Three<N>& d, const Number* half) {
+  const N depth = -o.z / d.z;
+  Mask<N> hit = (o.z > 0.0f) & (d.z < 0.0f);
   if (half[0] > 0.0f) hit &= abs(o.x + depth * d.x) <= half[0];
   if (half[1] > 0.0f) hit &= abs(o.y + depth * d.y) <= half[1];
   return {hit, depth};
 }
 
-inline Meeting meet_box(const F3& o, const F3& d, const float* half) {
-  F enter = splat(-3e38f), leave = splat(3e38f);
-  const F os[3] = {o.x, o.y, o.z}, ds[3] = {d.x, d.y, d.z};
-  I missed = I{};
+template <typename N, typename Number>
+inline Meeting<N> meet_box(const Three<N>& o, const Three<N>& d, const Number* half) {
+  N enter = N{} - 3e38f, leave = N{} + 3e38f;
+  const N os[3] = {o.x, o.y, o.z}, ds[3] = {d.x, d.y, d.z};
+  Mask<N> missed = {};
   for (int i = 0; i < 3; ++i) {
-    const I across = ds[i] != 0.0f;  // a ray along a face meets it never or always
-    const F inverse = 1.0f / select(across, ds[i], splat(1.0f));
-    const F a = (-half[i] - os[i]) * inverse, b = (half[i] - os[i]) * inverse;
+    const Mask<N> across = ds[i] != 0.0f;  // a ray along a face meets it never or always
+    const N inverse = 1.0f / select(across, ds[i], N{} + 1.0f);
+    const N a = (-half[i] - os[i]) * inverse, b = (half[i] - os[i]) * inverse;
     enter = select(across, max(enter, min(a, b)), enter);
     leave = select(across, min(leave, max(a, b)), leave);
     missed |= ~across & (abs(os[i]) > half[i]);
@@ -37,76 +40,79 @@ inline Meeting meet_box(const F3& o, const F3& d, const float* half) {
 }
 
 // The ball of radius 1, from the ray's closest point on: exact also from far away.
-inline Meeting meet_ball(const F3& o, const F3& d, float squared_radius) {
-  const F inverse = 1.0f / dot(d, d);
-  const F middle = -dot(o, d) * inverse;
-  const F3 nearest = o + d * middle;
-  const F inside = squared_radius - dot(nearest, nearest);
-  const F depth = middle - sqrt(max(inside, F{}) * inverse);
+template <typename N, typename Number>
+inline Meeting<N> meet_ball(const Three<N>& o, const Three<N>& d, Number squared_radius) {
+  const N inverse = 1.0f / dot(d, d);
+  const N middle = -dot(o, d) * inverse;
+  const Three<N> nearest = o + d * middle;
+  const N inside = squared_radius - dot(nearest, nearest);
+  const N depth = middle - sqrt(max(inside, N{}) * inverse);
   return {(inside >= 0.0f) & (depth > 0.0f), depth};
 }
 
-inline Meeting meet_ellipsoid(const F3& o, const F3& d, const float* radii) {
-  const float x = 1.0f / radii[0], y = 1.0f / radii[1], z = 1.0f / radii[2];
-  return meet_ball({o.x * x, o.y * y, o.z * z}, {d.x * x, d.y * y, d.z * z}, 1.0f);
+template <typename N, typename Number>
+inline Meeting<N> meet_ellipsoid(const Three<N>& o, const Three<N>& d, const Number* radii) {
+  const Number one = 1, x = one / radii[0], y = one / radii[1], z = one / radii[2];
+  return meet_ball(Three<N>{o.x * x, o.y * y, o.z * z}, {d.x * x, d.y * y, d.z * z}, one);
 }
 
 // The endless pipe around z: where the ray goes in and how far it is inside.
+template <typename N>
 struct Pipe {
-  I inside;
-  F enter, leave;
+  Mask<N> inside;
+  N enter, leave;
 };
 
-inline Pipe meet_pipe(const F3& o, const F3& d, float radius) {
-  const F length = d.x * d.x + d.y * d.y;
-  const I across = length > 0.0f;
-  const F inverse = 1.0f / select(across, length, splat(1.0f));
-  const F middle = select(across, -(o.x * d.x + o.y * d.y) * inverse, F{});
-  const F x = o.x + d.x * middle, y = o.y + d.y * middle;
-  const F inside = radius * radius - (x * x + y * y);
-  const F half = select(across, sqrt(max(inside, F{}) * inverse), splat(1e30f));
+template <typename N, typename Number>
+inline Pipe<N> meet_pipe(const Three<N>& o, const Three<N>& d, Number radius) {
+  const N length = d.x * d.x + d.y * d.y;
+  const Mask<N> across = length > 0.0f;
+  const N inverse = 1.0f / select(across, length, N{} + 1.0f);
+  const N middle = select(across, -(o.x * d.x + o.y * d.y) * inverse, N{});
+  const N x = o.x + d.x * middle, y = o.y + d.y * middle;
+  const N inside = radius * radius - (x * x + y * y);
+  const N half = select(across, sqrt(max(inside, N{}) * inverse), N{} + 1e30f);
   return {inside >= 0.0f, middle - half, middle + half};
 }
 
-inline Meeting meet_cylinder(const F3& o, const F3& d, float radius, float half) {
-  const Pipe pipe = meet_pipe(o, d, radius);
-  const I across = d.z != 0.0f;
-  const F inverse = 1.0f / select(across, d.z, splat(1.0f));
-  const F a = (-half - o.z) * inverse, b = (half - o.z) * inverse;
-  const F enter = select(across, max(pipe.enter, min(a, b)), pipe.enter);
-  const F leave = select(across, min(pipe.leave, max(a, b)), pipe.leave);
-  const I between = across | (abs(o.z) <= half);
+template <typename N, typename Number>
+inline Meeting<N> meet_cylinder(const Three<N>& o, const Three<N>& d, Number radius, Number half) {
+  const Pipe<N> pipe = meet_pipe(o, d, radius);
+  const Mask<N> across = d.z != 0.0f;
+  const N inverse = 1.0f / select(across, d.z, N{} + 1.0f);
+  const N a = (-half - o.z) * inverse, b = (half - o.z) * inverse;
+  const N enter = select(across, max(pipe.enter, min(a, b)), pipe.enter);
+  const N leave = select(across, min(pipe.leave, max(a, b)), pipe.leave);
+  const Mask<N> between = across | (abs(o.z) <= half);
   return {pipe.inside & between & (enter <= leave) & (enter > 0.0f), enter};
 }
 
-inline Meeting meet_capsule(const F3& o, const F3& d, float radius, float half) {
-  const Pipe pipe = meet_pipe(o, d, radius);
-  const F z = o.z + pipe.enter * d.z;
-  I hit = pipe.inside & (abs(z) <= half) & (pipe.enter > 0.0f);
-  F depth = pipe.enter;
-  const float ends[2] = {-half, half};
-  for (const float end : ends) {
-    const Meeting cap = meet_ball({o.x, o.y, o.z - end}, d, radius * radius);
-    const F reached = o.z + cap.depth * d.z;
-    const I beyond = end < 0.0f ? reached <= end : reached >= end;
-    const I take = cap.hit & beyond & (~hit | (cap.depth < depth));
-    depth = select(take, cap.depth, depth);
-    hit |= take;
-  }
+template <typename N, typename Number>
+inline Meeting<N> meet_capsule(const Three<N>& o, const Three<N>& d, Number radius, Number half) {
+  const Pipe<N> pipe = meet_pipe(o, d, radius);
+  const N z = o.z + pipe.enter * d.z;
+  const Mask<N> side = pipe.inside & (abs(z) <= half) & (pipe.enter > 0.0f);
+  // Who comes into the pipe beyond an end may meet the cap there, and nothing else.
+  const N end = select(z < 0.0f, N{} - half, N{} + half);
+  const Meeting<N> cap = meet_ball(Three<N>{o.x, o.y, o.z - end}, d, radius * radius);
+  const N reached = o.z + cap.depth * d.z;
+  const Mask<N> take = ~side & cap.hit & (abs(reached) >= half) & ((reached < 0.0f) == (end < 0.0f));
+  const N depth = select(take, cap.depth, pipe.enter);
+  Mask<N> hit = side | take;
   // From inside the capsule no cap's outer half is met from outside, but its inner side may be.
-  const F past = max(abs(o.z) - half, F{});
+  const N past = max(abs(o.z) - half, N{});
   hit &= o.x * o.x + o.y * o.y + past * past > radius * radius;
   return {hit, depth};
 }
 
-template <Kind kind>
-inline Meeting meet(const Solid& solid, const F3& o, const F3& d) {
-  if constexpr (kind == Kind::kPlane) return meet_plane(o, d, solid.size);
-  if constexpr (kind == Kind::kBox) return meet_box(o, d, solid.size);
-  if constexpr (kind == Kind::kSphere) return meet_ball(o, d, solid.size[0] * solid.size[0]);
-  if constexpr (kind == Kind::kCylinder) return meet_cylinder(o, d, solid.size[0], solid.size[1]);
-  if constexpr (kind == Kind::kCapsule) return meet_capsule(o, d, solid.size[0], solid.size[1]);
-  if constexpr (kind == Kind::kEllipsoid) return meet_ellipsoid(o, d, solid.size);
+template <Kind kind, typename N, typename Number>
+inline Meeting<N> meet(const Number* size, const Three<N>& o, const Three<N>& d) {
+  if constexpr (kind == Kind::kPlane) return meet_plane(o, d, size);
+  if constexpr (kind == Kind::kBox) return meet_box(o, d, size);
+  if constexpr (kind == Kind::kSphere) return meet_ball(o, d, size[0] * size[0]);
+  if constexpr (kind == Kind::kCylinder) return meet_cylinder(o, d, size[0], size[1]);
+  if constexpr (kind == Kind::kCapsule) return meet_capsule(o, d, size[0], size[1]);
+  if constexpr (kind == Kind::kEllipsoid) return meet_ellipsoid(o, d, size);
 }
 
 // The outward normal, not of unit length, at a point of the surface.

@@ -21,13 +21,13 @@ struct Rays {
   Rays(const View& view, const Solid& solid) : view(view), solid(solid), step(1.0f / view.focal), z(0.0f) {}
   void begin_row(int row) { z = (view.centre_v - ((float)row + 0.5f)) * step; }
   template <Kind kind>
-  Meeting meet_at(F u) const {
+  Meeting<F> meet_at(F u) const {
     const float* axes = solid.axes;
     const F y = (view.centre_u - u) * step;
     const F3 across = {axes[2] * z + axes[1] * y, axes[5] * z + axes[4] * y, axes[8] * z + axes[7] * y};
     const F3 ahead = {splat(axes[0]), splat(axes[3]), splat(axes[6])};
-    if constexpr (parallel) return meet<kind>(solid, splat(solid.eye) + across, ahead);
-    return meet<kind>(solid, splat(solid.eye), ahead + across);
+    if constexpr (parallel) return meet<kind>(solid.size, splat(solid.eye) + across, ahead);
+    return meet<kind>(solid.size, splat(solid.eye), ahead + across);
   }
 };
 
@@ -42,7 +42,7 @@ void see_along(const View& view, const Solid& solid, const Buffers& buffers) {
     for (int column = first; column < solid.right; column += kLanes) {
       if (solid.nearest < hidden[column / kTileWidth]) continue;
       const F u = counting() + ((float)column + 0.5f);
-      const Meeting met = rays.template meet_at<kind>(u);
+      const Meeting<F> met = rays.template meet_at<kind>(u);
       const F nearness = parallel ? -met.depth : 1.0f / met.depth;
       const int at = row * view.stride + column;
       const F before = load(buffers.nearness + at);

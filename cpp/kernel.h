@@ -89,11 +89,28 @@ struct Solid {
   const Triangles* mesh;
   float off;            // how far the mesh may be from what casts shadows [m]
   const Look* look;
-  // Only for rays:
+};
+
+// A shape as rays from one place meet it: what is beside them is sorted out in single precision, what they meet, and
+// where, is found in double.
+struct Target {
+  Kind kind;
+  int32_t index;             // in the scene
+  double size[3];            // as a Solid's
+  double axes[9], eye[3];    // as a Solid's; of a sphere, whose axes are of no interest, in the frame that rays start from
+  float narrow_axes[9], narrow_eye[3];
+  float middle[3];           // of a ball around it, in the frame that rays start from [m]
+  float radius;              // of that ball [m]; less than 0: endless
+  float reach;               // the square of how far along a ray its middle is where the ray only touches it [m²]
+  float aside[3];            // the axis of an endless pipe around it, times a point of that [m]
+  float aside_length;        // [m]
+  float thickness;           // the square of that pipe's radius [m²]
   BvhView bvh;
-  float middle[3];      // of a ball around it, in the frame that rays start from [m]
-  float radius;         // of that ball [m]; less than 0: endless
-  float reach;          // the square of how far along a ray its middle is where the ray only touches it [m²]
+};
+
+// Balls and pipes around as many targets, as a Target has them.
+struct Around {
+  float middle[3][kWidest], radius[kWidest], aside[3][kWidest], aside_length[kWidest], thickness[kWidest];
 };
 
 // What a light sees. Where something is nearer to it than a point, the point is in the shade.
@@ -152,8 +169,9 @@ struct Kernel {
   void (*settle)(const View&, const Solid&, const Buffers&);  // what is hidden by what is seen by now
   void (*fill)(const View&, const Sky&, int32_t top, int32_t bottom, const Buffers&);  // where nothing is
   void (*shade)(const View&, const Solid&, const Lighting&, const Buffers&);
-  void (*cast)(const Solid*, int32_t, const float* directions, int64_t count, float reach, float* ranges,
-               int32_t* shapes);
+  // `near` has room for a number for each target.
+  void (*cast)(const Target*, const Around*, int32_t target_count, int32_t* near, const double* directions, int64_t count, double reach,
+               double* ranges, int32_t* shapes);
 };
 
 namespace baseline {

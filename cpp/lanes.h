@@ -21,35 +21,71 @@ constexpr int kLanes = 4;
 typedef float F __attribute__((vector_size(kLanes * 4)));
 typedef int32_t I __attribute__((vector_size(kLanes * 4)));  // also masks: 0 or -1
 
-struct F3 {
-  F x, y, z;
-};
+constexpr int kHalf = kLanes / 2;
+typedef double D __attribute__((vector_size(kHalf * 8)));
+typedef decltype(D{} < D{}) L;
 
-inline F splat(float value) { return F{} + value; }
+template <typename N>
+using Mask = decltype(N{} < N{});
+
+template <typename N>
+struct Three {
+  N x, y, z;
+};
+using F3 = Three<F>;
+using D3 = Three<D>;
+
+inline F splat(float value) { return value - F{}; }  // which is no work, as a sum with zero would be
+inline D splat(double value) { return value - D{}; }
 inline I splat(int32_t value) { return I{} + value; }
-inline F select(I mask, F yes, F no) { return mask ? yes : no; }
-inline I select(I mask, I yes, I no) { return mask ? yes : no; }
+template <typename N>
+inline N select(Mask<N> mask, N yes, N no) {
+  return mask ? yes : no;
+}
+#if defined(__AVX512F__)
+inline D select(L mask, D yes, D no) {  // g++ would take some masks of doubles apart, bit by bit
+  return (D)_mm512_mask_blend_pd(_mm512_movepi64_mask((__m512i)mask), (__m512d)no, (__m512d)yes);
+}
+#endif
 inline I min_of(I a, int32_t b) { return select(a < b, a, splat(b)); }
 
 // Where one is no number, the second one.
 #if defined(__AVX512F__)
 inline F max(F a, F b) { return (F)_mm512_max_ps((__m512)a, (__m512)b); }
 inline F min(F a, F b) { return (F)_mm512_min_ps((__m512)a, (__m512)b); }
+inline D max(D a, D b) { return (D)_mm512_max_pd((__m512d)a, (__m512d)b); }
+inline D min(D a, D b) { return (D)_mm512_min_pd((__m512d)a, (__m512d)b); }
 #elif defined(__AVX2__)
 inline F max(F a, F b) { return (F)_mm256_max_ps((__m256)a, (__m256)b); }
 inline F min(F a, F b) { return (F)_mm256_min_ps((__m256)a, (__m256)b); }
+inline D max(D a, D b) { return (D)_mm256_max_pd((__m256d)a, (__m256d)b); }
+inline D min(D a, D b) { return (D)_mm256_min_pd((__m256d)a, (__m256d)b); }
 #elif defined(__SSE2__)
 inline F max(F a, F b) { return (F)_mm_max_ps((__m128)a, (__m128)b); }
 inline F min(F a, F b) { return (F)_mm_min_ps((__m128)a, (__m128)b); }
+inline D max(D a, D b) { return (D)_mm_max_pd((__m128d)a, (__m128d)b); }
+inline D min(D a, D b) { return (D)_mm_min_pd((__m128d)a, (__m128d)b); }
 #else
-inline F max(F a, F b) { return select(a > b, a, b); }
-inline F min(F a, F b) { return select(a < b, a, b); }
+template <typename N>
+inline N max(N a, N b) {
+  return select(a > b, a, b);
+}
+template <typename N>
+inline N min(N a, N b) {
+  return select(a < b, a, b);
+}
 #endif
 inline F abs(F a) { return (F)((I)a & 0x7fffffff); }
+inline D abs(D a) { return (D)((L)a & 0x7fffffffffffffff); }
 
 inline F sqrt(F a) {
   F root;
   for (int i = 0; i < kLanes; ++i) root[i] = __builtin_sqrtf(a[i]);
+  return root;
+}
+inline D sqrt(D a) {
+  D root;
+  for (int i = 0; i < kHalf; ++i) root[i] = __builtin_sqrt(a[i]);
   return root;
 }
 
@@ -101,13 +137,6 @@ inline float largest(F a) {
 #endif
 }
 inline float least(F a) { return -largest(-a); }
-
-// Of all lanes; in what order they are added depends on the width.
-inline float total(F a) {
-  float sum = 0.0f;
-  for (int i = 0; i < kLanes; ++i) sum += a[i];
-  return sum;
-}
 
 inline F counting() {
   F numbers;
@@ -218,16 +247,33 @@ inline void gather_two(const int32_t* from, I at, I& first, I& second) {
   for (int i = 0; i < kLanes; ++i) first[i] = from[at[i]], second[i] = from[at[i] + 1];
 #endif
 }
+inline D load(const double* at) {
+  D value;
+  __builtin_memcpy(&value, at, sizeof value);
+  return value;
+}
+inline void store(double* at, D value) { __builtin_memcpy(at, &value, sizeof value); }
 inline void store(float* at, F value) { __builtin_memcpy(at, &value, sizeof value); }
 inline void store(int32_t* at, I value) { __builtin_memcpy(at, &value, sizeof value); }
 
-inline F dot(const F3& a, const F3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline F3 operator+(const F3& a, const F3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline F3 operator*(const F3& a, F s) { return {a.x * s, a.y * s, a.z * s}; }
+template <typename N>
+inline N dot(const Three<N>& a, const Three<N>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <typename N>
+inline Three<N> operator+(const Three<N>& a, const Three<N>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <typename N>
+inline Three<N> operator*(const Three<N>& a, N s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
 inline F3 splat(const float* v) { return {splat(v[0]), splat(v[1]), splat(v[2])}; }
+inline D3 splat(const double* v) { return {splat(v[0]), splat(v[1]), splat(v[2])}; }
 
 // A row-by-row matrix times a vector, and its transpose times it.
-inline F3 turn(const float* m, const F3& v) {
+template <typename Number, typename N>
+inline Three<N> turn(const Number* m, const Three<N>& v) {
   return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
           m[6] * v.x + m[7] * v.y + m[8] * v.z};
 }

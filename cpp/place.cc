@@ -19,27 +19,6 @@ std::optional<Frame> Frame::of(const double* pose) {
                {pose[0], pose[1], pose[2]}};
 }
 
-Vec3 Frame::turn(const Vec3& v) const {
-  const auto& r = rotation;
-  return {r[0] * v[0] + r[1] * v[1] + r[2] * v[2], r[3] * v[0] + r[4] * v[1] + r[5] * v[2],
-          r[6] * v[0] + r[7] * v[1] + r[8] * v[2]};
-}
-
-Vec3 Frame::turn_back(const Vec3& v) const {
-  const auto& r = rotation;
-  return {r[0] * v[0] + r[3] * v[1] + r[6] * v[2], r[1] * v[0] + r[4] * v[1] + r[7] * v[2],
-          r[2] * v[0] + r[5] * v[1] + r[8] * v[2]};
-}
-
-Vec3 Frame::move(const Vec3& p) const {
-  const Vec3 turned = turn(p);
-  return {turned[0] + position[0], turned[1] + position[1], turned[2] + position[2]};
-}
-
-Vec3 Frame::move_back(const Vec3& p) const {
-  return turn_back({p[0] - position[0], p[1] - position[1], p[2] - position[2]});
-}
-
 Frame Frame::looking(const Vec3& along, const Vec3& from) {
   const double length = std::sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
   const Vec3 x = {along[0] / length, along[1] / length, along[2] / length};

@@ -21,10 +21,24 @@ struct Frame {
   static Frame looking(const Vec3& along, const Vec3& from);
   Frame inverse() const;
   Vec3 axis(int i) const { return {rotation[i], rotation[3 + i], rotation[6 + i]}; }
-  Vec3 turn(const Vec3& v) const;  // out of this frame
-  Vec3 turn_back(const Vec3& v) const;
-  Vec3 move(const Vec3& p) const;
-  Vec3 move_back(const Vec3& p) const;
+  // Out of this frame, and back into it.
+  Vec3 turn(const Vec3& v) const {
+    const auto& r = rotation;
+    return {r[0] * v[0] + r[1] * v[1] + r[2] * v[2], r[3] * v[0] + r[4] * v[1] + r[5] * v[2],
+            r[6] * v[0] + r[7] * v[1] + r[8] * v[2]};
+  }
+  Vec3 turn_back(const Vec3& v) const {
+    const auto& r = rotation;
+    return {r[0] * v[0] + r[3] * v[1] + r[6] * v[2], r[1] * v[0] + r[4] * v[1] + r[7] * v[2],
+            r[2] * v[0] + r[5] * v[1] + r[8] * v[2]};
+  }
+  Vec3 move(const Vec3& p) const {
+    const Vec3 turned = turn(p);
+    return {turned[0] + position[0], turned[1] + position[1], turned[2] + position[2]};
+  }
+  Vec3 move_back(const Vec3& p) const {
+    return turn_back({p[0] - position[0], p[1] - position[1], p[2] - position[2]});
+  }
 };
 
 // world_from_a @ a_from_b

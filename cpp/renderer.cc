@@ -12,8 +12,8 @@ namespace {
 constexpr double kEndless = 1e6;  // [m]
 constexpr double kUnseen = 0.3;   // [px] by which a vertex may be moved
 
-bool is_finite(const std::array<float, 3>& numbers) {
-  return std::all_of(numbers.begin(), numbers.end(), [](float number) { return std::isfinite(number); });
+bool is_finite(const Vec3& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite((float)number); });
 }
 
 void copy(const std::array<float, 3>& from, float* to) { std::copy(from.begin(), from.end(), to); }
@@ -151,6 +151,11 @@ Renderer::Bounds Renderer::bounds_of(const ShapeSpec& shape) const {
     case Kind::kBox: radius = std::hypot(bounds.high[0], bounds.high[1], bounds.high[2]);
   }
   bounds.radius = radius * 1.0001 + 1e-4;
+  const bool is_box = shape.kind == Kind::kBox, is_round = shape.kind == Kind::kCylinder || shape.kind == Kind::kCapsule;
+  bounds.axis = is_round || (z >= x && z >= y) ? 2 : y >= x ? 1 : 0;
+  const double a = bounds.high[(bounds.axis + 1) % 3], b = bounds.high[(bounds.axis + 2) % 3];
+  // A mesh need not be about its own axes.
+  bounds.thickness = shape.kind == Kind::kMesh ? 1e15 : (is_box ? std::hypot(a, b) : std::max(a, b)) * 1.0001 + 1e-4;
   return bounds;
 }
 
@@ -176,7 +181,7 @@ std::optional<Frame> Renderer::orient(const Frame& world_from_camera, size_t ind
   for (int i = 0; i < 3; ++i) {
     solid.eye[i] = (float)eye[i];
     solid.centre[i] = (float)camera_from_shape.position[i];
-    solid.size[i] = shape.size[i];
+    solid.size[i] = (float)shape.size[i];
     if (!std::isfinite(solid.eye[i]) || !std::isfinite(solid.centre[i])) return std::nullopt;
   }
   solid.kind = shape.kind;
@@ -212,47 +217,21 @@ bool Renderer::place(const View& view, const Frame& world_from_camera, size_t in
     solid.nearest = INFINITY;
     return solid.eye[2] > 0.0f;
   }
-  const auto& [low, high, middle, radius] = bounds_[index];
+  const Bounds& bounds = bounds_[index];
   if (detail == Detail::kSeen && solid.mesh) {
-    const Vec3 seen = camera_from_shape->move(middle);
-    const double away = std::max(std::hypot(seen[0], seen[1], seen[2]) - radius, (double)view.near_);
+    const Vec3 seen = camera_from_shape->move(bounds.middle);
+    const double away = std::max(std::hypot(seen[0], seen[1], seen[2]) - bounds.radius, (double)view.near_);
     const double unseen = kUnseen * (view.parallel ? 1.0 : away) / view.focal;
     solid.mesh = &mesh_for(shape.mesh, unseen);
     if (solid.mesh != &triangles_[shape.mesh]) solid.off = (float)unseen;
     solid.id_count = solid.mesh->face_count;
   }
-  const Rectangle pixels = covered(view, *camera_from_shape, low, high);
+  const Rectangle pixels = covered(view, *camera_from_shape, bounds.low, bounds.high);
   solid.left = pixels.left, solid.top = pixels.top, solid.right = pixels.right, solid.bottom = pixels.bottom;
   // With more than single precision may make of it.
-  const double ahead = pixels.ahead - 1e-3 * (std::fabs(pixels.ahead) + radius);
+  const double ahead = pixels.ahead - 1e-3 * (std::fabs(pixels.ahead) + bounds.radius);
   solid.nearest = view.parallel ? (float)-ahead : ahead > view.near_ ? (float)(1.0 / ahead) : INFINITY;
   return !pixels.empty();
-}
-
-void Renderer::cast(const Frame& world_from_place, const float* directions, size_t count, float reach,
-                    int32_t exclude, float* ranges, int32_t* shapes) {
-  if (trees_.empty())
-    for (const Triangles& mesh : triangles_) trees_.push_back(mesh.face_count > 0 ? make_bvh(mesh) : Bvh());
-  solids_.clear();
-  for (size_t i = 0; i < scene_.shapes.size(); ++i) {
-    const ShapeSpec& shape = scene_.shapes[i];
-    Solid solid;
-    if (shape.body == exclude || !shape_poses_[i]) continue;
-    solid.radius = solid.reach = -1.0f;
-    if (!is_endless(shape)) {
-      const double radius = bounds_[i].radius;
-      const Vec3 middle = world_from_place.move_back(shape_poses_[i]->move(bounds_[i].middle));
-      const double away = middle[0] * middle[0] + middle[1] * middle[1] + middle[2] * middle[2];
-      if (std::sqrt(away) - radius > reach) continue;
-      for (int axis = 0; axis < 3; ++axis) solid.middle[axis] = (float)middle[axis];
-      // What single precision loses in the difference of two large squares is added.
-      solid.radius = (float)radius, solid.reach = (float)(away - radius * radius - 1e-6 * away);
-    }
-    if (!orient(world_from_place, i, solid)) continue;
-    if (shape.kind == Kind::kMesh) solid.bvh = trees_[shape.mesh].view();
-    solids_.push_back(solid);
-  }
-  best_kernel().cast(solids_.data(), (int32_t)solids_.size(), directions, (int64_t)count, reach, ranges, shapes);
 }
 
 }  // namespace trundle

@@ -25,7 +25,7 @@ struct ShapeSpec {
   Kind kind;
   int32_t body;
   int32_t mesh;  // index, for Kind::kMesh
-  std::array<float, 3> size;
+  Vec3 size;
   Frame body_from_shape;
   LookSpec look;
   bool casts_shadow = true;
@@ -84,19 +84,21 @@ class Renderer {
   void render(const std::vector<Shot>& shots);
   // How far rays from one place go before they meet a shape [m], and which; infinity and -1 where they meet none. Unit
   // directions (count, 3) in the frame of that place; of the body `exclude`, nothing is met.
-  void cast(const Frame& world_from_place, const float* directions, size_t count, float reach, int32_t exclude,
-            float* ranges, int32_t* shapes);
+  void cast(const Frame& world_from_place, const double* directions, size_t count, double reach, int32_t exclude,
+            double* ranges, int32_t* shapes);
   int32_t bodies() const { return scene_.bodies; }
 
  private:
-  struct Bounds {  // in the shape's frame [m]: a box, and a ball around it
+  struct Bounds {  // in the shape's frame [m]: a box, a ball around it, and an endless pipe along one of its axes
     Vec3 low, high, middle;
-    double radius;
+    double radius, thickness;
+    int32_t axis;
   };
   void place_shapes();
   Bounds bounds_of(const ShapeSpec& shape) const;
   bool is_endless(const ShapeSpec& shape) const;
   std::optional<Frame> orient(const Frame& world_from_camera, size_t index, Solid& solid) const;
+  bool aim(const Frame& world_from_place, size_t index, double reach, Target& target) const;
   enum class Detail { kAll, kSeen };  // of meshes: every triangle, or what makes no difference to a picture
   bool place(const View& view, const Frame& world_from_camera, size_t index, Detail detail, Solid& solid);
   const Triangles& mesh_for(int32_t mesh, double unseen);
@@ -120,7 +122,9 @@ class Renderer {
   std::vector<Bounds> bounds_;
   std::vector<std::optional<Frame>> body_poses_;  // nothing: nowhere, and not drawn
   std::vector<std::optional<Frame>> shape_poses_;  // in the world
-  std::vector<Solid> solids_;                      // that rays may meet
+  std::vector<Target> targets_;                    // that rays may meet
+  std::vector<Around> around_;                     // those
+  std::vector<int32_t> near_;                      // of those, that some may meet
   std::vector<std::optional<LightMap>> maps_;     // of each light
   bool maps_are_old_ = true;
   struct Room {  // of each thread; of pictures each touches the rows that it draws

@@ -13,6 +13,7 @@ struct Bundle {
   F3 d[kGroups];         // in the mesh's frame
   I awake[kGroups];      // rays that are not do not count
   F nearness[kGroups];   // 1 / how far they have come
+  I met[kGroups];        // the triangle that has stopped them: kLeaf times its leaf's number, and its place there; or -1
 };
 
 // A narrow fan of rays from one point: along one axis, all of them go the same way, and each metre brings them to
@@ -90,7 +91,9 @@ inline uint32_t bits8(I8 mask) {
 // it: a ray is inside where it is on the inner side of three planes through that point. Nearness becomes 1 / distance
 // where that is more than what is there already; of triangles that no ray of the fan can meet, or none that has come less
 // near than `least_near`, nothing else is looked at.
-inline void meet_leaf(const BvhLeaf& leaf, const float* eye, const Fan& fan, float least_near, Bundle& rays) {
+inline void meet_leaf(const BvhLeaf* leaves, int32_t number, const float* eye, const Fan& fan, float least_near,
+                      Bundle& rays) {
+  const BvhLeaf& leaf = leaves[number];
   F8 n[3], p[3], more[3], left[3], right[3], ways[4][3];
   for (int i = 0; i < 3; ++i) n[i] = load8(leaf.normal[i]), p[i] = eye[i] - load8(leaf.corner[i]), more[i] = n[i] * 1e-6f;
   const F8 lift = -p[0] * n[0] - p[1] * n[1] - p[2] * n[2], inverse = 1.0f / lift;
@@ -119,6 +122,7 @@ inline void meet_leaf(const BvhLeaf& leaf, const float* eye, const Fan& fan, flo
       const F here = along(ways[0]);
       const I hit = (min(min(along(ways[1]), along(ways[2])), along(ways[3])) >= 0.0f) & (here > than);
       rays.nearness[group] = select(hit, here, than);
+      rays.met[group] = select(hit, splat(number * kLeaf + i), rays.met[group]);
     }
   }
 }
@@ -129,8 +133,8 @@ struct Waiting {
   int32_t node;
 };
 
-inline void walk(const Solid& solid, const Fan& fan, Bundle& rays) {
-  const float eye[6] = {solid.eye[0], solid.eye[1], solid.eye[2], solid.eye[0], solid.eye[1], solid.eye[2]};
+inline void walk(const Target& target, const Fan& fan, Bundle& rays) {
+  const float* eye = target.narrow_eye;
   const float o = eye[fan.along];
   const auto least_of_awake = [&] {
     F nearness = splat(3e38f);
@@ -144,7 +148,7 @@ inline void walk(const Solid& solid, const Fan& fan, Bundle& rays) {
   while (count > 0) {
     const Waiting next = waiting[--count];
     if (next.from > furthest) continue;
-    const BvhNode& node = solid.bvh.nodes[next.node];
+    const BvhNode& node = target.bvh.nodes[next.node];
     const float *near = fan.sign > 0.0f ? node.low[fan.along] : node.high[fan.along],
                 *far = fan.sign > 0.0f ? node.high[fan.along] : node.low[fan.along];
     const int least_count = count;
@@ -163,7 +167,7 @@ inline void walk(const Solid& solid, const Fan& fan, Bundle& rays) {
         const int32_t first = node.first[step + lane], leaves = node.count[step + lane];
         if (leaves > 0) {
           if (k0[lane] > furthest) continue;
-          for (int32_t i = first; i < first + leaves; ++i) meet_leaf(solid.bvh.leaves[i], eye, fan, least_near, rays);
+          for (int32_t i = first; i < first + leaves; ++i) meet_leaf(target.bvh.leaves, i, eye, fan, least_near, rays);
           found_some = true;
           continue;
         }
@@ -178,7 +182,7 @@ inline void walk(const Solid& solid, const Fan& fan, Bundle& rays) {
 }
 
 // Rays that go apart, one by one.
-inline void walk_apart(const Solid& solid, Bundle& rays) {
+inline void walk_apart(const Target& target, Bundle& rays) {
   const F lanes = counting();
   for (int group = 0; group < kGroups; ++group)
     for (uint32_t left = bits(rays.awake[group]); left; left &= left - 1) {
@@ -189,17 +193,19 @@ inline void walk_apart(const Solid& solid, Bundle& rays) {
         one.d[k] = {splat(d.x[i]), splat(d.y[i]), splat(d.z[i])};
         one.awake[k] = k == group ? lanes == (float)i : I{};
         one.nearness[k] = splat(rays.nearness[group][i]);
+        one.met[k] = splat((int32_t)-1);
       }
       const Fan thin(one);
-      if (thin.narrow) walk(solid, thin, one);
+      if (thin.narrow) walk(target, thin, one);
       rays.nearness[group] = select(one.awake[group], one.nearness[group], rays.nearness[group]);
+      rays.met[group] = select(one.awake[group], one.met[group], rays.met[group]);
     }
 }
 
-inline void meet_mesh(const Solid& solid, Bundle& rays) {
+inline void meet_mesh(const Target& target, Bundle& rays) {
   const Fan fan(rays);
-  if (fan.narrow) return walk(solid, fan, rays);
-  walk_apart(solid, rays);
+  if (fan.narrow) return walk(target, fan, rays);
+  walk_apart(target, rays);
 }
 
 }  // namespace trundle::TRUNDLE_ISA

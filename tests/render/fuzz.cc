@@ -89,8 +89,8 @@ SceneSpec scene() {
   for (int32_t i = whole(0, 12); i > 0; --i) {
     LookSpec look{triple(), triple(), triple(), triple(), (float)number(), whole(0, 2) ? 1.0f : (float)number(),
                   index(spec.textures.size(), -1), {(float)number(), (float)number()}};
-    spec.shapes.push_back({(Kind)whole(0, 6), index((size_t)spec.bodies), index(spec.meshes.size()), triple(),
-                           frame(), look, whole(0, 1) == 1});
+    spec.shapes.push_back({(Kind)whole(0, 6), index((size_t)spec.bodies), index(spec.meshes.size()),
+                           {number(), number(), number()}, frame(), look, whole(0, 1) == 1});
   }
   for (int32_t i = whole(0, 3); i > 0; --i) {
     LightSpec light;
@@ -130,10 +130,10 @@ void look_at(Renderer& renderer) {
   }
   renderer.render(shots);
   const int32_t rays = whole(0, 100);
-  std::vector<float> directions, ranges((size_t)rays);
+  std::vector<double> directions, ranges((size_t)rays);
   std::vector<int32_t> shapes((size_t)rays);
-  for (int32_t i = 0; i < 3 * rays; ++i) directions.push_back((float)(whole(0, 30) ? sane() : number()));
-  renderer.cast(frame(), directions.data(), (size_t)rays, std::fabs((float)number()), whole(-1, 4), ranges.data(),
+  for (int32_t i = 0; i < 3 * rays; ++i) directions.push_back(whole(0, 30) ? sane() : number());
+  renderer.cast(frame(), directions.data(), (size_t)rays, std::fabs(number()), whole(-1, 4), ranges.data(),
                 shapes.data());
 }
 

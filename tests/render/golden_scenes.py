@@ -92,6 +92,17 @@ def draw(name: str, *, threads: int = 1) -> NDArray[np.uint8]:
     return picture.rgb
 
 
+def scan() -> bytes:
+    """What rays all around find in the first scene."""
+    made = NativeRenderer(SCENES["sun"])
+    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    ways = np.random.default_rng(1).normal(size=(20_001, 3))
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    ranges, shapes = made.cast(EYE, ways, reach_m=100.0)
+    return ranges.tobytes() + shapes.tobytes()
+
+
 if __name__ == "__main__":
     for name in SCENES:
         print(name, hashlib.sha256(draw(name).tobytes()).hexdigest())
+    print("rays", hashlib.sha256(scan()).hexdigest())

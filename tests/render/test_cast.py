@@ -28,11 +28,11 @@ def renderer(*shapes: Shape, bodies: int = 1) -> NativeRenderer:
     return made
 
 
-def around(columns: int, rows: int = 1) -> NDArray[np.float32]:
+def around(columns: int, rows: int = 1) -> NDArray[np.float64]:
     """Unit directions all around, rows of them from 40° below to 40° above."""
     yaw, pitch = np.meshgrid(np.linspace(-math.pi, math.pi, columns), np.linspace(-0.7, 0.7, rows))
     flat = np.cos(pitch)
-    return np.stack([flat * np.cos(yaw), flat * np.sin(yaw), np.sin(pitch)], axis=-1).reshape(-1, 3).astype(np.float32)
+    return np.stack([flat * np.cos(yaw), flat * np.sin(yaw), np.sin(pitch)], axis=-1).reshape(-1, 3)
 
 
 def ico(level: int) -> Mesh:
@@ -84,7 +84,7 @@ def test_rays_meet_what_mujocos_meet() -> None:
     model, data = engine(placed)
     count = len(directions)
     geoms, far = np.empty(count, dtype=np.int32), np.empty(count)
-    flat = directions.astype(float).reshape(-1)
+    flat = directions.reshape(-1)
     mujoco.mj_multiRay(model, data, np.zeros(3), flat, None, 1, -1, geoms, far, None, count, 30.0)
     met = far >= 0.0
     assert met.mean() > 0.1
@@ -100,17 +100,82 @@ def test_rays_meet_what_mujocos_meet() -> None:
 def test_a_fan_on_a_wall_reads_what_the_wall_is_to_a_hundredth_of_a_millimetre() -> None:
     wall = Shape(name="wall", body=0, geometry=Box((1.0, 400.0, 40.0)), body_from_shape=Pose((20.5, 0.0, 0.0)))
     angles = np.linspace(-1.2, 1.2, 720)
-    fan = np.stack([np.cos(angles), np.sin(angles), np.zeros(720)], axis=-1).astype(np.float32)
+    fan = np.stack([np.cos(angles), np.sin(angles), np.zeros(720)], axis=-1)
     ranges, shapes = renderer(wall).cast(Pose(), fan, reach_m=100.0)
     assert (shapes == 0).all()
-    assert np.abs(ranges - 20.0 / fan[:, 0].astype(float)).max() < 1e-5
+    assert np.abs(ranges - 20.0 / fan[:, 0]).max() < 1e-5
+
+
+def surface(geometry: ShapeGeometry, random: np.random.Generator) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A point of it, and its outward normal there."""
+    unit = random.normal(size=3)
+    unit /= np.linalg.norm(unit)
+    flat = np.array([*unit[:2], 0.0]) / math.hypot(*unit[:2])
+    match geometry:
+        case Box(size):
+            axis, half = random.integers(3), np.array(size) / 2
+            normal = np.sign(unit[axis]) * np.eye(3)[axis]
+            return np.where(normal == 0.0, random.uniform(-half, half), normal * half), normal
+        case Cylinder(radius, length):
+            up = np.sign(unit[2]) * np.eye(3)[2]
+            if random.integers(2):
+                return flat * radius * random.uniform(0.0, 1.0) + up * length / 2, up
+            return flat * radius + np.array([0.0, 0.0, random.uniform(-length / 2, length / 2)]), flat
+        case Capsule(radius, length):
+            if random.integers(2):
+                return unit * radius + np.array([0.0, 0.0, math.copysign(length / 2, unit[2])]), unit
+            return flat * radius + np.array([0.0, 0.0, random.uniform(-length / 2, length / 2)]), flat
+        case Ellipsoid(radii):
+            return unit * radii, unit / radii / np.linalg.norm(unit / radii)
+        case Sphere(radius):
+            return unit * radius, unit
+        case _:
+            raise AssertionError(geometry)
+
+
+@pytest.mark.parametrize("origin", [0.0, 1e4], ids=["here", "10 km away"])
+@pytest.mark.parametrize("name", SOLIDS)
+def test_a_range_is_exact_at_any_distance(name: str, origin: float) -> None:
+    """Who comes to a point of a convex solid from outside has met nothing of it before."""
+    random = np.random.default_rng(7)
+    for distance in (0.1, 1.0, 10.0, 30.0, 100.0, 1000.0):
+        for _ in range(60):
+            point, normal = surface(SOLIDS[name], random)
+            way = random.normal(size=3)
+            way /= np.linalg.norm(way)
+            if abs(way @ normal) < 0.01:
+                continue
+            way *= -np.sign(way @ normal)
+            x, y, z = random.uniform(-5.0, 5.0, 3) + origin
+            pose = Pose.from_rpy(x, y, z, *random.uniform(-3.0, 3.0, 3))
+            start = point - distance * way
+            eye = pose @ Pose((start[0], start[1], start[2]))
+            made = renderer(Shape(name=name, body=0, geometry=SOLIDS[name], body_from_shape=pose))
+            ranges, shapes = made.cast(eye, way[None], reach_m=2000.0)
+            assert shapes[0] == 0
+            assert ranges[0] == pytest.approx(distance, abs=1e-6)
+
+
+@pytest.mark.parametrize("distance", [1.0, 10.0, 100.0])
+def test_a_floor_is_met_exactly_where_a_ray_comes_down_to_it_at_last(distance: float) -> None:
+    upwards = Pose.from_rpy(0.0, 0.0, 0.0, 0.0, math.pi / 2, 0.0)
+    floors: list[tuple[ShapeGeometry, Pose]] = [
+        (Plane((0.0, 0.0, 1.0), (0.0, 0.0)), Pose()),
+        (Box((300.0, 300.0, 2.0)), Pose((0.0, 0.0, -1.0))),
+        (quad(150.0), upwards),
+    ]
+    for geometry, pose in floors:
+        made = renderer(Shape(name="floor", body=0, geometry=geometry, body_from_shape=pose))
+        way = np.array([[math.sqrt(1.0 - 0.25 / distance**2), 0.0, -0.5 / distance]])
+        ranges, _ = made.cast(Pose((0.3, 0.2, 0.5)), way, reach_m=200.0)
+        assert ranges[0] == pytest.approx(distance, abs=1e-5)
 
 
 def test_rays_start_where_they_are_told_to_and_end_at_their_reach() -> None:
     ball = Shape(name="ball", body=0, geometry=Sphere(0.5), body_from_shape=Pose((1.0, 4.0, 2.0)))
     made = renderer(ball)
     place = Pose.from_rpy(1.0, 1.0, 2.0, 0.0, 0.0, math.pi / 2)
-    ahead = np.array([[1.0, 0.0, 0.0]], dtype=np.float32)
+    ahead = np.array([[1.0, 0.0, 0.0]])
     ranges, shapes = made.cast(place, ahead, reach_m=10.0)
     assert (ranges[0], shapes[0]) == (pytest.approx(2.5, abs=1e-6), 0)
     ranges, shapes = made.cast(place, ahead, reach_m=2.4)
@@ -153,7 +218,7 @@ def test_every_triangle_of_a_large_mesh_is_found() -> None:
     eye = np.array([0.1, 0.2, 3.0])
     ways = vertices[faces].mean(axis=1) - eye
     away = np.linalg.norm(ways, axis=1)
-    ranges, _ = made.cast(Pose((0.1, 0.2, 3.0)), (ways / away[:, None]).astype(np.float32), reach_m=10.0)
+    ranges, _ = made.cast(Pose((0.1, 0.2, 3.0)), ways / away[:, None], reach_m=10.0)
     assert (ranges <= away + 1e-5).all()
     assert (np.abs(ranges - away) < 1e-5).mean() > 0.99  # a few are hidden behind a crest
 
@@ -188,7 +253,7 @@ def test_of_two_walls_at_one_place_the_first_is_met_whichever_is_come_to_first()
     """The wide one's ball begins elsewhere than the small one's: rays look into one before the other."""
     wall = Pose((2.0, 0.0, 0.0))
     wide, small = quad(4.0, along=3.0), quad(0.5)
-    ahead = np.array([[1.0, 0.0, 0.0]], dtype=np.float32)
+    ahead = np.array([[1.0, 0.0, 0.0]])
     for meshes in ((wide, small), (small, wide)):
         made = renderer(*(Shape(name="w", body=0, geometry=mesh, body_from_shape=wall) for mesh in meshes))
         ranges, shapes = made.cast(Pose(), ahead, reach_m=10.0)
@@ -203,7 +268,7 @@ def test_a_mesh_behind_another_is_seen_beside_it() -> None:
     slopes = np.linspace(-1.0, 1.0, 201)
     ways = np.stack([np.ones(201), slopes, np.zeros(201)], axis=-1)
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
-    _, shapes = made.cast(Pose(), ways.astype(np.float32), reach_m=20.0)
+    _, shapes = made.cast(Pose(), ways, reach_m=20.0)
     behind_near = (slopes > 0.255) & (slopes < 0.745)
     assert (shapes[behind_near] == 1).all()
     assert (shapes[(slopes < 0.245) | (slopes > 0.755)] == 0).all()
@@ -229,7 +294,7 @@ def test_a_body_can_be_looked_through_and_one_that_is_nowhere_is_not_met() -> No
     far = Shape(name="far", body=1, geometry=Sphere(0.2), body_from_shape=Pose((3.0, 0.0, 0.0)))
     ground = Shape(name="ground", body=2, geometry=Plane((0.0, 0.0, 1.0), (0.0, 0.0)))
     made = renderer(near, far, ground, bodies=3)
-    ways = np.array([[1.0, 0.0, 0.0], [0.0, 0.6, -0.8]], dtype=np.float32)
+    ways = np.array([[1.0, 0.0, 0.0], [0.0, 0.6, -0.8]])
     eye = Pose((0.0, 0.0, 2.0))
     made.update(np.array([[0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0]] * 2 + [HERE]))
     ranges, shapes = made.cast(eye, ways, reach_m=9.0)
@@ -245,4 +310,4 @@ def test_no_rays_and_no_shapes_are_no_trouble() -> None:
     ranges, shapes = made.cast(Pose(), around(5), reach_m=9.0)
     assert np.isinf(ranges).all()
     assert (shapes == -1).all()
-    assert len(made.cast(Pose(), np.empty((0, 3), dtype=np.float32), reach_m=9.0)[0]) == 0
+    assert len(made.cast(Pose(), np.empty((0, 3)), reach_m=9.0)[0]) == 0

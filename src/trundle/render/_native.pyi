@@ -114,12 +114,12 @@ class Renderer:
     def cast(
         self,
         world_from_place: Sequence[float],
-        directions: NDArray[np.float32],
-        *,
+        directions: NDArray[np.float64],
         reach: float,
-        exclude: int = -1,
-        ranges: NDArray[np.float32],
+        exclude: int,
+        ranges: NDArray[np.float64],
         shapes: NDArray[np.int32],
+        /,
     ) -> None: ...
 
 def instruction_set() -> str: ...

@@ -27,6 +27,7 @@ _FOGS = {
     "exponential": _native.FogKind.EXPONENTIAL,
     "quadratic": _native.FogKind.SQUARED,
 }
+_INDEX = np.dtype(np.int32)
 _DEFAULT_LIGHTS = (SceneLight(direction=(-0.3, 0.5, -0.8)),)
 
 
@@ -135,8 +136,8 @@ class NativeRenderer:
         ]
 
     def cast(
-        self, world_from_place: Pose, directions: NDArray[np.float32], *, reach_m: float, exclude: int | None = None
-    ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+        self, world_from_place: Pose, directions: NDArray[np.float64], *, reach_m: float, exclude: int | None = None
+    ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Send rays from one place.
 
         Args:
@@ -149,15 +150,15 @@ class NativeRenderer:
             (N,) distances to the first shape [m], infinite where none is within reach; of a shape that a ray starts
             inside, nothing is met. (N,) indices of the shapes in the scene, −1 for none.
         """
-        ranges = np.empty(len(directions), dtype=np.float32)
-        shapes = np.empty(len(directions), dtype=np.int32)
+        count = len(directions)
+        ranges, shapes = np.empty(count), np.empty(count, _INDEX)
         self._renderer.cast(
             (*world_from_place.position, *world_from_place.quaternion),
-            np.ascontiguousarray(directions, dtype=np.float32),
-            reach=min(reach_m, 1e30),
-            exclude=-1 if exclude is None else exclude,
-            ranges=ranges,
-            shapes=shapes,
+            directions,
+            reach_m,
+            -1 if exclude is None else exclude,
+            ranges,
+            shapes,
         )
         return ranges, shapes
 

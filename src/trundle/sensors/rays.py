@@ -62,9 +62,8 @@ class RayCaster:
 
     def cast(self, origin: Vector3, directions: _Array, reach: float, exclude: int | None) -> Found:
         """See `Rays`."""
-        rays = directions.astype(np.float32)
-        distances, shapes = self._renderer.cast(Pose(origin), rays, reach_m=reach, exclude=exclude)
-        return Found(distances.astype(np.float64), self._retros[shapes], self._bodies[shapes])
+        distances, shapes = self._renderer.cast(Pose(origin), directions, reach_m=reach, exclude=exclude)
+        return Found(distances, self._retros[shapes], self._bodies[shapes])
 
     def cast_past(self, origin: Vector3, directions: _Array, reach: float, hidden: Sequence[int]) -> Found:
         """Cast rays that look through some links wherever they are."""
