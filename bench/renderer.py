@@ -11,6 +11,7 @@ import numpy as np
 import trundle
 from bench import scenes
 from bench.table import Row
+from bench.tiny_renderer import TinyRenderer
 from trundle.diagnostics import UsageError
 from trundle.physics import EglRenderer
 from trundle.physics.egl_renderer import model_of
@@ -35,6 +36,8 @@ def run() -> list[Row]:
         ):
             rows.append(_pictures(name, scene, eyes, lens))
             rows.append(_pictures(f"{name}, shadows", scenes.with_shadows(scene), eyes, lens))
+        for name, scene, lens in (("A, 320x240", few, scenes.MIDDLE), ("B, 640x480", many, scenes.LARGE)):
+            rows += _against_tiny(name, scene, lens)
         for name, scene in (("A", few), ("B", many)):
             for beams, height in ((720, 1), (1800, 16)):
                 rows.append(_scans(f"lidar on {name}, {height} x {beams}", scene, beams, height))
@@ -54,22 +57,40 @@ def _rate(work: Callable[[], object]) -> float:
     return best
 
 
+def _drawing(
+    renderer: Renderer | TinyRenderer, scene: Scene, eyes: Sequence[Pose], lens: Intrinsics
+) -> Callable[[], None]:
+    frame = 0
+    views = [(eye, lens) for eye in eyes]
+
+    def draw() -> None:
+        nonlocal frame
+        frame += 1
+        renderer.update(scenes.poses_at(scene, frame))
+        renderer.render(views)
+
+    return draw
+
+
+def _against_tiny(name: str, scene: Scene, lens: Intrinsics) -> list[Row]:
+    """Without and with shadows; none where PyBullet is not installed."""
+    rows: list[Row] = []
+    for title, lit in ((name, scene), (f"{name}, shadows", scenes.with_shadows(scene))):
+        try:
+            tiny = TinyRenderer(lit)
+        except ImportError:
+            return []
+        ours = _rate(_drawing(NativeRenderer(lit), lit, (scenes.EYE,), lens))
+        theirs = _rate(_drawing(tiny, lit, (scenes.EYE,), lens))
+        tiny.close()
+        rows.append(Row(f"render {title}", ours, "frames/s", "PyBullet TinyRenderer", ours / theirs))
+    return rows
+
+
 def _pictures(name: str, scene: Scene, eyes: Sequence[Pose], lens: Intrinsics) -> Row:
-    def drawing(renderer: Renderer) -> Callable[[], None]:
-        frame = 0
-        views = [(eye, lens) for eye in eyes]
-
-        def draw() -> None:
-            nonlocal frame
-            frame += 1
-            renderer.update(scenes.poses_at(scene, frame))
-            renderer.render(views)
-
-        return draw
-
-    ours = _rate(drawing(NativeRenderer(scene)))
+    ours = _rate(_drawing(NativeRenderer(scene), scene, eyes, lens))
     try:
-        theirs: float | None = _rate(drawing(EglRenderer(scene)))
+        theirs: float | None = _rate(_drawing(EglRenderer(scene), scene, eyes, lens))
     except UsageError:
         theirs = None
     ratio = None if theirs is None else ours / theirs

@@ -1,0 +1,95 @@
+"""PyBullet's TinyRenderer behind the interface of ours, where PyBullet is installed."""
+
+import math
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+
+from trundle.meshes import Mesh
+from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Sphere
+from trundle.render import Intrinsics, Scene, Shape
+from trundle.spatial import Pose
+
+_GROUND_M = 20.0
+"""As far as a plane reaches; TinyRenderer draws triangles only."""
+
+
+class TinyRenderer:
+    """Draws a bench scene in its colours, without textures."""
+
+    def __init__(self, scene: Scene) -> None:
+        """Build it.
+
+        Raises:
+            ImportError: PyBullet is not installed.
+        """
+        self._bullet: Any = import_module("pybullet")
+        self._client = self._bullet.connect(self._bullet.DIRECT)
+        self._shadow = int(any(light.casts_shadows for light in scene.lights))
+        self._light = [-number for number in scene.lights[0].direction]
+        self._bodies = [(shape.body, self._body(shape)) for shape in scene.shapes]
+
+    def update(self, poses: NDArray[np.float64]) -> None:
+        """Put everything where it is."""
+        for body, number in self._bodies:
+            x, y, z, qw, qx, qy, qz = poses[body].tolist()
+            self._bullet.resetBasePositionAndOrientation(
+                number, (x, y, z), (qx, qy, qz, qw), physicsClientId=self._client
+            )
+
+    def render(self, views: Sequence[tuple[Pose, Intrinsics]]) -> None:
+        """Draw what cameras see."""
+        bullet = self._bullet
+        for eye, lens in views:
+            ahead, up = eye.direction((1.0, 0.0, 0.0)), eye.direction((0.0, 0.0, 1.0))
+            target = [at + way for at, way in zip(eye.position, ahead, strict=True)]
+            height_rad = 2 * math.atan(lens.height_px / 2 / lens.focal_px)
+            bullet.getCameraImage(
+                lens.width_px,
+                lens.height_px,
+                bullet.computeViewMatrix(eye.position, target, up),
+                bullet.computeProjectionMatrixFOV(math.degrees(height_rad), lens.width_px / lens.height_px, 0.1, 100.0),
+                lightDirection=self._light,
+                shadow=self._shadow,
+                renderer=bullet.ER_TINY_RENDERER,
+                physicsClientId=self._client,
+            )
+
+    def close(self) -> None:
+        """Let go of it."""
+        self._bullet.disconnect(self._client)
+
+    def _body(self, shape: Shape) -> int:
+        bullet = self._bullet
+        visual = bullet.createVisualShape(**self._form(shape), rgbaColor=shape.rgba, physicsClientId=self._client)
+        return bullet.createMultiBody(baseVisualShapeIndex=visual, physicsClientId=self._client)
+
+    def _form(self, shape: Shape) -> dict[str, object]:
+        bullet = self._bullet
+        match shape.geometry:
+            case Box((x, y, z)):
+                return {"shapeType": bullet.GEOM_BOX, "halfExtents": (x / 2, y / 2, z / 2)}
+            case Sphere(radius):
+                return {"shapeType": bullet.GEOM_SPHERE, "radius": radius}
+            case Cylinder(radius, length):
+                return {"shapeType": bullet.GEOM_CYLINDER, "radius": radius, "length": length}
+            case Capsule(radius, length):
+                return {"shapeType": bullet.GEOM_CAPSULE, "radius": radius, "length": length}
+            case Ellipsoid(radii):
+                ball = trimesh.creation.icosphere(subdivisions=3)
+                return self._mesh(ball.vertices * radii, ball.faces)
+            case Mesh(vertices, faces):
+                return self._mesh(vertices, faces)
+            case _:
+                return {"shapeType": bullet.GEOM_BOX, "halfExtents": (_GROUND_M, _GROUND_M, 1e-3)}
+
+    def _mesh(self, vertices: NDArray[Any], faces: NDArray[Any]) -> dict[str, object]:
+        return {
+            "shapeType": self._bullet.GEOM_MESH,
+            "vertices": vertices.tolist(),
+            "indices": faces.reshape(-1).tolist(),
+        }
