@@ -248,6 +248,10 @@ def test_a_spawned_camera_is_on_a_topic(gazebo: Gazebo) -> None:
     assert (heard[0].width, heard[0].height) == (64, 48)
 
 
+def test_a_world_that_starts_paused_says_what_starts_it(gazebo: Gazebo) -> None:
+    until(lambda: "the world is paused; /gazebo/unpause_physics starts it" in gazebo.said)
+
+
 def test_a_plugin_that_raises_pauses_the_world_and_is_named(gazebo: Gazebo, tmp_path: Path) -> None:
     (tmp_path / "bad.py").write_text(
         "from trundle.plugins import Plugin\n\n\nclass Bad(Plugin):\n    @classmethod\n"

@@ -134,6 +134,8 @@ class GazeboWorld:
         except BaseException:
             await asyncio.to_thread(self.close)
             raise
+        if paused:
+            self._say("the world is paused; /gazebo/unpause_physics starts it")
 
     def post(self, call: Callable[[], None]) -> None:
         """Have a function called between two strides."""
