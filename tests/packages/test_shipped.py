@@ -31,8 +31,8 @@ def test_every_world_reads_without_a_warning(name: str) -> None:
 
 
 def test_a_world_that_is_not_there_is_answered_with_those_that_are() -> None:
-    with pytest.raises(DescriptionError, match=r"willowgarage.world: error: no such file .*: blank.world, empty.world"):
-        load("worlds/willowgarage.world", Diagnostics(), packages=PACKAGES)
+    with pytest.raises(DescriptionError, match=r"mud.world: error: no such file .*: blank.world, empty.world"):
+        load("worlds/mud.world", Diagnostics(), packages=PACKAGES)
 
 
 def test_every_stand_in_is_a_body_on_the_ground_that_says_what_it_is() -> None:
@@ -57,6 +57,28 @@ def test_stand_ins_have_the_size_of_what_they_stand_for() -> None:
     (model,) = load("model://dumpster", Diagnostics(), packages=PACKAGES).world.models
     assert model.links[0].collisions[0].geometry == Box((2.505, 1.535, 1.773))
     assert math.isclose(model.links[0].collisions[0].link_from_collision.position[2], 0.885)
+
+
+def test_robots_start_in_the_corridor_of_the_office(tmp_path: Path) -> None:
+    """As in the original, of 58.6 by 45.7 m, whose origin is inside; from there one may drive into a room."""
+    world = load("worlds/willowgarage.world", Diagnostics(), packages=PACKAGES).world
+    office = next(model for model in world.models if model.name == "willowgarage")
+    walls = [
+        (x + office.world_from_model.position[0], y + office.world_from_model.position[1], size.size[0], size.size[1])
+        for wall in office.links[0].collisions
+        if isinstance(size := wall.geometry, Box)
+        for x, y, _ in [wall.link_from_collision.position]
+    ]
+    assert max(x + width / 2 for x, _, width, _ in walls) - min(x - width / 2 for x, _, width, _ in walls) == 58.64
+
+    def is_free(at_x: float, at_y: float) -> bool:
+        return not any(
+            abs(at_x - x) < width / 2 + 0.4 and abs(at_y - y) < depth / 2 + 0.4 for x, y, width, depth in walls
+        )
+
+    assert is_free(0.0, 0.0)
+    assert all(is_free(2.0 + 0.1 * i, 0.0) for i in range(24))
+    assert all(is_free(4.43, -0.1 * i) for i in range(50))
 
 
 def test_a_model_of_the_same_name_comes_before_its_stand_in(tmp_path: Path) -> None:
