@@ -119,21 +119,13 @@ def _scans(name: str, scene: Scene, beams: int, height: int) -> Row:
 def _many_cameras() -> list[Row]:
     """Instants a second at which 12, then 24 cameras of 160x120 look; twice as many should cost twice as much."""
     scene = scenes.with_shadows(scenes.primitives())
-    renderer, frame = NativeRenderer(scene), 0
+    renderer = NativeRenderer(scene)
 
-    def looking(count: int) -> Callable[[], None]:
+    def rate(count: int) -> float:
         eyes = [Pose.from_rpy(0.0, 0.0, 1.5, 0.0, 0.2, 2 * np.pi * i / count) for i in range(count)]
-        views = [(eye, scenes.SMALL) for eye in eyes]
+        return _rate(_drawing(renderer, scene, eyes, scenes.SMALL))
 
-        def look() -> None:
-            nonlocal frame
-            frame += 1
-            renderer.update(scenes.poses_at(scene, frame))
-            renderer.render(views)
-
-        return look
-
-    few, many = _rate(looking(12)), _rate(looking(24))
+    few, many = rate(12), rate(24)
     return [Row("render 24 cameras of 160x120, shadows", many, "instants/s", "12 cameras", many / few)]
 
 
