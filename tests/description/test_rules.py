@@ -344,16 +344,18 @@ def test_what_is_said_of_a_link_that_was_lumped_goes_for_the_lump(tmp_path: Path
 def test_a_link_in_a_gazebo_block_for_the_robot_is_a_body_beside_the_tree(tmp_path: Path) -> None:
     """How the PR2 closes its gripper's four bars."""
     bar = "<inertial><mass>0.2</mass></inertial><pose>0 0 3 0 0 0</pose>"
-    text = f"""<robot name="r"><link name="base">{BODY}</link><gazebo><link name="bar">{bar}</link>
-<link name="base">{bar}</link><joint name="j" type="revolute"><parent>base</parent><child>bar</child>
-<axis><xyz>0 1 0</xyz></axis></joint></gazebo></robot>"""
+    text = f"""<robot name="r"><link name="base">{BODY}</link><link name="palm"/>
+<joint name="f" type="fixed"><parent link="base"/><child link="palm"/></joint>
+<gazebo><link name="bar">{bar}</link><link name="base">{bar}</link>
+<joint name="j" type="revolute"><parent>palm</parent><child>bar</child><axis><xyz>0 1 0</xyz></axis></joint>
+</gazebo></robot>"""
     report = Diagnostics()
 
     model = read(tmp_path, text, report, name="x.urdf").world.models[0]
 
     assert [(link.name, link.inertial.mass) for link in model.links] == [("base", 1.0), ("bar", 0.2)]
     assert model.link("bar").model_from_link.position == (0.0, 0.0, 3.0)
-    assert [(joint.parent, joint.child) for joint in model.joints] == [("base", "bar")]
+    assert [(joint.parent, joint.parent_frame, joint.child) for joint in model.joints] == [("base", None, "bar")]
     assert [warning.partition("warning: ")[2] for warning in report.warnings] == [
         "a second link 'base'; it is left out"
     ]

@@ -94,7 +94,7 @@ def test_the_sun_s_shadows_fall_where_ours_do() -> None:
     dark: list[np.ndarray] = []
     for each in renderers:
         each.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-        picture = each.render(above, LENS, segmentation=True)
+        picture = drawn(each, above, LENS, segmentation=True)
         green = picture.rgb[..., 1].astype(int)
         dark.append((picture.segmentation == 0) & (green < green.max() - 30))
     ours, theirs = dark

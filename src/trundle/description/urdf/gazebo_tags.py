@@ -180,7 +180,8 @@ class GazeboTags:
                 sound.append(joint)
         for joint in sound:
             joint.add_to(graph)
-        return tuple(joint.read(graph, self._context) for joint in sound)
+        # A link that was lumped is nothing that the model has: what it says of the joint is said by the lump's link.
+        return tuple(replace(joint.read(graph, self._context), parent_frame=None, child_frame=None) for joint in sound)
 
     def name_tuning(self) -> None:
         """Say of what tunes Gazebo's engines that it is read and not used."""
