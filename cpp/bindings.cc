@@ -26,6 +26,7 @@ Frame frame_of(const std::array<double, 7>& pose, const char* whose) {
 }  // namespace
 
 NB_MODULE(_native, module) {
+  nb::set_leak_warnings(false);  // of renderers that are in use when a program ends: their memory goes with it
   nb::enum_<Kind>(module, "Kind")
       .value("PLANE", Kind::kPlane)
       .value("BOX", Kind::kBox)
