@@ -25,10 +25,9 @@ def complete(parser: argparse.ArgumentParser, command: str) -> None:
                 if isinstance(choice, argparse.ArgumentParser):
                     complete(choice, command)
         source = _SOURCES.get((command, action.dest)) or _SOURCES.get(("", action.dest))
-        if (command, action.dest) in _BEHIND:
-            setattr(action, "completer", _BEHIND[command, action.dest])  # noqa: B010 - as below
-        elif source is not None:
-            setattr(action, "completer", _completer(source))  # noqa: B010 - argcomplete looks for it there
+        completer = _BEHIND.get((command, action.dest)) or (source and _completer(source))
+        if completer:
+            setattr(action, "completer", completer)  # noqa: B010 - argcomplete looks for it there
 
 
 def _completer(source: Callable[[], Iterable[str]]) -> Callable[..., list[str]]:

@@ -7,7 +7,8 @@ from .handle import expect_finite
 from .handles import JointHandle, LinkHandle, ModelHandle
 from .hooks import AfterStep, BeforeStep
 from .line import Line
-from .simulation import SavedSimulation, Simulation
+from .saved import SavedSimulation
+from .simulation import Simulation
 from .snapshot import Snapshot
 from .state_log import StateLog, StateRecorder, read_state_log
 

@@ -6,13 +6,13 @@ are due, let the engine step in C up to the next due time, call the `after_step`
 
 from collections import deque
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import TypeAlias
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, Model, Moment, World
-from trundle.physics import Contact, Engine, EngineState, GripLaw, compile_world
+from trundle.physics import Contact, Engine, GripLaw, compile_world
 from trundle.spatial import Pose, Wrench
 
 from .actors import ActorWalk, with_actors
@@ -31,23 +31,14 @@ from .handles import ModelHandle, handles_of
 from .hooks import AfterStep, BeforeStep, ScheduledHook
 from .joint_handle import JointHandle
 from .line import Line
-from .pushes import Ends, Pushes
+from .pushes import Pushes
+from .saved import SavedSimulation
 from .snapshot import Snapshot
 from .timeline import NS, Period, Timeline, step_ns_of
 
 _LONGEST = 1000
 """Steps in one stride: what blows up is undone to its beginning."""
 Command: TypeAlias = Callable[["Simulation"], None]
-
-
-@dataclass(frozen=True, slots=True)
-class SavedSimulation:
-    """A state to go back to."""
-
-    steps: int
-    timeline: Timeline
-    engine: EngineState
-    ends: Ends
 
 
 class Simulation:
