@@ -71,6 +71,18 @@ def test_a_short_array_is_copied(messages: Messages) -> None:
     assert len(messages.codec("sensor_msgs/Image").write_pieces(message)) == 1
 
 
+@pytest.mark.parametrize(("size", "pieces"), [(0, 1), (300, 1), (LONG, 3)])
+def test_a_frame_begins_with_its_length(messages: Messages, size: int, pieces: int) -> None:
+    message = _message(messages, "sensor_msgs/PointCloud2", "data", np.ones(size, "u1"))
+
+    framed = messages.codec("sensor_msgs/PointCloud2").frame(message)
+
+    assert len(framed) == pieces
+    assert isinstance(framed[0], bytes)
+    written = bytes(messages.serialize(message))
+    assert b"".join(framed) == len(written).to_bytes(4, "little") + written
+
+
 def test_bytes_behind_a_message_are_refused(messages: Messages) -> None:
     with pytest.raises(MessageError, match="5 bytes are no std_msgs/UInt32: it ends after 4"):
         messages.deserialize(bytes(5), "std_msgs/UInt32")

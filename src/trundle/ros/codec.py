@@ -64,6 +64,16 @@ class Codec:
         head, pixels = rest[:end], memoryview(array).cast("B").toreadonly()
         return (head, pixels, rest[end:]) if self._behind else (head, pixels)
 
+    def frame(self, message: Any) -> Pieces:
+        """Write a message with its length in front, as connections carry it: one `bytes` but for a long array.
+
+        Raises:
+            MessageError: a field holds what its type cannot; the text names it.
+        """
+        first, *others = self.write_pieces(message, room=_COUNT.size)
+        _COUNT.pack_into(cast(memoryview, first), 0, len(first) - _COUNT.size + sum(map(len, others)))
+        return bytes(first), *others
+
     def read(self, data: bytes | memoryview) -> Any:
         """Read a message's bytes; its arrays may be read-only views of them.
 
