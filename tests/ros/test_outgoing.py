@@ -8,8 +8,8 @@ import pytest
 
 from trundle.ros.outgoing import Outgoing
 
-_FRAMES = [(bytes([i]) * 10, bytes([100 + i]) * 1_000_000) for i in range(30)]
-"""More than the kernel takes while nobody reads."""
+_FRAMES = [(bytes([i % 200]) * 10, bytes([i % 100 + 100]) * 30_000) for i in range(1000)]
+"""More than the kernel takes while nobody reads, and each short enough for a socket."""
 
 
 def _tcp_pair() -> tuple[socket.socket, socket.socket]:

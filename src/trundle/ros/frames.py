@@ -2,7 +2,7 @@
 
 import struct
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from typing import Any
 
@@ -15,7 +15,15 @@ _LONG_BYTES = 4 * 1024
 """A frame from here on comes to lie where it stays."""
 _TRUST_BYTES = 256 * 1024
 """How much room a frame gets before any of it has come, unless one as long came before."""
+_NOTE = 1 << 31
+"""Added to the length of what is no message but a word between two of our own programs."""
+_MOST_NOTE_BYTES = 64
 _of_this_thread = threading.local()
+
+
+def encode_note(content: bytes) -> bytes:
+    """Write a note, which only a `FrameCutter` that takes notes will read."""
+    return LENGTH.pack(_NOTE | len(content)) + content
 
 
 class FrameCutter:
@@ -28,6 +36,8 @@ class FrameCutter:
     def __init__(self, limit: int) -> None:
         self.limit = limit
         """Longest frame that is accepted [bytes]; it may change between two frames."""
+        self.take_note: Callable[[bytes], bytes | None] | None = None
+        """Called with each note, if there may be any; returns the content of a frame that it stands for."""
         self._shared = _shared_buffer()
         self._rest = b""
         """Beginning of a short frame."""
@@ -47,6 +57,15 @@ class FrameCutter:
         self._shared[: len(self._rest)] = self._rest
         return self._shared[len(self._rest) :]
 
+    def whole(self, count: int) -> bytes | None:
+        """Take note of so many new bytes if they are just one short frame, as nearly always, and return it."""
+        if self._rest or self._own is not None or not LENGTH.size <= count <= _LONG_BYTES:
+            return None
+        if LENGTH.unpack_from(self._shared)[0] != count - LENGTH.size:
+            return None
+        self._expected = 0
+        return bytes(self._shared[LENGTH.size : count])
+
     def cut(self, count: int) -> Iterator[bytes | memoryview]:
         """Take note of so many new bytes; yield the frames that are complete, without their lengths.
 
@@ -58,7 +77,17 @@ class FrameCutter:
         while (begin := start + LENGTH.size) <= end:
             (size,) = LENGTH.unpack_from(data, start)
             if size > self.limit:
-                raise WireError(f"a frame of {size} bytes is announced, more than is accepted")
+                if self.take_note is None or not _NOTE <= size <= _NOTE + _MOST_NOTE_BYTES:
+                    raise WireError(f"a frame of {size} bytes is announced, more than is accepted")
+                size -= _NOTE
+                if begin + size > end:
+                    break
+                start = begin + size
+                self._expected = 0
+                if (content := self.take_note(bytes(data[begin:start]))) is not None:
+                    yield content
+                size = 0
+                continue
             if begin + size > end:
                 break
             start = begin + size

@@ -48,7 +48,10 @@ class GraphLoop:
         """Called on the loop with each new publisher of its nodes."""
         self.work = Work()
         self._news: set[asyncio.Future[None]] = set()
-        self._gatherer: threading.Thread | None = None
+        self._gatherer: int | None = None
+        """The thread whose calls wait for `release`."""
+        self._own_threads: set[int | None] = set()
+        """The loop's own, and the one that gathers."""
         self._gathered: list[Callable[[], object]] = []
         self._calls = 0
         """By which `rested` knows that there are more."""
@@ -63,6 +66,7 @@ class GraphLoop:
     def start(self) -> None:
         """Start the thread."""
         self._thread.start()
+        self._own_threads.add(self._thread.ident)
 
     def stop(self, timeout_s: float = 2.0) -> None:
         """Shut the nodes down, end what still runs, and end the thread."""
@@ -85,12 +89,12 @@ class GraphLoop:
     @property
     def is_this_thread(self) -> bool:
         """Whether the caller runs on the loop."""
-        return threading.current_thread() is self._thread
+        return threading.get_ident() == self._thread.ident
 
     @property
     def is_waited_for(self) -> bool:
         """Whether the caller is a thread that gains if it does a thing itself rather than ask the loop."""
-        return threading.current_thread() not in (self._thread, self._gatherer)
+        return threading.get_ident() not in self._own_threads
 
     def run(self, coroutine: Coroutine[Any, Any, _T], timeout_s: float | None = 30.0) -> _T:
         """Run a coroutine on the loop and wait for its answer, from another thread.
@@ -128,7 +132,7 @@ class GraphLoop:
             self._calls += 1
             self._loop.call_soon(function)
             return
-        if threading.current_thread() is self._gatherer:
+        if threading.get_ident() == self._gatherer:
             self._gathered.append(function)
             return
         self._call_soon_from_elsewhere(function)
@@ -160,11 +164,12 @@ class GraphLoop:
 
     def gather(self) -> None:
         """From now on, give the loop what this thread has for it only when `release` says so: all at once, in order."""
-        self._gatherer = threading.current_thread()
+        self._gatherer = threading.get_ident()
+        self._own_threads.add(self._gatherer)
 
     def release(self) -> None:
         """Give the loop what this thread gathered."""
-        if self._gathered and threading.current_thread() is self._gatherer:
+        if self._gathered and threading.get_ident() == self._gatherer:
             gathered, self._gathered = self._gathered, []
             self._call_soon_from_elsewhere(lambda: [self.call_soon(function) for function in gathered])
 

@@ -4,14 +4,18 @@ A subscriber offers UNIXROS after TCPROS; a publisher that knows it puts a name 
 anyway. What travels is the same. Where that fails, as between two machines, TCP is used.
 """
 
+import os
 import secrets
 import socket
+import struct
 import sys
 from collections.abc import Sequence
 
 UNIXROS = "UNIXROS"
 _PREFIX = "trundle-"
 """Nobody can lead us to a socket of another program."""
+_CREDENTIALS = struct.Struct("3i")
+"""Process, user, group: unix(7), SO_PEERCRED."""
 
 
 def listen_nearby() -> tuple[socket.socket, str] | None:
@@ -35,3 +39,11 @@ def address_nearby(offered: Sequence[object]) -> str | None:
             return f"\0{name}"
         case _:
             return None
+
+
+def peer_process(connected: socket.socket) -> int | None:
+    """Return the number of the process at the other end; None where it is another user's, or not to be seen."""
+    process, user, _ = _CREDENTIALS.unpack(
+        connected.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, _CREDENTIALS.size)
+    )
+    return process if process > 0 and user == os.geteuid() else None

@@ -10,6 +10,9 @@ from collections.abc import Callable, Sequence
 from itertools import islice
 
 from .codec import Pieces
+from .errors import WireError
+from .nearby import peer_process
+from .shelf import LONG_BYTES, Shelf
 
 _MOST_KERNEL_BYTES = 4 * 1024 * 1024
 """As much as TCP may take by Linux's own settings."""
@@ -44,13 +47,18 @@ class Outgoing:
         """The same connection once more: waits, as the loop keeps the first for its transport."""
         self._queue: deque[Pieces] = deque()
         self._rest: Pieces = ()
-        """Of a frame that the kernel took a part of."""
+        """What was begun: of a frame that the kernel took a part of, and notes where others lie."""
         self._lock = threading.Lock()
-        """Held while the two change, and while the socket is written to or let go."""
+        """Held while these change, and while the socket is written to or let go."""
+        self._is_full = False
+        """Whether the kernel takes no more for now."""
         self._is_waiting = False
-        """Whether the loop looks when the kernel takes more."""
+        """Whether the loop looks when it does."""
         self._is_closed = False
         self._kernel_bytes = 0
+        self._shelf: Shelf | None = None
+        self._may_share = self.is_near
+        """Whether it is worth a try to share memory with the peer."""
 
     @property
     def is_behind(self) -> bool:
@@ -70,9 +78,23 @@ class Outgoing:
             while queue_size is not None and len(self._queue) > queue_size:
                 self._queue.popleft()
                 self.dropped += 1
-            if was_behind or self._is_waiting or not self.is_behind:
+            if was_behind or self._is_waiting or not self._is_full:
                 return
         self._call_soon(self._wait)
+
+    def take_note(self, note: bytes) -> None:
+        """Take what the peer says of the memory that both see, and go on if that makes room; on the loop.
+
+        Raises:
+            WireError: it cannot be meant.
+        """
+        with self._lock:
+            if self._shelf is None:
+                raise WireError("a note about memory that is not shared")
+            self._shelf.take_note(note)
+            if self._is_full or not self.is_behind:
+                return
+        self._go_on()
 
     def close(self) -> None:
         """Send nothing more; on the loop."""
@@ -82,11 +104,13 @@ class Outgoing:
             self._wait_no_more()
             if self._twin is not None:
                 self._twin.close()
+            if self._shelf is not None:
+                self._shelf.close()
 
     def _give_whole(self, frame: Pieces) -> bool:
-        """Give the kernel one frame past the queue, as nearly all go; False: it took nothing."""
+        """Give the kernel one short frame past the queue, as nearly all go; False: it took nothing."""
         size = len(frame[0]) if len(frame) == 1 else _size(frame)
-        if not hasattr(os, "writev") or (self.is_near and size > self._kernel_bytes):
+        if not hasattr(os, "writev") or (self.is_near and size >= LONG_BYTES):
             return False
         try:
             sent = os.writev(self._fd, frame)
@@ -95,17 +119,17 @@ class Outgoing:
         self.bytes_sent += sent
         self.frames_sent += 1
         if sent < size:
-            self._rest = _after(frame, sent)
+            self._rest, self._is_full = _after(frame, sent), True
         return True
 
     def _write(self) -> None:
-        """Give the kernel as much as it takes."""
-        while self._rest or self._queue:
-            if self.is_near and self._queue:
-                self._widen(_size(self._queue[0]))
+        """Give the kernel, or the shelf, as much as it takes."""
+        self._is_full = False
+        while pieces := self._next():
             try:
-                sent = self._give([*self._rest, *(piece for frame in islice(self._queue, _AT_ONCE) for piece in frame)])
+                sent = self._give(pieces)
             except BlockingIOError:
+                self._is_full = True
                 return
             except OSError:  # the connection is broken
                 self._forget()
@@ -113,6 +137,43 @@ class Outgoing:
                 return
             self.bytes_sent += sent
             self._let_go(sent)
+
+    def _next(self) -> list[bytes | memoryview]:
+        """What the kernel gets next; nothing while a long frame waits for room on the shelf."""
+        if self.is_near:
+            self._lay()
+        pieces = [*self._rest]
+        for frame in islice(self._queue, _AT_ONCE):
+            if self.is_near and (size := _size(frame)) >= LONG_BYTES:
+                if not pieces and not (self._shelf is not None and self._shelf.takes(size)):
+                    self._widen(size)
+                    pieces += frame
+                break
+            pieces += frame
+        return pieces
+
+    def _lay(self) -> None:
+        """Put the long frames whose turn it is where the peer sees them."""
+        while self._queue and (size := _size(self._queue[0])) >= LONG_BYTES:
+            if self._shelf is None:
+                self._offer_shelf(size)
+            if self._shelf is None or not self._shelf.takes(size):
+                return
+            if (note := self._shelf.lay(self._queue[0], size)) is None:
+                return
+            self._queue.popleft()
+            self._rest = (*self._rest, note)
+            self.frames_sent += 1
+            self.bytes_sent += size
+
+    def _offer_shelf(self, size: int) -> None:
+        if not self._may_share:
+            return
+        self._may_share = False
+        with contextlib.suppress(OSError):
+            if peer_process(self._socket) is not None:
+                self._shelf = Shelf(size)
+                self._rest = (*self._rest, self._shelf.offer())
 
     def _give(self, pieces: list[bytes | memoryview]) -> int:
         return os.writev(self._fd, pieces) if hasattr(os, "writev") else self._open_twin().send(pieces[0])
@@ -148,17 +209,19 @@ class Outgoing:
 
     def _wait(self) -> None:
         with self._lock:
-            if self.is_behind and not self._is_waiting:
+            if self._is_full and self.is_behind and not self._is_waiting:
                 self._is_waiting = True
-                self._loop.add_writer(self._open_twin().fileno(), self._writable)
+                self._loop.add_writer(self._open_twin().fileno(), self._go_on)
 
-    def _writable(self) -> None:
+    def _go_on(self) -> None:
+        """Send more, now that there is room."""
         with self._lock:
             self._write()
         if not self.is_behind:
             self._drained()
+        self._wait()
         with self._lock:
-            if not self.is_behind:
+            if not self._is_full:
                 self._wait_no_more()
 
     def _wait_no_more(self) -> None:

@@ -3,14 +3,15 @@
 import threading
 from collections import deque
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
-from .codec import Pieces
+from .codec import Codec, Pieces
 from .errors import MessageError
 from .frames import LENGTH
 from .headers import check_md5
 from .listeners import Listeners, LocalSubscriber
 from .messages import Message
+from .outgoing import Outgoing
 from .tcpros import FrameProtocol
 
 if TYPE_CHECKING:
@@ -47,6 +48,8 @@ class Publisher:
         self._foreign = foreign
         """(md5 sum, definition) of a type that need not be known here."""
         self._listeners = Listeners(topic)
+        self._direct: tuple[Outgoing, ...] = ()
+        """Where whoever publishes sends by itself: to other processes, while nobody here listens."""
         self._refused: set[str] = set()
         """Names of the subscribers that were warned about; they ask again and again."""
         self._wanted = 0
@@ -60,6 +63,8 @@ class Publisher:
         self._latched: Any = None
         self._class: type[Message] | None = None
         """Of the messages so far."""
+        self._codec: Codec | None = None
+        """Of that class."""
         self._has_header = False
         self._sequence = 0
         self.published = 0
@@ -149,6 +154,7 @@ class Publisher:
         )
         with self._turn:
             self._listeners.far[link] = peer
+            self._look_who_listens()
             if self._latched is not None and (framed := self._framed(self._latched)) is not None:
                 link.out.send([framed], self._queue_size)
         self._count()
@@ -170,6 +176,7 @@ class Publisher:
             return
         with self._turn:
             self._listeners.local[subscriber] = name
+            self._look_who_listens()
             latched = self._latched
         self._count()
         if latched is not None:
@@ -210,7 +217,12 @@ class Publisher:
             f"our version has [{self.type}/{self.md5sum}] Dropping connection."
         )
 
+    def _look_who_listens(self) -> None:
+        here, far = self._listeners.local, self._listeners.far
+        self._direct = () if here else tuple(link.out for link in far)
+
     def _count(self) -> None:
+        self._look_who_listens()
         before, self._wanted = self._wanted, len(self._listeners)
         if self._wanted > before and self._on_connect is not None:
             self._on_connect(self)
@@ -220,23 +232,21 @@ class Publisher:
 
         Waking the loop's thread takes longer than sending.
         """
-        if (
-            self._listeners.local
-            or not self._listeners.far
-            or not self._node.loop.is_waited_for
-            or not self._turn.acquire(blocking=False)
-        ):
+        outs = self._direct
+        if not outs or not self._node.loop.is_waited_for or not self._turn.acquire(blocking=False):
             return False
         try:
-            links = list(self._listeners.far)
-            if self._listeners.local or self._flushes or self._outbox or any(link.out.is_behind for link in links):
+            if outs is not self._direct or self._flushes or self._outbox:
                 return False
+            for out in outs:
+                if out.is_behind:
+                    return False
             if self.latch:
                 self._latched = message
             self.published += 1
             if (framed := self._framed(message)) is not None:
-                for link in links:
-                    link.out.send([framed], self._queue_size)
+                for out in outs:
+                    out.send([framed], self._queue_size)
             return True
         finally:
             self._turn.release()
@@ -284,13 +294,12 @@ class Publisher:
         """Write a message with its length in front."""
         if isinstance(message, _BYTES):
             return LENGTH.pack(len(message)), bytes(message)
+        assert self._codec is not None
         try:
-            pieces = self._node.messages.codec(message.__msgtype__).write_pieces(message, room=LENGTH.size)
+            return self._codec.frame(message)
         except MessageError as error:
             self._node.log_error(f"a message on {self.topic} is not sent: {error}")
             return None
-        LENGTH.pack_into(cast(memoryview, pieces[0]), 0, sum(map(len, pieces)) - LENGTH.size)
-        return pieces
 
     def _looked_at(self, message: Message | dict[str, Any] | bytes) -> Any:
         """What is handed on: bytes, or a message of the topic's type."""
@@ -302,4 +311,5 @@ class Publisher:
         if given != self.type:
             raise MessageError(f"{self.topic} carries {self.type}, got a {given}")
         self._class, self._has_header = type(message), hasattr(message, "header")
+        self._codec = self._node.messages.codec(given)
         return message

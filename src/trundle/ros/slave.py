@@ -177,6 +177,9 @@ class _Inbound(FrameProtocol):
         if isinstance(self._target, Service):
             self._target.request(self, data)
 
+    def note_received(self, note: bytes, /) -> None:
+        self.out.take_note(note)
+
     def drained(self) -> None:
         if isinstance(self._target, Publisher):
             self._target.catch_up()

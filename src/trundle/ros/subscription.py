@@ -7,11 +7,13 @@ from collections import deque
 from collections.abc import Awaitable, Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from .codec import Codec
 from .errors import MessageError, RosError, WireError
 from .headers import check_md5
 from .messages import ANY_TYPE, Message, RawMessage
 from .nearby import UNIXROS, address_nearby
 from .rpc_client import call
+from .shelf import ShelfReader
 from .tcpros import FrameProtocol
 from .xmlrpc import FaultError
 
@@ -50,6 +52,7 @@ class Subscription:
         """Messages thrown away because callbacks were too slow."""
         self._node = node
         self._messages = node.messages
+        self._codec: Codec | None = None
         self._callback = callback
         self._is_async = inspect.iscoroutinefunction(callback)
         self._tcp_nodelay = tcp_nodelay
@@ -144,7 +147,7 @@ class Subscription:
             MessageError: the bytes are no such message.
         """
         if not self.is_raw:
-            self.receive(self._messages.codec(self.type).read(data))
+            self.receive((self._codec or self._make_codec()).read(data))
             return
         self.receive(
             RawMessage(
@@ -156,6 +159,10 @@ class Subscription:
                 latching=header.get("latching") == "1",
             )
         )
+
+    def _make_codec(self) -> Codec:
+        self._codec = self._messages.codec(self.type)
+        return self._codec
 
     # links
 
@@ -199,7 +206,7 @@ class Subscription:
             case _:
                 raise WireError(f"it does not offer TCPROS: {str(answer)[:100]}")
         if not self.is_raw:  # not on the loop: the first message of a type would hold up all others
-            await asyncio.to_thread(self._messages.codec, self.type)
+            await asyncio.to_thread(self._make_codec)
         async with asyncio.timeout(_CONNECT_S):
             link = await self._open(host, port, address_nearby(more))
         self._links[uri] = link
@@ -278,6 +285,7 @@ class _SubscriberLink(FrameProtocol):
         self.ended: asyncio.Future[str] = asyncio.get_running_loop().create_future()
         self._subscription = subscription
         self._request = request
+        self._shelf: ShelfReader | None = None
 
     def connected(self) -> None:
         self.send_header(self._request)
@@ -296,6 +304,21 @@ class _SubscriberLink(FrameProtocol):
         except MessageError as error:
             raise WireError(str(error)) from None
 
+    def note_received(self, note: bytes, /) -> bytes | None:
+        if self._shelf is None:
+            assert self.transport is not None
+            with contextlib.suppress(OSError):  # not to be seen from here: all goes on over the socket
+                self._shelf = ShelfReader(self.transport.get_extra_info("socket"), note)
+                self.out.send([(self._shelf.seen(),)], None)
+            return None
+        content, answer = self._shelf.take(note)
+        if answer is not None:
+            self.out.send([(answer,)], None)
+        self.bytes_received += len(content)
+        return content
+
     def closed(self, reason: str, /) -> None:
+        if self._shelf is not None:
+            self._shelf.close()
         if not self.ended.done():
             self.ended.set_result(reason)

@@ -43,6 +43,10 @@ class FrameProtocol(asyncio.BufferedProtocol):
     def frame_received(self, data: bytes | memoryview) -> None:
         """Called with each frame after the header; a WireError ends the connection."""
 
+    def note_received(self, note: bytes, /) -> bytes | None:
+        """Called with each note of a nearby peer; returns the frame it stands for, if any. May raise WireError."""
+        raise WireError(f"a note of {len(note)} bytes that nobody waits for")
+
     def drained(self) -> None:
         """Called when the peer, having been too slow, reads again."""
 
@@ -54,6 +58,8 @@ class FrameProtocol(asyncio.BufferedProtocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self.transport = cast(asyncio.Transport, transport)
         self.out = Outgoing(transport.get_extra_info("socket"), drained=self._caught_up, broken=self._abort)
+        if self.out.is_near:
+            self._frames.take_note = self.note_received
         self._deadline = asyncio.get_running_loop().call_later(HANDSHAKE_S, self._too_slow)
         self.connected()
 
@@ -64,6 +70,9 @@ class FrameProtocol(asyncio.BufferedProtocol):
     def buffer_updated(self, nbytes: int) -> None:
         self.bytes_received += nbytes
         try:
+            if self.header is not None and (content := self._frames.whole(nbytes)) is not None:
+                self.frame_received(content)
+                return
             for content in self._frames.cut(nbytes):
                 if self.header is None:
                     self._take_header(content)
