@@ -82,6 +82,7 @@ ROWS = [
     Row(f"bag record -O {_TICKS} -l 3 /tick"),
     Row(f"bag info {_TICKS}", "/tick +3 msgs"),
     Row(f"bag check {_TICKS}", "does not need any migrations"),
+    Row(f"bag check -n -g {{folder}}/rules.bmr {_TICKS}", "does not need any migrations"),
     Row(f"bag filter {_TICKS} {{folder}}/y.bag topic=='/tick'"),
     Row(f"bag compress {_TICKS}"),
     Row("bag decompress {folder}/y.bag"),

@@ -3,7 +3,6 @@
 import os
 import re
 import signal
-import struct
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -239,33 +238,6 @@ def test_what_udp_was_asked_for_comes_over_tcp(graph: Any, tmp_path: Path) -> No
     assert _counts(path) == {"/a": 1}
 
 
-def _old_bag(path: Path, kind: str, definition: str, data: bytes) -> Path:
-    """A bag of a type as it was once."""
-    with create_bag(path) as out:
-        connection = BagConnection(topic="/a", type=kind, md5sum="0" * 32, definition=definition)
-        out.write(BagMessage(connection, START_NS, data))
-    return path
-
-
-def test_old_messages_are_brought_up_to_date(graph: Any, tmp_path: Path) -> None:
-    old = _old_bag(tmp_path / "old.bag", "geometry_msgs/Point", "float64 x\nfloat64 y\n", bytes(16))
-    new = tmp_path / "new.bag"
-    code, out, _ = graph.trundle("bag", "check", "-n", "-g", "rules.bmr", str(old))
-    assert (code, "none is read or written here" in out) == (1, True)
-    code, out, _ = graph.trundle("bag", "fix", str(old), str(new))
-    assert (code, "     z (float64) is new\n" in out, new.exists()) == (1, True, False)
-    assert graph.trundle("bag", "fix", "--force", str(old), str(new)) == (0, "Bag migrated successfully.\n", "")
-    assert graph.trundle("bag", "check", str(new), "-g", "rules.bmr")[1] == "Bag file does not need any migrations.\n"
-    assert graph.trundle("topic", "echo", "-b", str(new), "/a")[1] == "x: 0.0\ny: 0.0\nz: 0.0\n---\n"
-
-
-def test_fields_that_changed_places_need_no_force(graph: Any, tmp_path: Path) -> None:
-    definition = "float64 z\nfloat64 x\nfloat64 y\n"
-    old = _old_bag(tmp_path / "old.bag", "geometry_msgs/Point", definition, struct.pack("<3d", 3.0, 1.0, 2.0))
-    assert graph.trundle("bag", "fix", str(old), str(tmp_path / "new.bag"))[0] == 0
-    assert graph.trundle("topic", "echo", "-b", str(tmp_path / "new.bag"), "/a/z")[1] == "3.0\n---\n"
-
-
 def test_topics_and_types_are_read_from_a_bag(graph: Any, bag: Path) -> None:
     assert graph.trundle("topic", "list", "-b", str(bag))[1] == "/points\n/fixed\n"
     assert graph.trundle("topic", "list", "-b", str(bag), "/fixed")[1].startswith("1 message(s) from ")
@@ -289,7 +261,6 @@ def test_topics_and_types_are_read_from_a_bag(graph: Any, bag: Path) -> None:
         (["info", "none.bag"], "none.bag] cannot be read"),
         (["encrypt", "-p", "x", "x.bag"], "bags are not encrypted here"),
         (["decrypt", "x.bag"], "bags are not encrypted here"),
-        (["fix", "x.bag", "y.bag", "rules.bmr"], "rules.bmr: rule files are programs"),
         (["filter", "none.bag", "x.bag", "True"], "Cannot locate input bag file [none.bag]"),
     ],
 )

@@ -66,5 +66,12 @@ def test_words_and_live_names_are_completed(complete: Any, line: str, offered: s
     assert complete(line) == [offered]
 
 
+@pytest.mark.parametrize("words", ["fix a.bag b.bag", "check a.bag -g"])
+def test_rule_files_are_completed(complete: Any, tmp_path: Path, words: str) -> None:
+    for name in ("rules.bmr", "rules.txt"):
+        (tmp_path / name).touch()
+    assert complete(f"trundle bag {words} {tmp_path}/ru") == [f"{tmp_path}/rules.bmr "]
+
+
 def test_without_a_master_nothing_is_offered(complete: Any) -> None:
     assert complete("trundle node info /ta", ROS_MASTER_URI="http://127.0.0.1:9/") == [""]

@@ -4,6 +4,7 @@ import argparse
 import math
 from collections.abc import Callable
 from importlib import import_module
+from typing import Any
 
 from .running import IntermixedParser, original_errors
 
@@ -14,7 +15,13 @@ EXAMPLES = """
   trundle bag play drive.bag --clock -r 2
   trundle bag filter drive.bag odom.bag "topic == '/odom'"
   trundle bag reindex drive.bag.active
+  trundle bag check old.bag -g rules.bmr
+  trundle bag fix old.bag new.bag rules.bmr
 """
+_RULES: dict[str, Any] = {
+    "description": "A rule file is a Python program: what is named here is run, and so are, unless -n is given, the "
+    "files that packages on your path export as <rosbag migration_rule_file=…/>; these are named as they are used."
+}
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -28,13 +35,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("-k", "--key", help="only this key of the YAML")
     add.add_argument("--freq", action="store_true", help="with the median frequency of each topic")
     add.set_defaults(run=_of("bag_info", "main"), refuse=add.error)
-    add = commands.add_parser("check", help="compare the types in a bag with those known here")
-    add.add_argument("bag")
-    add.add_argument("rules", nargs="*", metavar="RULES", help="rule files, which are not read")
-    add.add_argument("-g", "--genrules", metavar="RULES", help="not written: what to do instead is said")
-    add.add_argument("-a", "--append", action="store_true", help=argparse.SUPPRESS)
-    add.add_argument("-n", "--noplugins", action="store_true", help="as always here")
-    add.set_defaults(run=_of("bag_info", "check"), refuse=add.error)
+    _configure_check(commands.add_parser("check", help="compare the types in a bag with those known here", **_RULES))
     add = commands.add_parser("filter", help="copy the messages for which an expression is true")
     add.add_argument("inbag")
     add.add_argument("outbag")
@@ -47,13 +48,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         if name == "compress":
             _configure_compression(add)
         add.set_defaults(run=_of("bag_edit", name))
-    add = commands.add_parser("fix", help="bring messages up to the types known here")
-    add.add_argument("inbag")
-    add.add_argument("outbag")
-    add.add_argument("rules", nargs="*", metavar="RULES", help="rule files, which are named and refused")
-    add.add_argument("--force", action="store_true", help="leave fields that are new at 0 and lose those that are gone")
-    add.add_argument("-n", "--noplugins", action="store_true", help="as always here")
-    add.set_defaults(run=_of("bag_fix", "main"), refuse=add.error)
+    _configure_fix(commands.add_parser("fix", help="bring messages up to the types known here", **_RULES))
     for name in ("encrypt", "decrypt"):
         add = commands.add_parser(name, help="refused: says what to use instead")
         _configure_edit(add)
@@ -122,6 +117,27 @@ def _configure_play(add: argparse.ArgumentParser) -> None:
     add.add_argument("--rate-control-topic", metavar="TOPIC", help="wait for the stamps of this topic's headers")
     add.add_argument("--rate-control-max-delay", type=_positive, default=1.0, metavar="SEC", help="they may be behind")
     add.set_defaults(run=_of("bag_play", "main"), refuse=add.error)
+
+
+def _configure_check(add: argparse.ArgumentParser) -> None:
+    add.add_argument("bag")
+    _configure_rules(add)
+    add.add_argument("-g", "--genrules", metavar="RULES", help="write the rules that are missing, to be completed")
+    add.add_argument("-a", "--append", action="store_true", help="use the rules in that file, and add to them")
+    add.set_defaults(run=_of("bag_check", "main"), refuse=add.error)
+
+
+def _configure_fix(add: argparse.ArgumentParser) -> None:
+    add.add_argument("inbag")
+    add.add_argument("outbag")
+    _configure_rules(add)
+    add.add_argument("--force", action="store_true", help="leave fields that are new at 0 and lose those that are gone")
+    add.set_defaults(run=_of("bag_fix", "main"), refuse=add.error)
+
+
+def _configure_rules(add: argparse.ArgumentParser) -> None:
+    add.add_argument("rules", nargs="*", metavar="RULES", help="rule files (.bmr), which are run")
+    add.add_argument("-n", "--noplugins", action="store_true", help="leave out the rules that packages export")
 
 
 def _configure_edit(add: argparse.ArgumentParser) -> None:

@@ -1,4 +1,4 @@
-"""`trundle bag info` and `check`: what is in a bag, line by line as rosbag prints it."""
+"""`trundle bag info`: what is in a bag, line by line as rosbag prints it."""
 
 import argparse
 import re
@@ -11,7 +11,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any, cast
 
-from trundle.ros import BagReader, Messages, open_bag
+from trundle.ros import BagReader, open_bag
 
 from .bag_meter import byte_text
 
@@ -32,29 +32,6 @@ def main(args: argparse.Namespace) -> int:
             else:
                 print(summary.yaml() if args.yaml else summary.text())
     return 0
-
-
-def check(args: argparse.Namespace) -> int:
-    """Name the types that are other ones here than when the bag was recorded."""
-    if args.append and args.genrules is None:
-        return args.refuse("Cannot specify -a without also specifying -g.")
-    messages = Messages()
-    with open_bag(Path(args.bag)) as bag:
-        kinds = sorted({(c.type, c.md5sum) for c in bag.connections})
-    changed = [(kind, md5sum) for kind, md5sum in kinds if messages.has(kind) and messages.md5(kind) != md5sum]
-    unknown = [(kind, md5sum) for kind, md5sum in kinds if not messages.has(kind)]
-    for kind, md5sum in unknown:
-        print(f"not known here, played by the definition in the bag: {kind} [{md5sum}]")
-    if not changed:
-        print("Bag file does not need any migrations.")
-        return 0
-    print("The following migrations need to occur:")
-    for kind, md5sum in changed:
-        print(f" * From: {kind} [{md5sum}]\n   To:   {kind} [{messages.md5(kind)}]")
-    if args.rules or args.genrules:
-        print("\nRule files are programs for rosbag's own migrator: none is read or written here.")
-    print("\ntrundle bag fix brings them up to date; play publishes the recorded types as they are.")
-    return 1
 
 
 @dataclass(frozen=True, slots=True)

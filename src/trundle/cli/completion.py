@@ -148,6 +148,12 @@ def _launch_words(parsed_args: argparse.Namespace, prefix: str, **_: Any) -> lis
     return [*FilesCompleter(("launch", "test", "xml"))(prefix), *sorted(packages.ros_packages())]
 
 
+def _rule_files(prefix: str, **_: Any) -> list[str]:
+    from argcomplete.completers import FilesCompleter
+
+    return list(FilesCompleter(("bmr",))(prefix))
+
+
 _SOURCES: dict[tuple[str, str], Callable[[], Iterable[str]]] = {
     ("", "topic"): _topics,
     ("", "topics"): _topics,
@@ -171,8 +177,10 @@ _SOURCES: dict[tuple[str, str], Callable[[], Iterable[str]]] = {
 }
 """(command, argument) → words; '' for any command."""
 _BEHIND: dict[tuple[str, str], Callable[..., list[str]]] = {
+    ("bag", "genrules"): _rule_files,
+    ("bag", "rules"): _rule_files,
     ("exec", "executable"): _programs,
     ("launch", "words"): _launch_words,
     ("topic", "type"): _topic_type,
 }
-"""(command, argument) → words that depend on those before."""
+"""(command, argument) → words that depend on those before, or on what is typed so far."""

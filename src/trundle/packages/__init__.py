@@ -8,14 +8,16 @@ if TYPE_CHECKING:
     from .manifest import needs
     from .model_config import model_file, refuse_template
     from .packages import ALLOW_OUTSIDE, Packages
+    from .rule_exports import exported_rules
 
 _HOMES = {
     "ALLOW_OUTSIDE": "packages",
     "Packages": "packages",
+    "exported_rules": "rule_exports",
     "model_file": "model_config",
     "needs": "manifest",
     "refuse_template": "model_config",
 }
 __getattr__ = opened_on_use(__name__, _HOMES)
 
-__all__ = ["ALLOW_OUTSIDE", "Packages", "model_file", "needs", "refuse_template"]
+__all__ = ["ALLOW_OUTSIDE", "Packages", "exported_rules", "model_file", "needs", "refuse_template"]

@@ -1,0 +1,49 @@
+"""Rule files for bags of old messages, which packages export as rosbag's plugins."""
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from trundle.diagnostics import DescriptionError
+from trundle.xmlnode import XmlNode, read_xml
+
+_EXPORTS = {
+    "rosbagmigration": "rule_file",
+    "rosbag": "migration_rule_file",
+    "rosbag_migration_rule": "rule_file",
+}
+"""What a package depends on, and has in its <export> → the attribute with the file's name, in rosbag's order."""
+
+
+def exported_rules(packages: Mapping[str, Path]) -> list[tuple[str, Path]]:
+    """Packages with the rule files they export; a manifest that cannot be read exports none.
+
+    Args:
+        packages: folders by name.
+    """
+    return [
+        (name, folder / file.replace("${prefix}/", ""))
+        for tag, attribute in _EXPORTS.items()
+        for name, folder in sorted(packages.items())
+        for file in _exported(folder, tag, attribute)
+    ]
+
+
+def _exported(folder: Path, tag: str, attribute: str) -> Iterator[str]:
+    for name in ("package.xml", "manifest.xml"):
+        manifest = folder / name
+        try:
+            if tag.encode() not in manifest.read_bytes():
+                continue
+            root = read_xml(manifest)
+        except (OSError, DescriptionError):
+            continue
+        if tag in _depends(root):
+            export = root.find("export")
+            values = [node.attribute(attribute) for node in (export.all(tag) if export else [])]
+            yield from (value for value in values if value)
+
+
+def _depends(root: XmlNode) -> set[str]:
+    """What a package needs at any time; those of rosbuild name it in an attribute."""
+    nodes = [node for node in root.children if node.tag.endswith("depend")]
+    return {node.attribute("package") or node.text.strip() for node in nodes}

@@ -1,0 +1,72 @@
+"""The rules of each type in their order, the last of which may give it another name."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from .rule import MessageUpdateRule
+
+
+@dataclass(slots=True)
+class Chain:
+    """The rules of one type."""
+
+    updates: list[MessageUpdateRule] = field(default_factory=list[MessageUpdateRule])
+    """By `order`; the type keeps its name."""
+    rename: MessageUpdateRule | None = None
+    """The last one."""
+
+    def in_order(self) -> list[MessageUpdateRule]:
+        """All of them."""
+        return [*self.updates, *([self.rename] if self.rename else [])]
+
+
+class Chains:
+    """Chains by the type they begin with."""
+
+    def __init__(self, warn: Callable[[str], None]) -> None:
+        self._warn = warn
+        self._chains: dict[str, Chain] = {}
+
+    def add(self, rule: MessageUpdateRule) -> None:
+        """Put a rule in its place, unless it contradicts one that is there, which is said."""
+        chain = self._chains.setdefault(rule.old_type, Chain())
+        why_not = self._why_not_last(chain, rule) if rule.renames else _why_not_within(chain, rule)
+        if why_not:
+            self._warn(f"{rule.location}: {why_not}; this rule is left out")
+        elif rule.renames:
+            chain.rename = rule
+        else:
+            chain.updates = sorted([*chain.updates, rule], key=lambda each: each.order)
+
+    def items(self) -> list[tuple[str, Chain]]:
+        """Types with their chains, as rules for them were added first."""
+        return list(self._chains.items())
+
+    def later_names(self, kind: str) -> set[str]:
+        """What a type is called after its rules, and after those of the types it becomes; itself included."""
+        names = {kind}
+        chain = self._chains.get(kind)
+        while chain is not None and chain.rename is not None:
+            names.add(chain.rename.new_type)
+            chain = self._chains.get(chain.rename.new_type)
+        return names
+
+    def _why_not_last(self, chain: Chain, rule: MessageUpdateRule) -> str:
+        if chain.rename is not None:
+            return f"{chain.rename.location} renames {rule.old_type} already"
+        if rule.old_type in self.later_names(rule.new_type):
+            return f"{rule.new_type} becomes {rule.old_type} again"
+        if chain.updates and rule.order <= chain.updates[-1].order:
+            return (
+                f"a rule that renames comes last, but {chain.updates[-1].location} has order {chain.updates[-1].order}"
+            )
+        return ""
+
+
+def _why_not_within(chain: Chain, rule: MessageUpdateRule) -> str:
+    for other in chain.updates:
+        if other.order == rule.order:
+            return f"{other.location} has order {rule.order} already"
+    if chain.rename is not None and rule.order >= chain.rename.order:
+        return f"{chain.rename.location} renames {rule.old_type} at order {chain.rename.order}, before this one"
+    return ""

@@ -1,0 +1,294 @@
+"""Message classes as genpy makes them, which is what update rules are written for.
+
+Numbers in arrays are tuples, `uint8[]` is bytes, times have `secs` and `nsecs`; the bytes are `Messages`' work.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any, BinaryIO, cast
+
+from ..errors import MessageError
+from ..messages import Messages
+from .times import Duration, Time
+
+_TIMES = {"time": Time, "duration": Duration}
+_BYTES = ("uint8", "char")
+_NUMBERS = {f"{u}int{n}" for u in ("", "u") for n in (8, 16, 32, 64)} | {"byte", "char", "float32", "float64"}
+BUILTIN = _NUMBERS | {"bool", "string", "time", "duration"}
+Key = tuple[str, str]
+"""Type and md5 sum: two classes of one key are alike."""
+
+
+class MessageClass(type):
+    """The class of messages of one type; rules know what it says by genpy's names, such as `_type`."""
+
+    _type: str
+    _md5sum: str
+    _full_text: str
+    _kinds: dict[str, str]
+    _classes: "MessageClasses"
+
+    @property
+    def kind(cls) -> str:
+        """The type's name."""
+        return cls._type
+
+    @property
+    def md5sum(cls) -> str:
+        """The type's md5 sum."""
+        return cls._md5sum
+
+    @property
+    def key(cls) -> Key:
+        """Type and md5 sum."""
+        return cls._type, cls._md5sum
+
+    @property
+    def definition(cls) -> str:
+        """The text of the type, with those of the types within."""
+        return cls._full_text
+
+    @property
+    def kinds(cls) -> dict[str, str]:
+        """Fields with their types."""
+        return cls._kinds
+
+    @property
+    def classes(cls) -> "MessageClasses":
+        """Those of the same store."""
+        return cls._classes
+
+    def within(cls) -> "dict[str, MessageClass]":
+        """This class and those of all it consists of, by type."""
+        return cls._classes.within(cls._type)
+
+    def constants(cls) -> dict[str, tuple[str, str]]:
+        """Constants: name → (type, value as written)."""
+        return cls._classes.constants(cls._type)
+
+
+class RuleMessage(metaclass=MessageClass):
+    """A message as update rules see it."""
+
+    __slots__: tuple[str, ...] = ()
+
+    def __init__(self, *values: Any, **named: Any) -> None:
+        """Make a message of all fields in order, or of some by name; the others are 0 or empty."""
+        made = type(self)
+        names = list(made.kinds)
+        if values and (named or len(values) != len(names)):
+            raise TypeError(f"{made.kind} has {len(names)} fields ({', '.join(names)}), got {len(values)} values")
+        given = dict(zip(names, values, strict=True)) if values else named
+        for name in given:
+            if name not in names:
+                raise AttributeError(f"{made.kind} has no field {name!r}; fields here: {', '.join(names)}")
+        for name, kind in made.kinds.items():
+            setattr(self, name, given[name] if name in given else made.classes.default(kind))
+
+    def serialize(self, buffer: BinaryIO) -> None:
+        """Write the message's bytes."""
+        buffer.write(to_bytes(self))
+
+    def deserialize(self, data: bytes) -> "RuleMessage":
+        """Take the fields that bytes hold.
+
+        Raises:
+            MessageError: they are no such message.
+        """
+        made = type(self)
+        copy_fields(self, made.classes.read(data, made.kind))
+        return self
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and all(getattr(self, n) == getattr(other, n) for n in type(self).kinds)
+
+    __hash__ = None  # type: ignore[assignment] - as genpy's, which can be changed
+
+    def __repr__(self) -> str:
+        made = type(self)
+        return f"{made.kind}({', '.join(f'{name}={getattr(self, name)!r}' for name in made.kinds)})"
+
+
+class MessageClasses:
+    """The classes of one store of types."""
+
+    def __init__(self, messages: Messages) -> None:
+        self._messages = messages
+        self._made: dict[str, MessageClass] = {}
+        self._readers: dict[str, Callable[[Any], Any]] = {}
+
+    @classmethod
+    def of_definition(cls, kind: str, definition: str) -> "MessageClasses":
+        """Those of a type as a bag or a rule has it, with the texts of what it depends on.
+
+        Raises:
+            MessageError: the text cannot be read.
+        """
+        messages = Messages(bare=True)
+        # REP 100: until 2010 the header lived in roslib.
+        messages.add_definition(kind, definition.strip().replace("roslib/Header", "std_msgs/Header"))
+        return cls(messages)
+
+    def has(self, kind: str) -> bool:
+        """Tell whether a type is known."""
+        return self._messages.has(kind)
+
+    def of(self, kind: str) -> MessageClass:
+        """Return the class of a type.
+
+        Raises:
+            MessageError: there is no such type.
+        """
+        if kind not in self._made:
+            self._made[kind] = self._make(kind)
+        return self._made[kind]
+
+    def within(self, kind: str) -> dict[str, MessageClass]:
+        """The classes of a type and of all it consists of, by name."""
+        found: dict[str, MessageClass] = {}
+        waiting = [kind]
+        while waiting:
+            name = waiting.pop()
+            if name not in found and name not in BUILTIN:
+                found[name] = self.of(name)
+                waiting += [base_of(field) for field in self._messages.fields(name).values()]
+        return found
+
+    def constants(self, kind: str) -> dict[str, tuple[str, str]]:
+        """Constants of a type: name → (type, value as written)."""
+        return self._messages.constants(kind)
+
+    def default(self, kind: str) -> Any:
+        """The value of a field that nobody set."""
+        base, bracket, count = kind.partition("[")
+        if bracket:
+            length = int(count.rstrip("]") or 0)
+            return bytes(length) if base in _BYTES else [self.default(base) for _ in range(length)]
+        if base in BUILTIN:
+            return _TIMES[base]() if base in _TIMES else {"string": "", "bool": False}.get(base, 0)
+        return self.of(base)()
+
+    def read(self, data: bytes, kind: str) -> Any:
+        """What the store makes of bytes."""
+        return self._messages.deserialize(data, kind)
+
+    def write(self, kind: str, fields: dict[str, Any]) -> bytes:
+        """Bytes of a message of these fields.
+
+        Raises:
+            MessageError: a field holds what its type cannot.
+        """
+        return bytes(self._messages.serialize(self._messages.new(kind, fields)))
+
+    def reader(self, kind: str) -> Callable[[Any], Any]:
+        """Return what makes of a field's value, as the store has it, one as genpy has it."""
+        if kind not in self._readers:
+            self._readers[kind] = self._make_reader(kind)
+        return self._readers[kind]
+
+    def _make(self, kind: str) -> MessageClass:
+        messages = self._messages
+        fields = messages.fields(kind)
+        constants = {
+            name: _constant(type_, text)
+            for name, (type_, text) in messages.constants(kind).items()
+            if name not in fields
+        }
+        return MessageClass(
+            kind.rpartition("/")[2],
+            (RuleMessage,),
+            {
+                **constants,
+                "__slots__": tuple(fields),
+                "_type": kind,
+                "_md5sum": messages.md5(kind),
+                "_full_text": messages.definition(kind),
+                "_slot_types": list(fields.values()),
+                "_kinds": fields,
+                "_classes": self,
+            },
+        )
+
+    def _make_reader(self, kind: str) -> Callable[[Any], Any]:
+        base, bracket, _ = kind.partition("[")
+        if not bracket:
+            if base in _TIMES:
+                made = _TIMES[base]
+                return lambda value: made(value.sec, value.nanosec)
+            return (lambda value: value) if base in BUILTIN else self._reader_of_messages(base)
+        if base in _BYTES:
+            return lambda array: array.tobytes()
+        if base in _NUMBERS:
+            return lambda array: tuple(array.tolist())
+        if base == "bool":
+            return lambda array: array.tolist()
+        each = self.reader(base)
+        return lambda items: [each(item) for item in items]
+
+    def _reader_of_messages(self, kind: str) -> Callable[[Any], Any]:
+        made = self.of(kind)
+
+        def read(value: Any) -> RuleMessage:
+            message = cast(RuleMessage, object.__new__(made))
+            copy_fields(message, value)
+            return message
+
+        return read
+
+
+def base_of(kind: str) -> str:
+    """A field's type without `[]`."""
+    return kind.partition("[")[0]
+
+
+def copy_fields(message: RuleMessage, value: Any) -> None:
+    """Set a message's fields to those that the store read."""
+    made = type(message)
+    for name, kind in made.kinds.items():
+        read = getattr(value, name) if hasattr(value, name) else getattr(value, f"{name}_")  # a keyword of Python's
+        setattr(message, name, made.classes.reader(kind)(read))
+
+
+def to_bytes(message: RuleMessage) -> bytes:
+    """Bytes of a message.
+
+    Raises:
+        MessageError: a field holds what its type cannot; the text names it.
+    """
+    made = type(message)
+    return made.classes.write(made.kind, _fields(message, made, ""))
+
+
+def _fields(message: Any, made: MessageClass, path: str) -> dict[str, Any]:
+    """The fields of a message: one of ours, or whatever a rule put there that has the same."""
+    found: dict[str, Any] = {}
+    for name, kind in made.kinds.items():
+        here = f"{path}.{name}".lstrip(".")
+        try:
+            value = getattr(message, name)
+        except AttributeError:
+            raise MessageError(f"field {path or name!r} is a {made.kind}, got {message!r}") from None
+        found[name] = _field(value, kind, made.classes, here)
+    return found
+
+
+def _field(value: Any, kind: str, classes: MessageClasses, path: str) -> Any:
+    base, bracket, _ = kind.partition("[")
+    if bracket:
+        if base in _BYTES and isinstance(value, str):  # bytes were strings in Python 2, for which rules were written
+            return value.encode("latin-1", "replace")
+        if base in _NUMBERS:
+            return value
+        if not isinstance(value, Sequence) or isinstance(value, str):
+            raise MessageError(f"field {path!r} is a list of {base}, got {value!r}")
+        return [_field(item, base, classes, f"{path}[{i}]") for i, item in enumerate(value)]
+    if base in _TIMES and hasattr(value, "nsecs"):
+        return {"secs": value.secs, "nsecs": value.nsecs}
+    return value if base in BUILTIN else _fields(value, classes.of(base), path)
+
+
+def _constant(kind: str, text: str) -> Any:
+    if kind == "string":
+        return text
+    if kind == "bool":
+        return text.strip().lower() not in ("0", "false")
+    return float(text) if kind.startswith("float") else int(text, 0)

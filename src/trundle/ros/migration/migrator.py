@@ -1,0 +1,278 @@
+"""Finds the rules that lead from a type as it was recorded to the one that is known here, and follows them."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import takewhile
+from typing import Any
+
+from ..messages import Messages
+from .chains import Chains
+from .classes import Key, MessageClass, MessageClasses, RuleMessage, to_bytes
+from .generated import GeneratedRule, HalfRule
+from .rule import MessageUpdateRule, MigrationError, Rule
+from .rule_files import RuleFile, running
+
+
+@dataclass(slots=True, eq=False)
+class Step:
+    """A rule between two classes, and the one after it."""
+
+    old: MessageClass
+    new: MessageClass | None
+    """None where nobody knows what comes next."""
+    rule: Rule
+    next: "Step | None" = None
+
+
+class Migrator:
+    """All rules there are, and those that follow from them."""
+
+    def __init__(
+        self,
+        files: Iterable[RuleFile],
+        known: Messages,
+        *,
+        warn: Callable[[str], None],
+        is_forced: bool = False,
+    ) -> None:
+        """Put rules in order.
+
+        Args:
+            files: rule files that were run.
+            known: the types to arrive at.
+            warn: told of rules that contradict others.
+            is_forced: follow rules that are not complete: fields that are new stay 0, those that are gone are lost.
+
+        Raises:
+            MigrationError: a rule is marked as not valid, or its texts cannot be read.
+        """
+        self.warn = warn
+        self.is_forced = is_forced
+        self._known = MessageClasses(known)
+        self._first: dict[str, Step] = {}
+        self._paths: dict[tuple[Key, Key | None], list[Step]] = {}
+        self._chains = Chains(warn)
+        for file in files:
+            for rule in file.rules(self):
+                self._chains.add(rule)
+        self._link()
+
+    def known_class(self, kind: str) -> MessageClass | None:
+        """The class of a type as it is known here."""
+        return self._known.of(kind) if self._known.has(kind) else None
+
+    def target(self, old: MessageClass) -> MessageClass | None:
+        """What a recorded type is to become: what its name means here, or what rules rename it to."""
+        known = self.known_class(old.kind)
+        step = self._first.get(old.kind)
+        if known is not None or step is None:
+            return known
+        while step.next is not None:
+            step = step.next
+        return None if step.new is None else self.known_class(step.new.kind)
+
+    def path(self, old: MessageClass, new: MessageClass | None) -> list[Step]:
+        """The steps from one class to another, those missing included; none if they are alike."""
+        key = old.key, None if new is None else new.key
+        if key not in self._paths:
+            self._paths[key] = self._find(old, new)
+        return self._paths[key]
+
+    def completed(self, rule: HalfRule, kind: str) -> GeneratedRule | None:
+        """A rule to complete from a type that moved to the one it is called here; None if there is none."""
+        known = self.known_class(kind)
+        return None if known is None else self._told_generated(rule.old_class, known)
+
+    def convert_bytes(self, data: bytes, old: MessageClass, new: MessageClass) -> bytes:
+        """Bytes of a message, brought from one class to another.
+
+        Raises:
+            MigrationError: no rules lead there, or one of them fails.
+            MessageError: the bytes are no such message.
+        """
+        path = self._passable(old, new)
+        if not path or old.md5sum == new.md5sum:
+            return data
+        message = path[0].old()
+        message.deserialize(data)
+        made = _along(path, message)
+        with running(path[-1].rule):
+            return to_bytes(made)
+
+    def convert(self, old: RuleMessage, new: MessageClass) -> RuleMessage:
+        """See `Rules`."""
+        path = self._passable(type(old), new)
+        if path and type(old).md5sum != new.md5sum:
+            return _along(path, old)
+        made = new()
+        made.deserialize(to_bytes(old))
+        return made
+
+    def rules_between(self, old: MessageClass, new: MessageClass) -> list[Rule]:
+        """See `Rules`."""
+        return [step.rule for step in self.path(old, new)]
+
+    def _passable(self, old: MessageClass, new: MessageClass) -> list[Step]:
+        path = self.path(old, new)
+        if not self.is_forced and not all(step.rule.valid for step in path):
+            raise MigrationError(f"no complete rules lead from {old.kind} [{old.md5sum}] to {new.kind}")
+        return path
+
+    # -- what the rules there are lead to
+
+    def _link(self) -> None:
+        """Tie the rules of each type to one another, to those of the types they become, and to what is known here."""
+        steps: list[Step] = []
+        ends: list[Step] = []
+        for kind, chain in self._chains.items():
+            last: Step | None = None
+            for rule in chain.in_order():
+                step = Step(rule.old_class, rule.new_class, rule)
+                if last is None:
+                    self._first[kind] = step
+                else:
+                    assert last.new is not None
+                    last.next = step
+                    if last.new.key != step.old.key:
+                        last.next = Step(last.new, step.old, self._generated(last.new, step.old), step)
+                        steps.append(last.next)
+                steps.append(step)
+                last = step
+            if last is not None:
+                ends.append(last)
+        for end in ends:
+            end.next = self._after(end)
+            steps += [end.next] if end.next else []
+        for step in dict.fromkeys(steps):
+            step.rule.find_sub_paths(is_told=isinstance(step.rule, MessageUpdateRule))
+
+    def _after(self, end: Step) -> Step | None:
+        """What follows the last rule of a type, as late among the rules of its new name as can be."""
+        assert end.new is not None
+        known = self.known_class(end.new.kind)
+        if known is not None and known.key == end.new.key:
+            return None
+        to_known = None if known is None else Step(end.new, known, self._generated(end.new, known))
+        is_renamed = end.old.kind != end.new.kind
+        later = self._range(end.new.kind, end.new.kind) if is_renamed else []
+        for step in reversed(later):
+            if step.old.key == end.new.key:
+                return step
+        if to_known is not None and (to_known.rule.valid or (is_renamed and not later)):
+            return to_known
+        for step in reversed(later):
+            rule = self._generated(end.new, step.old)
+            if rule.valid:
+                return Step(end.new, step.old, rule, step)
+        return Step(end.new, None, HalfRule(self, end.new) if to_known is None else to_known.rule)
+
+    def _range(self, old_type: str, new_type: str) -> list[Step]:
+        """The steps that begin with a type, and go on until behind another."""
+        step = self._first.get(old_type)
+        found = [] if step is None else [step]
+        has_arrived = False
+        while step is not None and step.next is not None and step.next.new is not None:
+            step = step.next
+            found.append(step)
+            assert step.new is not None
+            is_there = step.new.kind == new_type
+            if has_arrived and not is_there:
+                break
+            has_arrived |= is_there
+        return found
+
+    # -- paths
+
+    def _find(self, old: MessageClass, new: MessageClass | None) -> list[Step]:
+        if new is None:
+            return self._lost(old)
+        if old.key == new.key:
+            return []
+        steps = self._range(old.kind, new.kind)
+        return self._begun(self._ended(steps, new), old, new) if steps else [self._step(old, new)]
+
+    def _ended(self, steps: list[Step], new: MessageClass) -> list[Step]:
+        """Steps that end with a class: at the last place from where it can be reached."""
+        there = list(takewhile(lambda i: _type(steps[i].new) == new.kind, reversed(range(len(steps)))))
+        for i in there:
+            if _key(steps[i].new) == new.key:
+                return steps[: i + 1]
+        for i in there:
+            step = self._step(steps[i].new, new)
+            if _is_complete(step):
+                return [*steps[: i + 1], step]
+        return [*steps, self._step(steps[-1].new, new)]
+
+    def _begun(self, steps: list[Step], old: MessageClass, new: MessageClass) -> list[Step]:
+        """Steps that begin with a class: at the last place that can be reached from it."""
+        here = [i for i in reversed(range(len(steps))) if steps[i].old.kind == old.kind]
+        for i in here:
+            if steps[i].old.key == old.key:
+                return steps[i:]
+        step = self._step(old, new)
+        if _is_complete(step):
+            return [step]
+        for i in here:
+            step = self._step(old, steps[i].old)
+            if _is_complete(step):
+                return [step, *steps[i:]]
+        return [self._step(old, steps[0].old), *steps]
+
+    def _lost(self, old: MessageClass) -> list[Step]:
+        """As far as rules lead from a class that becomes nothing known here."""
+        steps = self._range(old.kind, "")
+        for i in reversed(range(len(steps))):
+            if steps[i].old.key == old.key:
+                steps = steps[i:]
+                break
+        else:
+            for i in reversed(range(len(steps))):
+                if steps[i].old.kind == old.kind and (step := self._step(old, steps[i].old)).rule.valid:
+                    steps = [step, *steps[i:]]
+                    break
+        end = steps[-1].new if steps else old
+        assert end is not None
+        return [*steps, Step(end, None, HalfRule(self, end))]
+
+    def _step(self, old: MessageClass | None, new: MessageClass) -> Step:
+        assert old is not None
+        return Step(old, new, self._told_generated(old, new))
+
+    def _told_generated(self, old: MessageClass, new: MessageClass) -> GeneratedRule:
+        rule = self._generated(old, new)
+        rule.find_sub_paths(is_told=False)
+        return rule
+
+    def _generated(self, old: MessageClass, new: MessageClass) -> GeneratedRule:
+        return GeneratedRule(self, old, new, lambda a, b: b in self._chains.later_names(a))
+
+
+def missing_rules(rules: Sequence[Rule]) -> list[Rule]:
+    """Those of some rules, and of the rules within, that somebody has to complete, each once."""
+    found: dict[tuple[Key, Key | None], Rule] = {}
+    waiting = list(rules)
+    while waiting:
+        rule = waiting.pop(0)
+        if not rule.valid:
+            found.setdefault((rule.old_class.key, _key(rule.new_class)), rule)
+        waiting = [*rule.sub_rules, *waiting]
+    return list(found.values())
+
+
+def _along(path: Sequence[Step], message: Any) -> Any:
+    for step in path:
+        with running(step.rule):
+            message = step.rule.apply(message)
+    return message
+
+
+def _is_complete(step: Step) -> bool:
+    return step.rule.valid and step.rule.sub_rules_valid
+
+
+def _type(made: MessageClass | None) -> str:
+    return "" if made is None else made.kind
+
+
+def _key(made: MessageClass | None) -> Key | None:
+    return None if made is None else made.key

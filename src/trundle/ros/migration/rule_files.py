@@ -1,0 +1,96 @@
+"""Rule files: Python programs that define update rules, run because somebody named them or a package exports them."""
+
+import traceback
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TypeGuard, cast
+
+from ..errors import RosError
+from .rule import MessageUpdateRule, MigrationError, Rule, Rules
+
+
+class _RuleError(MigrationError):
+    """Says already in which line of which file."""
+
+
+class RuleFile:
+    """A rule file that was run."""
+
+    def __init__(self, path: Path) -> None:
+        """Run it.
+
+        Raises:
+            MigrationError: it cannot be read, or fails; the text has the line.
+        """
+        self._path = path
+        names: dict[str, object] = {MessageUpdateRule.__name__: MessageUpdateRule, "__file__": str(path)}
+        with _told(path, str(path)):
+            exec(compile(path.read_bytes(), str(path), "exec"), names)
+        self._classes = [each for each in names.values() if _is_rule(each)]
+
+    def rules(self, migrator: Rules) -> Iterator[MessageUpdateRule]:
+        """Make each rule in it.
+
+        Raises:
+            MigrationError: one is not valid, or its texts cannot be read.
+        """
+        for each in self._classes:
+            where = _where(each, self._path)
+            if why_not := _refusal(each):
+                raise MigrationError(f"{where}: {why_not}")
+            with _told(self._path, where):
+                rule = each(migrator, where)
+            yield rule
+
+
+@contextmanager
+def running(rule: Rule) -> Generator[None]:
+    """Turn whatever a rule does wrong into one sentence that says where."""
+    code = getattr(rule.update, "__code__", None) if isinstance(rule, MessageUpdateRule) else None
+    with _told(Path(code.co_filename) if code else None, rule.location):
+        yield
+
+
+@contextmanager
+def _told(path: Path | None, where: str) -> Generator[None]:
+    try:
+        yield
+    except _RuleError:
+        raise
+    except SyntaxError as error:
+        raise _RuleError(f"{path}:{error.lineno or 1}: {error.msg}") from None
+    except OSError as error:
+        raise _RuleError(f"{where}: {error.strerror or error}") from None
+    except (Exception, SystemExit) as error:  # a program of somebody else's
+        lines = [f"{frame.filename}:{frame.lineno}" for frame in traceback.extract_tb(error.__traceback__)]
+        own = [line for line in lines if path is not None and line.startswith(f"{path}:")]
+        what = str(error) if isinstance(error, RosError) else f"{type(error).__name__}: {error}"
+        raise _RuleError(f"{own[-1] if own else where}: {' '.join(what.split())}") from None
+
+
+def _is_rule(value: object) -> TypeGuard[type[MessageUpdateRule]]:
+    return isinstance(value, type) and issubclass(value, MessageUpdateRule) and value is not MessageUpdateRule
+
+
+def _refusal(rule: type[MessageUpdateRule]) -> str:
+    """What is wrong with how a rule describes itself."""
+    for name in ("old_type", "new_type"):
+        kind: object = getattr(rule, name)
+        if not (isinstance(kind, str) and kind.count("/") == 1):
+            return f"{name} is a type such as std_msgs/String, got {kind!r}"
+    for pair in cast("Sequence[object]", rule.migrated_types):
+        if not (isinstance(pair, tuple) and [type(each) for each in cast("tuple[object]", pair)] == [str, str]):
+            return f"migrated_types is a list of pairs of types, got {pair!r} in it"
+    if not isinstance(cast(object, rule.order), int | float):
+        return f"order is a number, got {rule.order!r}"
+    if not rule.valid:
+        return "valid is False; complete its update, then set it to True"
+    return "" if rule.update is not MessageUpdateRule.update else "it has no update"
+
+
+def _where(rule: type[MessageUpdateRule], path: Path) -> str:
+    """Where the `update` of a rule stands."""
+    code = getattr(rule.update, "__code__", None)
+    line = f":{code.co_firstlineno}" if code is not None and code.co_filename == str(path) else ""
+    return f"{path}{line}: {rule.__name__}"

@@ -1,0 +1,96 @@
+"""Times and durations as genpy has them: what update rules find in messages, and compute with."""
+
+import functools
+from typing import Self
+
+_S = 1_000_000_000
+
+
+@functools.total_ordering
+class Instant:
+    """Seconds and nanoseconds; what `Time` and `Duration` share."""
+
+    __slots__ = ("nsecs", "secs")
+
+    def __init__(self, secs: float = 0, nsecs: int = 0) -> None:
+        """Make one of whole seconds and nanoseconds, or of seconds with a fraction alone."""
+        ns = round(secs * _S) if isinstance(secs, float) else int(secs) * _S
+        self.secs, self.nsecs = divmod(ns + int(nsecs), _S)
+
+    @classmethod
+    def from_sec(cls, seconds: float) -> Self:
+        """Make one of seconds."""
+        return cls(0, round(seconds * _S))
+
+    def to_sec(self) -> float:
+        """All of it [s]."""
+        return self.secs + self.nsecs / 1e9
+
+    def to_nsec(self) -> int:
+        """All of it [ns]."""
+        return self.secs * _S + self.nsecs
+
+    def is_zero(self) -> bool:
+        """Whether it is 0, as a time that was never set is."""
+        return self.to_nsec() == 0
+
+    def __bool__(self) -> bool:
+        return not self.is_zero()
+
+    def __eq__(self, other: object) -> bool:
+        if not hasattr(other, "nsecs"):
+            return NotImplemented
+        return self.to_nsec() == _ns(other)
+
+    def __lt__(self, other: "Instant") -> bool:
+        return self.to_nsec() < _ns(other)
+
+    def __hash__(self) -> int:
+        return hash(self.to_nsec())
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.secs}, {self.nsecs})"
+
+
+class Duration(Instant):
+    """How long something takes; may be negative."""
+
+    __slots__ = ()
+
+    def __add__(self, other: Instant) -> Instant:
+        return type(other)(0, self.to_nsec() + _ns(other))
+
+    def __sub__(self, other: "Duration") -> "Duration":
+        return Duration(0, self.to_nsec() - _ns(other))
+
+    def __mul__(self, factor: float) -> "Duration":
+        return Duration(0, round(self.to_nsec() * factor))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, factor: float) -> "Duration":
+        return self * (1 / factor)
+
+    def __neg__(self) -> "Duration":
+        return Duration(0, -self.to_nsec())
+
+    def __abs__(self) -> "Duration":
+        return Duration(0, abs(self.to_nsec()))
+
+
+class Time(Instant):
+    """A point in time."""
+
+    __slots__ = ()
+
+    def __add__(self, other: Duration) -> "Time":
+        return Time(0, self.to_nsec() + _ns(other))
+
+    def __sub__(self, other: Instant) -> Instant:
+        made = Time if isinstance(other, Duration) else Duration
+        return made(0, self.to_nsec() - _ns(other))
+
+
+def _ns(instant: object) -> int:
+    """Nanoseconds of one of ours, or of genpy's, which a rule may have made."""
+    return getattr(instant, "secs", 0) * _S + getattr(instant, "nsecs", 0)
