@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar
 from weakref import WeakSet
 
 from .messages import Messages
+from .selector import ReadingSelector
 from .work import Work
 
 if TYPE_CHECKING:
@@ -50,8 +51,8 @@ class GraphLoop:
         self._news: set[asyncio.Future[None]] = set()
         self._gatherer: int | None = None
         """The thread whose calls wait for `release`."""
-        self._own_threads: set[int | None] = set()
-        """The loop's own, and the one that gathers."""
+        self.own_threads: set[int | None] = set()
+        """The loop's, and the one that gathers: they gain nothing if they do a thing themselves that the loop can."""
         self._gathered: list[Callable[[], object]] = []
         self._calls = 0
         """By which `rested` knows that there are more."""
@@ -59,14 +60,16 @@ class GraphLoop:
         """Batches of published messages being handed on, by which `settle` knows that there are more."""
         self._unsettled = False
         """Whether the loop was given anything to do since `settle` was last called."""
-        self._loop = _ClosingLoop()
+        self.selector = ReadingSelector()
+        """Takes sockets that are read without asyncio's help; used on the loop."""
+        self._loop = _ClosingLoop(self.selector)
         self._thread = threading.Thread(target=self._work, name="trundle-graph", daemon=True)
         self._tasks: set[asyncio.Task[Any]] = set()
 
     def start(self) -> None:
         """Start the thread."""
         self._thread.start()
-        self._own_threads.add(self._thread.ident)
+        self.own_threads.add(self._thread.ident)
 
     def stop(self, timeout_s: float = 2.0) -> None:
         """Shut the nodes down, end what still runs, and end the thread."""
@@ -90,11 +93,6 @@ class GraphLoop:
     def is_this_thread(self) -> bool:
         """Whether the caller runs on the loop."""
         return threading.get_ident() == self._thread.ident
-
-    @property
-    def is_waited_for(self) -> bool:
-        """Whether the caller is a thread that gains if it does a thing itself rather than ask the loop."""
-        return threading.get_ident() not in self._own_threads
 
     def run(self, coroutine: Coroutine[Any, Any, _T], timeout_s: float | None = 30.0) -> _T:
         """Run a coroutine on the loop and wait for its answer, from another thread.
@@ -165,7 +163,7 @@ class GraphLoop:
     def gather(self) -> None:
         """From now on, give the loop what this thread has for it only when `release` says so: all at once, in order."""
         self._gatherer = threading.get_ident()
-        self._own_threads.add(self._gatherer)
+        self.own_threads.add(self._gatherer)
 
     def release(self) -> None:
         """Give the loop what this thread gathered."""
@@ -236,8 +234,8 @@ class GraphLoop:
 class _ClosingLoop(asyncio.SelectorEventLoop):
     """An event loop that can close whatever was opened in it, however far that had come."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, selector: ReadingSelector) -> None:
+        super().__init__(selector)
         self._servers: WeakSet[asyncio.Server] = WeakSet()
         """Those that listen: the loop's readers keep them."""
         self._opening: set[asyncio.Task[asyncio.Server]] = set()

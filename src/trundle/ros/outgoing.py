@@ -34,6 +34,8 @@ class Outgoing:
         """
         self.is_near = sock.family == _UNIX
         """Whether the peer is reached without TCP."""
+        self.is_behind = False
+        """Whether something waits for a peer that reads too slowly."""
         self.bytes_sent = 0
         self.frames_sent = 0
         self.dropped = 0
@@ -60,25 +62,20 @@ class Outgoing:
         self._may_share = self.is_near
         """Whether it is worth a try to share memory with the peer."""
 
-    @property
-    def is_behind(self) -> bool:
-        """Whether something waits for a peer that reads too slowly."""
-        return bool(self._rest or self._queue)
-
     def send(self, frames: Sequence[Pieces], queue_size: int | None) -> None:
         """Send, from any thread; never blocks. At most `queue_size` frames wait, and the oldest go."""
         with self._lock:
             if self._is_closed:
                 return
-            was_behind = self.is_behind
-            if was_behind or len(frames) != 1 or not self._give_whole(frames[0]):
-                self._queue.extend(frames)
-                if not was_behind:
-                    self._write()
+            if not self.is_behind and len(frames) == 1 and self._give_whole(frames[0]):
+                return
+            self._queue.extend(frames)
+            if not self.is_behind:
+                self._write()
             while queue_size is not None and len(self._queue) > queue_size:
                 self._queue.popleft()
                 self.dropped += 1
-            if was_behind or self._is_waiting or not self._is_full:
+            if self._is_waiting or not self._is_full:
                 return
         self._call_soon(self._wait)
 
@@ -119,11 +116,17 @@ class Outgoing:
         self.bytes_sent += sent
         self.frames_sent += 1
         if sent < size:
-            self._rest, self._is_full = _after(frame, sent), True
+            self._rest = _after(frame, sent)
+            self.is_behind = self._is_full = True
+            self._call_soon(self._wait)
         return True
 
     def _write(self) -> None:
         """Give the kernel, or the shelf, as much as it takes."""
+        self._write_on()
+        self.is_behind = bool(self._rest or self._queue)
+
+    def _write_on(self) -> None:
         self._is_full = False
         while pieces := self._next():
             try:
@@ -201,6 +204,7 @@ class Outgoing:
     def _forget(self) -> None:
         self._queue.clear()
         self._rest = ()
+        self.is_behind = False
 
     def _open_twin(self) -> socket.socket:
         if self._twin is None:

@@ -233,7 +233,7 @@ class Publisher:
         Waking the loop's thread takes longer than sending.
         """
         outs = self._direct
-        if not outs or not self._node.loop.is_waited_for or not self._turn.acquire(blocking=False):
+        if not outs or threading.get_ident() in self._node.loop.own_threads or not self._turn.acquire(blocking=False):
             return False
         try:
             if outs is not self._direct or self._flushes or self._outbox:

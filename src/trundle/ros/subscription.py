@@ -3,6 +3,7 @@
 import asyncio
 import contextlib
 import inspect
+import socket
 from collections import deque
 from collections.abc import Awaitable, Callable, Mapping
 from typing import TYPE_CHECKING, Any
@@ -13,6 +14,7 @@ from .headers import check_md5
 from .messages import ANY_TYPE, Message, RawMessage
 from .nearby import UNIXROS, address_nearby
 from .rpc_client import call
+from .selector import ReadingSelector
 from .shelf import ShelfReader
 from .tcpros import FrameProtocol
 from .xmlrpc import FaultError
@@ -219,7 +221,7 @@ class Subscription:
             raise WireError(reason)
 
     async def _open(self, host: str, port: int, nearby: str | None) -> "_SubscriberLink":
-        link, loop = _SubscriberLink(self, self._request()), asyncio.get_running_loop()
+        link, loop = _SubscriberLink(self, self._request(), self._node.loop.selector), asyncio.get_running_loop()
         if nearby is not None:
             with contextlib.suppress(OSError):  # not so near, or gone
                 await loop.create_unix_connection(lambda: link, nearby)
@@ -280,11 +282,14 @@ class Subscription:
 class _SubscriberLink(FrameProtocol):
     """A TCPROS connection to one publisher."""
 
-    def __init__(self, subscription: Subscription, request: dict[str, str]) -> None:
+    def __init__(self, subscription: Subscription, request: dict[str, str], selector: ReadingSelector) -> None:
         super().__init__()
         self.ended: asyncio.Future[str] = asyncio.get_running_loop().create_future()
         self._subscription = subscription
         self._request = request
+        self._selector = selector
+        self._socket: socket.socket | None = None
+        """The connection once more, read past asyncio."""
         self._shelf: ShelfReader | None = None
 
     def connected(self) -> None:
@@ -297,6 +302,11 @@ class _SubscriberLink(FrameProtocol):
             raise WireError(f"it carries {header.get('type', 'another type')}, not {self._subscription.type}")
         if header.get("tcp_nodelay") == "1":
             self.set_nodelay()
+        assert self.transport is not None
+        self.transport.pause_reading()
+        own: socket.socket = self.transport.get_extra_info("socket").dup()
+        self._socket = own
+        self._selector.read(own, self._readable)
 
     def frame_received(self, data: bytes | memoryview) -> None:
         try:
@@ -317,7 +327,24 @@ class _SubscriberLink(FrameProtocol):
         self.bytes_received += len(content)
         return content
 
+    def _readable(self) -> None:
+        assert self._socket is not None
+        try:
+            count = self._socket.recv_into(self.get_buffer(-1))
+        except BlockingIOError:
+            return
+        except OSError as error:
+            self.close(str(error))
+            return
+        if count:
+            self.buffer_updated(count)
+        else:
+            self.close("the peer closed the connection")
+
     def closed(self, reason: str, /) -> None:
+        if self._socket is not None:
+            self._selector.forget(self._socket)
+            self._socket.close()
         if self._shelf is not None:
             self._shelf.close()
         if not self.ended.done():
