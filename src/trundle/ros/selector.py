@@ -4,7 +4,7 @@ import logging
 import selectors
 import socket
 from collections.abc import Callable
-from typing import Any, cast
+from typing import Any
 
 _log = logging.getLogger(__name__)
 
@@ -26,15 +26,11 @@ class ReadingSelector(selectors.DefaultSelector):
         rest: list[tuple[selectors.SelectorKey, int]] = []
         for event in ready:
             data: Any = event[0].data
-            if callable(data):
-                _call(cast("Callable[[], None]", data))
-            else:  # asyncio's two handles
+            if type(data) is tuple:  # asyncio's two handles
                 rest.append(event)
+                continue
+            try:
+                data()
+            except Exception:  # as in asyncio, the loop goes on
+                _log.exception("a connection could not be read")
         return rest
-
-
-def _call(readable: Callable[[], None]) -> None:
-    try:
-        readable()
-    except Exception:  # as asyncio does: the loop goes on
-        _log.exception("a connection could not be read")

@@ -59,6 +59,7 @@ class Subscription:
         self._is_async = inspect.iscoroutinefunction(callback)
         self._tcp_nodelay = tcp_nodelay
         self._deliver = None if on_loop else node.deliver
+        self._is_called_at_once = self._deliver is None and not self._is_async
         self._queue: deque[Message] = deque()
         self._queue_size = queue_size
         self._worker: asyncio.Task[None] | None = None
@@ -106,8 +107,11 @@ class Subscription:
     def receive(self, message: Message) -> None:
         """Take a message: call back at once, or queue it for whoever runs the callbacks."""
         self.received += 1
-        if self._deliver is None and not self._is_async:
-            self._call(message)
+        if self._is_called_at_once:
+            try:
+                self._callback(message)
+            except Exception as error:
+                self._say_failed(error)
             return
         # Whoever runs the callbacks has been asked once for each message in the queue; the one that takes a dropped
         # message's place needs no new asking.
@@ -253,7 +257,10 @@ class Subscription:
         try:
             self._callback(message)
         except Exception as error:
-            self._node.log_failure(f"the callback of {self.topic} failed", error)
+            self._say_failed(error)
+
+    def _say_failed(self, error: Exception) -> None:
+        self._node.log_failure(f"the callback of {self.topic} failed", error)
 
     def _drop_oldest(self) -> bool:
         try:
@@ -276,7 +283,7 @@ class Subscription:
                 if result is not None:
                     await result
             except Exception as error:
-                self._node.log_failure(f"the callback of {self.topic} failed", error)
+                self._say_failed(error)
 
 
 class _SubscriberLink(FrameProtocol):
@@ -330,16 +337,22 @@ class _SubscriberLink(FrameProtocol):
     def _readable(self) -> None:
         assert self._socket is not None
         try:
-            count = self._socket.recv_into(self.get_buffer(-1))
+            count = self._socket.recv_into(self.frames.room())
         except BlockingIOError:
             return
         except OSError as error:
             self.close(str(error))
             return
-        if count:
+        if count == 0:
+            self.close("the peer closed the connection")
+        elif (content := self.frames.whole(count)) is None:
             self.buffer_updated(count)
         else:
-            self.close("the peer closed the connection")
+            self.bytes_received += count
+            try:
+                self._subscription.take(content, self.header or {})
+            except MessageError as error:
+                self.close(str(error))
 
     def closed(self, reason: str, /) -> None:
         if self._socket is not None:

@@ -28,7 +28,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
         self.transport: asyncio.Transport | None = None
         self.header: dict[str, str] | None = None
         self.bytes_received = 0
-        self._frames = FrameCutter(MAX_HEADER_BYTES)
+        self.frames = FrameCutter(MAX_HEADER_BYTES)
         self._deadline: asyncio.TimerHandle | None = None
         self._ending: str | None = None
 
@@ -59,21 +59,18 @@ class FrameProtocol(asyncio.BufferedProtocol):
         self.transport = cast(asyncio.Transport, transport)
         self.out = Outgoing(transport.get_extra_info("socket"), drained=self._caught_up, broken=self._abort)
         if self.out.is_near:
-            self._frames.take_note = self.note_received
+            self.frames.take_note = self.note_received
         self._deadline = asyncio.get_running_loop().call_later(HANDSHAKE_S, self._too_slow)
         self.connected()
 
     def get_buffer(self, sizehint: int) -> memoryview:
         del sizehint
-        return self._frames.room()
+        return self.frames.room()
 
     def buffer_updated(self, nbytes: int) -> None:
         self.bytes_received += nbytes
         try:
-            if self.header is not None and (content := self._frames.whole(nbytes)) is not None:
-                self.frame_received(content)
-                return
-            for content in self._frames.cut(nbytes):
+            for content in self.frames.cut(nbytes):
                 if self.header is None:
                     self._take_header(content)
                 else:
@@ -85,7 +82,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
 
     def _take_header(self, content: bytes | memoryview) -> None:
         self.header = decode_header(bytes(content))
-        self._frames.limit = MAX_MESSAGE_BYTES
+        self.frames.limit = MAX_MESSAGE_BYTES
         if self._deadline is not None:
             self._deadline.cancel()
         self.header_received(self.header)
