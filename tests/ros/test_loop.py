@@ -3,6 +3,8 @@
 import asyncio
 import gc
 import socket
+import threading
+import time
 import warnings
 import weakref
 from typing import Any
@@ -11,6 +13,7 @@ import pytest
 from tests.ros.conftest import PATIENCE_S
 
 from trundle.ros.loop import GraphLoop, close_server
+from trundle.ros.node import Node
 
 
 @pytest.mark.parametrize("passes", range(5))
@@ -67,3 +70,57 @@ def test_a_node_that_has_gone_is_forgotten(graph: Any) -> None:
         return gone() is None
 
     graph.until(is_forgotten)
+
+
+def test_what_is_begun_while_the_loop_ends_is_ended_too(caplog: pytest.LogCaptureFixture) -> None:
+    """Each task that is told to end begins another one, as a peer's last call does."""
+    ended: list[int] = []
+
+    async def outlive(generation: int) -> None:
+        try:
+            await asyncio.sleep(1000)
+        finally:
+            if generation < 3:
+                tasks.append(asyncio.ensure_future(outlive(generation + 1)))
+                await asyncio.sleep(0)
+            ended.append(generation)
+
+    tasks: list[asyncio.Future[None]] = []
+    with GraphLoop() as loop:
+        loop.spawn(outlive(0))
+        loop.settle()
+    tasks.clear()
+    gc.collect()
+    assert ended == [0, 1, 2, 3]
+    assert "pending" not in caplog.text
+
+
+def test_nodes_that_begin_while_the_loop_ends_leave_nothing(graph: Any, caplog: pytest.LogCaptureFixture) -> None:
+    """Nodes that a thread goes on making are neither begun nor waited for."""
+    loop, over = GraphLoop(messages=graph.loop.messages), threading.Event()
+    loop.start()
+
+    def feed() -> None:
+        for number in range(2000):
+            if over.is_set():
+                return
+            node = Node(f"late{number}", loop=loop, master_uri=graph.core.uri)
+            node.subscribe("/a", "std_msgs/String", print)
+            loop.spawn(node.ready())
+
+    feeder = threading.Thread(target=feed)
+    feeder.start()
+    while len(loop.members) < 3:
+        time.sleep(0.001)
+    loop.stop()
+    over.set()
+    feeder.join()
+    gc.collect()
+    assert "pending" not in caplog.text
+    assert "cannot go on" not in caplog.text
+
+
+def test_what_an_ended_loop_is_given_is_cancelled() -> None:
+    with GraphLoop() as loop:
+        pass
+    assert loop.spawn(asyncio.sleep(0)).cancelled()

@@ -94,6 +94,6 @@ class Errands:
     def _worker_ended(self, worker: "asyncio.Task[None]") -> None:
         while not self._queue.empty():
             self._loop.work.end(self._queue.get_nowait()[1])
-        if not worker.cancelled() and (error := worker.exception()) is not None:
+        if not worker.cancelled() and (error := worker.exception()) is not None and not self._loop.is_ending:
             reason = f"{self._log.name} cannot go on: {error}"
             print_log("fatal", reason, wall_ns=WallClock().now_ns(), sim_ns=None)

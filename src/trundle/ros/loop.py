@@ -1,6 +1,7 @@
 """The thread everything between nodes happens in: one asyncio loop, shared by the nodes of this process."""
 
 import asyncio
+import contextlib
 import logging
 import threading
 import time
@@ -23,6 +24,8 @@ _LAST_CALLBACK_S = 8.0
 """How much longer a callback at work may hold the thread: a loop that is left behind leaks its sockets."""
 _OPENING_S, _ENDING_S = 1.0, 1.0
 """How long servers may take to open, and tasks to end, when the loop is left."""
+_ENDING_ROUNDS = 10
+"""How often the loop looks again for what came while the rest was ended."""
 _CALM_PASSES = 5
 """Passes of the loop without a delivery after which `settle` calls it quiet; coroutine callbacks that wait for
 nothing outside the process get this many steps."""
@@ -65,6 +68,12 @@ class GraphLoop:
         self._loop = _ClosingLoop(self.selector)
         self._thread = threading.Thread(target=self._work, name="trundle-graph", daemon=True)
         self._tasks: set[asyncio.Task[Any]] = set()
+        self._unstarted: dict[Future[Any], Coroutine[Any, Any, Any]] = {}
+        """What was spawned and has no task yet."""
+        self.is_ending = False
+        """Whether no node begins here any more."""
+        self._has_stopped = False
+        """Whether nothing else begins, either."""
 
     def start(self) -> None:
         """Start the thread."""
@@ -112,8 +121,11 @@ class GraphLoop:
     def spawn(self, coroutine: Coroutine[Any, Any, _T]) -> Future[_T]:
         """Start a coroutine on the loop, from any thread; if it fails and nobody asks, the log says so."""
         future: Future[_T] = Future()
+        self._unstarted[future] = coroutine
 
         def start() -> None:
+            if self._has_stopped or self._unstarted.pop(future, None) is None:
+                return
             task = self._loop.create_task(coroutine)
             self._tasks.add(task)
             task.add_done_callback(self._tasks.discard)
@@ -121,7 +133,17 @@ class GraphLoop:
             future.add_done_callback(lambda done: self.call_soon(task.cancel) if done.cancelled() else None)
 
         self.call_soon(start)
+        if self._has_stopped:
+            self._drop_unstarted()
         return future
+
+    def _drop_unstarted(self) -> None:
+        """Whoever waits for what the loop did not come to is told that it never will."""
+        with contextlib.suppress(KeyError):  # another thread may drop them, too
+            while True:
+                future, coroutine = self._unstarted.popitem()
+                coroutine.close()
+                future.cancel()
 
     def call_soon(self, function: Callable[[], object]) -> None:
         """Have the loop call a function, from any thread; ignored once the loop has ended."""
@@ -217,6 +239,7 @@ class GraphLoop:
 
     async def _wind_up(self, timeout_s: float) -> None:
         """Let the nodes say farewell."""
+        self.is_ending = True
         farewells = [asyncio.create_task(node.shutdown()) for node in list(self.members)]
         if farewells:
             await asyncio.wait(farewells, timeout=timeout_s)
@@ -226,9 +249,11 @@ class GraphLoop:
         try:
             self._loop.run_forever()
         finally:
+            self._has_stopped = True
             self._loop.run_until_complete(self._loop.leave_nothing_open())
             self._loop.run_until_complete(self._loop.shutdown_asyncgens())
             self._loop.close()
+            self._drop_unstarted()
 
 
 class _ClosingLoop(asyncio.SelectorEventLoop):
@@ -248,24 +273,41 @@ class _ClosingLoop(asyncio.SelectorEventLoop):
         return await asyncio.shield(task)
 
     async def leave_nothing_open(self) -> None:
-        """Close servers, end tasks, drop connections; in this order, so that nothing new comes in between."""
+        """Close servers, end tasks, drop connections; in this order, so that little new comes in between.
+
+        What does is ended in the next round, however slow the machine is; a task that will not end is left.
+        """
+        told: set[asyncio.Task[Any]] = set()
+        for _ in range(_ENDING_ROUNDS):
+            await self._close_servers()
+            others = self._others()
+            for task in others - told:
+                task.cancel()
+            told |= others
+            if others:
+                await asyncio.wait(others, timeout=_ENDING_S / _ENDING_ROUNDS)
+            for transport in self._connected():
+                transport.abort()
+            await _passes()
+            if not (self._others() or self._opening or self._connected()):
+                return
+
+    async def _close_servers(self) -> None:
         if self._opening:
-            opened, _ = await asyncio.wait(self._opening, timeout=_OPENING_S)
+            opened, _ = await asyncio.wait(self._opening, timeout=_OPENING_S / _ENDING_ROUNDS)
             for task in opened:  # their own callbacks may come only after this
                 self._opened(task)
-        for server in list(self._servers):
-            await close_server(server)
-        mine = asyncio.current_task()
-        others = [task for task in asyncio.all_tasks() if task is not mine]
-        for task in others:
-            task.cancel()
-        if others:
-            await asyncio.wait(others, timeout=_ENDING_S)
+        while self._servers:
+            await close_server(self._servers.pop())
+
+    def _others(self) -> "set[asyncio.Task[Any]]":
+        """Tasks beside the one that asks; half made, a server could not be closed."""
+        return asyncio.all_tasks() - self._opening - {asyncio.current_task()}
+
+    def _connected(self) -> list[asyncio.Transport]:
         # asyncio keeps the list to itself before Python 3.12.
         transports: Mapping[int, asyncio.Transport] = getattr(self, "_transports", {})
-        for transport in list(transports.values()):
-            transport.abort()
-        await _passes()
+        return [transport for transport in list(transports.values()) if not transport.is_closing()]
 
     def _opened(self, task: "asyncio.Task[asyncio.Server]") -> None:
         self._opening.discard(task)

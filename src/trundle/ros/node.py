@@ -342,7 +342,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
     # -- inside
 
     def _begin(self) -> None:
-        if self._is_down:
+        if self._is_down or self.loop.is_ending:
             return
         self._has_begun = True
         self.loop.members.add(self)
