@@ -1,14 +1,16 @@
 """A graph on IPv6 alone."""
 
 import socket
+import subprocess
 from collections.abc import Iterator
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 import pytest
 from tests.ros.conftest import PATIENCE_S, Graph
 
-from trundle.ros import Core, GraphLoop, MasterProxy, Messages, Node
+from trundle.ros import Core, GraphLoop, MasterProxy, Messages, Node, RosError, host_and_port, host_of
 
 
 @pytest.fixture
@@ -39,3 +41,57 @@ def test_messages_services_and_parameters_work(six: Graph, messages: Messages) -
 def test_light_commands_reach_it(six: Graph) -> None:
     proxy: Any = MasterProxy(six.core.uri)
     assert proxy.call("getUri") == six.core.uri
+
+
+@pytest.mark.parametrize(
+    ("uri", "host", "port"),
+    [
+        ("http://::1:41234/", "::1", 41234),
+        ("http://[::1]:41234/", "::1", 41234),
+        ("http://fe80::1%eth0:80", "fe80::1%eth0", 80),
+        ("rosrpc://2001:db8::7:65535", "2001:db8::7", 65535),
+        ("http://Robot:11311/RPC2", "robot", 11311),
+    ],
+)
+def test_the_last_colon_separates_the_port(uri: str, host: str, port: int) -> None:
+    """rospy writes IPv6 addresses without brackets."""
+    assert host_and_port(uri) == (host, port)
+    assert host_of(uri) == host
+
+
+@pytest.mark.parametrize(
+    "uri", ["", "http://", "http://::1", "http://[::1]", "http://a:65536/", "http://[::1:5/", "a:1"]
+)
+def test_what_is_no_address_is_refused(uri: str) -> None:
+    with pytest.raises(RosError, match="not a node's address"):
+        host_and_port(uri)
+    assert host_of(uri) == ""
+
+
+ROSPY = """
+import rospy, std_msgs.msg, std_srvs.srv
+rospy.init_node("bare")
+up = rospy.Publisher("up", std_msgs.msg.String, queue_size=10, latch=True)
+rospy.Subscriber("down", std_msgs.msg.String, lambda m: up.publish(m.data + "!"))
+rospy.Service("ask", std_srvs.srv.Trigger, lambda _: std_srvs.srv.TriggerResponse(True, "six"))
+rospy.spin()
+"""
+
+
+@pytest.mark.real_ros
+@pytest.mark.skipif(not Path("/usr/bin/rostopic").exists(), reason="Debian's ROS 1 tools are not installed")
+def test_a_rospy_node_without_brackets_is_reached(six: Graph, tmp_path: Path) -> None:
+    node, got = six.node("ours", host="::1"), list[str]()
+    node.subscribe("/up", "std_msgs/String", lambda m: got.append(m.data))
+    node.advertise("/down", "std_msgs/String", latch=True).publish({"data": "hi"})
+    env = {"ROS_MASTER_URI": six.core.uri, "ROS_IPV6": "on", "ROS_IP": "::1", "HOME": str(tmp_path)}
+    with subprocess.Popen(["/usr/bin/python3", "-c", ROSPY], env=env, stderr=subprocess.DEVNULL) as process:
+        try:
+            six.loop.run(node.wait_for_service("/ask"), PATIENCE_S)
+            answer = six.loop.run(node.call_service("/ask", "std_srvs/Trigger"), PATIENCE_S)
+            assert answer.message == "six"
+            six.until(lambda: got == ["hi!"])
+            proxy = MasterProxy(six.core.uri)
+            assert str(proxy.call("lookupNode", "/bare")).startswith("http://::1:")
+        finally:
+            process.kill()

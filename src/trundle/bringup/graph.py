@@ -2,10 +2,9 @@
 
 from collections.abc import Mapping
 from typing import Self
-from urllib.parse import urlsplit
 
 from trundle.diagnostics import UsageError
-from trundle.ros import Core, GraphLoop, MasterProxy, MasterUnreachableError, PortTakenError
+from trundle.ros import Core, GraphLoop, MasterProxy, MasterUnreachableError, PortTakenError, RosError, host_and_port
 
 DEFAULT_PORT = 11311
 _LOCAL = frozenset({"localhost", "127.0.0.1", "::1", "0.0.0.0"})
@@ -31,18 +30,20 @@ class Graph:
                 that ten runs side by side do not meet.
 
         Raises:
-            UsageError: ROS_MASTER_URI names another machine, and nobody answers there.
+            UsageError: ROS_MASTER_URI is no address, or names another machine, and nobody answers there.
         """
         named = environment.get("ROS_MASTER_URI")
         uri = named or f"http://localhost:{DEFAULT_PORT}"
-        parts = urlsplit(uri)
-        port = parts.port or DEFAULT_PORT
+        try:
+            machine, port = host_and_port(uri)
+        except RosError as error:
+            raise UsageError(f"ROS_MASTER_URI is {error}") from None
         loop = GraphLoop()
         loop.start()
         try:
             if (named or not any_port) and _answers(uri):
                 return cls(loop, uri, None, host)
-            if parts.hostname not in _LOCAL:
+            if machine not in _LOCAL:
                 raise UsageError(
                     f"no ROS master answers at {uri} (ROS_MASTER_URI); start one there, or unset ROS_MASTER_URI"
                 )

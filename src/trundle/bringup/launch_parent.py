@@ -5,10 +5,9 @@ import socket
 import threading
 from queue import Full, Queue
 from typing import Self
-from urllib.parse import urlsplit
 
 from trundle.diagnostics import UsageError
-from trundle.ros import MasterProxy, RosError
+from trundle.ros import MasterProxy, RosError, host_and_port
 
 _ANSWER_S = 10.0
 """How long it may take to answer; roslaunch gives its children as long to register."""
@@ -46,8 +45,7 @@ class Parent:
             UsageError: it does not answer, does not know us, or is on another machine while we listen on loopback.
         """
         try:
-            parts = urlsplit(self.uri)
-            with socket.create_connection((parts.hostname or "", parts.port or 0), timeout=_ANSWER_S) as link:
+            with socket.create_connection(host_and_port(self.uri), timeout=_ANSWER_S) as link:
                 is_elsewhere = link.getsockname()[0] != link.getpeername()[0]
             if is_elsewhere and bind.startswith(("127.", "::1", "localhost")):
                 raise UsageError(

@@ -6,10 +6,9 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlsplit
 
 from trundle.names import anonymous_name
-from trundle.ros import MasterProxy, Messages, RosError
+from trundle.ros import MasterProxy, Messages, RosError, host_of
 
 _PATIENCE_S = 0.5
 """Somebody waits with a finger on the key."""
@@ -58,7 +57,7 @@ def _nodes() -> set[str]:
 
 def _machines() -> set[str]:
     proxy = MasterProxy(caller_id="/completion", timeout_s=_PATIENCE_S)
-    hosts = {urlsplit(str(proxy.call("lookupNode", node))).hostname for node in _nodes()}
+    hosts = {host_of(str(proxy.call("lookupNode", node))) for node in _nodes()}
     return {host for host in hosts if host}
 
 

@@ -6,10 +6,9 @@ import socket
 import sys
 import time
 from typing import Any
-from urllib.parse import urlsplit
 
 from trundle.diagnostics import UsageError
-from trundle.ros import MasterError, MasterProxy, RosError, blocking_call
+from trundle.ros import MasterError, MasterProxy, RosError, blocking_call, host_of
 
 from .running import global_name, master, original_errors
 from .typed import typed_line, typed_number
@@ -281,7 +280,7 @@ def _forget(node: str, uri: str, state: Any, proxy: MasterProxy) -> None:
 
 def _machine(args: argparse.Namespace) -> int:
     proxy = master(_SCRIPT)
-    hosts = {node: urlsplit(_uri(proxy, node) or "").hostname for node in _names(proxy.call("getSystemState"))}
+    hosts = {node: host_of(_uri(proxy, node) or "") for node in _names(proxy.call("getSystemState"))}
     if args.machine:
         address = _address(args.machine)
         if address is None:

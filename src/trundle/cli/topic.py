@@ -1,10 +1,9 @@
 """List, print, measure and publish topics, as rostopic does."""
 
 import argparse
-from urllib.parse import urlsplit
 
 from trundle.diagnostics import UsageError
-from trundle.ros import MasterError, MasterProxy, RosError
+from trundle.ros import MasterError, MasterProxy, RosError, host_of
 
 from .running import IntermixedParser, global_name, master, original_errors
 
@@ -149,7 +148,7 @@ def _list(args: argparse.Namespace) -> int:
 
 def _hosts(proxy: MasterProxy, rows: Rows) -> dict[str, str]:
     nodes = {node for _, _, nodes in rows for node in nodes}
-    return {node: urlsplit(str(proxy.call("lookupNode", node))).hostname or "" for node in nodes}
+    return {node: host_of(str(proxy.call("lookupNode", node))) for node in nodes}
 
 
 def _print_list(args: argparse.Namespace, publishers: Rows, subscribers: Rows, indent: str) -> None:

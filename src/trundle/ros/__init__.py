@@ -38,6 +38,7 @@ if TYPE_CHECKING:
         TransformError,
     )
     from .fields import Field, field_type, split_topic, value_at
+    from .http import host_and_port, host_of
     from .log import LEVELS, coloured
     from .loop import GraphLoop
     from .master import Master
@@ -151,6 +152,8 @@ _HOMES = {
     "find_reconfigurable": "reconfigure_client",
     "follow_time": "clock",
     "follow_trace": "traces",
+    "host_and_port": "http",
+    "host_of": "http",
     "master_uri_from_env": "network",
     "ns_of": "clock",
     "missing_rules": "migration",
@@ -245,6 +248,8 @@ __all__ = [
     "find_reconfigurable",
     "follow_time",
     "follow_trace",
+    "host_and_port",
+    "host_of",
     "master_uri_from_env",
     "missing_rules",
     "ns_of",

@@ -1,5 +1,6 @@
 """The little of HTTP that XML-RPC needs: one POST, one answer, sizes known beforehand."""
 
+import re
 from dataclasses import dataclass
 from urllib.parse import urlsplit
 
@@ -8,6 +9,9 @@ from .errors import WireError
 MAX_HEAD_BYTES = 64 * 1024
 MAX_BODY_BYTES = 64 * 1024 * 1024
 """A parameter tree with several robot descriptions is a few MB; anything near this bound is no graph traffic."""
+
+_MAX_PORT = 65535
+_ADDRESS = re.compile(r"(?:http|rosrpc)://(?P<host>\[[^]/@]+\]|:?:?[^][/@?#:][^][/@?#]*):(?P<port>\d{1,5})(?:[/?#]|$)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,15 +85,20 @@ def answer(status: str, body: bytes, *, keep_alive: bool) -> bytes:
 
 
 def host_and_port(uri: str) -> tuple[str, int]:
-    """Split `http://host:port/` or `rosrpc://host:port`.
+    """Split `http://host:port/` or `rosrpc://host:port`; rospy writes IPv6 addresses without brackets.
 
     Raises:
         WireError: host or port is missing or no number.
     """
+    address = _ADDRESS.match(uri)
+    if address is None or int(address["port"]) > _MAX_PORT:
+        raise WireError(f"not a node's address: {uri[:200]!r}; it reads like http://localhost:11311/")
+    return address["host"].strip("[]").lower(), int(address["port"])
+
+
+def host_of(uri: str) -> str:
+    """Return the host of a node's address, or nothing where it has none."""
     try:
-        parts = urlsplit(uri)
-        if parts.scheme not in ("http", "rosrpc") or not parts.hostname or parts.port is None:
-            raise ValueError
-    except ValueError:
-        raise WireError(f"not a node's address: {uri[:200]!r}; it reads like http://localhost:11311/") from None
-    return parts.hostname, parts.port
+        return host_and_port(uri)[0]
+    except WireError:
+        return ""
