@@ -92,3 +92,34 @@ def test_what_cannot_be_joined_or_let_go_is_said(sim: Simulation) -> None:
             sim.attach(wrong)
     with pytest.raises(UsageError, match="no joint 'rope' between models; there are: 'tie'"):
         sim.detach("rope")
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("box", ["free", "hung", "static"])
+def test_what_a_bent_arm_is_attached_to_stays_and_holds_it(tmp_path: Path, box: str, *, turned: bool) -> None:
+    """The arm hangs from the world and is bent, the box flies, hangs from the world too, or is part of it."""
+    hung = '<joint name="w" type="fixed"><parent>world</parent><child>l</child></joint>'
+    more = {"free": "", "hung": hung, "static": "<static>1</static>"}[box]
+    boxes = f'<model name="box"><pose>0 0 3 0 0 0.5</pose>{more}{BODY}</model>'
+    models = f'<model name="robot"><pose>0 0 1 0 0 0</pose>{BODY}{ARM}{hung}</model>{boxes}'
+    file = tmp_path / "w.sdf"
+    file.write_text(f'<sdf version="1.6"><world name="w"><gravity>0 0 0</gravity>{models}</world></sdf>')
+    sim = trundle.load(str(file))
+    hinge, arm, link = sim["robot"].joint("hinge"), sim["robot"].link("arm"), sim["box"].link("l")
+    hinge.set_position(1.2)
+    sim.step()
+    before = [each.pose for model in sim.models for each in model.links]
+    ends = ("box::l", "robot::arm") if turned else ("robot::arm", "box::l")
+    sim.attach(joint(JointType.FIXED, *ends))
+    assert all(same(a, each.pose) for a, each in zip(before, [ln for m in sim.models for ln in m.links], strict=True))
+
+    arm_from_box = arm.pose.inverse() @ link.pose
+    hinge.set_effort(0.5)
+    sim.run(0.5)
+    assert (hinge.position == pytest.approx(1.2, abs=1e-4)) is (box != "free")
+    now = arm.pose.inverse() @ link.pose
+    assert now.position == pytest.approx(arm_from_box.position, abs=1e-4)
+
+    sim.detach("tie")
+    sim.reset()
+    assert same(link.pose, before[-1]), "attached or not, a reset brings it home"

@@ -97,6 +97,8 @@ class Joint:
     """Likewise."""
     child_from_joint: Pose = Pose()
     """In the child link's frame."""
+    parent_from_child: Pose | None = None
+    """Where a fixed joint holds the child link, in the parent's frame; None: as they lie with every joint at zero."""
     axis: JointAxis | None = None
     """None for fixed and ball joints."""
     axis2: JointAxis | None = None

@@ -114,7 +114,7 @@ class Compiler:
             below = None if hold is None or hold.above == WORLD else self.tree.places[hold.above]
         for each in reversed(chain):
             hold = self._hold(each)
-            body = self._add_body(each.name, each, WORLD if hold is None else hold.above)
+            body = self._add_body(each.name, each, hold)
             if hold is not None:
                 self.joints.add(body, hold, each.at_zero)
             elif not each.fixed:
@@ -128,17 +128,18 @@ class Compiler:
         """Hang a part of a link from another parent."""
         place = self.tree.places[hold.below]
         part = f"{place.name} on {hold.name}"
-        self.joints.add(self._add_body(part, place, hold.above), hold, place.at_zero)
-        self.joints.weld(part, place.name)
+        self.joints.add(self._add_body(part, place, hold), hold, place.at_zero)
+        self.joints.weld(part, place.name, as_one=hold.above_from_below is not None)
         self.report.info(hold.joint.at, f"joint {hold.joint.name!r} closes a loop of links; a constraint holds it")
 
-    def _add_body(self, name: str, place: Place, above: str) -> mujoco.MjsBody:
+    def _add_body(self, name: str, place: Place, hold: Hold | None) -> mujoco.MjsBody:
         """Add a link, or its share of one that a loop cuts in parts, where it hangs from."""
         link, share = place.link, self.share[place.name]
         parent, world_from_parent = self.spec.worldbody, Pose()
-        if above != WORLD:
-            parent, world_from_parent = self.bodies[above], self.tree.places[above].at_start
-        pose = world_from_parent.inverse() @ place.at_start
+        if hold is not None and hold.above != WORLD:
+            parent, world_from_parent = self.bodies[hold.above], self.tree.places[hold.above].at_start
+        held = None if hold is None else hold.above_from_below
+        pose = world_from_parent.inverse() @ place.at_start if held is None else held
         body = parent.add_body(name=name, pos=pose.position, quat=pose.quaternion)
         if not place.fixed:
             mass, axes, moments = principal_inertia(link, self.report)

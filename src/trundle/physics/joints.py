@@ -154,11 +154,11 @@ class JointMaker:
         tie.data = [offset, ratio, *[0.0] * (len(tie.data) - 2)]
         tie.solref, tie.solimp = tie_solref(self._spec.option.timestep), SOLIMP
 
-    def weld(self, half: str, other: str) -> None:
-        """Hold two halves of a link together as they stand."""
+    def weld(self, half: str, other: str, *, as_one: bool) -> None:
+        """Hold two halves of a link together as they stand with every joint at zero, or one in the other."""
         weld = self._spec.add_equality(type=mujoco.mjtEq.mjEQ_WELD, name1=half, name2=other)
         weld.objtype = mujoco.mjtObj.mjOBJ_BODY
-        weld.data = [0.0] * 10 + [1.0] + [0.0] * (len(weld.data) - 11)
+        weld.data = [0.0] * 6 + [float(as_one), 0.0, 0.0, 0.0, 1.0] + [0.0] * (len(weld.data) - 11)
         weld.solref, weld.solimp = tie_solref(self._spec.option.timestep), SOLIMP
 
     def tie_followers(self, tree: Tree) -> None:

@@ -47,6 +47,12 @@ class Hold:
     turned: bool = False
     """Above is the joint's child."""
 
+    @property
+    def above_from_below(self) -> Pose | None:
+        """Where a fixed joint holds `below`; None: as the two lie with every joint at zero."""
+        held = self.joint.parent_from_child
+        return held.inverse() if held is not None and self.turned else held
+
     def direction(self, axis: JointAxis) -> Vector3:
         """The way `below` moves as the joint's position grows, in the world with every joint at zero."""
         x, y, z = self.world_from_axes.direction(axis.direction)

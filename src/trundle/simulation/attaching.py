@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from trundle.diagnostics import UsageError
-from trundle.model import Joint, JointAxis, Model, World
+from trundle.model import Joint, JointAxis, JointType, Model, World
 from trundle.spatial import Pose
 
 from .handles import LinkHandle, ModelHandle
@@ -12,7 +12,9 @@ WORLD = "world"
 
 
 def attached(world: World, models: list[ModelHandle], joint: Joint) -> World:
-    """The world with a joint between models, its models put so that the joint is at zero as everything is now.
+    """The world with a joint between models that is at zero as everything is now.
+
+    A fixed one says itself where it holds the child; of another, the child's model is put so that it is at zero.
 
     Args:
         world: as it runs.
@@ -27,6 +29,10 @@ def attached(world: World, models: list[ModelHandle], joint: Joint) -> World:
     parent, child = _find(models, joint.parent), _find(models, joint.child)
     if child is None:
         raise UsageError(f"joint {joint.name!r}: its child has to be a link")
+    if joint.type is JointType.FIXED:
+        parent_from_world = Pose() if parent is None else parent[1].pose.inverse()
+        held = replace(joint, parent_from_child=parent_from_world @ child[1].pose)
+        return replace(world, joints=(*world.joints, held))
     seen_from = Pose() if parent is None else _at_zero(*parent) @ parent[1].pose.inverse()
     moved = (seen_from @ child[1].pose) @ child[1].link.model_from_link.inverse()
 
