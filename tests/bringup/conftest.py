@@ -19,7 +19,7 @@ class Gazebo:
     """A server, and a node that asks it things."""
 
     def __init__(self, loop: GraphLoop, uri: str, folder: Path) -> None:
-        self.loop = loop
+        self.loop, self.folder = loop, folder
         self.said: list[str] = []
         self.report = Diagnostics()
         self.world = GazeboWorld(
@@ -34,11 +34,15 @@ class Gazebo:
         self.host = Host(simulator=self.world)
         self.client = Node("/client", loop=loop, master_uri=uri)
 
-    def start(self, distro: str = "noetic") -> None:
-        """Start the server."""
+    def start(self, distro: str = "noetic", world: str = "") -> None:
+        """Start the server, in an empty world or in that of a text."""
+        words = ["-u", "-e", "ode"]
+        if world:
+            (self.folder / "w.world").write_text(world)
+            words.append(str(self.folder / "w.world"))
         self.server = Node("/gazebo", loop=self.loop, master_uri=self.client.master_uri)
         self.server.profile = PROFILES[distro]
-        self.loop.spawn(GazeboServer(self.server, ["-u", "-e", "ode"], self.host).run())
+        self.loop.spawn(GazeboServer(self.server, words, self.host).run())
         wait = self.client.wait_for_service("/gazebo/unpause_physics", PATIENCE_S)
         self.loop.run(wait, timeout_s=PATIENCE_S)
         self.loop.run(self.server.ready())

@@ -1,0 +1,103 @@
+"""One hand: its palm, its fingers, and what is welded to it."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from trundle.model import Joint, JointType, Link, Model, Surface
+from trundle.simulation import LinkHandle, ModelHandle, Simulation
+from trundle.xmlnode import XmlNode
+
+from .touching import Touching
+
+
+class Arm:
+    """Holds one object at a time."""
+
+    def __init__(self, sim: Simulation, model: ModelHandle, tag: XmlNode, *, leaves: bool) -> None:
+        """Read <arm>.
+
+        Args:
+            sim: where the fingers are.
+            model: whose fingers.
+            tag: with <arm_name>, <palm_link> and <gripper_link>.
+            leaves: whether what is held touches nothing meanwhile.
+
+        Raises:
+            UsageError: there is no such palm.
+        """
+        self._sim, self._model, self._leaves = sim, model, leaves
+        self.at = tag.at
+        self.name = tag.string("arm_name")
+        self.palm = model.link(tag.string("palm_link"))
+        self.fingers: dict[str, LinkHandle] = {}
+        """By collision, `model::link::collision`."""
+        for child in tag.all("gripper_link"):
+            found = next((link for link in model.links if link.name == child.text), None)
+            if found is None:
+                there = ", ".join(repr(link.name) for link in model.links)
+                sim.report.warn(child.at, f"no link {child.text!r}; links here: {there}; it is left out")
+                continue
+            names = (f"{model.name}::{found.name}::{collision.name}" for collision in found.link.collisions)
+            self.fingers |= dict.fromkeys(names, found)
+        self.held = ""
+        """The collision that is held, `model::link::collision`."""
+        self.grip: list[Touching] = []
+        """Where the fingers were on it when it was taken."""
+        self._surfaces: list[Surface] = []
+
+    @property
+    def _joint(self) -> str:
+        return f"{self._model.name}::{self.name}::grasp"
+
+    def take(self, collision: str, link: LinkHandle, grip: list[Touching]) -> None:
+        """Weld an object's link to the palm as it lies now.
+
+        Args:
+            collision: of the object.
+            link: of that collision.
+            grip: what the fingers have of it.
+
+        Raises:
+            TrundleError: the two cannot be joined; nothing has changed.
+        """
+        child, parent = collision.rpartition("::")[0], f"{self._model.name}::{self.palm.name}"
+        self._sim.attach(Joint(name=self._joint, type=JointType.FIXED, parent=parent, child=child, at=self.at))
+        self.held, self.grip = collision, grip
+        self._surfaces = [each.surface for each in link.link.collisions]
+        if self._leaves:
+            self._cover(child, [replace(each, collide_bitmask=0, category_bitmask=0) for each in self._surfaces])
+
+    def drop(self) -> None:
+        """Let it go."""
+        self._sim.detach(self._joint)
+        if self._leaves:
+            self._cover(self.held.rpartition("::")[0], self._surfaces)
+        self.forget()
+
+    def forget(self) -> None:
+        """Hold nothing, for what was held is gone."""
+        self.held, self.grip = "", []
+
+    @property
+    def has_lost(self) -> bool:
+        """Whether something else took the joint away, as when a model is deleted."""
+        return bool(self.held) and all(joint.name != self._joint for joint in self._sim.joints)
+
+    def _cover(self, link: str, surfaces: Sequence[Surface]) -> None:
+        """Give the collisions of `model::link` other surfaces."""
+        owner, _, name = link.partition("::")
+        world = self._sim.world
+
+        def covered(model: Model) -> Model:
+            if model.name != owner:
+                return model
+            return replace(
+                model, links=tuple(_with(each, surfaces) if each.name == name else each for each in model.links)
+            )
+
+        self._sim.edit(replace(world, models=tuple(map(covered, world.models))))
+
+
+def _with(link: Link, surfaces: Sequence[Surface]) -> Link:
+    pairs = zip(link.collisions, surfaces, strict=True)
+    return replace(link, collisions=tuple(replace(collision, surface=surface) for collision, surface in pairs))

@@ -1,0 +1,152 @@
+"""Counts how long something is held between fingers, and welds or parts."""
+
+import math
+from collections import Counter
+from collections.abc import Callable
+from typing import Self
+
+from trundle.diagnostics import TrundleError, UsageError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import LinkHandle, ModelHandle, Simulation
+from trundle.xmlnode import XmlNode
+
+from ..plugin import Plugin
+from .arm import Arm
+from .touching import Touching, by_pair, is_held
+
+_USUAL_TOPIC = "__default_topic__"
+
+
+class GraspFix(Plugin):
+    """Welds an object to a palm once fingers have pushed it from opposite sides for a while.
+
+    Parameters, with the original's defaults: any number of <arm> with <arm_name>, <palm_link> and <gripper_link> (any
+    number); <update_rate> 5 [Hz, of simulated time; the original's is the wall's]; <forces_angle_tolerance> 120 [deg]
+    (at least 90): forces further apart oppose; <max_grip_count> 10; <grip_count_threshold> (half of that): more updates
+    than these weld; <release_tolerance> 0.005 [m]: how far a finger may go from what it no longer presses;
+    <disable_collisions_on_attach> false: whether what is welded touches nothing meanwhile.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, say: Callable[[str], object], tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        self._sim, self._say = sim, say
+        self._angle_rad = math.radians(parameters.number("forces_angle_tolerance", default=120.0, report=report))
+        if self._angle_rad < math.pi / 2:
+            report.warn(
+                tag.at, "<forces_angle_tolerance> is less than 90 degrees: nothing is ever held, as in the original"
+            )
+        rate_hz = parameters.integer("update_rate", default=5, report=report)
+        if rate_hz <= 0:
+            raise UsageError(f"<update_rate> must be > 0 Hz, got {rate_hz}")
+        self._every_ns = round(1e9 / rate_hz)
+        self._most = parameters.integer("max_grip_count", default=10, report=report)
+        self._enough = parameters.integer("grip_count_threshold", default=self._most // 2, report=report)
+        self._slack = parameters.number("release_tolerance", default=0.005, report=report)
+        leaves = parameters.flag("disable_collisions_on_attach", default=False, report=report)
+        if parameters.string("contact_topic", default=_USUAL_TOPIC).strip() != _USUAL_TOPIC:
+            report.warn(tag.at, "<contact_topic> is not heeded, as in the original")
+        self._arms: dict[str, Arm] = {}
+        for child in parameters.all("arm"):
+            self._add(child, model, leaves)
+        if not self._arms:
+            raise UsageError("it needs an <arm> with fingers that have collisions")
+        self._fingers = {name: (arm, link) for arm in self._arms.values() for name, link in arm.fingers.items()}
+        self._among = frozenset(self._fingers)
+        parameters.report_unread(report)
+        self._forget()
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        return cls(sim, model, str if node is None else node.log_info, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Feel what the last step did; now and then take or drop."""
+        self._feel()
+        if sim.time_ns < self._next_ns:
+            return
+        self._next_ns = sim.time_ns + self._every_ns
+        touching, self._touching = self._touching, {}
+        for arm in self._arms.values():
+            if arm.has_lost:
+                arm.forget()
+        held = {
+            name for name, each in touching.items() if is_held([t.mean_force for t in each.values()], self._angle_rad)
+        }
+        for name in sorted(held):
+            self._count[name] = min(self._count[name] + 1, self._most)
+            if self._count[name] > self._enough:
+                self._take(name, list(touching[name].values()))
+        for name in sorted(self._count.keys() - held):
+            self._count[name] = max(self._count[name] - 1, 0)
+            if self._count[name] <= self._enough:
+                self._maybe_drop(name)
+
+    def reset(self) -> None:
+        """Open every hand."""
+        for arm in self._arms.values():
+            if arm.held and not arm.has_lost:
+                arm.drop()
+        self._forget()
+
+    def _forget(self) -> None:
+        self._next_ns = self._sim.time_ns + self._every_ns
+        self._touching: dict[str, dict[str, Touching]] = {}
+        """By object's collision and finger's."""
+        self._count: Counter[str] = Counter()
+        """How often each object was found held, less how often not."""
+
+    def _add(self, tag: XmlNode, model: ModelHandle, leaves: bool) -> None:
+        report = self._sim.report
+        try:
+            arm = Arm(self._sim, model, tag, leaves=leaves)
+        except UsageError as error:
+            report.warn(tag.at, f"<arm>: {error}; it is left out")
+            return
+        finally:
+            tag.report_unread(report)
+        if arm.name in self._arms or not arm.fingers:
+            why = "there is one of that name already" if arm.name in self._arms else "no finger has a collision"
+            report.warn(tag.at, f"arm {arm.name!r}: {why}; it is left out")
+            return
+        self._arms[arm.name] = arm
+
+    def _feel(self) -> None:
+        contacts = self._sim.contacts(self._among)
+        if not contacts:
+            return
+        for (name, finger), (forces, points) in by_pair(contacts, self._fingers).items():
+            arm, link = self._fingers[finger]
+            owner = self._sim[name.partition("::")[0]]
+            if owner.model.static:
+                continue
+            found = self._touching.setdefault(name, {})
+            if finger not in found:
+                found[finger] = Touching(arm.name, link, _link_of(owner, name))
+            found[finger].add(forces, points)
+
+    def _take(self, name: str, touching: list[Touching]) -> None:
+        """Have the arm with most fingers on an object hold it, unless one of those that touch it holds something."""
+        fingers = Counter(each.arm for each in touching)
+        if any(self._arms[arm].held for arm in fingers):
+            return
+        arm = self._arms[max(fingers, key=lambda arm: fingers[arm])]
+        try:
+            arm.take(name, touching[0].object_link, [each for each in touching if each.arm == arm.name])
+        except TrundleError as error:
+            self._sim.report.warn(arm.at, f"arm {arm.name!r} cannot hold {name}: {error}")
+            return
+        self._say(f"grasp_fix: {arm.name} holds {name}")
+
+    def _maybe_drop(self, name: str) -> None:
+        arm = next((arm for arm in self._arms.values() if arm.held == name), None)
+        if arm is not None and any(each.slipped() > self._slack for each in arm.grip):
+            arm.drop()
+            self._count[name] = 0
+            self._say(f"grasp_fix: {arm.name} lets {name} go")
+
+
+def _link_of(model: ModelHandle, collision: str) -> LinkHandle:
+    """Whose collision `model::link::collision` is."""
+    return model.link(collision.removeprefix(f"{model.name}::").rpartition("::")[0])

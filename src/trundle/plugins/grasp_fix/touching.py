@@ -1,0 +1,95 @@
+"""What fingers and an object do to each other, step by step, until somebody looks at it."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.physics import Contact
+from trundle.simulation import LinkHandle
+
+_LEAST_RATIO = 0.3
+"""Of the weaker to the stronger of two forces that hold something between them."""
+_LEAST_FORCE = 1e-4
+"""[N] What is less holds nothing."""
+
+
+@dataclass(slots=True)
+class Touching:
+    """One collision of a finger on one object: sums over the steps in which they touched."""
+
+    arm: str
+    finger: LinkHandle
+    object_link: LinkHandle
+    steps: int = 0
+    force: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    """(3,) On the object, world axes [N]; the mean over the points of each step."""
+    point: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    """(3,) Where, in the finger's frame [m]; likewise."""
+    object_origin: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    """(3,) Of the object's link, in the finger's frame [m]."""
+
+    def add(self, forces: NDArray[np.float64], points: NDArray[np.float64]) -> None:
+        """Add one step's contacts.
+
+        Args:
+            forces: (n, 3) on the object, world axes [N].
+            points: (n, 3) in the world [m].
+        """
+        finger_from_world = self.finger.pose.inverse()
+        x, y, z = points.mean(axis=0).tolist()
+        self.steps += 1
+        self.force += forces.mean(axis=0)
+        self.point += finger_from_world.point((x, y, z))
+        self.object_origin += finger_from_world.point(self.object_link.pose.position)
+
+    @property
+    def mean_force(self) -> NDArray[np.float64]:
+        """(3,) [N]"""
+        return self.force / self.steps
+
+    def slipped(self) -> float:
+        """How much nearer or farther the place that touched is from the object than it was then [m]."""
+        point, origin = self.point / self.steps, self.object_origin / self.steps
+        x, y, z = point.tolist()
+        now = math.dist(self.finger.pose.point((x, y, z)), self.object_link.pose.position)
+        return abs(float(np.linalg.norm(point - origin)) - now)
+
+
+def by_pair(
+    contacts: Iterable[Contact], fingers: Mapping[str, object]
+) -> dict[tuple[str, str], tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    """Contacts of one step by (object, finger) collision: (n, 3) forces on the object and (n, 3) points, in the world.
+
+    Args:
+        contacts: of one step.
+        fingers: collisions that are the gripper's; where both are, the second is the finger.
+    """
+    found: dict[tuple[str, str], list[tuple[Sequence[float], Sequence[float]]]] = {}
+    for contact in contacts:
+        first, second = contact.collisions
+        if second in fingers:
+            pair, sign = (first, second), -1.0
+        else:
+            pair, sign = (second, first), 1.0
+        force = [sign * value for value in contact.force.force]
+        found.setdefault(pair, []).append((force, contact.position))
+    return {
+        pair: (np.array([force for force, _ in told]), np.array([point for _, point in told]))
+        for pair, told in found.items()
+    }
+
+
+def is_held(forces: Sequence[NDArray[np.float64]], least_angle_rad: float) -> bool:
+    """Whether two of the forces oppose each other by more than an angle, and neither is much weaker."""
+    for one, other in combinations(forces, 2):
+        strong, weak = sorted((float(np.linalg.norm(one)), float(np.linalg.norm(other))), reverse=True)
+        if weak < _LEAST_FORCE or weak < _LEAST_RATIO * strong:
+            continue
+        cosine = float(np.clip(one @ other / (strong * weak), -1.0, 1.0))
+        if math.acos(cosine) > least_angle_rad:
+            return True
+    return False
