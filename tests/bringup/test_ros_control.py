@@ -29,6 +29,8 @@ CONTROLLERS: dict[str, Any] = {
     },
     "push": {"type": "effort_controllers/JointEffortController", "joint": "lift"},
     "odd": {"type": "no/Such"},
+    "imu": {"type": "imu_sensor_controller/ImuSensorController", "publish_rate": 50},
+    "wrist": {"type": "force_torque_sensor_controller/ForceTorqueSensorController", "publish_rate": 50},
     "all": {"type": "position_controllers/JointGroupPositionController", "joints": ["turn"]},
 }
 
@@ -157,3 +159,14 @@ def test_a_spawner_without_a_manager_gives_up(gazebo: Gazebo, capfd: pytest.Capt
     assert gazebo.loop.run(run(), timeout_s=PATIENCE_S) == 1
     assert "Controller Spawner: " in capfd.readouterr().err
     gazebo.loop.run(node.shutdown())
+
+
+@pytest.mark.parametrize(("name", "interface"), [("imu", "ImuSensor"), ("wrist", "ForceTorqueSensor")])
+def test_a_controller_of_sensors_does_not_load_as_the_hardware_has_none(
+    robot: Robot, name: str, interface: str
+) -> None:
+    robot.list()
+    log = robot.gazebo.hear("/rosout_agg", "rosgraph_msgs/Log")
+    assert not robot.ask("load_controller", "LoadController", name=name).ok
+    wanted = f"/r/{name} requires a hardware interface of type 'hardware_interface::{interface}Interface'"
+    until(lambda: any(wanted in str(line.msg) for line in log))

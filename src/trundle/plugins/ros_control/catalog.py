@@ -8,6 +8,7 @@ from .controller import Controller
 
 _HERE = "trundle.plugins.ros_control"
 CONTROLLERS: dict[str, str] = {
+    "ackermann_steering_controller/AckermannSteeringController": f"{_HERE}.ackermann_steering:AckermannSteering",
     "diff_drive_controller/DiffDriveController": f"{_HERE}.diff_drive:DiffDriveController",
     "effort_controllers/GripperActionController": f"{_HERE}.gripper:EffortGripper",
     "effort_controllers/JointEffortController": f"{_HERE}.forward:EffortForward",
@@ -16,6 +17,9 @@ CONTROLLERS: dict[str, str] = {
     "effort_controllers/JointPositionController": f"{_HERE}.pid_loops:EffortPosition",
     "effort_controllers/JointTrajectoryController": f"{_HERE}.trajectory:EffortTrajectory",
     "effort_controllers/JointVelocityController": f"{_HERE}.pid_loops:EffortVelocity",
+    "force_torque_sensor_controller/ForceTorqueSensorController": f"{_HERE}.sensor_interfaces:ForceTorqueSensor",
+    "four_wheel_steering_controller/FourWheelSteeringController": f"{_HERE}.four_wheel_steering:FourWheelDrive",
+    "imu_sensor_controller/ImuSensorController": f"{_HERE}.sensor_interfaces:ImuSensor",
     "joint_state_controller/JointStateController": f"{_HERE}.joint_state:JointStateController",
     "position_controllers/GripperActionController": f"{_HERE}.gripper:PositionGripper",
     "position_controllers/JointGroupPositionController": f"{_HERE}.forward:PositionGroup",

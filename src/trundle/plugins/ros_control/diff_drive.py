@@ -2,14 +2,14 @@
 
 import math
 from collections import deque
-from typing import Any, Self
+from typing import Self
 
-from trundle.control import DifferentialDrive, SpeedLimit, WheelOdometry
-from trundle.model import Cylinder, Sphere, model_from_joint
-from trundle.ros import Message, SettingError, Settings, Transform, TransformBroadcaster
+from trundle.control import DifferentialDrive, WheelOdometry
+from trundle.ros import Message, SettingError, Settings
 
-from .controller import Cadence, Ends, Site
-from .hardware import JointHardware
+from .base_odometry import BaseOdometry
+from .controller import Ends, Site
+from .drive_settings import joint_names, length, origin, speed_limit, wheel_radius
 from .transmissions import Interface
 
 _VELOCITY: Interface = "VelocityJointInterface"
@@ -29,8 +29,8 @@ class DiffDriveController:
     def __init__(self, site: Site) -> None:
         settings = site.settings
         self._site = site
-        self._left = [site.joint(name, _VELOCITY) for name in _wheels(settings, "left_wheel")]
-        self._right = [site.joint(name, _VELOCITY) for name in _wheels(settings, "right_wheel")]
+        self._left = [site.joint(name, _VELOCITY) for name in joint_names(settings, "left_wheel")]
+        self._right = [site.joint(name, _VELOCITY) for name in joint_names(settings, "right_wheel")]
         if len(self._left) != len(self._right):
             raise SettingError(
                 f"{site.name}: {len(self._left)} left wheels, but {len(self._right)} right ones; as many are needed"
@@ -44,25 +44,18 @@ class DiffDriveController:
         )
         self._timeout_ns = round(settings.number("cmd_vel_timeout", 0.5) * 1e9)
         self._open_loop = settings.flag("open_loop", default=False)
-        self._frame, self._base = settings.text("odom_frame_id", "odom"), settings.text("base_frame_id", "base_link")
         self._limits = (
-            _limit(settings.section("linear").section("x")),
-            _limit(settings.section("angular").section("z")),
+            speed_limit(settings.section("linear").section("x")),
+            speed_limit(settings.section("angular").section("z")),
         )
-        self._pose_covariance = _diagonal(settings, "pose_covariance_diagonal")
-        self._twist_covariance = _diagonal(settings, "twist_covariance_diagonal")
-        self._cadence = Cadence(settings.rate_hz("publish_rate", 50.0))
         self._window = max(1, round(settings.number("velocity_rolling_window_size", _WINDOW)))
         self._advertise(settings)
         self._forget()
 
     def _advertise(self, settings: Settings) -> None:
         site = self._site
-        self._odometry_topic = site.node.advertise(f"{site.name}/odom", "nav_msgs/Odometry", queue_size=100)
-        has_tf = settings.flag("enable_odom_tf", default=True)
-        self._broadcaster = TransformBroadcaster(site.node) if has_tf else None
         self._ends = Ends()
-        self._ends.add(self._odometry_topic)
+        self._odometry = BaseOdometry(site, self._ends, frame=settings.text("odom_frame_id", "odom"))
         self._ends.add(site.node.subscribe(f"{site.name}/cmd_vel", "geometry_msgs/Twist", self._take, queue_size=1))
         self._told = None
         if settings.flag("publish_cmd", default=False):
@@ -78,14 +71,14 @@ class DiffDriveController:
         """Stand still, and count the wheels' turns from here."""
         for joint in (*self._left, *self._right):
             joint.engage()
-        self._cadence.restart(time_ns)
+        self._odometry.restart(time_ns)
         self._turned = self._turns()
         self._command = None
 
     def update(self, time_ns: int, dt: float) -> None:
         """Add up what the wheels did, tell it, and drive on."""
         self._count(dt)
-        if self._cadence.due(time_ns):
+        if self._odometry.due(time_ns):
             self._tell(time_ns)
         linear, angular = self._wanted(time_ns)
         for number, wanted in enumerate((linear, angular)):
@@ -94,7 +87,7 @@ class DiffDriveController:
             self._history[number] = (limited, last)
         (linear, _), (angular, _) = self._history
         if self._told is not None and self._told.has_subscribers:
-            header = {"stamp": time_ns, "frame_id": self._base}
+            header = {"stamp": time_ns, "frame_id": self._odometry.base}
             twist = {"linear": {"x": linear}, "angular": {"z": angular}}
             self._told.publish({"header": header, "twist": twist})
         half = angular * self._drive.separation / 2
@@ -155,100 +148,15 @@ class DiffDriveController:
             self._speeds.append((distance / dt, turn / dt))
 
     def _tell(self, time_ns: int) -> None:
-        place = self._place
-        turn = {"z": math.sin(place.yaw / 2), "w": math.cos(place.yaw / 2)}
-        if self._odometry_topic.has_subscribers:
-            count = max(1, len(self._speeds))
-            linear, angular = (sum(speed[i] for speed in self._speeds) / count for i in (0, 1))
-            pose = {"position": {"x": place.x, "y": place.y}, "orientation": turn}
-            self._odometry_topic.publish(
-                {
-                    "header": {"stamp": time_ns, "frame_id": self._frame},
-                    "child_frame_id": self._base,
-                    "pose": {"pose": pose, "covariance": self._pose_covariance},
-                    "twist": {
-                        "twist": {"linear": {"x": linear}, "angular": {"z": angular}},
-                        "covariance": self._twist_covariance,
-                    },
-                }
-            )
-        if self._broadcaster is not None:
-            self._broadcaster.send(
-                Transform(
-                    parent=self._frame,
-                    child=self._base,
-                    stamp_ns=time_ns,
-                    translation=(place.x, place.y, 0.0),
-                    rotation=(turn["w"], 0.0, 0.0, turn["z"]),
-                )
-            )
+        place, count = self._place, max(1, len(self._speeds))
+        linear, angular = (sum(speed[i] for speed in self._speeds) / count for i in (0, 1))
+        self._odometry.tell(time_ns, (place.x, place.y, place.yaw), (linear, 0.0, angular))
 
     def _geometry(self, settings: Settings) -> DifferentialDrive:
         """As the parameters say, else as the model has it."""
-        names = settings.names()
-        separation = (
-            settings.number("wheel_separation")
-            if "wheel_separation" in names
-            else self._apart(self._left[0], self._right[0])
+        site, left, right = self._site, self._left[0], self._right[0]
+        separation = length(site, "wheel_separation", math.dist(origin(site, left), origin(site, right)))
+        return DifferentialDrive(
+            wheel_radius=wheel_radius(site, left),
+            separation=separation * settings.number("wheel_separation_multiplier", 1.0),
         )
-        radius = settings.number("wheel_radius") if "wheel_radius" in names else self._radius(self._left[0])
-        if not (separation > 0.0 and radius > 0.0):
-            raise SettingError(f"{self._site.name}: wheel_separation and wheel_radius must be > 0 m")
-        separation *= settings.number("wheel_separation_multiplier", 1.0)
-        return DifferentialDrive(wheel_radius=radius, separation=separation)
-
-    def _apart(self, one: JointHardware, other: JointHardware) -> float:
-        model = self._site.model.model
-        a, b = (model_from_joint(model, joint.handle.joint).position for joint in (one, other))
-        return math.dist(a, b)
-
-    def _radius(self, wheel: JointHardware) -> float:
-        link = self._site.model.link(wheel.handle.joint.child).link
-        for collision in link.collisions:
-            if isinstance(collision.geometry, Cylinder | Sphere):
-                return collision.geometry.radius
-        raise SettingError(
-            f"parameter {self._site.name}/wheel_radius is not set, and link {link.name!r} has neither a cylinder nor "
-            "a sphere to measure"
-        )
-
-
-def _wheels(settings: Settings, name: str) -> list[str]:
-    """One joint, or a list of them."""
-    try:
-        return [settings.text(name)]
-    except SettingError:
-        wheels = settings.texts(name)
-        if not wheels:
-            raise
-        return wheels
-
-
-def _limit(settings: Settings) -> SpeedLimit:
-    """max_… and min_…, of which the one that is missing is the other's negative."""
-
-    def bounds(what: str) -> tuple[float, float]:
-        if not settings.flag(f"has_{what}_limits", default=False):
-            return -math.inf, math.inf
-        largest = settings.number(f"max_{what}")
-        return settings.number(f"min_{what}", -largest), largest
-
-    slowest, fastest = bounds("velocity")
-    braking, speeding = bounds("acceleration")
-    lowest, highest = bounds("jerk")
-    return SpeedLimit(
-        slowest=slowest,
-        fastest=fastest,
-        hardest_braking=braking,
-        hardest=speeding,
-        lowest_jerk=lowest,
-        highest_jerk=highest,
-    )
-
-
-def _diagonal(settings: Settings, name: str) -> list[float]:
-    """A 6×6 covariance from its diagonal; absent is zero."""
-    values: list[Any] = settings.items(name) or [0.0] * 6
-    if len(values) != 6 or not all(isinstance(value, int | float) for value in values):
-        raise SettingError(f"{name} must be 6 numbers, got {values!r}")
-    return [float(values[row]) if row == column else 0.0 for row in range(6) for column in range(6)]

@@ -1,0 +1,113 @@
+"""The law of four driven, steered wheels; the commands are four_wheel_steering_controller's."""
+
+import math
+from dataclasses import dataclass
+from typing import TypeAlias
+
+Wheels: TypeAlias = tuple[float, float, float, float]
+"""Front left, front right, rear left, rear right."""
+_SLOWEST = 0.001
+"""[m/s] What is slower stands."""
+_TURNED = 0.001
+"""[rad] A wheel turned by less points straight on."""
+_SAME = 0.01
+"""Tangents of the two angles of an axle that differ by less point at nothing near."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FourWheelSteering:
+    """Two steered axles."""
+
+    track: float
+    """Between the steering axes of one axle [m]."""
+    offset: float
+    """From a steering axis out to its wheel [m]."""
+    radius: float
+    """Of the wheels [m]."""
+    base: float
+    """Between the axles [m]."""
+
+    def by_twist(self, forward: float, turning: float) -> tuple[Wheels, Wheels]:
+        """Wheel speeds [rad/s] and steering angles [rad] for both axles turned alike, the other way round.
+
+        Args:
+            forward: of the middle [m/s].
+            turning: to the left [rad/s].
+        """
+        moves, half = abs(forward) > _SLOWEST, turning * self.track / 2
+        speeds = (0.0, 0.0)
+        if moves:
+            speeds = self._speeds(forward, turning, self.base * turning / 2)
+        left = right = 0.0
+        if abs(forward) > abs(half):
+            reach = turning * self.base / 2
+            left, right = math.atan(reach / (forward - half)), math.atan(reach / (forward + half))
+        elif moves:
+            left = right = math.copysign(math.pi / 2, turning)
+        return (*speeds, *speeds), (left, right, -left, -right)
+
+    def by_angles(self, speed: float, front: float, rear: float) -> tuple[Wheels, Wheels]:
+        """Wheel speeds [rad/s] and steering angles [rad] for the angles that the axles' middles are to have.
+
+        Args:
+            speed: of the middle along the base [m/s].
+            front: to the left [rad].
+            rear: likewise.
+        """
+        ahead, behind = (math.tan(min(max(angle, -math.pi / 2), math.pi / 2)) for angle in (front, rear))
+        apart = self.track * (ahead - behind) / 2
+        angles = (0.0, 0.0, 0.0, 0.0)
+        if abs(self.base - abs(apart)) > _SLOWEST:
+            near, far = self.base - apart, self.base + apart
+            fl, fr, rl, rr = (
+                math.atan(self.base * tangent / way) for tangent in (ahead, behind) for way in (near, far)
+            )
+            angles = (fl, fr, rl, rr)
+        if abs(speed) <= _SLOWEST:
+            return (0.0, 0.0, 0.0, 0.0), angles
+        turning = speed * (ahead - behind) / self.base
+        lengths = (self._to_centre(*angles[:2]), self._to_centre(*angles[2:]))
+        front_speeds, rear_speeds = (self._speeds(speed, turning, length * turning) for length in lengths)
+        return front_speeds + rear_speeds, angles
+
+    def motion(self, speeds: Wheels, front: float, rear: float) -> tuple[float, float, float]:
+        """How fast the middle goes forwards and to the left [m/s], and turns to the left [rad/s].
+
+        Args:
+            speeds: of the wheels [rad/s].
+            front: angle of the front axle's middle [rad].
+            rear: of the rear one's.
+        """
+        bend = (math.tan(front) - math.tan(rear)) / self.base
+        ahead = self._axle_speed(speeds[:2], front, math.cos(front) * bend)
+        behind = self._axle_speed(speeds[2:], rear, math.cos(rear) * bend)
+        turning = (ahead * math.cos(front) + behind * math.cos(rear)) * bend / 2
+        forward = (ahead * math.cos(front) + behind * math.cos(rear)) / 2
+        return forward, (ahead * math.sin(front) + behind * math.sin(rear)) / 2, turning
+
+    def _speeds(self, forward: float, turning: float, sideways: float) -> tuple[float, float]:
+        """Of an axle's left and right wheel, whose steering axes go `sideways` [m/s]."""
+        sign, out, half = math.copysign(1.0, forward), turning * self.offset / self.radius, turning * self.track / 2
+        left, right = (sign * math.hypot(forward + each, sideways) / self.radius for each in (-half, half))
+        return left - out, right + out
+
+    def _to_centre(self, left: float, right: float) -> float:
+        """How far along the base the point is from an axle about which it turns [m]."""
+        one, other = math.tan(left), math.tan(right)
+        return one * other * self.track / (one - other) if abs(one - other) > _SAME else 0.0
+
+    def _axle_speed(self, speeds: tuple[float, float], angle: float, curvature: float) -> float:
+        """Of an axle's middle along its own angle [m/s], by its wheels [rad/s]."""
+        wide = self.track * curvature
+        ways = (math.sqrt(1.0 + sign * wide * math.cos(angle) + wide**2 / 4) for sign in (-1.0, 1.0))
+        outward = (-self.offset * curvature, self.offset * curvature)
+        left, right = (speed / (1.0 + out / way) for speed, out, way in zip(speeds, outward, ways, strict=True))
+        return math.copysign(self.radius * math.hypot(left, right) / math.sqrt(2.0 + wide**2 / 2), left + right)
+
+
+def axle_angle(left: float, right: float) -> float:
+    """The angle of an axle's middle [rad], by those of its wheels."""
+    one, other = math.tan(left), math.tan(right)
+    if (abs(left) <= _TURNED and abs(right) <= _TURNED) or one + other == 0.0:
+        return 0.0
+    return math.atan(2.0 * one * other / (one + other))

@@ -1,0 +1,138 @@
+"""ackermann_steering_controller/AckermannSteeringController: one driven wheel behind, one steered one in front."""
+
+import math
+from collections import deque
+from typing import Self
+
+from trundle.ros import Message
+
+from .base_odometry import BaseOdometry
+from .controller import Ends, Site
+from .drive_settings import length, origin, speed_limit, wheel_radius
+from .transmissions import Interface
+
+_STRAIGHT_RAD = 1e-6
+"""A turn below which the way is a line."""
+
+
+class AckermannSteering:
+    """Drives by `~cmd_vel`: linear.x is a speed, and angular.z the steering angle [rad], as in the original.
+
+    Parameters, with the original's defaults: rear_wheel rear_wheel_joint (velocity), front_steer front_steer_joint
+    (position), wheel_separation_h (between the two joints along x) and wheel_radius (the model's), their
+    wheel_separation_h_multiplier, wheel_radius_multiplier and steer_pos_multiplier 1 (of odometry alone), publish_rate
+    50, open_loop false (then angular.z counts as a rate), velocity_rolling_window_size 10, cmd_vel_timeout 0.5,
+    allow_multiple_cmd_vel_publishers true, base_frame_id base_link, odom_frame_id odom, enable_odom_tf true, linear/x
+    and angular/z with has_, max_ and min_ velocity_limits, acceleration_limits and jerk_limits, pose_ and
+    twist_covariance_diagonal.
+    """
+
+    def __init__(self, site: Site) -> None:
+        settings = site.settings
+        self._node = site.node
+        self._wheel = site.joint(settings.text("rear_wheel", "rear_wheel_joint"), "VelocityJointInterface")
+        self._steer = site.joint(settings.text("front_steer", "front_steer_joint"), "PositionJointInterface")
+        self.claims: dict[Interface | str, list[str]] = {j.interface: [j.name] for j in (self._wheel, self._steer)}
+        apart = abs(origin(site, self._wheel)[0] - origin(site, self._steer)[0])
+        base = length(site, "wheel_separation_h", apart or None)
+        self._radius = wheel_radius(site, self._wheel)
+        self._rolled_radius = self._radius * settings.number("wheel_radius_multiplier", 1.0)
+        self._base = base * settings.number("wheel_separation_h_multiplier", 1.0)
+        self._steer_multiplier = settings.number("steer_pos_multiplier", 1.0)
+        self._timeout_ns = round(settings.number("cmd_vel_timeout", 0.5) * 1e9)
+        self._open_loop = settings.flag("open_loop", default=False)
+        self._takes_many = settings.flag("allow_multiple_cmd_vel_publishers", default=True)
+        sections = (settings.section("linear").section("x"), settings.section("angular").section("z"))
+        self._limits = tuple(map(speed_limit, sections))
+        self._window = max(1, round(settings.number("velocity_rolling_window_size", 10)))
+        self._ends = Ends()
+        self._odometry = BaseOdometry(site, self._ends, frame=settings.text("odom_frame_id", "odom"))
+        self._commands = site.node.subscribe(f"{site.name}/cmd_vel", "geometry_msgs/Twist", self._take, queue_size=1)
+        self._ends.add(self._commands)
+        self._is_running = False
+        self._place = (0.0, 0.0, 0.0)
+        """x, y [m] and yaw [rad]."""
+        self._history = [(0.0, 0.0), (0.0, 0.0)]
+        """Last and last but one command, linear and angular."""
+
+    @classmethod
+    def make(cls, site: Site) -> Self:
+        """See `Controller.make`."""
+        return cls(site)
+
+    def start(self, time_ns: int) -> None:
+        """Stand still, straight, and count the wheel's turns from here."""
+        for joint in (self._wheel, self._steer):
+            joint.engage()
+            joint.command = 0.0
+        self._odometry.restart(time_ns)
+        self._turned = self._wheel.position
+        self._command: tuple[int, float, float] | None = None
+        self._speeds: deque[tuple[float, float]] = deque(maxlen=self._window)
+        self._is_running = True
+
+    def update(self, time_ns: int, dt: float) -> None:
+        """Add up what the wheel did, tell it, and drive on."""
+        self._count(dt)
+        if self._odometry.due(time_ns):
+            count = max(1, len(self._speeds))
+            linear, angular = (sum(speed[i] for speed in self._speeds) / count for i in (0, 1))
+            self._odometry.tell(time_ns, self._place, (linear, 0.0, angular))
+        for number, wanted in enumerate(self._wanted(time_ns)):
+            last, before = self._history[number]
+            self._history[number] = (self._limits[number].limited(wanted, last, before, dt), last)
+        (linear, _), (angle, _) = self._history
+        self._wheel.command = linear / self._radius
+        self._steer.command = angle
+
+    def stop(self) -> None:
+        """Brake, and steer straight on."""
+        self._is_running = False
+        self._wheel.rest()
+        self._steer.command = 0.0
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self._ends.close()
+
+    def _take(self, message: Message) -> None:
+        linear, angle = float(message.linear.x), float(message.angular.z)
+        if not self._is_running:
+            self._node.log_error("Can't accept new commands. Controller is not running.")
+        elif not self._takes_many and (count := self._commands.publishers) > 1:
+            self._node.log_error(f"Detected {count} publishers. Only 1 publisher is allowed. Going to brake.")
+            self._command = None
+        elif math.isfinite(linear) and math.isfinite(angle):
+            self._command = (self._node.clock.now_ns(), linear, angle)
+        else:
+            self._node.log_warn("Received NaN in velocity command. Ignoring.")
+
+    def _wanted(self, time_ns: int) -> tuple[float, float]:
+        """What was commanded, unless that is too old."""
+        if self._command is None or time_ns - self._command[0] > self._timeout_ns:
+            return 0.0, 0.0
+        return self._command[1:]
+
+    def _count(self, dt: float) -> None:
+        if self._open_loop:
+            distance, turn = (last * dt for last, _ in self._history)
+        else:
+            turned, self._turned = self._wheel.position - self._turned, self._wheel.position
+            distance = turned * self._rolled_radius
+            turn = math.tan(self._steer.position * self._steer_multiplier) * distance / self._base
+        self._place = rolled(self._place, distance, turn)
+        if dt > 0.0:
+            self._speeds.append((distance / dt, turn / dt))
+
+
+def rolled(place: tuple[float, float, float], distance: float, turn: float) -> tuple[float, float, float]:
+    """A place (x, y [m], yaw [rad]) after an arc so long [m] that turns so far [rad]."""
+    x, y, yaw = place
+    if abs(turn) < _STRAIGHT_RAD:
+        return x + distance * math.cos(yaw + turn / 2), y + distance * math.sin(yaw + turn / 2), yaw + turn
+    radius = distance / turn
+    return (
+        x + radius * (math.sin(yaw + turn) - math.sin(yaw)),
+        y - radius * (math.cos(yaw + turn) - math.cos(yaw)),
+        yaw + turn,
+    )

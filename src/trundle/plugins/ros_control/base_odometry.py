@@ -1,0 +1,69 @@
+"""Where a drive says its base is: `~odom`, and its frame on /tf."""
+
+import math
+
+from trundle.ros import Transform, TransformBroadcaster
+
+from .controller import Cadence, Ends, Site
+from .drive_settings import covariance
+
+
+class BaseOdometry:
+    """Tells by publish_rate 50, base_frame_id base_link, enable_odom_tf true, pose_ and twist_covariance_diagonal."""
+
+    def __init__(self, site: Site, ends: Ends, *, frame: str) -> None:
+        """Advertise.
+
+        Args:
+            site: of the controller.
+            ends: takes the topic.
+            frame: of the odometry.
+        """
+        settings = site.settings
+        self._frame, self.base = frame, settings.text("base_frame_id", "base_link")
+        self._covariances = tuple(covariance(settings, f"{what}_covariance_diagonal") for what in ("pose", "twist"))
+        self._cadence = Cadence(settings.rate_hz("publish_rate", 50.0))
+        self._topic = site.node.advertise(f"{site.name}/odom", "nav_msgs/Odometry", queue_size=100)
+        ends.add(self._topic)
+        has_tf = settings.flag("enable_odom_tf", default=True)
+        self._broadcaster = TransformBroadcaster(site.node) if has_tf else None
+
+    def restart(self, time_ns: int) -> None:
+        """Count the period from now."""
+        self._cadence.restart(time_ns)
+
+    def due(self, time_ns: int) -> bool:
+        """Whether to tell now; if so, the next period begins."""
+        return self._cadence.due(time_ns)
+
+    def tell(self, time_ns: int, place: tuple[float, float, float], speed: tuple[float, float, float]) -> None:
+        """Publish.
+
+        Args:
+            time_ns: now.
+            place: x [m], y [m] and yaw [rad] in the odometry's frame.
+            speed: forwards [m/s], to the left [m/s] and turning to the left [rad/s].
+        """
+        x, y, yaw = place
+        turn = {"z": math.sin(yaw / 2), "w": math.cos(yaw / 2)}
+        if self._topic.has_subscribers:
+            pose, twist = self._covariances
+            linear, angular = {"x": speed[0], "y": speed[1]}, {"z": speed[2]}
+            self._topic.publish(
+                {
+                    "header": {"stamp": time_ns, "frame_id": self._frame},
+                    "child_frame_id": self.base,
+                    "pose": {"pose": {"position": {"x": x, "y": y}, "orientation": turn}, "covariance": pose},
+                    "twist": {"twist": {"linear": linear, "angular": angular}, "covariance": twist},
+                }
+            )
+        if self._broadcaster is not None:
+            self._broadcaster.send(
+                Transform(
+                    parent=self._frame,
+                    child=self.base,
+                    stamp_ns=time_ns,
+                    translation=(x, y, 0.0),
+                    rotation=(turn["w"], 0.0, 0.0, turn["z"]),
+                )
+            )

@@ -1,0 +1,87 @@
+"""Parameters that the controllers of drives have in common."""
+
+import math
+from typing import Any
+
+from trundle.control import SpeedLimit
+from trundle.model import Cylinder, Sphere, model_from_joint
+from trundle.ros import SettingError, Settings
+from trundle.spatial import Vector3
+
+from .controller import Site
+from .hardware import JointHardware
+
+
+def joint_names(settings: Settings, name: str) -> list[str]:
+    """One joint, or a list of them."""
+    try:
+        return [settings.text(name)]
+    except SettingError:
+        names = settings.texts(name)
+        if not names:
+            raise
+        return names
+
+
+def speed_limit(settings: Settings) -> SpeedLimit:
+    """max_… and min_…, of which the one that is missing is the other's negative."""
+
+    def bounds(what: str) -> tuple[float, float]:
+        if not settings.flag(f"has_{what}_limits", default=False):
+            return -math.inf, math.inf
+        largest = settings.number(f"max_{what}")
+        return settings.number(f"min_{what}", -largest), largest
+
+    slowest, fastest = bounds("velocity")
+    braking, speeding = bounds("acceleration")
+    lowest, highest = bounds("jerk")
+    return SpeedLimit(
+        slowest=slowest,
+        fastest=fastest,
+        hardest_braking=braking,
+        hardest=speeding,
+        lowest_jerk=lowest,
+        highest_jerk=highest,
+    )
+
+
+def covariance(settings: Settings, name: str) -> list[float]:
+    """A 6×6 covariance from its diagonal; absent is zero."""
+    values: list[Any] = settings.items(name) or [0.0] * 6
+    if len(values) != 6 or not all(isinstance(value, int | float) for value in values):
+        raise SettingError(f"{name} must be 6 numbers, got {values!r}")
+    return [float(values[row]) if row == column else 0.0 for row in range(6) for column in range(6)]
+
+
+def length(site: Site, name: str, otherwise: float | None) -> float:
+    """A length [m]: the parameter, else as the model has it; None: it does not say.
+
+    Raises:
+        SettingError: there is none, or it is not > 0.
+    """
+    value = site.settings.number(name, otherwise)
+    if value <= 0.0:
+        raise SettingError(f"parameter {site.name}/{name} must be > 0 m, got {value:g}")
+    return value
+
+
+def origin(site: Site, joint: JointHardware) -> Vector3:
+    """Where a joint is in the model with all joints at zero [m]."""
+    return model_from_joint(site.model.model, joint.handle.joint).position
+
+
+def wheel_radius(site: Site, wheel: JointHardware) -> float:
+    """The parameter wheel_radius, else that of the wheel's collision [m].
+
+    Raises:
+        SettingError: there is neither, or it is of no use.
+    """
+    link = site.model.link(wheel.handle.joint.child).link
+    round_ones = (each.geometry for each in link.collisions if isinstance(each.geometry, Cylinder | Sphere))
+    found = next((geometry.radius for geometry in round_ones), None)
+    if found is None and "wheel_radius" not in site.settings.names():
+        raise SettingError(
+            f"parameter {site.name}/wheel_radius is not set, and link {link.name!r} has neither a cylinder nor "
+            "a sphere to measure"
+        )
+    return length(site, "wheel_radius", found)

@@ -1,0 +1,184 @@
+"""four_wheel_steering_controller/FourWheelSteeringController: four wheels that are driven and steered."""
+
+import math
+from collections import deque
+from typing import Any, Self
+
+from trundle.control import FourWheelSteering, Wheels, axle_angle
+from trundle.ros import Message, SettingError
+
+from .base_odometry import BaseOdometry
+from .controller import Ends, Site
+from .drive_settings import joint_names, length, origin, speed_limit, wheel_radius
+from .hardware import JointHardware
+from .transmissions import Interface
+
+_PACKAGE = "four_wheel_steering_msgs"
+
+
+class FourWheelDrive:
+    """Drives by the last of `~cmd_vel`, axles turned opposite ways, and `~cmd_four_wheel_steering`, each as told.
+
+    Parameters, with the original's defaults: front_wheel, rear_wheel (velocity), front_steering and rear_steering
+    (position), each a left and a right joint (required); track and wheel_base (between front wheels, and axles) and
+    wheel_radius (those of the model), publish_rate 50, velocity_rolling_window_size 10, cmd_vel_timeout 0.5,
+    base_frame_id base_link, enable_odom_tf true, linear/x and angular/z with has_, max_ and min_ velocity_limits and
+    acceleration_limits, pose_ and twist_covariance_diagonal. Odometry is in the frame odom, and on `~odom_steer` as
+    angles, with rates that grow as they do: the original's have the other sign, and it mistakes the wheels' offset.
+    """
+
+    def __init__(self, site: Site) -> None:
+        settings = site.settings
+        self._node = site.node
+        self._wheels = _pair(site, "front_wheel", "VelocityJointInterface")
+        self._wheels += _pair(site, "rear_wheel", "VelocityJointInterface")
+        self._steers = _pair(site, "front_steering", "PositionJointInterface")
+        self._steers += _pair(site, "rear_steering", "PositionJointInterface")
+        self.claims: dict[Interface | str, list[str]] = {
+            group[0].interface: [joint.name for joint in group] for group in (self._wheels, self._steers)
+        }
+        self._law = self._geometry(site)
+        self._timeout_ns = round(settings.number("cmd_vel_timeout", 0.5) * 1e9)
+        sections = (settings.section("linear").section("x"), settings.section("angular").section("z"))
+        self._limits = tuple(map(speed_limit, sections))
+        self._window = max(1, round(settings.number("velocity_rolling_window_size", 10)))
+        self._ends = Ends()
+        self._odometry = BaseOdometry(site, self._ends, frame="odom")
+        told = f"{_PACKAGE}/FourWheelSteeringStamped"
+        self._steering_topic = site.node.advertise(f"{site.name}/odom_steer", told, queue_size=100)
+        self._ends.add(
+            self._steering_topic,
+            site.node.subscribe(f"{site.name}/cmd_vel", "geometry_msgs/Twist", self._take_twist, queue_size=1),
+            site.node.subscribe(
+                f"{site.name}/cmd_four_wheel_steering", f"{_PACKAGE}/FourWheelSteering", self._take_angles, queue_size=1
+            ),
+        )
+        settings.flag("open_loop", default=False)  # of no effect in the original either
+        self._is_running = False
+        self._place = (0.0, 0.0, 0.0)
+        """x, y [m] and yaw [rad]."""
+        self._history = [(0.0, 0.0), (0.0, 0.0)]
+        """Last and last but one command, linear and angular."""
+
+    @classmethod
+    def make(cls, site: Site) -> Self:
+        """See `Controller.make`."""
+        return cls(site)
+
+    def start(self, time_ns: int) -> None:
+        """Stand still, straight."""
+        for joint in (*self._wheels, *self._steers):
+            joint.engage()
+            joint.command = 0.0
+        self._odometry.restart(time_ns)
+        self._twist: tuple[int, float, float] = (-1, 0.0, 0.0)
+        """When, forwards [m/s], turning [rad/s]."""
+        self._angles: tuple[int, float, float, float] = (-1, 0.0, 0.0, 0.0)
+        """When, speed [m/s], front, rear [rad]."""
+        self._told: deque[tuple[float, float, float, float]] = deque(maxlen=self._window + 1)
+        """Speed [m/s], both angles [rad] and how long ago the one before was [s]."""
+        self._is_running = True
+
+    def update(self, time_ns: int, dt: float) -> None:
+        """Add up what the wheels do, tell it, and drive on."""
+        speeds: Wheels = tuple(joint.velocity for joint in self._wheels)  # pyright: ignore[reportAssignmentType]
+        fl, fr, rl, rr = (joint.position for joint in self._steers)
+        front, rear = axle_angle(fl, fr), axle_angle(rl, rr)
+        forward, sideways, turning = self._law.motion(speeds, front, rear)
+        x, y, yaw = self._place
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        self._place = (
+            x + (forward * cos - sideways * sin) * dt,
+            y + (forward * sin + sideways * cos) * dt,
+            yaw + turning * dt,
+        )
+        self._told.append((math.copysign(math.hypot(forward, sideways), forward), front, rear, dt))
+        if self._odometry.due(time_ns):
+            self._odometry.tell(time_ns, self._place, (forward, sideways, turning))
+            self._tell_angles(time_ns)
+        self._drive(time_ns, dt)
+
+    def stop(self) -> None:
+        """Brake, and steer straight on."""
+        self._is_running = False
+        for joint in self._wheels:
+            joint.rest()
+        for joint in self._steers:
+            joint.command = 0.0
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self._ends.close()
+
+    def _drive(self, time_ns: int, dt: float) -> None:
+        if self._angles[0] >= self._twist[0]:
+            stamp, speed, front, rear = self._angles
+            speed, front, rear = (speed, front, rear) if time_ns - stamp <= self._timeout_ns else (0.0, 0.0, 0.0)
+            speeds, angles = self._law.by_angles(self._limited(0, speed, dt), front, rear)
+        else:
+            stamp, forward, turning = self._twist
+            forward, turning = (forward, turning) if time_ns - stamp <= self._timeout_ns else (0.0, 0.0)
+            speeds, angles = self._law.by_twist(self._limited(0, forward, dt), self._limited(1, turning, dt))
+        for joint, command in zip((*self._wheels, *self._steers), (*speeds, *angles), strict=True):
+            joint.command = command
+
+    def _limited(self, number: int, wanted: float, dt: float) -> float:
+        last, before = self._history[number]
+        limited = self._limits[number].limited(wanted, last, before, dt)
+        self._history[number] = (limited, last)
+        return limited
+
+    def _tell_angles(self, time_ns: int) -> None:
+        if not self._steering_topic.has_subscribers:
+            return
+        first, last = self._told[0], self._told[-1]
+        elapsed = sum(each[3] for each in list(self._told)[1:])
+        rates = [(b - a) / elapsed if elapsed > 0.0 else 0.0 for a, b in zip(first[:3], last[:3], strict=True)]
+        data: dict[str, Any] = {
+            "speed": last[0],
+            "acceleration": rates[0],
+            "front_steering_angle": last[1],
+            "rear_steering_angle": last[2],
+            "front_steering_angle_velocity": rates[1],
+            "rear_steering_angle_velocity": rates[2],
+        }
+        self._steering_topic.publish({"header": {"stamp": time_ns, "frame_id": "odom"}, "data": data})
+
+    def _take_twist(self, message: Message) -> None:
+        values = (float(message.linear.x), float(message.angular.z))
+        if self._is_taken("geometry_msgs::Twist", values):
+            self._twist = (self._node.clock.now_ns(), *values)
+
+    def _take_angles(self, message: Message) -> None:
+        values = (float(message.speed), float(message.front_steering_angle), float(message.rear_steering_angle))
+        if self._is_taken("four_wheel_steering_msgs::FourWheelSteering", values):
+            self._angles = (self._node.clock.now_ns(), *values)
+
+    def _is_taken(self, kind: str, values: tuple[float, ...]) -> bool:
+        if not self._is_running:
+            self._node.log_error("Can't accept new commands. Controller is not running.")
+        elif not all(map(math.isfinite, values)):
+            self._node.log_warn(f"Received NaN in {kind}. Ignoring command.")
+        else:
+            return True
+        return False
+
+    def _geometry(self, site: Site) -> FourWheelSteering:
+        """As the parameters say, else as the model has it."""
+        front, rear, steer = self._wheels[0], self._wheels[2], self._steers[0]
+        offset = math.dist(origin(site, steer), origin(site, front))
+        between = math.dist(origin(site, front), origin(site, self._wheels[1]))
+        return FourWheelSteering(
+            track=length(site, "track", between) - 2 * offset,
+            offset=offset,
+            radius=wheel_radius(site, front),
+            base=length(site, "wheel_base", math.dist(origin(site, front), origin(site, rear))),
+        )
+
+
+def _pair(site: Site, name: str, interface: Interface) -> list[JointHardware]:
+    """A left and a right joint."""
+    names = joint_names(site.settings, name)
+    if len(names) != 2:
+        raise SettingError(f"parameter {site.name}/{name} must be a left and a right joint, got {', '.join(names)}")
+    return [site.joint(each, interface) for each in names]
