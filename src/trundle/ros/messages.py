@@ -1,7 +1,7 @@
 """ROS 1 messages and services: which types there are, and everything about one by its name.
 
-The library rosbags brings the types of a desktop installation and the serialisation; it is imported when the first
-type is asked for, so that importing this module costs nothing.
+The library rosbags brings the types of a desktop installation; it is imported when the first type is asked for, so
+that importing this module costs nothing.
 """
 
 import threading
@@ -180,7 +180,7 @@ class Messages:
         """Make a `time` value from nanoseconds."""
         return self._store.types["builtin_interfaces/msg/Time"](sec=ns // 10**9, nanosec=ns % 10**9)
 
-    def serialize(self, message: Message) -> memoryview:
+    def serialize(self, message: Message) -> bytes:
         """Write a message's bytes.
 
         Raises:
@@ -197,7 +197,7 @@ class Messages:
         return self.codec(type_name).read(data)
 
     def codec(self, type_name: str) -> Codec:
-        """Return what writes and reads a type, made on first use: libraries are imported, code is generated."""
+        """Return what writes and reads a type, made on first use."""
         return self._codecs.get(type_name) or self._make_codec(type_name)
 
     # -- inside

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 _SEPARATOR = "=" * 80 + "\nMSG: "
 BUILTIN = {"builtin_interfaces/msg/Time": "time", "builtin_interfaces/msg/Duration": "duration"}
 """Types of the library that ROS 1 has no messages for."""
+PLACEHOLDER = "structure_needs_at_least_one_member"
+"""A field that rosbags puts into empty types because ROS 2 does."""
 
 
 class TypeTexts:
@@ -98,8 +100,8 @@ class TypeTexts:
 
 
 def fields_of(store: "Typestore", key: str) -> list[tuple[str, Any]]:
-    """Fields of a type in order, without the one rosbags puts into empty types because ROS 2 does."""
-    return [field for field in store.fielddefs[key][1] if field[0] != "structure_needs_at_least_one_member"]
+    """Fields of a type in order, as they are written down."""
+    return [field for field in store.fielddefs[key][1] if field[0] != PLACEHOLDER]
 
 
 def ros_name(key: str) -> str:

@@ -1,0 +1,158 @@
+"""What C++ writes and reads, against rosbags' own code for every type there is."""
+
+import dataclasses
+import math
+import random
+import struct
+from typing import Any
+
+import numpy as np
+import pytest
+from rosbags.interfaces import Nodetype
+from rosbags.serde import SerdeError
+from rosbags.serde.utils import SIZEMAP
+
+from trundle.ros import MessageError, Messages
+
+REFUSALS = (SerdeError, struct.error, ValueError)
+RANGES = {
+    "bool": (0, 1),
+    "byte": (-(2**7), 2**7 - 1),
+    "char": (0, 2**8 - 1),
+    **{f"int{bits}": (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (8, 16, 32, 64)},
+    **{f"uint{bits}": (0, 2**bits - 1) for bits in (8, 16, 32, 64)},
+}
+REALS = [0.0, -0.0, 1.5, -2.25, 3.4e38, 1e-45, math.inf, -math.inf, math.nan]
+TEXTS = ["", "map", "a longer frame_id, past the short ones", "Räder", "車輪", "🤖\0\n", "x" * 3000]
+DTYPES = {"bool": "?", "byte": "i1", "char": "u1"}
+
+
+@pytest.fixture(scope="module")
+def messages() -> Messages:
+    return Messages()
+
+
+@pytest.fixture(scope="module")
+def types(messages: Messages) -> list[str]:
+    """Every message type there is, those of services too."""
+    services = [messages.service(name) for name in messages.service_names()]
+    return messages.type_names() + [half for kind in services for half in (kind.request, kind.response)]
+
+
+class Maker:
+    """Makes messages of a store's types of all that their fields may hold."""
+
+    def __init__(self, store: Any, seed: int) -> None:
+        self.store = store
+        self.any = random.Random(seed)
+
+    def message(self, key: str) -> Any:
+        message = self.store.types[key].__new__(self.store.types[key])
+        for name, desc in self.store.get_msgdef(key).fields:
+            setattr(message, name, self.value(desc))
+        return message
+
+    def value(self, desc: Any) -> Any:
+        kind, detail = desc
+        if kind == Nodetype.NAME:
+            return self.message(detail)
+        if kind == Nodetype.BASE:
+            return self.scalar(detail[0])
+        (inner, of), count = detail
+        if kind == Nodetype.SEQUENCE:
+            count = self.any.choice([0, 1, 2, 3])
+        if inner == Nodetype.BASE and of[0] != "string":
+            if kind == Nodetype.SEQUENCE:
+                count = self.any.choice([0, 1, 7, 400])
+            return np.array([self.scalar(of[0]) for _ in range(count)], DTYPES.get(of[0], of[0]))
+        return [self.value((inner, of)) for _ in range(count)]
+
+    def scalar(self, kind: str) -> Any:
+        if kind == "string":
+            return self.any.choice(TEXTS)
+        if kind.startswith("float"):
+            number = self.any.choice([*REALS, self.any.gauss(0, 100)])
+            return float(np.float32(number)) if kind == "float32" else number
+        low, high = RANGES[kind]
+        number = self.any.choice([low, high, self.any.randint(low, high)])
+        return bool(number) if kind == "bool" else number
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two values are alike to the last bit."""
+    if type(one) is not type(other):
+        return False
+    if isinstance(one, np.ndarray):
+        layout = (one.dtype, one.shape, one.flags.writeable, one.tobytes())
+        return layout == (other.dtype, other.shape, other.flags.writeable, other.tobytes())
+    if isinstance(one, float):
+        return struct.pack("d", one) == struct.pack("d", other)
+    if isinstance(one, list):
+        return len(one) == len(other) and all(map(same, one, other))
+    if hasattr(one, "__msgtype__"):
+        names = [field.name for field in dataclasses.fields(one)]
+        return all(same(getattr(one, name), getattr(other, name)) for name in names)
+    return one == other
+
+
+def read_by_rosbags(store: Any, data: Any, key: str) -> Any:
+    """A message, or None where rosbags refuses."""
+    try:
+        return store.deserialize_ros1(data, key)
+    except REFUSALS:
+        return None
+
+
+def read_by_us(messages: Messages, data: Any, kind: str) -> Any:
+    try:
+        return messages.deserialize(data, kind)
+    except MessageError:
+        return None
+
+
+def damaged(data: bytes, any_: random.Random) -> list[bytes]:
+    """Bytes cut short, with more behind, and with others in between."""
+    results = [data[: any_.randrange(len(data) + 1)] for _ in range(4)] + [data + b"\0", data[1:]]
+    for _ in range(8):
+        changed = bytearray(data or b"\0")
+        for _ in range(any_.randint(1, 3)):
+            changed[any_.randrange(len(changed))] = any_.choice([0, 1, 4, 0x7F, 0x80, 0xFF, any_.randrange(256)])
+        results.append(bytes(changed))
+    place = any_.randrange(len(data) + 1)  # a length of nearly 2^32, or one just too long
+    return [*results, data[:place] + b"\xff\xff\xff\xff" + data[place + 4 :], data[:place] + b"\1" + data[place + 1 :]]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_bytes_and_values_are_those_of_rosbags(messages: Messages, types: list[str], seed: int) -> None:
+    store = messages._store  # pyright: ignore[reportPrivateUsage]
+    maker = Maker(store, seed)
+    for kind in types:
+        key = messages._key(kind)  # pyright: ignore[reportPrivateUsage]
+        message = maker.message(key)
+        data = bytes(store.serialize_ros1(message, key))
+
+        assert messages.serialize(message) == data, kind
+        framed = b"".join(messages.codec(kind).frame(message))
+        assert framed == len(data).to_bytes(4, "little") + data, kind
+        for buffer in (data, bytearray(data), memoryview(data), memoryview(b"12" + data)[2:]):
+            read = messages.deserialize(buffer, kind)
+            assert same(read, store.deserialize_ros1(buffer, key)), kind
+            assert messages.serialize(read) == data, kind  # of arrays that lie anywhere
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_damaged_bytes_are_refused_where_rosbags_does(messages: Messages, types: list[str], seed: int) -> None:
+    store = messages._store  # pyright: ignore[reportPrivateUsage]
+    maker = Maker(store, seed)
+    for kind in types:
+        key = messages._key(kind)  # pyright: ignore[reportPrivateUsage]
+        for data in damaged(bytes(messages.serialize(maker.message(key))), maker.any):
+            assert same(read_by_us(messages, data, kind), read_by_rosbags(store, data, key)), (kind, data)
+
+
+def test_every_type_of_number_is_among_the_types(messages: Messages, types: list[str]) -> None:
+    store = messages._store  # pyright: ignore[reportPrivateUsage]
+    descs = [desc for kind in types for _, desc in store.fielddefs[messages._key(kind)][1]]  # pyright: ignore
+    inner = [desc if desc[0] in (Nodetype.BASE, Nodetype.NAME) else desc[1][0] for desc in descs]
+    known = {desc[1][0] for desc in inner if desc[0] == Nodetype.BASE}
+    assert known == set(SIZEMAP) - {"float128"} | {"string"}
