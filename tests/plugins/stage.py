@@ -23,12 +23,12 @@ class Wires:
 
     def __init__(self) -> None:
         self._types = Messages()
-        self._heard_by: dict[str, tuple[str, Callable[[Any], None]]] = {}
+        self._heard_by: dict[str, list[tuple[str, Callable[[Any], None]]]] = {}
         self.said: dict[str, list[Any]] = {}
         self.latched: set[str] = set()
 
     def subscribe(self, topic: str, kind: str, call: Callable[[Any], None], **_: Any) -> None:
-        self._heard_by[topic] = (kind, call)
+        self._heard_by.setdefault(topic, []).append((kind, call))
 
     def advertise(self, topic: str, kind: str, *, latch: bool = False, **_: Any) -> "_Topic":
         if latch:
@@ -36,9 +36,12 @@ class Wires:
         return _Topic(self._types, kind, self.said.setdefault(topic, []))
 
     def tell(self, topic: str, **fields: Any) -> None:
-        """Have the listener on a topic hear a message."""
-        kind, call = self._heard_by[topic]
-        call(self._types.new(kind, fields))
+        """Have the listeners on a topic hear a message."""
+        for kind, call in self._heard_by[topic]:
+            call(self.new(kind, fields))
+
+    def new(self, kind: str, fields: Any) -> Any:
+        return self._types.new(kind, fields)
 
 
 class _Topic:
@@ -48,7 +51,7 @@ class _Topic:
         self._types, self._kind, self._said = types, kind, said
 
     def publish(self, message: Any) -> None:
-        self._said.append(self._types.new(self._kind, message))
+        self._said.append(self._types.new(self._kind, message) if isinstance(message, dict) else message)
 
 
 def load(

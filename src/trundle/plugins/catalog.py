@@ -59,6 +59,12 @@ BUILTIN: dict[str, str] = {
     "libhector_gazebo_ros_magnetic.so": "trundle.plugins.hector_gazebo.magnetic:Magnetic",
     "libroboticsgroup_gazebo_mimic_joint_plugin.so": "trundle.plugins.mimic_joint:MimicJoint",
     "libroboticsgroup_upatras_gazebo_mimic_joint_plugin.so": "trundle.plugins.mimic_joint:MimicJoint",
+    "librotors_gazebo_controller_interface.so": "trundle.plugins.rotors.interfaces:ControllerInterface",
+    "librotors_gazebo_imu_plugin.so": "trundle.plugins.rotors.imu:Imu",
+    "librotors_gazebo_motor_model.so": "trundle.plugins.rotors.motor_model:MotorModel",
+    "librotors_gazebo_multirotor_base_plugin.so": "trundle.plugins.rotors.multirotor_base:MultirotorBase",
+    "librotors_gazebo_odometry_plugin.so": "trundle.plugins.rotors.odometry:Odometry",
+    "librotors_gazebo_ros_interface_plugin.so": "trundle.plugins.rotors.interfaces:RosInterface",
 }
 """File name → "module:Class", imported only when a model asks."""
 

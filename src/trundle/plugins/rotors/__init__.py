@@ -1,0 +1,1 @@
+"""Plugins of RotorS, by file name."""

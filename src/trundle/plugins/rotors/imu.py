@@ -1,0 +1,109 @@
+"""librotors_gazebo_imu_plugin.so: an imu with noise and drifting biases."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.diagnostics import UsageError
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation, Snapshot
+from trundle.spatial import Vector3
+from trundle.xmlnode import XmlNode
+
+from ..gazebo_ros.link_motion import LinkMotion
+from ..gazebo_ros.on_graph import GraphPlugin, required
+from .place import topic_of
+
+
+@dataclass(slots=True)
+class _Axes:
+    """Three axes that err alike: white noise, a bias that wanders by a Gauss-Markov process, and one from the start."""
+
+    random: np.random.Generator
+    density: float
+    """Of the noise, per √Hz."""
+    walk: float
+    """Of the bias."""
+    lag_s: float
+    """How long the bias remembers."""
+    bias: NDArray[np.float64]
+    """(3,) What wanders."""
+    first: NDArray[np.float64]
+    """(3,) What stays."""
+
+    def disturbed(self, values: Vector3, dt: float) -> dict[str, float]:
+        """What is told, so long [s] after the last."""
+        spread = self.walk * math.sqrt(self.lag_s / 2.0 * -math.expm1(-2.0 * dt / self.lag_s))
+        self.bias = math.exp(-dt / self.lag_s) * self.bias + spread * self.random.normal(size=3)
+        noise = self.density / math.sqrt(dt) * self.random.normal(size=3)
+        return dict(zip("xyz", (np.array(values) + self.bias + noise + self.first).tolist(), strict=True))
+
+    @property
+    def covariance(self) -> list[float]:
+        """Of the noise, row by row."""
+        return [self.density**2 if number % 4 == 0 else 0.0 for number in range(9)]
+
+
+class Imu(GraphPlugin):
+    """Publishes sensor_msgs/Imu at every step; the orientation is true, its covariance says that there is none.
+
+    Parameters, with RotorS' defaults, an ADIS16448's: <robotNamespace>, <linkName> (required), <imuTopic> imu,
+    <gyroscopeNoiseDensity>, <gyroscopeBiasRandomWalk>, <gyroscopeBiasCorrelationTime> 1000, <gyroscopeTurnOnBiasSigma>,
+    <accelerometerNoiseDensity> 0.004, <accelerometerRandomWalk> 0.006, <accelerometerBiasCorrelationTime> 300,
+    <accelerometerTurnOnBiasSigma> 0.196.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        super().__init__(sim, model, node, tag)
+        parameters = tag.node
+        link = model.link(required(parameters, "linkName"))
+        self._frame, self._motion = link.name, LinkMotion(link)
+        self._gravity = sim.world.physics.gravity
+        random = np.random.default_rng(sim.seed)
+        degree = math.pi / 180.0
+        walks = ("gyroscopeBiasRandomWalk", "accelerometerRandomWalk")
+        defaults = ((70.0 / 3600 * degree, 8.0 / 3600 * degree, 1000.0, 0.5 * degree), (0.004, 0.006, 300.0, 0.196))
+        self._gyroscope, self._accelerometer = (
+            _axes(parameters, sim, random, walk, values) for walk, values in zip(walks, defaults, strict=True)
+        )
+        self._topic = node.advertise(topic_of(tag, "imuTopic", "imu"), "sensor_msgs/Imu", queue_size=1)
+        self._last_ns = sim.time_ns
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell."""
+        if not self._topic.has_subscribers:
+            return
+        elapsed, self._last_ns = (snapshot.time_ns - self._last_ns) / 1e9, snapshot.time_ns
+        motion = self._motion.look(snapshot.time_ns)
+        if elapsed <= 0.0:
+            return
+        (ax, ay, az), (gx, gy, gz) = motion.acceleration, motion.in_link(self._gravity)
+        qw, qx, qy, qz = motion.orientation
+        self._topic.publish(
+            {
+                "header": {"stamp": snapshot.time_ns, "frame_id": self._frame},
+                "orientation": {"x": qx, "y": qy, "z": qz, "w": qw},
+                "orientation_covariance": [-1.0] * 9,
+                "angular_velocity": self._gyroscope.disturbed(motion.rate, elapsed),
+                "angular_velocity_covariance": self._gyroscope.covariance,
+                "linear_acceleration": self._accelerometer.disturbed((ax - gx, ay - gy, az - gz), elapsed),
+                "linear_acceleration_covariance": self._accelerometer.covariance,
+            }
+        )
+
+
+def _axes(
+    parameters: XmlNode, sim: Simulation, random: np.random.Generator, walk: str, defaults: tuple[float, ...]
+) -> _Axes:
+    """Read what has the first word of `walk`, the name of its bias' parameter."""
+    device = walk.removesuffix("RandomWalk").removesuffix("Bias")
+    names = (f"{device}NoiseDensity", walk, f"{device}BiasCorrelationTime", f"{device}TurnOnBiasSigma")
+    density, spread, lag_s, sigma = (
+        parameters.number(name, default=value, report=sim.report) for name, value in zip(names, defaults, strict=True)
+    )
+    if lag_s <= 0.0:
+        raise UsageError(f"<{device}BiasCorrelationTime> must be > 0 s, got {lag_s:g}")
+    return _Axes(random, density, spread, lag_s, np.zeros(3), sigma * random.normal(size=3))

@@ -1,0 +1,50 @@
+"""librotors_gazebo_ros_interface_plugin.so, librotors_gazebo_controller_interface.so: how RotorS' topics get to ROS."""
+
+from typing import Self
+
+from trundle.model import PluginTag
+from trundle.ros import Message, Node
+from trundle.simulation import ModelHandle, Simulation
+
+from ..gazebo_ros.on_graph import GraphPlugin
+from ..plugin import WorldPlugin
+from .place import topic_of
+
+_ACTUATORS = "mav_msgs/Actuators"
+
+
+class RosInterface(WorldPlugin):
+    """Does nothing: the other plugins are on the graph themselves."""
+
+    period_ns = 1 << 62
+
+    @classmethod
+    def load(cls, sim: Simulation, node: Node | None, tag: PluginTag) -> Self:
+        """See `WorldPlugin.load`."""
+        del node
+        tag.node.find("robotNamespace")
+        tag.node.report_unread(sim.report)
+        return cls()
+
+
+class ControllerInterface(GraphPlugin):
+    """Passes what controllers want of the motors on to the motors' own topic, as it comes.
+
+    Parameters, with RotorS' defaults: <robotNamespace>, <commandMotorSpeedSubTopic> command/motor_speed,
+    <motorSpeedCommandPubTopic> gazebo/command/motor_speed.
+    """
+
+    period_ns = 1 << 62
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        super().__init__(sim, model, node, tag)
+        heard = topic_of(tag, "commandMotorSpeedSubTopic", "command/motor_speed")
+        told = topic_of(tag, "motorSpeedCommandPubTopic", "gazebo/command/motor_speed")
+        self._sim, self._motors = sim, node.advertise(told, _ACTUATORS, queue_size=1)
+        node.subscribe(heard, _ACTUATORS, self._pass, queue_size=1)
+        for name in ("commandAttitudeThrustSubTopic", "commandRateThrustSubTopic", "imuSubTopic"):
+            tag.node.find(name)  # of no effect in the original either
+
+    def _pass(self, message: Message) -> None:
+        header = {"stamp": self._sim.time_ns}
+        self._motors.publish({"header": header, "angular_velocities": list(message.angular_velocities)})

@@ -1,0 +1,167 @@
+"""librotors_gazebo_motor_model.so: a rotor that lifts, drags and turns its body."""
+
+import math
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.control import Pid
+from trundle.diagnostics import UsageError
+from trundle.model import PluginTag
+from trundle.ros import Message, Node
+from trundle.simulation import ModelHandle, Simulation, Snapshot
+from trundle.spatial import Vector3, Wrench
+from trundle.xmlnode import XmlNode
+
+from ..gazebo_ros.on_graph import GraphPlugin, required
+from .place import topic_of
+
+_WAYS = {"cw": -1.0, "ccw": 1.0}
+_GAINS = (
+    ("p", "p"),
+    ("i", "i"),
+    ("d", "d"),
+    ("i_max", "iMax"),
+    ("i_min", "iMin"),
+    ("high", "cmdMax"),
+    ("low", "cmdMin"),
+)
+Kind = Literal["velocity", "position", "force"]
+
+
+class MotorModel(GraphPlugin):
+    """Takes mav_msgs/Actuators; the value at <motorNumber> is a speed [rad/s], an angle [rad] or an effort [N·m].
+
+    Parameters, with RotorS' defaults: <robotNamespace>, <jointName>, <linkName>, <turningDirection> cw or ccw
+    (required), <motorNumber> 0, <motorType> velocity, position (by <joint_control_pid>) or force; of velocity
+    <maxRotVelocity> 838 [rad/s], <motorConstant> 8.54858e-6 [N·s²/rad²], <momentConstant> 0.016 [m],
+    <timeConstantUp> 1/80 and <timeConstantDown> 1/40 [s], <rotorDragCoefficient> 1e-4, <rollingMomentCoefficient> 1e-6
+    and <rotorVelocitySlowdownSim> 10: how much slower the joint turns than the rotor. Topics: <commandSubTopic>
+    command/motor_speed, <windSpeedSubTopic> wind_speed (rotors_comm/WindSpeed), <motorSpeedPubTopic> motor_speed, and
+    where they are named <motorPositionPubTopic> and <motorForcePubTopic> (std_msgs/Float32, of the joint).
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        super().__init__(sim, model, node, tag)
+        parameters, report = tag.node, sim.report
+
+        def number(name: str, default: float) -> float:
+            return parameters.number(name, default=default, report=report)
+
+        self._node = node
+        self._joint = model.joint(required(parameters, "jointName"))
+        self._link = model.link(required(parameters, "linkName"))
+        if not self._joint.is_driven:
+            raise UsageError(f"joint {self._joint.name!r} cannot move")
+        axis, parent = self._joint.joint.axis, self._joint.joint.parent
+        assert axis is not None, f"{self._joint.name} moves"
+        self._axis = self._link.link.model_from_link.inverse().direction(axis.direction)
+        """In the rotor's frame."""
+        self._parent = None if parent == "world" else model.link(parent)
+        self._number = parameters.integer("motorNumber", default=0, report=report)
+        way = parameters.string("turningDirection")
+        if way not in _WAYS:
+            raise UsageError(f"<turningDirection> is cw or ccw, got {way!r}")
+        self._way = _WAYS[way]
+        self._kind = _kind_of(parameters)
+        self._pid = _pid_of(parameters.find("joint_control_pid"), sim)
+        self._fastest = number("maxRotVelocity", 838.0)
+        self._lift, self._moment = number("motorConstant", 8.54858e-6), number("momentConstant", 0.016)
+        self._up_s, self._down_s = number("timeConstantUp", 1 / 80), number("timeConstantDown", 1 / 40)
+        self._drag, self._roll = number("rotorDragCoefficient", 1e-4), number("rollingMomentCoefficient", 1e-6)
+        self._slowdown = number("rotorVelocitySlowdownSim", 10.0)
+        if min(self._up_s, self._down_s, self._slowdown) <= 0.0:
+            raise UsageError("<timeConstantUp>, <timeConstantDown> and <rotorVelocitySlowdownSim> must be > 0")
+        self._wind = np.zeros(3)
+        node.subscribe(topic_of(tag, "commandSubTopic", "command/motor_speed"), "mav_msgs/Actuators", self._take)
+        node.subscribe(topic_of(tag, "windSpeedSubTopic", "wind_speed"), "rotors_comm/WindSpeed", self._blow)
+        told = {"motorSpeedPubTopic": "motor_speed"} | {
+            name: "" for name in ("motorPositionPubTopic", "motorForcePubTopic") if parameters.find(name) is not None
+        }
+        self._told = {
+            name: node.advertise(topic_of(tag, name, default), "std_msgs/Float32", queue_size=1)
+            for name, default in told.items()
+        }
+        self._forget()
+
+    def before_step(self, sim: Simulation) -> None:
+        """Push, and turn on."""
+        dt = sim.step_ns / 1e9
+        if self._kind == "velocity":
+            self._fly()
+            lag_s = self._up_s if self._wanted > self._speed else self._down_s
+            kept = math.exp(-dt / lag_s)
+            self._speed = kept * self._speed + (1.0 - kept) * self._wanted
+            self._joint.start(self._way * self._speed / self._slowdown)
+        elif self._kind == "position":
+            error = math.remainder(self._joint.position - self._wanted, math.tau)
+            self._joint.set_effort(self._pid.command(error, dt))
+        else:
+            self._joint.set_effort(self._wanted)
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell."""
+        del snapshot
+        joint = self._joint
+        for name, topic in self._told.items():
+            if topic.has_subscribers:
+                values = {"motorSpeedPubTopic": joint.velocity, "motorPositionPubTopic": joint.position}
+                topic.publish({"data": values.get(name, joint.effort)})
+
+    def reset(self) -> None:
+        """Stand still."""
+        self._forget()
+
+    def _forget(self) -> None:
+        self._wanted = self._speed = 0.0
+        self._pid.reset()
+
+    def _fly(self) -> None:
+        """Lift along the rotor's z axis; drag and rolling moment by P. Martin and E. Salaün, The true role of
+        accelerometer feedback in quadrotor control (ICRA 2010)."""
+        pose, rate = self._link.pose, self._joint.velocity * self._slowdown
+        thrust = self._way * math.copysign(rate * rate * self._lift, rate)
+        axis = np.array(pose.direction(self._axis))
+        airspeed = np.array(self._link.twist.linear) - self._wind
+        across = airspeed - (airspeed @ axis) * axis
+        self._link.add_wrench(Wrench(_sum(pose.direction((0.0, 0.0, thrust)), -abs(rate) * self._drag * across)))
+        if self._parent is not None:
+            torque = pose.direction((0.0, 0.0, -self._way * thrust * self._moment))
+            self._parent.add_wrench(Wrench(torque=_sum(torque, -abs(rate) * self._roll * across)))
+
+    def _take(self, message: Message) -> None:
+        values = message.angular_velocities
+        if not 0 <= self._number < len(values):
+            self._node.log_error(f"motor {self._number}: the command is for {len(values)} motors")
+            return
+        wanted = float(values[self._number])
+        if math.isfinite(wanted):
+            self._wanted = min(wanted, self._fastest) if self._kind == "velocity" else wanted
+
+    def _blow(self, message: Message) -> None:
+        wind = np.array([message.velocity.x, message.velocity.y, message.velocity.z], dtype=float)
+        if np.isfinite(wind).all():
+            self._wind = wind
+
+
+def _kind_of(parameters: XmlNode) -> Kind:
+    match parameters.string("motorType", default="velocity"):
+        case "velocity" | "position" | "force" as kind:
+            return kind
+        case other:
+            raise UsageError(f"<motorType> is velocity, position or force, got {other!r}")
+
+
+def _pid_of(node: XmlNode | None, sim: Simulation) -> Pid:
+    """What is not given is 0, the command's limits as well."""
+    pid = Pid(high=0.0)
+    if node is not None:
+        for name, tag in _GAINS:
+            setattr(pid, name, node.number(tag, default=0.0, report=sim.report))
+    return pid
+
+
+def _sum(one: Vector3, other: NDArray[np.float64]) -> Vector3:
+    x, y, z = (np.array(one) + other).tolist()
+    return x, y, z

@@ -1,0 +1,50 @@
+"""librotors_gazebo_multirotor_base_plugin.so: how fast the rotors of a body turn."""
+
+import re
+
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import JointHandle, ModelHandle, Simulation, Snapshot
+
+from ..gazebo_ros.on_graph import GraphPlugin
+from .place import topic_in, topic_of
+
+_ROTOR = re.compile(r"rotor_(\d+)")
+
+
+class MultirotorBase(GraphPlugin):
+    """Publishes mav_msgs/Actuators on <motorPubTopic> motor_speed, and joint_states of the rotors.
+
+    Parameters, with RotorS' defaults: <robotNamespace>, <linkName> base_link, <rotorVelocitySlowdownSim> 10. Rotors
+    are the links that hang from it, have `rotor_<number>` in their names and a joint `<link>_joint`.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        super().__init__(sim, model, node, tag)
+        parameters = tag.node
+        base = model.link(parameters.string("linkName", default="base_link"))
+        self._frame = base.name
+        self._slowdown = parameters.number("rotorVelocitySlowdownSim", default=10.0, report=sim.report)
+        self._rotors = _rotors_of(model, base.name)
+        self._speeds = node.advertise(topic_of(tag, "motorPubTopic", "motor_speed"), "mav_msgs/Actuators", queue_size=1)
+        self._states = node.advertise(topic_in(tag, "joint_states"), "sensor_msgs/JointState", queue_size=1)
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell."""
+        header = {"stamp": snapshot.time_ns, "frame_id": self._frame}
+        if self._speeds.has_subscribers:
+            speeds = [joint.velocity * self._slowdown for joint in self._rotors]
+            self._speeds.publish({"header": header, "angular_velocities": speeds})
+        if self._states.has_subscribers:
+            names, positions = [joint.name for joint in self._rotors], [joint.position for joint in self._rotors]
+            self._states.publish({"header": header, "name": names, "position": positions})
+
+
+def _rotors_of(model: ModelHandle, base: str) -> list[JointHandle]:
+    """The joints of a body's rotors, by number."""
+    found: dict[int, JointHandle] = {}
+    for joint in model.joints:
+        number = _ROTOR.search(joint.joint.child)
+        if joint.joint.parent == base and number is not None and joint.name == f"{joint.joint.child}_joint":
+            found[int(number[1])] = joint
+    return [found[number] for number in sorted(found)]
