@@ -106,3 +106,19 @@ def test_hectors_compass_shows_north_and_down(gazebo: Gazebo, with_field: bool) 
 
     field = told[-1].magnetic_field if with_field else told[-1].vector
     assert _xyz(field) == pytest.approx([0.0, -2 * math.cos(math.pi / 6), -1.0], abs=1e-6)
+
+
+def test_hectors_barometer_knows_how_high_it_is(gazebo: Gazebo) -> None:
+    """By the barometric formula a pressure falls by 12 Pa for each of the first metres."""
+    parameters = "<elevation>100</elevation><qnh>1000</qnh><frameId>baro_link</frameId><offset>0.5</offset>"
+    assert gazebo.spawn(_box("hector_gazebo_ros_baro", parameters), "box").success
+    heights = gazebo.hear("/pressure_height", "geometry_msgs/PointStamped")
+    told = gazebo.hear("/altimeter", "hector_uav_msgs/Altimeter")
+    _push(gazebo)
+    until(lambda: told and heights)
+
+    assert heights[-1].point.z == pytest.approx(2.5, abs=1e-3)
+    assert heights[-1].header.frame_id == "baro_link"
+    assert told[-1].altitude == pytest.approx(102.5, abs=1e-3)
+    assert told[-1].pressure == pytest.approx(1000 - 0.1188 * 102.5, abs=0.1)
+    assert told[-1].qnh == 1000.0

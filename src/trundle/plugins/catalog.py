@@ -54,6 +54,7 @@ BUILTIN: dict[str, str] = {
     "libgazebo_ros_tricycle_drive.so": "trundle.plugins.gazebo_ros.tricycle_drive:TricycleDrive",
     "libgazebo_ros_vacuum_gripper.so": "trundle.plugins.gazebo_ros.vacuum_gripper:VacuumGripper",
     "libgazebo_ros_wheel_slip.so": "trundle.plugins.wheel_slip:WheelSlip",
+    "libhector_gazebo_ros_baro.so": "trundle.plugins.hector_gazebo.baro:Baro",
     "libhector_gazebo_ros_gps.so": "trundle.plugins.hector_gazebo.gps:Gps",
     "libhector_gazebo_ros_imu.so": "trundle.plugins.hector_gazebo.imu:Imu",
     "libhector_gazebo_ros_magnetic.so": "trundle.plugins.hector_gazebo.magnetic:Magnetic",
@@ -81,10 +82,12 @@ OF_SENSORS: dict[str, str] = {
     "libgazebo_ros_openni_kinect.so": f"{_SENSORS}.depth_camera:attach",
     "libgazebo_ros_range.so": f"{_SENSORS}.range:attach",
     "libgazebo_ros_ray_sensor.so": f"{_SENSORS}.laser:attach_ray_sensor",
+    "libgazebo_ros_thermal_camera.so": "trundle.plugins.hector_gazebo.thermal:attach",
     "libgazebo_ros_triggered_camera.so": f"{_SENSORS}.camera:attach_triggered",
     "libgazebo_ros_triggered_multicamera.so": f"{_SENSORS}.camera:attach_triggered",
     "libgazebo_ros_velodyne_gpu_laser.so": f"{_SENSORS}.laser:attach_points",
     "libgazebo_ros_velodyne_laser.so": f"{_SENSORS}.laser:attach_points",
+    "libhector_gazebo_ros_sonar.so": "trundle.plugins.hector_gazebo.sonar:attach",
 }
 """File name → "module:function", of the plugins that publish what a sensor measures."""
 

@@ -1,5 +1,6 @@
 """libgazebo_ros_camera.so: pictures and their calibration, where the plugin says."""
 
+from collections.abc import Callable
 from typing import Any
 
 from trundle.bridge import calibration_of, image_maker
@@ -24,13 +25,24 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
     false, a distorted picture is not enlarged. Of a multicamera's, <hackBaseline> is how far the right one is from the
     left; without it, what the file says.
     """
+    attach_pictures(sensor, node, tag, report, image_maker(sensor.optics.format))
+
+
+def attach_pictures(
+    sensor: CameraSensor,
+    node: Node,
+    tag: PluginTag,
+    report: Diagnostics,
+    image: Callable[[CameraReading], dict[str, object]],
+) -> None:
+    """Publish what a function makes of each reading, as `attach` does."""
     keep_borders_if_told(sensor, tag, report)
     frame, rate_hz = frame_of(tag, "world"), _number(tag, "updateRate", report)
     pictures = Outlet(node, camera_topic(sensor, tag, "imageTopicName", "image_raw"), "sensor_msgs/Image", frame,
                       rate_hz=rate_hz)  # fmt: skip
     infos = Outlet(node, camera_topic(sensor, tag, "cameraInfoTopicName", "camera_info"), "sensor_msgs/CameraInfo",
                    frame, rate_hz=rate_hz)  # fmt: skip
-    calibration, image = told_calibration(sensor, tag, report), image_maker(sensor.optics.format)
+    calibration = told_calibration(sensor, tag, report)
     ignore(tag.node, "autoDistortion", "triggerTopicName", "cameraName")
     tag.node.report_unread(report)
 

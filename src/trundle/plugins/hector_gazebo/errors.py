@@ -1,10 +1,11 @@
 """How hector_gazebo's sensors err: scale, offset, drift and noise, axis by axis."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.spatial import Vector3
 from trundle.xmlnode import XmlNode
 
 
@@ -49,7 +50,7 @@ class ErrorModel:
         """Begin a new drift."""
         self._drifted = self._random.normal(0.0, 1.0, self._drift.shape) * self._drift
 
-    def of(self, values: Vector3, dt_s: float) -> list[float]:
+    def of(self, values: Sequence[float], dt_s: float) -> list[float]:
         """What is told instead of true values, so long after the last ones."""
         return (np.array(values) * self._scale + self.error(dt_s)).tolist()
 

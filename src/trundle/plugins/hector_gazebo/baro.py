@@ -1,0 +1,54 @@
+"""libhector_gazebo_ros_baro.so: how high a link is, and the pressure there."""
+
+from trundle.model import PluginTag
+from trundle.ros import Node, Publisher
+from trundle.simulation import ModelHandle, Simulation, Snapshot
+
+from .errors import ErrorModel
+from .part import LinkSensor
+
+_SCALE_M, _POWER = 44330.0, 5.263157
+"""Of the barometric formula, as the original has it."""
+
+
+class Baro(LinkSensor):
+    """Publishes geometry_msgs/PointStamped (z alone) and hector_uav_msgs/Altimeter.
+
+    Parameters: <bodyName> (the first link), <frameId> (the body), <topicName> pressure_height, <altimeterTopicName>
+    altimeter, either of which may be empty, <updateRate> 0 (every step), <elevation> 0 [m] of the world's origin and
+    <qnh> 1013.25 [hPa]; errors by <drift>, <gaussianNoise>, … [m].
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        super().__init__(sim, model, node, tag)
+        parameters, report = tag.node, sim.report
+        self._elevation = parameters.number("elevation", default=0.0, report=report)
+        self._qnh = parameters.number("qnh", default=1013.25, report=report)
+        self._errors = ErrorModel(parameters, report, self.random, axes=1)
+
+        def advertise(name: str, default: str, kind: str) -> Publisher | None:
+            found = parameters.find(name)
+            topic = default if found is None else found.text.strip()
+            return node.advertise(self.topic(topic), kind, queue_size=10) if topic else None
+
+        self._height = advertise("topicName", "pressure_height", "geometry_msgs/PointStamped")
+        self._altimeter = advertise("altimeterTopicName", "altimeter", "hector_uav_msgs/Altimeter")
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell."""
+        heard = [topic for topic in (self._height, self._altimeter) if topic is not None and topic.has_subscribers]
+        if not heard:
+            return
+        (height,) = self._errors.of(self.link.pose.position[2:], self.elapsed_s(snapshot.time_ns))
+        header = {"stamp": snapshot.time_ns, "frame_id": self.frame}
+        altitude = height + self._elevation
+        pressure = max(1.0 - altitude / _SCALE_M, 0.0) ** _POWER * self._qnh
+        for topic in heard:
+            if topic is self._height:
+                topic.publish({"header": header, "point": {"z": height}})
+            else:
+                topic.publish({"header": header, "altitude": altitude, "pressure": pressure, "qnh": self._qnh})
+
+    def reset(self) -> None:
+        """Begin a new drift."""
+        self._errors.reset()

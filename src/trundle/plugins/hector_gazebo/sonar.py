@@ -1,0 +1,55 @@
+"""libhector_gazebo_ros_sonar.so: the nearest of a ray sensor's ranges, with hector's errors."""
+
+import numpy as np
+
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.model import PluginTag, ScanAxis
+from trundle.ros import Node
+from trundle.sensors import MeasuringSensor, RangeReading, RangeSensor
+
+from ..gazebo_ros.place import ignore, namespace_of
+from ..gazebo_ros.sensor import Outlet, topic_of
+from .errors import ErrorModel
+
+
+def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+    """Publish sensor_msgs/Range.
+
+    Parameters: <topicName> sonar, <frameId> /sonar_link, <updateRate> 10; errors by <drift>, <gaussianNoise>, … [m].
+    The field of view is the narrower of the sensor's two.
+    """
+    if not isinstance(sensor, RangeSensor):
+        raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a ray sensor is needed")
+    parameters = tag.node
+    topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "sonar")
+    rate_hz = parameters.number("updateRate", default=10.0, report=report)
+    frame = parameters.string("frameId", default="/sonar_link")
+    outlet = Outlet(node, topic, "sensor_msgs/Range", frame, rate_hz=rate_hz)
+    errors = ErrorModel(parameters, report, np.random.default_rng(0), axes=1)
+    ignore(parameters)
+    parameters.report_unread(report)
+    last_ns = 0
+
+    def message(reading: RangeReading) -> dict[str, object]:
+        nonlocal last_ns
+        elapsed_s, last_ns = max(reading.time_ns - last_ns, 0) / 1e9, reading.time_ns
+        near, far = reading.scan.min_m, reading.scan.max_m
+        nearest = min(float(np.nanmin(reading.ranges)), far) if reading.ranges.size else far
+        if nearest < far:
+            nearest = min(max(errors.of((nearest,), elapsed_s)[0], near), far)
+        return {
+            "radiation_type": 0,
+            "field_of_view": min(_width(reading.scan.horizontal), _width(reading.scan.vertical)),
+            "min_range": near,
+            "max_range": far,
+            "range": nearest,
+        }
+
+    def publish(reading: RangeReading) -> None:
+        outlet.publish(reading, lambda: message(reading))
+
+    sensor.listen(publish, wanted=outlet.wanted)
+
+
+def _width(axis: ScanAxis) -> float:
+    return abs(axis.max_angle - axis.min_angle)

@@ -1,0 +1,27 @@
+"""libgazebo_ros_thermal_camera.so of hector_gazebo: what is purely red is hot, all else is dark."""
+
+import numpy as np
+
+from trundle.diagnostics import Diagnostics
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.sensors import CameraReading, CameraSensor
+
+from ..gazebo_ros.camera import attach_pictures
+
+_HOT = (255, 0, 0)
+_DARKER = 8
+"""What the sum of the three colours is divided by."""
+
+
+def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+    """Publish sensor_msgs/Image in mono8, and camera_info; parameters are those of gazebo_ros' camera."""
+    attach_pictures(sensor, node, tag, report, _grey)
+
+
+def _grey(reading: CameraReading) -> dict[str, object]:
+    colours = reading.rgb
+    grey = (colours.sum(axis=2, dtype=np.uint16) // _DARKER).astype(np.uint8)
+    grey[(colours == _HOT).all(axis=2)] = 255
+    height, width = grey.shape
+    return {"height": height, "width": width, "encoding": "mono8", "step": width, "data": grey.reshape(-1)}
