@@ -237,6 +237,18 @@ def test_a_wrench_from_a_topic_pushes(gazebo: Gazebo) -> None:
     assert gazebo.state("box").pose.position.z == pytest.approx(2.0, abs=0.05)
 
 
+def test_what_pushes_a_link_is_told(gazebo: Gazebo) -> None:
+    plugins = _plugin("force", "<bodyName>body</bodyName><topicName>push</topicName>")
+    plugins += _plugin("f3d", "<bodyName>body</bodyName><topicName>felt</topicName>").replace('"p"', '"q"')
+    gazebo.spawn(_BOX.format(plugin=plugins), "box")
+    felt = gazebo.hear("/felt", "geometry_msgs/WrenchStamped")
+    gazebo.speak("/push", "geometry_msgs/Wrench")({"force": {"x": 1.5}, "torque": {"z": 0.25}})
+    gazebo.call("unpause_physics")
+    until(lambda: felt and felt[-1].wrench.force.x == 1.5)
+    assert (felt[-1].wrench.force.z, felt[-1].wrench.torque.z) == (0.0, 0.25)
+    assert felt[-1].header.frame_id == "world"
+
+
 @pytest.mark.parametrize(
     ("name", "parameters", "reason"),
     [

@@ -15,11 +15,13 @@ _NODES = """
     teleop_twist_keyboard tf tf2_ros tf2_tools topic_tools turtlebot3_teleop turtlebot_teleop turtlesim twist_mux
 """
 _PLUGINS = """
-    gazebo_plugins gazebo_ros_control hector_gazebo_plugins roboticsgroup_gazebo_plugins
-    roboticsgroup_upatras_gazebo_plugins velodyne_gazebo_plugins xacro
+    gazebo_grasp_plugin gazebo_plugins gazebo_ros_control gazebo_ros_link_attacher hector_gazebo_plugins
+    hector_gazebo_thermal_camera hector_quadrotor_gazebo_plugins roboticsgroup_gazebo_plugins
+    roboticsgroup_upatras_gazebo_plugins rotors_gazebo_plugins velodyne_gazebo_plugins xacro
 """
 _CONTROLLERS = """
-    diff_drive_controller effort_controllers gripper_action_controller joint_state_controller
+    ackermann_steering_controller diff_drive_controller effort_controllers force_torque_sensor_controller
+    four_wheel_steering_controller gripper_action_controller imu_sensor_controller joint_state_controller
     joint_trajectory_controller position_controllers velocity_controllers
 """
 STOCK = frozenset(f"{_TOOLS} {_NODES} {_PLUGINS} {_CONTROLLERS}".split())

@@ -41,6 +41,7 @@ BUILTIN: dict[str, str] = {
     "libgazebo_grasp_fix.so": "trundle.plugins.grasp_fix:GraspFix",
     "libgazebo_ros_control.so": "trundle.plugins.ros_control:GazeboRosControl",
     "libgazebo_ros_diff_drive.so": "trundle.plugins.gazebo_ros.diff_drive:DiffDrive",
+    "libgazebo_ros_f3d.so": "trundle.plugins.gazebo_ros.f3d:F3D",
     "libgazebo_ros_force.so": "trundle.plugins.gazebo_ros.force:Force",
     "libgazebo_ros_ft_sensor.so": "trundle.plugins.gazebo_ros.ft_sensor:ForceTorque",
     "libgazebo_ros_imu.so": "trundle.plugins.gazebo_ros.imu:Imu",

@@ -1,0 +1,40 @@
+"""libgazebo_ros_f3d.so: what pushes a link."""
+
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation, Snapshot
+from trundle.spatial import Wrench
+
+from .on_graph import GraphPlugin, required
+from .place import namespace_of, topic_in
+
+
+class F3D(GraphPlugin):
+    """Publishes geometry_msgs/WrenchStamped at every step: what plugins and services apply, in world axes.
+
+    Parameters, of gazebo_ros: <bodyName> and <topicName> (required), <frameName> (of the header alone) world. As in
+    the original neither weight nor contacts nor joints count: those are a force_torque or a contact sensor's.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        super().__init__(sim, model, node, tag)
+        parameters = tag.node
+        self._link = model.link(required(parameters, "bodyName"))
+        topic = topic_in(namespace_of(tag, model.name), required(parameters, "topicName"))
+        self._frame = parameters.string("frameName", default="world")
+        self._topic = node.advertise(topic, "geometry_msgs/WrenchStamped", queue_size=1)
+        self._wrench = Wrench()
+
+    def before_step(self, sim: Simulation) -> None:
+        """Look at what was applied so far."""
+        self._wrench = sim.engine.wrench(self._link.index)
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell."""
+        if not self._topic.has_subscribers:
+            return
+        wrench = {
+            "force": dict(zip("xyz", self._wrench.force, strict=True)),
+            "torque": dict(zip("xyz", self._wrench.torque, strict=True)),
+        }
+        self._topic.publish({"header": {"stamp": snapshot.time_ns, "frame_id": self._frame}, "wrench": wrench})
