@@ -49,6 +49,20 @@ def test_xacro_is_expanded_in_process_wherever_it_is_meant_to_live(program: str)
     assert resolve(f"{program} '/a b/c.xacro' gui:=true") == "/a b/c.xacro {'gui': 'true'}"
 
 
+@pytest.mark.skipif(os.name != "posix", reason="such scripts are for sh")
+@pytest.mark.parametrize("named", ["$(find xacro)/xacro", "/opt/ros/kinetic/share/xacro/xacro.py", "xacro"])
+def test_a_script_that_runs_xacro_finds_one(named: str, tmp_path: Path) -> None:
+    """Jackal, Dingo, Ridgeback and Warthog have env_run, which sets variables, then runs what it is told."""
+    script, robot = tmp_path / "env_run", tmp_path / "a b.xacro"
+    script.write_text('#!/bin/sh\nexport SIZE=4\nexec "$@"\n')
+    script.chmod(0o755)
+    robot.write_text('<robot name="r" size="$(env SIZE)" more="$(arg m)"/>')
+
+    text = resolve(f"{script} {named} '{robot}' --inorder m:=7", kind="str")
+
+    assert '<robot more="7" name="r" size="4"/>' in str(text)
+
+
 def test_another_command_is_run_and_its_output_typed() -> None:
     assert resolve(f"{PYTHON} -c 'print(1 + 1, end=str())'") == 2
     assert resolve(f"{PYTHON} -c 'print(1 + 1, end=str())'", kind="str") == "2"

@@ -13,9 +13,9 @@ from trundle.diagnostics import DescriptionError, Diagnostics
 from .plan import LaunchParam, LaunchPlan, ParamCommand
 from .programs import run_command
 from .values import convert_value
+from .wrapped import XACRO, xacro_at_hand
 
 _TIMEOUT_S = 60.0
-_XACRO = ("xacro", "xacro.py")
 
 
 class XacroExpander(Protocol):
@@ -81,7 +81,8 @@ def _output(
         raise ValueError("its command is empty")
     rest = _xacro_arguments(argv)
     if rest is None:
-        return run(argv, env=env, timeout_s=timeout_s)
+        with xacro_at_hand(argv, env) as (words, variables):
+            return run(words, env=variables, timeout_s=timeout_s)
     words = [word for word in rest if not word.startswith("-")]
     arguments = dict(word.split(":=", 1) for word in words if ":=" in word)
     files = [word for word in words if ":=" not in word]
@@ -94,7 +95,7 @@ def _xacro_arguments(argv: Sequence[str]) -> Sequence[str] | None:
     """Return what follows the program where that is xacro, else None."""
     if argv[0] == "rosrun" and len(argv) >= 3 and argv[1] == "xacro":
         return argv[3:]
-    return argv[1:] if PurePath(argv[0].replace("\\", "/")).name in _XACRO else None
+    return argv[1:] if PurePath(argv[0].replace("\\", "/")).name in XACRO else None
 
 
 def _split(line: str) -> list[str]:
