@@ -13,6 +13,7 @@ from PIL import Image
 import trundle
 from trundle.meshes import triangles_of
 from trundle.physics import decompose, pieces
+from trundle.physics.hulls import hull_of
 from trundle.physics.pieces import MOST_PIECES, convex_pieces
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist
@@ -341,3 +342,12 @@ def test_triangles_cover_a_star_with_two_holes_and_an_island() -> None:
 @pytest.mark.parametrize("outline", [[(0.0, 0.0)], [(0.0, 0.0), (1.0, 0.0)], [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)]])
 def test_an_outline_without_area_is_nothing(outline: list[tuple[float, float]]) -> None:
     assert triangles_of([outline]) == []
+
+
+def test_a_flat_piece_has_no_hull_and_nothing_is_printed(capfd: pytest.CaptureFixture[str]) -> None:
+    """Four corners in a slanted plane, as cutting UR5's wrist leaves; Qhull would print two pages about them."""
+    plane = np.array([[0.0, 0.0], [5.0, 0.0], [5.0, 3.0], [0.0, 3.0]]) @ [[0.6, 0.0, 0.8], [0.0, 1.0, 0.0]] * 1e-3
+
+    assert hull_of(plane + 0.05) is None
+    assert hull_of(np.vstack([plane, [[0.0, 0.0, 1e-3]]]) + 0.05) is not None
+    assert capfd.readouterr() == ("", "")

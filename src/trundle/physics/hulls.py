@@ -14,6 +14,8 @@ _PROBES = 250
 _SURVEY = 1000
 _TOUCH = 1e-9
 """[m]"""
+_FLAT = 1e-9
+"""Part of its size that something flat is thick."""
 _NEAREST = 8
 """Points of a surface whose triangles are looked at closely."""
 
@@ -43,6 +45,8 @@ class Hull:
 
 def hull_of(points: _Points) -> Hull | None:
     """The hull of points (N, 3) [m]; None where they are flat, or as good as that."""
+    if np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[-1] <= _FLAT * float(np.ptp(points, axis=0).max()):
+        return None  # of which Qhull would print pages before it refuses
     spec = mujoco.MjSpec()
     spec.add_mesh(name="hull", uservert=points.reshape(-1), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
     geom = spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, contype=1)
