@@ -3,12 +3,14 @@
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from trundle.description import load
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.launch import read_launch
-from trundle.model import Box, Cylinder
+from trundle.meshes import load_mesh
+from trundle.model import Box, Cylinder, MeshFile
 from trundle.nodes import catalog
 from trundle.packages import Packages, model_file, refuse_template
 from trundle.plugins.ros_control.catalog import CONTROLLERS
@@ -103,6 +105,70 @@ def test_the_tutorials_display_launch_is_there_for_others_to_include(tmp_path: P
     )
 
     assert [node.type for node in plan.nodes][1:] == ["robot_state_publisher", "rviz"]
+
+
+def test_files_that_launch_files_take_from_stock_packages_are_there(tmp_path: Path) -> None:
+    """Clearpath's and PAL's robots include them; each would stop the launch, not only its own node."""
+    launch = tmp_path / "drive.launch"
+    launch.write_text(
+        """<launch>
+        <rosparam command="load" file="$(find joint_state_controller)/joint_state_controller.yaml"/>
+        <include file="$(find interactive_marker_twist_server)/launch/interactive_markers.launch">
+          <arg name="config" value="planar"/>
+        </include>
+        <include file="$(find twist_mux)/launch/twist_mux.launch"><arg name="cmd_vel_out" value="go"/></include>
+        </launch>"""
+    )
+
+    plan = read_launch(launch, packages=PACKAGES, report=Diagnostics(), arguments={}, env={})
+
+    values = {param.name: param.value for param in plan.params}
+    assert values["/joint_state_controller/type"] == "joint_state_controller/JointStateController"
+    assert values["/twist_marker_server/max_positive_linear_velocity/y"] == 1
+    assert ("cmd_vel_out", "go") in next(node for node in plan.nodes if node.name == "twist_mux").remappings
+
+
+@pytest.mark.parametrize(
+    ("mesh", "scale", "size"),
+    [
+        ("cube_20k/meshes/cube_20k.stl", 0.5, (1.0, 1.0, 1.0)),
+        ("dumpster/meshes/dumpster.dae", 1.5, (2.505, 1.535, 1.773)),
+        ("construction_cone/meshes/construction_cone.dae", 10.0, None),
+    ],
+)
+def test_a_mesh_that_a_saved_world_names_is_as_large_as_the_stand_in(
+    mesh: str, scale: float, size: tuple[float, float, float] | None, tmp_path: Path
+) -> None:
+    """Gazebo saves a world with the mesh's URI where its <include> was: TurtleBot's playground, Clearpath's races."""
+    (tmp_path / "saved.sdf").write_text(
+        f"""<sdf version="1.4"><model name="m"><link name="l"><collision name="c"><geometry>
+        <mesh><uri>model://{mesh}</uri><scale>{scale} {scale} {scale}</scale></mesh>
+        </geometry></collision></link></model></sdf>"""
+    )
+    report = Diagnostics()
+
+    world = load(str(tmp_path / "saved.sdf"), report, packages=PACKAGES).world
+
+    shape = world.models[0].links[0].collisions[0].geometry
+    assert isinstance(shape, MeshFile)
+    assert shape.path is not None
+    assert report.warnings == []
+    assert [f.what for f in report.findings] == [
+        f"model://{Path(mesh).parts[0]} is not on GAZEBO_MODEL_PATH; plain shapes of about its size are used"
+    ]
+    corners = load_mesh(shape.path).vertices * shape.scale
+    if size is not None:
+        assert np.ptp(corners, axis=0) == pytest.approx(size, abs=1e-3)
+    assert 0.3 < np.ptp(corners, axis=0).max() < 3.0
+
+
+def test_meshes_of_stand_ins_can_be_read_and_enclose_something() -> None:
+    meshes = sorted(STAND_INS.glob("*/meshes/*"))
+    assert len(meshes) > 70
+    for path in meshes:
+        mesh = load_mesh(path)
+        a, b, c = (mesh.vertices[mesh.faces[:, i]].astype(float) for i in range(3))
+        assert np.einsum("ij,ij->", np.cross(a, b), c) > 0, path
 
 
 def test_every_stock_package_with_a_stand_in_can_be_found_where_none_is_installed(tmp_path: Path) -> None:

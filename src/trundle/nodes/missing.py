@@ -26,6 +26,7 @@ WAYS_OUT: dict[str, str] = {
     "robot_localization": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
     "robot_pose_ekf": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
     "laser_scan_matcher": _NAVIGATION,
+    "interactive_marker_twist_server": "a handle to drag in rviz; teleop_twist_keyboard drives as well",
     "usb_cam": _DRIVER,
     "uvc_camera": _DRIVER,
     "hokuyo_node": _DRIVER,

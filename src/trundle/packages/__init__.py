@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from trundle.doors import opened_on_use
 
 if TYPE_CHECKING:
+    from .gazebo_paths import is_stand_in
     from .manifest import needs
     from .model_config import model_file, refuse_template
     from .packages import ALLOW_OUTSIDE, Packages
@@ -14,10 +15,11 @@ _HOMES = {
     "ALLOW_OUTSIDE": "packages",
     "Packages": "packages",
     "exported_rules": "rule_exports",
+    "is_stand_in": "gazebo_paths",
     "model_file": "model_config",
     "needs": "manifest",
     "refuse_template": "model_config",
 }
 __getattr__ = opened_on_use(__name__, _HOMES)
 
-__all__ = ["ALLOW_OUTSIDE", "Packages", "exported_rules", "model_file", "needs", "refuse_template"]
+__all__ = ["ALLOW_OUTSIDE", "Packages", "exported_rules", "is_stand_in", "model_file", "needs", "refuse_template"]

@@ -20,6 +20,15 @@ _SUFFIXES = (".", "worlds", "models", "media/models", "Media/models", "media")
 """What Gazebo tries below a resource path, and `worlds`, for a name without one."""
 
 
+def is_stand_in(path: Path) -> bool:
+    """Whether a file belongs to a model that stands in for one of the public database.
+
+    Its meshes have the originals' names but for the suffix, .obj, and the originals' frame and unit: a world that
+    Gazebo saved has their URIs and scales where its <include> was.
+    """
+    return SHIPPED / "stand_ins" in path.parents
+
+
 class GazeboPaths:
     """The folders of one environment, around one file."""
 

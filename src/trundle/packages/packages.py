@@ -8,7 +8,7 @@ from urllib.parse import unquote
 from trundle.diagnostics import DescriptionError, Source, UsageError
 
 from .confinement import Confinement
-from .gazebo_paths import SHIPPED, GazeboPaths
+from .gazebo_paths import SHIPPED, GazeboPaths, is_stand_in
 from .ros_packages import RosPackages
 from .stock import STOCK
 from .workspace import own_package
@@ -100,6 +100,8 @@ class Packages:
         root, path = self._located(uri, beside, at)
         if not path.exists():
             path = path.parent / unquote(path.name) if "%" in path.name else path
+        if not path.exists() and is_stand_in(path) and path.with_suffix(".obj").exists():
+            path = path.with_suffix(".obj")
         if not path.exists():
             raise DescriptionError(at, f"{uri}: no such file {path}")
         self.check_readable(path, at, told=uri, root=root)

@@ -19,6 +19,7 @@ from trundle.model import (
     Sphere,
     TerrainLayer,
 )
+from trundle.packages import is_stand_in
 from trundle.spatial import normalized
 from trundle.xmlnode import XmlNode
 
@@ -103,6 +104,11 @@ def _mesh(shape: XmlNode, context: Context) -> Geometry:
     name = part.string("name") if part is not None else None
     center = part.flag("center", default=False, report=context.report) if part is not None else False
     path = _path(uri, shape, context, "the mesh is left out")
+    if path is not None and is_stand_in(path):
+        model = uri.removeprefix("model://").partition("/")[0]
+        context.report.info(
+            shape.at, f"model://{model} is not on GAZEBO_MODEL_PATH; plain shapes of about its size are used"
+        )
     return MeshFile(path=path, uri=uri, scale=scale, submesh=name or None, center_submesh=center)
 
 
