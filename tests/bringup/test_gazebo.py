@@ -265,14 +265,16 @@ def test_a_plugin_that_raises_pauses_the_world_and_is_named(gazebo: Gazebo, tmp_
     assert gazebo.call("get_physics_properties", "gazebo_msgs/GetPhysicsProperties").pause is True
 
 
-def test_a_server_that_was_killed_can_be_started_again(gazebo: Gazebo, capsys) -> None:
+def test_a_server_that_was_killed_can_be_started_again(gazebo: Gazebo, tmp_path: Path, capsys) -> None:
     """As respawn_gazebo does: a new world, and nothing left of the old one."""
+    (tmp_path / "bad.world").write_text("<sdf version='1.6'><world")
     gazebo.spawn(_BALL, "old")
     gazebo.loop.run(gazebo.server.shutdown())
-    missing = Node("/gazebo", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
+    failing = Node("/gazebo", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
     until(lambda: not gazebo.world.is_open)
-    assert gazebo.loop.run(GazeboServer(missing, ["/no/such.world"], gazebo.host).run(), timeout_s=PATIENCE_S) == 1
-    gazebo.loop.run(missing.shutdown())
+    server = GazeboServer(failing, [str(tmp_path / "bad.world")], gazebo.host)
+    assert gazebo.loop.run(server.run(), timeout_s=PATIENCE_S) == 1
+    gazebo.loop.run(failing.shutdown())
 
     again = Node("/gazebo", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
     gazebo.loop.spawn(GazeboServer(again, ["-u"], gazebo.host).run())

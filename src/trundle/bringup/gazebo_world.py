@@ -28,6 +28,7 @@ from .plugins import load_plugins, load_world_plugins
 from .renderers import RendererName
 from .state_logs import WorldRecorder
 
+_EMPTY_WORLD = "worlds/empty.world"
 _IDLE_S = 0.01
 _LOOK_S = 0.5
 _END_S = 2.0
@@ -113,7 +114,7 @@ class GazeboWorld:
         self._packages = Packages(self._env, start=self._start)
         self._node, self._paused = node, paused
         self._clock_hz = await clock_rate_hz(node)
-        loaded = await asyncio.to_thread(load, world, self._report, packages=self._packages)
+        loaded = await asyncio.to_thread(load, self._opened(world), self._report, packages=self._packages)
         if loaded.kind != "world":
             raise UsageError(f"{world} is a model; a world is needed")
         self._thread = threading.Thread(target=self._work, name="trundle-gazebo", daemon=True)
@@ -136,6 +137,19 @@ class GazeboWorld:
             raise
         if paused:
             self._say("the world is paused; /gazebo/unpause_physics starts it")
+
+    def _opened(self, world: str) -> str:
+        """The world that is asked for, or gzserver's empty one where no such file is."""
+        is_there = world.startswith(("model://", "file://")) or Path(world).expanduser().exists()
+        if is_there or self._packages.find_world(world) is not None:
+            return world
+        known = ", ".join(self._packages.worlds())
+        assert self._node is not None
+        self._node.log_error(
+            f"{world}: no such world file; {_EMPTY_WORLD} is opened in its place, as gzserver does; worlds that come "
+            f"with Trundle: {known}; others are searched along GAZEBO_RESOURCE_PATH"
+        )
+        return _EMPTY_WORLD
 
     def post(self, call: Callable[[], None]) -> None:
         """Have a function called between two strides."""
