@@ -36,11 +36,21 @@ class _Manager:
     async def wait(self, timeout_s: float | None) -> None:
         """Wait until it is there.
 
+        A launch file's seconds are meant for Gazebo: as long as the simulation here is made ready, which takes its
+        time where large meshes are cut up for the first time, they are not over.
+
         Raises:
             RosError: it did not come in time.
         """
         for name in ("load_controller", "switch_controller", "unload_controller"):
-            await self._node.wait_for_service(f"{self._prefix}/{name}", timeout_s)
+            while True:
+                try:
+                    await self._node.wait_for_service(f"{self._prefix}/{name}", timeout_s)
+                except RosError:
+                    if not self._node.loop.work.is_busy:
+                        raise
+                else:
+                    break
 
     async def load(self, name: str) -> bool:
         """Load one by its parameters."""
