@@ -236,6 +236,13 @@ def test_plain_xml_of_a_core_tag_s_name_is_left_alone(tmp_path: Path) -> None:
     ).replace(" ", "")
 
 
+def test_a_length_may_be_asked_for_the_long_way(tmp_path: Path) -> None:
+    """As xArm's description does of its serial number; xacro allowed it until 1.13.13."""
+    assert '<link name="3"/>' in expand(tmp_path, """<link name="${'abc'.__len__()}"/>""")
+    with pytest.raises(DescriptionError, match="Use of invalid name"):
+        expand(tmp_path, """<link name="${'abc'.__len__.__self__}"/>""")
+
+
 def test_arguments_reach_the_file_and_do_not_stay(tmp_path: Path) -> None:
     body = '<xacro:arg name="n" default="a"/><link name="$(arg n)"/>'
 

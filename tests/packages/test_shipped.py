@@ -113,6 +113,8 @@ def test_files_that_launch_files_take_from_stock_packages_are_there(tmp_path: Pa
     launch.write_text(
         """<launch>
         <rosparam command="load" file="$(find joint_state_controller)/joint_state_controller.yaml"/>
+        <rosparam command="load" file="$(find imu_sensor_controller)/imu_sensor_controller.yaml"/>
+        <rosparam command="load" file="$(find force_torque_sensor_controller)/force_torque_sensor_controller.yaml"/>
         <include file="$(find interactive_marker_twist_server)/launch/interactive_markers.launch">
           <arg name="config" value="planar"/>
         </include>
@@ -123,7 +125,9 @@ def test_files_that_launch_files_take_from_stock_packages_are_there(tmp_path: Pa
     plan = read_launch(launch, packages=PACKAGES, report=Diagnostics(), arguments={}, env={})
 
     values = {param.name: param.value for param in plan.params}
-    assert values["/joint_state_controller/type"] == "joint_state_controller/JointStateController"
+    kinds = {value for name, value in values.items() if name.endswith("_controller/type")}
+    assert len(kinds) == 3
+    assert kinds <= set(CONTROLLERS)
     assert values["/twist_marker_server/max_positive_linear_velocity/y"] == 1
     assert ("cmd_vel_out", "go") in next(node for node in plan.nodes if node.name == "twist_mux").remappings
 

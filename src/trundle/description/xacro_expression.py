@@ -32,6 +32,8 @@ _GROWING = frozenset(
 _WIDE = r"\d{5}|\*|\{[^{}]*\{|__"
 """In a format: a width beyond all sense, or from elsewhere, or a way to what no name may reach."""
 
+_HARMLESS = {"__len__"}
+"""Asked for before xacro 1.13.13 refused all such names: xArm's description has robot_sn.__len__()."""
 
 _LONG: Any = (str, bytes, list, tuple)
 
@@ -90,7 +92,7 @@ def _guarded(expression: str) -> _Guarded:
     may_hide = (
         "__" in expression or not expression.isascii()
     )  # other scripts have underscores that Python takes for ours
-    hidden = sorted({name for name in _names(tree) if name.startswith("__")}) if may_hide else []
+    hidden = sorted({name for name in _names(tree) if name.startswith("__")} - _HARMLESS) if may_hide else []
     return _Guarded(compile(ast.fix_missing_locations(_Guard().visit(tree)), "<expression>", "eval"), hidden)
 
 
