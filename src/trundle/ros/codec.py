@@ -11,8 +11,8 @@ if TYPE_CHECKING:
 
 Pieces: TypeAlias = tuple[bytes | memoryview, ...]
 """Bytes that need not lie together."""
-_MISFITS = (AttributeError, BufferError, OverflowError, TypeError, ValueError)
-"""Raised where a field holds what its type does not."""
+MISFITS = (AttributeError, BufferError, OverflowError, TypeError, ValueError)
+"""Raised where a field holds what its type does not, or bytes are no message."""
 
 
 class Codec:
@@ -33,6 +33,8 @@ class Codec:
 
         self.type = key.replace("/msg/", "/", 1)
         self._program = compile_type(store, key)
+        self.exact_frame, self.exact_read = self._program.frame, self._program.read
+        """As `frame` and `read`, but what these would mend or explain raises a `MISFITS`."""
         self._mend = mend
 
     def write(self, message: Any) -> bytes:
@@ -43,7 +45,7 @@ class Codec:
         """
         try:
             return self._program.write(message)
-        except _MISFITS:
+        except MISFITS:
             return self._mended(message, self._program.write)
 
     def frame(self, message: Any) -> Pieces:
@@ -56,7 +58,7 @@ class Codec:
         """
         try:
             return self._program.frame(message)
-        except _MISFITS:
+        except MISFITS:
             return self._mended(message, self._program.frame)
 
     def read(self, data: bytes | bytearray | memoryview) -> Any:
@@ -74,5 +76,5 @@ class Codec:
         """Write a message that has lists where numpy arrays belong, or something wrong."""
         try:
             return write(self._mend(message))
-        except _MISFITS as error:
+        except MISFITS as error:
             raise MessageError(f"no {self.type} can be written: {error}") from None

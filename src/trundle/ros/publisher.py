@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from .codec import Codec, Pieces
+from .codec import MISFITS, Codec, Pieces
 from .errors import MessageError
 from .frames import LENGTH
 from .headers import check_md5
@@ -64,7 +64,8 @@ class Publisher:
         self._class: type[Message] | None = None
         """Of the messages so far."""
         self._codec: Codec | None = None
-        """Of that class."""
+        self._frame: Callable[[Any], Pieces | None] = self._framed
+        """The codec's quickest, which needs `_framed` for what is not as it should be."""
         self._has_header = False
         self._sequence = 0
         self.published = 0
@@ -244,7 +245,11 @@ class Publisher:
             if self.latch:
                 self._latched = message
             self.published += 1
-            if (framed := self._framed(message)) is not None:
+            try:
+                framed = self._frame(message)
+            except MISFITS:
+                framed = self._framed(message)
+            if framed is not None:
                 for out in outs:
                     out.send([framed], self._queue_size)
             return True
@@ -312,4 +317,5 @@ class Publisher:
             raise MessageError(f"{self.topic} carries {self.type}, got a {given}")
         self._class, self._has_header = type(message), hasattr(message, "header")
         self._codec = self._node.messages.codec(given)
+        self._frame = self._codec.exact_frame
         return message

@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Awaitable, Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from .codec import Codec
+from .codec import MISFITS, Codec
 from .errors import MessageError, RosError, WireError
 from .headers import check_md5
 from .messages import ANY_TYPE, Message, RawMessage
@@ -153,7 +153,12 @@ class Subscription:
             MessageError: the bytes are no such message.
         """
         if not self.is_raw:
-            self.receive((self._codec or self._make_codec()).read(data))
+            codec = self._codec or self._make_codec()
+            try:
+                message = codec.exact_read(data)
+            except MISFITS:
+                message = codec.read(data)
+            self.receive(message)
             return
         self.receive(
             RawMessage(
