@@ -1,10 +1,12 @@
 """`trundle core`: starts, answers, and stops."""
 
+import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,9 +16,10 @@ from trundle.ros import MasterProxy
 
 
 @contextmanager
-def _core(*arguments: str) -> Iterator["tuple[subprocess.Popen[str], str]"]:
+def _core(*arguments: str, logs: Path) -> Generator["tuple[subprocess.Popen[str], str]"]:
     command = [sys.executable, "-m", "trundle", "core", "-p", "0", *arguments]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+    env = {**os.environ, "ROS_LOG_DIR": str(logs)}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=env) as process:
         try:
             assert process.stdout is not None
             name, _, uri = process.stdout.readline().strip().partition("=")
@@ -28,8 +31,8 @@ def _core(*arguments: str) -> Iterator["tuple[subprocess.Popen[str], str]"]:
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_it_answers_until_it_is_stopped(number: signal.Signals) -> None:
-    with _core() as (process, uri):
+def test_it_answers_until_it_is_stopped(number: signal.Signals, tmp_path: Path) -> None:
+    with _core(logs=tmp_path) as (process, uri):
         assert MasterProxy(uri).call("getSystemState")[0] == [["/rosout_agg", ["/rosout"]]]
         process.send_signal(number)
         assert process.wait(20) == 0
@@ -37,11 +40,9 @@ def test_it_answers_until_it_is_stopped(number: signal.Signals) -> None:
         assert "Traceback" not in process.stderr.read()
 
 
-def test_a_shutdown_request_ends_it() -> None:
-    with _core("--distro", "indigo", "-w", "3", "-t", "3", "--sigint-timeout=9", "--sigterm-timeout=2") as (
-        process,
-        uri,
-    ):
+def test_a_shutdown_request_ends_it(tmp_path: Path) -> None:
+    switches = ("-w", "3", "-t", "3", "--sigint-timeout=9", "--sigterm-timeout=2")
+    with _core("--distro", "indigo", *switches, logs=tmp_path) as (process, uri):
         assert MasterProxy(uri).call("getParam", "/rosdistro") == "indigo\n"
         MasterProxy(uri, "/me").call("shutdown", "enough")
         assert process.wait(20) == 0
@@ -49,8 +50,8 @@ def test_a_shutdown_request_ends_it() -> None:
         assert "external shutdown request from [/me]: enough" in process.stderr.read()
 
 
-def test_listening_beyond_this_machine_is_warned_of() -> None:
-    with _core("--host", "0.0.0.0") as (process, _):
+def test_listening_beyond_this_machine_is_warned_of(tmp_path: Path) -> None:
+    with _core("--host", "0.0.0.0", logs=tmp_path) as (process, _):
         process.send_signal(signal.SIGTERM)
         assert process.wait(20) == 0
         assert process.stderr is not None
@@ -85,3 +86,24 @@ def test_a_taken_port_is_one_sentence(graph: Any) -> None:
 def test_a_port_that_is_none_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["core", "-p", "99999"]) == 1
     assert "between 0 and 65535, got 99999" in capsys.readouterr().err
+
+
+def test_it_keeps_logs_of_its_run(tmp_path: Path) -> None:
+    with _core(logs=tmp_path) as (process, uri):
+        run_id = MasterProxy(uri).call("getParam", "/run_id")
+        MasterProxy(uri, "/me").call("setParam", "/speed", 3)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) == 0
+    assert (tmp_path / "latest").resolve() == (tmp_path / run_id).resolve()
+    assert "+PARAM [/speed] by /me\n" in (tmp_path / "latest/master.log").read_text()
+    assert "Node Startup" in (tmp_path / "latest/rosout.log").read_text()
+
+
+def test_it_runs_where_logs_cannot_be_written(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with _core(logs=tmp_path / "file") as (process, uri):
+        assert MasterProxy(uri).call("getPid") == process.pid
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(20) == 0
+        assert process.stderr is not None
+        assert "no logs are written: no log folder" in process.stderr.read()

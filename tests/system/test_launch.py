@@ -139,6 +139,20 @@ def test_output_goes_to_the_screen_or_to_a_log_file(launch: Launch, package: Pat
     assert "__name:=kept" not in done.stdout
     assert "[deep/kept-2] process has finished cleanly\nlog file: " in done.stdout
     assert re.search(r"process\[seen-1\]: started with pid \[\d+\]", done.stdout)
+    (own,) = log.parent.glob("roslaunch-*.log")
+    assert "[roslaunch][INFO] " in own.read_text()
+    assert "process[seen-1]: started with pid" in own.read_text()
+
+
+def test_a_launch_with_a_master_of_its_own_keeps_its_logs_too(
+    trundle: Callable[..., "subprocess.CompletedProcess[str]"], package: Path, tmp_path: Path
+) -> None:
+    (package / "main.launch").write_text('<launch><node pkg="tf" type="static_transform_publisher" name="s"/></launch>')
+    env = {"ROS_LOG_DIR": str(tmp_path / "logs"), "ROS_PACKAGE_PATH": str(package.parent)}
+    assert trundle("launch", "p", "main.launch", "--headless", "--duration", "0.5", **env).returncode == 0
+    logs = tmp_path / "logs/latest"
+    assert "+PUB [/rosout_agg] /rosout http://" in (logs / "master.log").read_text()
+    assert "Node Startup" in (logs / "rosout.log").read_text()
 
 
 def test_a_required_node_ends_everything_with_exit_code_1(launch: Launch, package: Path) -> None:

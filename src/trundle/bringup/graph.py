@@ -1,6 +1,7 @@
 """The ROS graph that a run takes part in: the one there is, or one started here."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Self
 
 from trundle.diagnostics import UsageError
@@ -20,7 +21,14 @@ class Graph:
         self.host = host
 
     @classmethod
-    def open(cls, environment: Mapping[str, str], *, host: str, any_port: bool) -> Self:
+    def open(
+        cls,
+        environment: Mapping[str, str],
+        *,
+        host: str,
+        any_port: bool,
+        log_folder: Callable[[str], Path | None] | None = None,
+    ) -> Self:
         """Join the master that ROS_MASTER_URI names, else the default one; start it where none answers.
 
         Args:
@@ -28,6 +36,7 @@ class Graph:
             host: address that a master started here binds.
             any_port: with no ROS_MASTER_URI, prefer a new master on a free port to joining the default one, so
                 that ten runs side by side do not meet.
+            log_folder: makes the folder for the logs of a master that is started here, from the run_id.
 
         Raises:
             UsageError: ROS_MASTER_URI is no address, or names another machine, and nobody answers there.
@@ -47,7 +56,7 @@ class Graph:
                 raise UsageError(
                     f"no ROS master answers at {uri} (ROS_MASTER_URI); start one there, or unset ROS_MASTER_URI"
                 )
-            core = _start_core(loop, port, host, or_any=any_port and not named)
+            core = _start_core(loop, port, host, or_any=any_port and not named, log_folder=log_folder)
             return cls(loop, core.uri, core, host)
         except BaseException:
             loop.stop()
@@ -82,9 +91,11 @@ def _answers(uri: str) -> bool:
     return True
 
 
-def _start_core(loop: GraphLoop, port: int, host: str, *, or_any: bool) -> Core:
+def _start_core(
+    loop: GraphLoop, port: int, host: str, *, or_any: bool, log_folder: Callable[[str], Path | None] | None
+) -> Core:
     for candidate in (port, 0) if or_any else (port,):
-        core = Core(loop, port=candidate, host=host)
+        core = Core(loop, port=candidate, host=host, log_folder=log_folder)
         try:
             loop.run(core.start())
         except PortTakenError:

@@ -1,10 +1,13 @@
 """Where the programs of a launch log to, as in ROS: a folder for each run, and `latest` that leads to the last."""
 
 import contextlib
+import os
+import socket
 from collections.abc import Mapping
 from pathlib import Path
 
 from trundle.diagnostics import UsageError
+from trundle.ros import PYTHON_LOG_BACKUPS, PYTHON_LOG_BYTES, LogFile, python_log_line
 
 
 def ros_home(env: Mapping[str, str]) -> Path:
@@ -32,3 +35,15 @@ def log_folder(env: Mapping[str, str], run_id: str) -> Path:
         latest.unlink(missing_ok=True)
         latest.symlink_to(folder)
     return folder
+
+
+class LaunchLog(LogFile):
+    """roslaunch-HOST-PID.log: what one launch says of itself."""
+
+    def __init__(self, folder: Path) -> None:
+        path = folder / f"roslaunch-{socket.gethostname()}-{os.getpid()}.log"
+        super().__init__(path, most_bytes=PYTHON_LOG_BYTES, backups=PYTHON_LOG_BACKUPS)
+
+    def write(self, text: str) -> None:
+        """Write what was said, with the time."""
+        super().write(python_log_line("roslaunch", text))

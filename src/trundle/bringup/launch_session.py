@@ -3,18 +3,19 @@
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import WORLDS, Executable, Host, Simulator, find_node
 from trundle.ros import PROFILES, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
-from trundle.supervisor import Patience
+from trundle.supervisor import Event, Patience
 
 from . import launch_print
 from .graph import Graph
 from .in_step import START_S, Steps
-from .launch_logs import log_folder
+from .launch_logs import LaunchLog, log_folder
 from .launch_nodes import NodeStarter
 from .launch_options import LaunchOptions
 from .launch_pages import await_urls, pages_of
@@ -72,9 +73,15 @@ class LaunchSession:
 
     def _open(self, *, any_port: bool) -> None:
         read, options, show = self._read, self._options, self._read.show
-        graph = self.graph = self._open_things.enter_context(Graph.open(read.env, host=options.host, any_port=any_port))
+        graph = self.graph = self._open_things.enter_context(
+            Graph.open(read.env, host=options.host, any_port=any_port, log_folder=partial(log_folder, read.env))
+        )
         show.line(graph.story)
         launcher = Node("/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False)
+        logs = log_folder(read.env, str(graph.loop.run(launcher.get_param("/run_id", ""))))
+        self._log = LaunchLog(logs)
+        self._open_things.callback(self._log.close)
+        show.log_to(self._log.write)
         if options.distro is not None:
             profile = PROFILES[options.distro]
             for name, value in (("/rosdistro", profile.distro), ("/rosversion", profile.version)):
@@ -82,7 +89,7 @@ class LaunchSession:
         if options.summary and not options.core_only:
             core = {name: str(graph.loop.run(launcher.get_param(name, ""))).strip() for name in _SHOWN}
             values = {**core, **{param.name: param.value for param in read.params}}
-            say(launch_print.summary(read.plan, values))
+            self._say(launch_print.summary(read.plan, values))
         graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
         programs = self._programs()
         tells_time = options.speed is None and not programs and self._may_tell_time(launcher)
@@ -104,7 +111,6 @@ class LaunchSession:
                 packages=read.packages, report=read.report, say=show.line, host=options.host, port=options.view_port
             )
             self._open_things.callback(page.close)
-        logs = log_folder(read.env, str(graph.loop.run(launcher.get_param("/run_id", ""))))
         self.starter = NodeStarter(
             graph=graph,
             packages=read.packages,
@@ -190,7 +196,7 @@ class LaunchSession:
         loop, options = self.graph.loop, self._options
         patience = Patience(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
         running = self._running = RunningNodes(
-            self.starter, nodes, patience=patience, quiet=options.quiet, listener=self._listener
+            self.starter, nodes, patience=patience, quiet=options.quiet, listener=self._heard
         )
         steps = self._steps
         loop.run(running.start(is_ending, None if steps is None else steps.let_start), timeout_s=_START_S + START_S)
@@ -200,8 +206,16 @@ class LaunchSession:
         if running.launched and not options.quiet:
             pages = pages_of(running.launched, self._page, self._world)
             urls = await_urls(pages, lambda: is_ending() or running.over)
-            say(what_runs(running.launched, urls))
+            self._say(what_runs(running.launched, urls))
         return running
+
+    def _say(self, text: str) -> None:
+        say(text)
+        self._log.write(text)
+
+    def _heard(self, event: Event, text: str) -> None:
+        self._log.write(text)
+        self._listener(event, text)
 
     def close(self) -> None:
         """Stop the nodes, the last started first, then everything else."""

@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Callable
 from typing import TextIO
 
 from trundle.diagnostics import Diagnostics
@@ -23,10 +24,19 @@ class Showing:
         self._stream = stream
         self._report = report
         self._shown = 0
+        self._log: Callable[[str], None] | None = None
+
+    def log_to(self, log: Callable[[str], None]) -> None:
+        """Have a function take all lines from now on, too, and what was found until now."""
+        self._log = log
+        for finding in self._report.findings[: self._shown]:
+            log(str(finding))
 
     def line(self, text: str) -> None:
         """Say one thing."""
         say(text, self._stream)
+        if self._log is not None:
+            self._log(text)
 
     def findings(self) -> None:
         """Say what was found since the last call; notes are `trundle check`'s affair."""

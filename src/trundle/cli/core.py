@@ -1,12 +1,15 @@
 """Run the ROS master, the parameter server and /rosout, as roscore does."""
 
 import argparse
+import os
 import signal
 import sys
 from contextlib import suppress
+from pathlib import Path
 from queue import Empty, SimpleQueue
 
 from trundle.bringup.exposure import warn_of_exposure
+from trundle.bringup.launch_logs import log_folder
 from trundle.diagnostics import UsageError
 from trundle.ros import NOETIC, PROFILES, Core, GraphLoop, RosError
 
@@ -37,7 +40,14 @@ def main(args: argparse.Namespace) -> int:
     reasons: SimpleQueue[str] = SimpleQueue()  # not an Event: only this may be told by a signal's handler
     signal.signal(signal.SIGTERM, lambda _number, _frame: reasons.put("terminated"))
     with GraphLoop() as loop:
-        core = Core(loop, port=args.port, host=args.host, profile=PROFILES[args.distro], on_shutdown=reasons.put)
+        core = Core(
+            loop,
+            port=args.port,
+            host=args.host,
+            profile=PROFILES[args.distro],
+            on_shutdown=reasons.put,
+            log_folder=_log_folder,
+        )
         loop.run(core.start())
         if args.host is not None:
             warn_of_exposure(args.host, lambda line: print(line, file=sys.stderr, flush=True))
@@ -56,6 +66,16 @@ def main(args: argparse.Namespace) -> int:
             loop.run(core.stop(), timeout_s=1.5)
     print(f"core stopped: {reason}", file=sys.stderr)
     return 0
+
+
+def _log_folder(run_id: str) -> Path | None:
+    try:
+        folder = log_folder(os.environ, run_id)
+    except UsageError as error:
+        print(f"no logs are written: {error}", file=sys.stderr, flush=True)
+        return None
+    print(f"... logging to {folder}", file=sys.stderr, flush=True)
+    return folder
 
 
 def _next(reasons: SimpleQueue[str]) -> str:

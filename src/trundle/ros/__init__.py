@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     )
     from .clock import Clock, SimClock, WallClock, follow_time, ns_of
     from .core import Core
+    from .core_logs import PYTHON_LOG_BACKUPS, PYTHON_LOG_BYTES, python_log_line
     from .errors import (
         MasterError,
         MasterUnreachableError,
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     from .fields import Field, field_type, split_topic, value_at
     from .http import host_and_port, host_of
     from .log import LEVELS, coloured
+    from .log_file import LogFile
     from .loop import GraphLoop
     from .master import Master
     from .messages import Message, Messages, RawMessage, ServiceType
@@ -90,6 +92,7 @@ _HOMES = {
     "GraphLoop": "loop",
     "HalfRule": "migration",
     "LEVELS": "log",
+    "LogFile": "log_file",
     "Master": "master",
     "MasterError": "errors",
     "MasterProxy": "proxy",
@@ -109,6 +112,8 @@ _HOMES = {
     "OptionValue": "reconfigure",
     "Options": "reconfigure",
     "PROFILES": "profile",
+    "PYTHON_LOG_BACKUPS": "core_logs",
+    "PYTHON_LOG_BYTES": "core_logs",
     "ParameterError": "errors",
     "ParameterTree": "parameters",
     "PlayOptions": "bags",
@@ -155,10 +160,11 @@ _HOMES = {
     "host_and_port": "http",
     "host_of": "http",
     "master_uri_from_env": "network",
-    "ns_of": "clock",
     "missing_rules": "migration",
+    "ns_of": "clock",
     "open_bag": "bags",
     "probe_service": "service",
+    "python_log_line": "core_logs",
     "read_options": "reconfigure_client",
     "recovered": "bags",
     "server_address": "network",
@@ -174,6 +180,8 @@ __all__ = [
     "LEVELS",
     "NOETIC",
     "PROFILES",
+    "PYTHON_LOG_BACKUPS",
+    "PYTHON_LOG_BYTES",
     "ActionOutcome",
     "ActionServer",
     "BagConnection",
@@ -188,6 +196,7 @@ __all__ = [
     "GeneratedRule",
     "GraphLoop",
     "HalfRule",
+    "LogFile",
     "Master",
     "MasterError",
     "MasterProxy",
@@ -255,6 +264,7 @@ __all__ = [
     "ns_of",
     "open_bag",
     "probe_service",
+    "python_log_line",
     "read_options",
     "recovered",
     "server_address",

@@ -1,13 +1,18 @@
 """What `roscore` starts: the master with its parameters, and the node that gathers what all others log."""
 
+import asyncio
 import uuid
 from collections.abc import Callable
+from pathlib import Path
 
+from .core_logs import CoreLogs
 from .loop import GraphLoop
 from .master import Master
+from .messages import Message
 from .node import Node
 from .parameters import ParameterTree
 from .profile import NOETIC, Profile
+from .publisher import Publisher
 
 
 class Core:
@@ -23,6 +28,7 @@ class Core:
         rosout: bool = True,
         profile: Profile = NOETIC,
         on_shutdown: Callable[[str], None] | None = None,
+        log_folder: Callable[[str], Path | None] | None = None,
     ) -> None:
         """Prepare; `start` listens.
 
@@ -34,6 +40,7 @@ class Core:
             rosout: whether to gather logs.
             profile: which distribution it says it is.
             on_shutdown: called, on the loop and with the reason, when a client asks the master to stop.
+            log_folder: makes the folder for master.log and rosout.log from the run_id; no logs by default.
         """
         self._loop = loop
         self._port = port
@@ -42,7 +49,10 @@ class Core:
         self._wants_rosout = rosout
         self._profile = profile
         self._master = Master(on_shutdown=on_shutdown)
+        self._log_folder = log_folder
+        self._logs: CoreLogs | None = None
         self._rosout: Node | None = None
+        self._gathered: Publisher | None = None
         loop.work.ask_also(lambda: self._master.is_busy)
 
     @property
@@ -74,16 +84,28 @@ class Core:
 
         Raises:
             PortTakenError: another program listens there.
+            TrundleError: as `log_folder` does.
         """
         await self._master.start(self._port, self._host)
+        folder = None if self._log_folder is None else self._log_folder(self._run_id)
+        if folder is not None:
+            self._logs = CoreLogs(folder, self.parameters)
+            self._logs.note(f"Master initialized: port[{self.port}], uri[{self.uri}]")
+            self._master.on_call = self._logs.called
         profile = self._profile
         for name, value in (("run_id", self._run_id), ("rosdistro", profile.distro), ("rosversion", profile.version)):
             # roslaunch writes both with a newline at the end, as `rosversion -d > file` does; clients strip it.
             self._master.set_param(f"/{name}", value if name == "run_id" else f"{value}\n")
         if self._wants_rosout:
             self._rosout = Node("rosout", loop=self._loop, master_uri=self.uri, host=self._host)
-            gathered = self._rosout.advertise("/rosout_agg", "rosgraph_msgs/Log", queue_size=100)
-            self._rosout.subscribe("/rosout", "rosgraph_msgs/Log", gathered.publish, queue_size=100)
+            self._gathered = self._rosout.advertise("/rosout_agg", "rosgraph_msgs/Log", queue_size=100)
+            self._rosout.subscribe("/rosout", "rosgraph_msgs/Log", self._gather, queue_size=100)
+
+    def _gather(self, message: Message) -> None:
+        if self._gathered is not None:
+            self._gathered.publish(message)
+        if self._logs is not None:
+            self._logs.said(message)
 
     async def ready(self) -> None:
         """Wait until /rosout is there too."""
@@ -95,3 +117,5 @@ class Core:
         if self._rosout is not None:
             await self._rosout.shutdown()
         await self._master.stop()
+        if self._logs is not None:
+            await asyncio.to_thread(self._logs.close)

@@ -31,6 +31,8 @@ class Master:
         """
         self.parameters = ParameterTree()
         self.uri = ""
+        self.on_call: Callable[[str, list[Any], Answer], None] = lambda _method, _arguments, _answer: None
+        """Told of each call and its answer."""
         self._on_shutdown = on_shutdown
         self._books = Registrations()
         self._types: dict[str, str] = {}
@@ -93,7 +95,9 @@ class Master:
             return [[self.dispatch(str(call["methodName"]), list(call["params"]))] for call in calls]
         if method == "system.listMethods":
             return sorted([*self._methods, "system.multicall"])
-        return answer_call(self._methods, method, arguments)
+        answer = answer_call(self._methods, method, arguments)
+        self.on_call(method, arguments, answer)
+        return answer
 
     def _get_pid(self, _: str) -> Answer:
         return 1, "", os.getpid()

@@ -1,0 +1,97 @@
+"""A log file that holds up nobody: lines wait for a thread that writes them, and old files make room for new ones."""
+
+import threading
+from pathlib import Path
+from queue import Empty, SimpleQueue
+from typing import BinaryIO
+
+_WAITING = 100_000
+"""Lines that wait for a slow disk."""
+_CLOSING_S = 1.0
+
+
+class LogFile:
+    """One file, with older ones beside it as `name.1`, `name.2`, ….
+
+    Where it cannot be written, lines are lost and counted; the next one that can be written says how many.
+    """
+
+    def __init__(self, path: Path, *, most_bytes: int, backups: int) -> None:
+        """Make a log that opens its file with the first line, which goes behind what is there.
+
+        Args:
+            path: of the newest file.
+            most_bytes: size after which another file is begun.
+            backups: how many older ones are kept.
+        """
+        self._path = path
+        self._most_bytes = most_bytes
+        self._backups = backups
+        self._lines: SimpleQueue[str | None] = SimpleQueue()
+        self._file: BinaryIO | None = None
+        self.lost = 0
+        """Lines that nothing has been said of yet."""
+        self._thread = threading.Thread(target=self._work, name=f"writes {path.name}", daemon=True)
+        self._thread.start()
+
+    def write(self, text: str) -> None:
+        """Write a line, or several, some time soon; from any thread."""
+        if self._lines.qsize() < _WAITING:
+            self._lines.put(text)
+        else:
+            self.lost += 1
+
+    def close(self) -> None:
+        """Write what still waits, unless the disk is too slow for that."""
+        self._lines.put(None)
+        self._thread.join(_CLOSING_S)
+
+    def _work(self) -> None:
+        while (text := self._lines.get()) is not None:
+            lines = [text]
+            is_last = False
+            while not is_last:
+                try:
+                    text = self._lines.get_nowait()
+                except Empty:
+                    break
+                if text is None:
+                    is_last = True
+                else:
+                    lines.append(text)
+            self._write(lines)
+            if is_last:
+                break
+        self._close()
+
+    def _write(self, lines: list[str]) -> None:
+        lost, self.lost = self.lost, 0
+        if lost:
+            lines = [f"{lost} lines are lost: the disk was full or too slow", *lines]
+        for line in lines:
+            try:
+                self._append(line)
+            except OSError:
+                self.lost += 1
+                self._close()
+
+    def _append(self, line: str) -> None:
+        if self._file is None:
+            self._file = self._path.open("ab", buffering=0)
+        data = memoryview(f"{line}\n".encode(errors="replace"))
+        while data:
+            data = data[self._file.write(data) :]
+        if self._file.tell() > self._most_bytes:
+            self._close()
+            for number in range(self._backups - 1, -1, -1):
+                older = self._named(number)
+                if older.exists():
+                    older.replace(self._named(number + 1))
+
+    def _close(self) -> None:
+        file, self._file = self._file, None
+        if file is not None:
+            file.close()
+
+    def _named(self, number: int) -> Path:
+        return self._path if number == 0 else self._path.with_name(f"{self._path.name}.{number}")

@@ -1,0 +1,112 @@
+"""Log files of a run: written beside the work, bounded, and never waited for."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.graphs import until
+
+from trundle.ros import Core, GraphLoop, LogFile, Messages, Node
+from trundle.ros.core_logs import rosout_line
+
+
+def test_lines_go_behind_what_is_there(tmp_path: Path) -> None:
+    path = tmp_path / "a.log"
+    path.write_text("earlier\n")
+    log = LogFile(path, most_bytes=1000, backups=1)
+    log.write("one")
+    log.write("two\nlines")
+    log.close()
+    assert path.read_text() == "earlier\none\ntwo\nlines\n"
+
+
+def test_old_files_make_room(tmp_path: Path) -> None:
+    log = LogFile(tmp_path / "a.log", most_bytes=9, backups=2)
+    for number in range(5):
+        log.write(f"line {number:04d}")  # one more byte than a file takes
+    log.write("last")
+    log.close()
+    assert {file.name: file.read_text() for file in tmp_path.iterdir()} == {
+        "a.log": "last\n",
+        "a.log.1": "line 0004\n",
+        "a.log.2": "line 0003\n",
+    }
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+def test_a_full_disk_loses_lines_and_says_how_many(tmp_path: Path) -> None:
+    path = tmp_path / "a.log"
+    path.symlink_to("/dev/full")
+    log = LogFile(path, most_bytes=1000, backups=1)
+    log.write("one")
+    log.write("two")
+    until(lambda: log.lost == 2)
+    path.unlink()
+    log.write("three")
+    log.close()
+    assert path.read_text() == "2 lines are lost: the disk was full or too slow\nthree\n"
+
+
+def test_rosout_is_written_as_the_original_does(messages: Messages) -> None:
+    fields = {
+        "header": {"stamp": {"secs": 12, "nsecs": 5}},
+        "level": 4,
+        "name": "/talker",
+        "msg": "two\nlines",
+        "file": "talk.py",
+        "function": "main",
+        "line": 7,
+        "topics": ["/rosout", "/chatter"],
+    }
+    message = messages.new("rosgraph_msgs/Log", fields)
+    start = "12.000000005 WARN /talker [talk.py:7(main)] "
+    assert rosout_line(message, with_topics=True) == f"{start}[topics: /rosout, /chatter] two\nlines"
+    assert rosout_line(message, with_topics=False) == f"{start}two\nlines"
+
+
+def test_a_core_writes_what_nodes_say_and_who_comes_and_goes(tmp_path: Path, messages: Messages) -> None:
+    with GraphLoop(messages=messages) as loop:
+        core = Core(loop, port=0, log_folder=lambda _: tmp_path)
+        loop.run(core.start())
+        loop.run(core.ready())
+        node = _node(loop, core)
+        loop.run(node.ready())
+        until(lambda: _says(node, "first") and "first" in _text(tmp_path / "rosout.log"))
+        loop.run(node.set_param("/rosout/omit_topics", True))
+        until(lambda: _says(node, "second") and "second" in _text(tmp_path / "rosout.log"))
+        uri = node.uri
+        loop.run(node.shutdown())
+        loop.run(core.stop())
+    said = (tmp_path / "rosout.log").read_text().splitlines()
+    assert any(line.endswith("(_says)] [topics: /chatter, /rosout] first") for line in said)
+    assert any(line.endswith("(_says)] second") for line in said)
+    came = (tmp_path / "master.log").read_text()
+    assert "[rosmaster.master][INFO]" in came
+    assert f": +PUB [/chatter] /talker {uri}\n" in came
+    assert f": -PUB [/chatter] /talker {uri}\n" in came
+    assert f": +SERVICE [/talker/get_loggers] /talker {uri}\n" in came
+    assert ": +PARAM [/rosout/omit_topics] by /talker\n" in came
+
+
+def test_a_core_that_is_told_so_writes_no_rosout(tmp_path: Path, messages: Messages, monkeypatch: Any) -> None:
+    monkeypatch.setenv("ROSOUT_DISABLE_FILE_LOGGING", "1")
+    with GraphLoop(messages=messages) as loop:
+        core = Core(loop, port=0, log_folder=lambda _: tmp_path)
+        loop.run(core.start())
+        loop.run(core.stop())
+    assert [file.name for file in tmp_path.iterdir()] == ["master.log"]
+
+
+def _node(loop: GraphLoop, core: Core) -> Node:
+    node = Node("talker", loop=loop, master_uri=core.uri)
+    node.advertise("/chatter", "std_msgs/String")
+    return node
+
+
+def _says(node: Node, text: str) -> bool:
+    node.log_info(text)
+    return True
+
+
+def _text(file: Path) -> str:
+    return file.read_text() if file.exists() else ""
