@@ -69,8 +69,10 @@ class Odometry(GraphPlugin):
         self.reset()
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Measure now and then, and tell what was measured so many steps ago."""
-        if self._steps % self._divisor == 0:
+        """Measure now and then, and tell what was measured so many steps ago; nothing, while nobody listens."""
+        if not any(topic.has_subscribers for topic in (*self._topics.values(), self._broadcaster)):
+            self._measured.clear()
+        elif self._steps % self._divisor == 0:
             self._measured.append((self._steps + self._delay, snapshot.time_ns + self._late_ns, *self._motion()))
         if self._measured and self._measured[0][0] == self._steps:
             _, stamp_ns, pose, twist = self._measured.popleft()
