@@ -305,6 +305,17 @@ def test_every_line_of_info_is_rosbags(graph: Any, original: Any, bag: Path) -> 
 
 
 @pytest.mark.real_ros
+@pytest.mark.parametrize("compression", ["none", "bz2", "lz4"])
+def test_bags_of_ours_are_reindexed_by_the_original(graph: Any, original: Any, bag: Path, compression: str) -> None:
+    if compression != "none":
+        assert graph.trundle("bag", "compress", "-q", f"--{compression}", str(bag))[0] == 0
+        (bag.parent / "made.orig.bag").unlink()
+    original("rosbag", "reindex", "-q", str(bag))
+    assert (bag.parent / "made.orig.bag").exists()
+    assert _counts(bag) == {"/points": 20, "/fixed": 1}
+
+
+@pytest.mark.real_ros
 @pytest.mark.parametrize("compression", ["none", "-j", "--lz4"])
 def test_bags_of_ours_are_played_by_the_original(
     graph: Any, original: Any, bag: Path, tmp_path: Path, compression: str

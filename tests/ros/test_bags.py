@@ -1,6 +1,7 @@
 """Bags: both formats there and back, cut off anywhere, recorded and played."""
 
 import os
+import struct
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
@@ -413,3 +414,19 @@ def test_a_publishers_own_definition_is_recorded_to_the_letter(graph: Any, far: 
     recorder.stop()
     with open_bag(tmp_path / name) as bag:
         assert [c.definition for c in bag.connections] == [text]
+
+
+@pytest.mark.parametrize("count", [0, 3])
+def test_the_first_record_is_as_long_as_rosbags(messages: Messages, tmp_path: Path, count: int) -> None:
+    """`rosbag reindex` looks for the first chunk at a fixed place."""
+    path = tmp_path / "x.bag"
+    made = BagConnection(topic="/a", type="std_msgs/Empty", md5sum=messages.md5("std_msgs/Empty"), definition="")
+    with create_bag(path) as out:
+        for i in range(count):
+            out.write(BagMessage(made, 10**18 + i, b""))
+    data = path.read_bytes()
+    (header,) = struct.unpack_from("<I", data, 13)
+    (padding,) = struct.unpack_from("<I", data, 17 + header)
+    assert header + padding == 4096
+    assert data[21 + header : 21 + 4096].strip() == b""
+    assert sum(1 for _ in recovered(path)) == count

@@ -1,9 +1,11 @@
 """ROS 1 bags (format 2.0), by the library rosbags."""
 
+import struct
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
+from os import SEEK_END
 from pathlib import Path
-from typing import Any, Self, cast
+from typing import Any, BinaryIO, Self, cast
 
 import lz4.frame
 from rosbags.rosbag1 import Reader, ReaderError, Writer, WriterError
@@ -111,8 +113,29 @@ def _lz4(data: bytes) -> bytes:
     return bytes(lz4.frame.compress(data, block_linked=False, content_checksum=True, store_size=False))
 
 
+_PADDING_AT = 13 + 4 + 69
+"""Where the length of the first record's padding stands: behind the magic line and its header, of a fixed size."""
+_PADDING = 4096 - 69
+_PADDING_LACKING = 8
+"""`rosbag reindex` counts on 4096 bytes without the two lengths; the library pads to 4096 with them."""
+
+
 class _FlushingWriter(Writer):
     """The library's writer, which can also let go of what it has: on disk, and of the index in memory."""
+
+    def open(self) -> None:
+        """Open the file, and pad its first record as rosbag does."""
+        super().open()
+        assert self.bio is not None
+        self.bio.write(b" " * _PADDING_LACKING)
+        _write_padding(self.bio)
+        self.bio.seek(0, SEEK_END)
+
+    def close(self) -> None:
+        """Write the index; the library writes the first record anew, with its own padding."""
+        super().close()
+        with self.path.open("r+b") as file:
+            _write_padding(file)
 
     def write_chunk(self, chunk: WriteChunk) -> None:
         """Write a chunk, then keep of its index only the counts, which are all that closing needs."""
@@ -132,6 +155,11 @@ class _FlushingWriter(Writer):
         """Bytes written and waiting."""
         assert self.bio is not None
         return self.bio.tell() + self.chunks[-1].data.tell()
+
+
+def _write_padding(file: BinaryIO) -> None:
+    file.seek(_PADDING_AT)
+    file.write(struct.pack("<I", _PADDING))
 
 
 def _connection(connection: Any) -> BagConnection:
