@@ -10,6 +10,7 @@ from trundle.ros import (
     BagReader,
     MessageClass,
     MessageClasses,
+    MessageError,
     Messages,
     Migrator,
     Rule,
@@ -84,7 +85,13 @@ def transition(old: MessageClass, new: MessageClass | None, *, indent: int) -> l
 
 
 def _migration(connection: BagConnection, rules: Migrator) -> Migration:
-    old = MessageClasses.of_definition(connection.type, connection.definition).of(connection.type)
+    known = rules.known_class(connection.type)
+    try:
+        old = MessageClasses.of_definition(connection.type, connection.definition).of(connection.type)
+    except MessageError:
+        if known is None or known.md5sum != connection.md5sum:
+            raise
+        old = known  # who recorded it lost or garbled the text
     new = rules.target(old)
     path = rules.path(old, new)
     return Migration(old, new, path, missing_rules([step.rule for step in path]))

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, cast
 
+from .errors import MessageError
 from .sources import Definitions, constant_texts
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ class TypeTexts:
         self._store = store
         self._installed = installed
         self._md5s: dict[str, str] = {}
+        self._under_way: set[str] = set()
         self._definitions: dict[str, str] = {}
 
     def fields(self, key: str) -> dict[str, str]:
@@ -62,15 +64,25 @@ class TypeTexts:
     def definition(self, key: str) -> str:
         """Return the text of a type followed by those it depends on, as genmsg writes it."""
         if key not in self._definitions:
-            others = dict.fromkeys(self._depends(key))
+            others = self._within(key)
             parts = [f"{_SEPARATOR}{ros_name(other)}\n{self.text(other)}" for other in others]
             self._definitions[key] = "\n".join([self.text(key), *parts])
         return self._definitions[key]
 
     def md5(self, key: str) -> str:
-        """Return the md5 sum over the canonical text of a type."""
+        """Return the md5 sum over the canonical text of a type.
+
+        Raises:
+            MessageError: the type consists of itself.
+        """
         if key not in self._md5s:
-            self._md5s[key] = _sum(self._canonical(key))
+            if key in self._under_way:
+                raise MessageError(f"the definition of {ros_name(key)} cannot be read: it has itself inside")
+            self._under_way.add(key)
+            try:
+                self._md5s[key] = _sum(self._canonical(key))
+            finally:
+                self._under_way.remove(key)
         return self._md5s[key]
 
     def service_md5(self, request: str, response: str) -> str:
@@ -84,10 +96,16 @@ class TypeTexts:
             if name is not None and name not in BUILTIN:
                 yield name
 
-    def _depends(self, key: str) -> Iterator[str]:
-        for name in self.direct(key):
-            yield name
-            yield from self._depends(name)
+    def _within(self, key: str) -> list[str]:
+        """Types that a type consists of, each once, as they come."""
+        found: dict[str, None] = {}
+        waiting = [*self.direct(key)]
+        while waiting:
+            name = waiting.pop(0)
+            if name not in found:
+                found[name] = None
+                waiting = [*self.direct(name), *waiting]
+        return list(found)
 
     def _canonical(self, key: str) -> str:
         """Write the text the md5 sum is taken of: constants, then fields, with types replaced by their own sums."""

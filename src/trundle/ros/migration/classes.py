@@ -95,7 +95,7 @@ class RuleMessage(metaclass=MessageClass):
             MessageError: they are no such message.
         """
         made = type(self)
-        copy_fields(self, made.classes.read(data, made.kind))
+        _copy_fields(self, made.classes.read(data, made.kind))
         return self
 
     def __eq__(self, other: object) -> bool:
@@ -229,7 +229,7 @@ class MessageClasses:
 
         def read(value: Any) -> RuleMessage:
             message = cast(RuleMessage, object.__new__(made))
-            copy_fields(message, value)
+            _copy_fields(message, value)
             return message
 
         return read
@@ -240,12 +240,21 @@ def base_of(kind: str) -> str:
     return kind.partition("[")[0]
 
 
-def copy_fields(message: RuleMessage, value: Any) -> None:
+def _copy_fields(message: RuleMessage, value: Any) -> None:
     """Set a message's fields to those that the store read."""
     made = type(message)
     for name, kind in made.kinds.items():
         read = getattr(value, name) if hasattr(value, name) else getattr(value, f"{name}_")  # a keyword of Python's
         setattr(message, name, made.classes.reader(kind)(read))
+
+
+def from_bytes(made: MessageClass, data: bytes) -> RuleMessage:
+    """Make a message of bytes, and nothing that is not in them: a bag's types may have arrays of any length.
+
+    Raises:
+        MessageError: they are no such message.
+    """
+    return made.classes.reader(made.kind)(made.classes.read(data, made.kind))
 
 
 def to_bytes(message: RuleMessage) -> bytes:

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..messages import Messages
 from .chains import Chains
-from .classes import Key, MessageClass, MessageClasses, RuleMessage, to_bytes
+from .classes import Key, MessageClass, MessageClasses, RuleMessage, from_bytes, to_bytes
 from .generated import GeneratedRule, HalfRule
 from .rule import MessageUpdateRule, MigrationError, Rule
 from .rule_files import RuleFile, running
@@ -93,9 +93,7 @@ class Migrator:
         path = self._passable(old, new)
         if not path or old.md5sum == new.md5sum:
             return data
-        message = path[0].old()
-        message.deserialize(data)
-        made = _along(path, message)
+        made = _along(path, from_bytes(path[0].old, data))
         with running(path[-1].rule):
             return to_bytes(made)
 
@@ -104,9 +102,7 @@ class Migrator:
         path = self._passable(type(old), new)
         if path and type(old).md5sum != new.md5sum:
             return _along(path, old)
-        made = new()
-        made.deserialize(to_bytes(old))
-        return made
+        return from_bytes(new, to_bytes(old))
 
     def rules_between(self, old: MessageClass, new: MessageClass) -> list[Rule]:
         """See `Rules`."""
