@@ -5,9 +5,11 @@ import os
 import statistics
 import subprocess
 import sys
+import sysconfig
 import time
 from collections.abc import Callable, Generator, Sequence
 from contextlib import ExitStack, contextmanager
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +20,13 @@ _END = Path(__file__).parent / "ros_end.py"
 _TWIST, _IMAGE = "geometry_msgs/Twist", "sensor_msgs/Image"
 _RUNS = 5
 _ROSTOPIC = "/usr/bin/rostopic"
-_OURS = [sys.executable, str(_END), "trundle"]
-_THEIRS = ["/usr/bin/python3", "-W", "ignore", str(_END), "rospy"]
+_DEBIANS = "/usr/bin/python3"
+_VERSION = [sys.version_info.major, sys.version_info.minor]
+_THEIRS = [_DEBIANS, "-W", "ignore", str(_END), "rospy"]
 
 
 def run() -> list[Row]:
-    """Pairs of processes; without Debian's rospy there are no ratios."""
+    """Pairs of processes, of one interpreter if may be; without Debian's rospy there are no ratios."""
     return [
         _row("Twist, flat out", "messages/s", lambda end, _: _rate(end, _TWIST, 30_000)),
         _row("Twist in one process", "messages/s", lambda end, own: _rate(end, _TWIST, 30_000, one=own)),
@@ -39,15 +42,26 @@ def _fresh_master() -> Generator[dict[str, str]]:
     with GraphLoop() as loop:
         core = Core(loop, port=0)
         loop.run(core.start())
-        yield {**os.environ, "ROS_MASTER_URI": core.uri, "ROS_IP": "127.0.0.1", "PYTHONWARNINGS": "ignore"}
+        addresses = {"ROS_MASTER_URI": core.uri, "ROS_IP": "127.0.0.1"}
+        yield {**os.environ, **addresses, "PYTHONWARNINGS": "ignore", "BENCH_SITE": sysconfig.get_path("platlib")}
         loop.run(core.stop())
+
+
+@cache
+def _ours() -> list[str]:
+    """Our end, on rospy's interpreter if that is of our version: libraries are compared, not builds of Python."""
+    if Path(_DEBIANS).exists():
+        asked = [_DEBIANS, "-c", "import sys; print(list(sys.version_info[:2]))"]
+        if json.loads(subprocess.run(asked, check=True, capture_output=True).stdout) == _VERSION:
+            return [_DEBIANS, "-S", str(_END), "trundle"]
+    return [sys.executable, str(_END), "trundle"]
 
 
 def _row(name: str, unit: str, measure: Callable[[Sequence[str], bool], float], *, against: str = "rospy") -> Row:
     """Measure both in turns, if the original is here."""
     if not Path(_ROSTOPIC).exists():
-        return Row(name, statistics.median(measure(_OURS, True) for _ in range(_RUNS)), unit, "", None)
-    pairs = [(measure(_OURS, True), measure(_THEIRS, False)) for _ in range(_RUNS)]
+        return Row(name, statistics.median(measure(_ours(), True) for _ in range(_RUNS)), unit, "", None)
+    pairs = [(measure(_ours(), True), measure(_THEIRS, False)) for _ in range(_RUNS)]
     ratio = statistics.median(own / other for own, other in pairs)
     return Row(name, statistics.median(own for own, _ in pairs), unit, against, ratio)
 

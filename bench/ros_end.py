@@ -7,6 +7,8 @@ A subscriber prints one JSON object when it has COUNT messages, a publisher when
 """
 
 import json
+import os
+import site
 import sys
 import threading
 import time
@@ -22,6 +24,8 @@ class OverTrundle:
     """Trundle's own client library."""
 
     def __init__(self, role: str) -> None:
+        if sys.flags.no_site:  # an interpreter that has Trundle elsewhere
+            site.addsitedir(os.environ["BENCH_SITE"])
         from trundle.ros import GraphLoop, Node
 
         self._loop = GraphLoop()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from .codec import MISFITS, Codec
 from .errors import MessageError, RosError, WireError
+from .frames import LENGTH
 from .headers import check_md5
 from .messages import ANY_TYPE, Message, RawMessage
 from .nearby import UNIXROS, address_nearby
@@ -342,22 +343,22 @@ class _SubscriberLink(FrameProtocol):
     def _readable(self) -> None:
         assert self._socket is not None
         try:
-            count = self._socket.recv_into(self.frames.room())
+            come = self.frames.receive(self._socket)
         except BlockingIOError:
             return
         except OSError as error:
             self.close(str(error))
             return
-        if count == 0:
-            self.close("the peer closed the connection")
-        elif (content := self.frames.whole(count)) is None:
-            self.buffer_updated(count)
-        else:
-            self.bytes_received += count
+        if isinstance(come, bytes):
+            self.bytes_received += LENGTH.size + len(come)
             try:
-                self._subscription.take(content, self.header or {})
+                self._subscription.take(come, self.header or {})
             except MessageError as error:
                 self.close(str(error))
+        elif come:
+            self.buffer_updated(come)
+        else:
+            self.close("the peer closed the connection")
 
     def closed(self, reason: str, /) -> None:
         if self._socket is not None:
