@@ -13,9 +13,9 @@ import yaml
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.launch import LaunchNode
 from trundle.names import parse_arguments
-from trundle.nodes import Executable, Host, Missing, Replacement, find_node, interpreter, run_stand_in
+from trundle.nodes import ROSCPP, Executable, Host, Missing, Replacement, find_node, interpreter, run_stand_in
 from trundle.packages import Packages
-from trundle.ros import Node
+from trundle.ros import Loggers, Node
 from trundle.supervisor import Command, Job, Policy, ProcessJob, TaskJob
 
 from .graph import Graph
@@ -114,6 +114,8 @@ class NodeStarter:
             params={name: _value(text) for name, text in given.params.items()},
             host=self.graph.host,
         )
+        if (node.package, node.type) in ROSCPP:
+            ros_node.loggers = Loggers.of_roscpp(node.package)
         with contextlib.ExitStack() as files:
             if log is not None:
                 ros_node.quiet_log = files.enter_context(log.open("a", encoding="utf-8"))

@@ -104,8 +104,8 @@ def _stand_in(args: argparse.Namespace, stand_in: object) -> int:
     import yaml
 
     from trundle.names import parse_arguments
-    from trundle.nodes import CLIENTS, WINDOWS, WORLDS, Host, Replacement, run_stand_in
-    from trundle.ros import GraphLoop, Node, master_uri_from_env
+    from trundle.nodes import CLIENTS, ROSCPP, WINDOWS, WORLDS, Host, Replacement, run_stand_in
+    from trundle.ros import GraphLoop, Loggers, Node, master_uri_from_env
 
     assert isinstance(stand_in, Replacement)
     words = parse_arguments(args.arguments)
@@ -122,6 +122,8 @@ def _stand_in(args: argparse.Namespace, stand_in: object) -> int:
             params={name: yaml.safe_load(text) for name, text in words.params.items()},
             host=words.host,
         )
+        if what in ROSCPP:
+            node.loggers = Loggers.of_roscpp(args.package)
         with ExitStack() as stack:
             page = stack.enter_context(closing(_page())) if what in WINDOWS else None
             world = stack.enter_context(_world(node, with_window=what in CLIENTS)) if what in WORLDS else None

@@ -1,6 +1,6 @@
 """Stand-ins for stock executables: nodes that launch files name, run in this process."""
 
-from .catalog import CLIENTS, STAND_INS, WINDOWS, WORLDS
+from .catalog import CLIENTS, ROSCPP, STAND_INS, WINDOWS, WORLDS
 from .find import Executable, Missing, Replacement, find_node, namesakes, program_names
 from .host import Display, Host, Simulator, Slider, StandIn
 from .run import run_stand_in
@@ -8,6 +8,7 @@ from .scripts import interpreter
 
 __all__ = [
     "CLIENTS",
+    "ROSCPP",
     "STAND_INS",
     "WINDOWS",
     "WORLDS",

@@ -117,3 +117,21 @@ CLIENTS = frozenset({("gazebo_ros", "gzclient"), ("gazebo_ros", "gazebo")})
 
 OURS_ALWAYS = frozenset({"gazebo_ros"})
 """Packages whose programs would start another simulator: ours stands in even where the original is installed."""
+
+_IN_PYTHON = (
+    "arbotix_",
+    "controller_manager",
+    "dynamic_reconfigure",
+    "joint_state_publisher",
+    "rosparam",
+    "rosservice",
+    "rostopic",
+    "rqt_",
+    "teleop_twist_keyboard",
+    "tf2_tools",
+    "turtlebot",
+)
+ROSCPP = frozenset(
+    key for key in STAND_INS if not key[0].startswith(_IN_PYTHON) and key[1] not in ("spawn_model", "urdf_spawner")
+)
+"""Those whose originals are C++: such nodes name their loggers otherwise."""

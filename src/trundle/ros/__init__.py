@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from .http import host_and_port, host_of
     from .log import LEVELS, coloured
     from .log_file import LogFile
+    from .loggers import Loggers
     from .loop import GraphLoop
     from .master import Master
     from .messages import Message, Messages, RawMessage, ServiceType
@@ -93,6 +94,7 @@ _HOMES = {
     "HalfRule": "migration",
     "LEVELS": "log",
     "LogFile": "log_file",
+    "Loggers": "loggers",
     "Master": "master",
     "MasterError": "errors",
     "MasterProxy": "proxy",
@@ -197,6 +199,7 @@ __all__ = [
     "GraphLoop",
     "HalfRule",
     "LogFile",
+    "Loggers",
     "Master",
     "MasterError",
     "MasterProxy",

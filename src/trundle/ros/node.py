@@ -15,7 +15,7 @@ from trundle.names import canonical_name, join_names, resolve_name
 from .clock import Clock, WallClock
 from .errands import Errands
 from .errors import MasterUnreachableError, MessageError, ServiceError
-from .log import LEVELS, Level
+from .loggers import Loggers
 from .loop import GraphLoop
 from .messages import ANY_TYPE, Message
 from .network import master_uri_from_env, server_address
@@ -74,8 +74,7 @@ class Node(NodeCalls, NodeLinks, NodeLog):
         self.deliver = deliver
         self.profile = NOETIC
         """How the distribution behaves that its graph is."""
-        self.log_level: Level = "info"
-        """Messages below this level are not said."""
+        self.loggers = Loggers.of_rospy()
         self.quiet_log: TextIO | None = None
         self.closed = asyncio.Event()
         """Set when the node has shut down; awaited on the loop."""
@@ -388,11 +387,11 @@ class Node(NodeCalls, NodeLinks, NodeLog):
 
     def _get_loggers(self, request: Message) -> dict[str, Any]:
         del request
-        return {"loggers": [{"name": "rosout", "level": self.log_level}]}
+        return {"loggers": [{"name": name, "level": level} for name, level in self.loggers.levels()]}
 
     def _set_logger_level(self, request: Message) -> dict[str, Any]:
-        level = request.level.lower()
-        if level not in LEVELS:
-            raise ServiceError(f"no level {request.level!r}; levels: {', '.join(LEVELS)}")
-        self.log_level = level
+        try:
+            self.loggers.set(request.logger, request.level.lower())
+        except ValueError as error:
+            raise ServiceError(str(error)) from None
         return {}

@@ -5,6 +5,7 @@ from typing import TextIO
 
 from .clock import Clock, WallClock
 from .log import LEVELS, Level, caller, print_log
+from .loggers import Loggers
 from .publisher import Publisher
 
 
@@ -13,8 +14,8 @@ class NodeLog:
 
     name: str
     clock: Clock
-    log_level: Level
-    """Messages below this level are not said."""
+    loggers: Loggers
+    """By which messages are said or not."""
     quiet_log: TextIO | None
     """Takes what is no warning in place of stderr; None: stderr has it all."""
     _rosout: Publisher | None
@@ -46,7 +47,7 @@ class NodeLog:
         self._log("error", f"{what}: {error}\n{where}")
 
     def _log(self, level: Level, text: str) -> None:
-        if LEVELS[level] < LEVELS[self.log_level]:
+        if LEVELS[level] < LEVELS[self.loggers.level]:
             return
         now = self.clock.now_ns()
         wall = WallClock().now_ns()
