@@ -176,7 +176,7 @@ def test_pictures_come_by_shared_memory_in_order(graph: Any, far: Any, size: int
     assert shared == 2, "one side each"
 
 
-@pytest.mark.parametrize("at_fault", ["trundle.ros.outgoing.Shelf", "trundle.ros.subscription.ShelfReader"])
+@pytest.mark.parametrize("at_fault", ["trundle.ros.outgoing.Shelf", "trundle.ros.subscriber_link.ShelfReader"])
 def test_without_shared_memory_pictures_come_all_the_same(
     graph: Any, far: Any, at_fault: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -3,20 +3,17 @@
 import asyncio
 import contextlib
 import inspect
-import socket
 from collections import deque
 from collections.abc import Awaitable, Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from .codec import MISFITS, Codec
 from .errors import MessageError, RosError, WireError
-from .frames import LENGTH
 from .headers import check_md5
 from .messages import ANY_TYPE, Message, RawMessage
 from .nearby import UNIXROS, address_nearby
 from .rpc_client import call
-from .selector import ReadingSelector
-from .shelf import ShelfReader
+from .subscriber_link import SubscriberLink
 from .tcpros import FrameProtocol
 from .xmlrpc import FaultError
 
@@ -230,8 +227,8 @@ class Subscription:
         if link.header is None or "error" in link.header:
             raise WireError(reason)
 
-    async def _open(self, host: str, port: int, nearby: str | None) -> "_SubscriberLink":
-        link, loop = _SubscriberLink(self, self._request(), self._node.loop.selector), asyncio.get_running_loop()
+    async def _open(self, host: str, port: int, nearby: str | None) -> "SubscriberLink":
+        link, loop = SubscriberLink(self, self._request(), self._node.loop.selector), asyncio.get_running_loop()
         if nearby is not None:
             with contextlib.suppress(OSError):  # not so near, or gone
                 await loop.create_unix_connection(lambda: link, nearby)
@@ -290,81 +287,3 @@ class Subscription:
                     await result
             except Exception as error:
                 self._say_failed(error)
-
-
-class _SubscriberLink(FrameProtocol):
-    """A TCPROS connection to one publisher."""
-
-    def __init__(self, subscription: Subscription, request: dict[str, str], selector: ReadingSelector) -> None:
-        super().__init__()
-        self.ended: asyncio.Future[str] = asyncio.get_running_loop().create_future()
-        self._subscription = subscription
-        self._request = request
-        self._selector = selector
-        self._socket: socket.socket | None = None
-        """The connection once more, read past asyncio."""
-        self._shelf: ShelfReader | None = None
-
-    def connected(self) -> None:
-        self.send_header(self._request)
-
-    def header_received(self, header: dict[str, str]) -> None:
-        if "error" in header:
-            raise WireError(header["error"])
-        if not check_md5(self._subscription.md5sum, header.get("md5sum", "*")) and header.get("md5sum") != ANY_TYPE:
-            raise WireError(f"it carries {header.get('type', 'another type')}, not {self._subscription.type}")
-        if header.get("tcp_nodelay") == "1":
-            self.set_nodelay()
-        assert self.transport is not None
-        self.transport.pause_reading()
-        own: socket.socket = self.transport.get_extra_info("socket").dup()
-        self._socket = own
-        self._selector.read(own, self._readable)
-
-    def frame_received(self, data: bytes | memoryview) -> None:
-        try:
-            self._subscription.take(data, self.header or {})
-        except MessageError as error:
-            raise WireError(str(error)) from None
-
-    def note_received(self, note: bytes, /) -> bytes | None:
-        if self._shelf is None:
-            assert self.transport is not None
-            with contextlib.suppress(OSError):  # not to be seen from here: all goes on over the socket
-                self._shelf = ShelfReader(self.transport.get_extra_info("socket"), note)
-                self.out.send([(self._shelf.seen(),)], None)
-            return None
-        content, answer = self._shelf.take(note)
-        if answer is not None:
-            self.out.send([(answer,)], None)
-        self.bytes_received += len(content)
-        return content
-
-    def _readable(self) -> None:
-        assert self._socket is not None
-        try:
-            come = self.frames.receive(self._socket)
-        except BlockingIOError:
-            return
-        except OSError as error:
-            self.close(str(error))
-            return
-        if isinstance(come, bytes):
-            self.bytes_received += LENGTH.size + len(come)
-            try:
-                self._subscription.take(come, self.header or {})
-            except MessageError as error:
-                self.close(str(error))
-        elif come:
-            self.buffer_updated(come)
-        else:
-            self.close("the peer closed the connection")
-
-    def closed(self, reason: str, /) -> None:
-        if self._socket is not None:
-            self._selector.forget(self._socket)
-            self._socket.close()
-        if self._shelf is not None:
-            self._shelf.close()
-        if not self.ended.done():
-            self.ended.set_result(reason)

@@ -1,0 +1,99 @@
+"""A subscription's connection to one publisher of another process."""
+
+import asyncio
+import contextlib
+import socket
+from typing import TYPE_CHECKING
+
+from .errors import MessageError, WireError
+from .frames import LENGTH
+from .headers import check_md5
+from .messages import ANY_TYPE
+from .selector import ReadingSelector
+from .shelf import ShelfReader
+from .tcpros import FrameProtocol
+
+if TYPE_CHECKING:
+    from .subscription import Subscription
+
+
+class SubscriberLink(FrameProtocol):
+    """Asks for a topic, then hands on what comes; read past asyncio once both headers are there."""
+
+    def __init__(self, subscription: "Subscription", request: dict[str, str], selector: ReadingSelector) -> None:
+        super().__init__()
+        self.ended: asyncio.Future[str] = asyncio.get_running_loop().create_future()
+        self._subscription = subscription
+        self._request = request
+        self._selector = selector
+        self._socket: socket.socket | None = None
+        """The connection once more, read past asyncio."""
+        self._shelf: ShelfReader | None = None
+
+    def connected(self) -> None:
+        self.send_header(self._request)
+
+    def header_received(self, header: dict[str, str]) -> None:
+        if "error" in header:
+            raise WireError(header["error"])
+        if not check_md5(self._subscription.md5sum, header.get("md5sum", "*")) and header.get("md5sum") != ANY_TYPE:
+            raise WireError(f"it carries {header.get('type', 'another type')}, not {self._subscription.type}")
+        if header.get("tcp_nodelay") == "1":
+            self.set_nodelay()
+        with contextlib.suppress(OSError):  # no number is left for it: asyncio goes on reading
+            self._read_past_asyncio()
+
+    def frame_received(self, data: bytes | memoryview) -> None:
+        try:
+            self._subscription.take(data, self.header or {})
+        except MessageError as error:
+            raise WireError(str(error)) from None
+
+    def note_received(self, note: bytes, /) -> bytes | None:
+        if self._shelf is None:
+            assert self.transport is not None
+            with contextlib.suppress(OSError):  # not to be seen from here: all goes on over the socket
+                self._shelf = ShelfReader(self.transport.get_extra_info("socket"), note)
+                self.out.send([(self._shelf.seen(),)], None)
+            return None
+        content, answer = self._shelf.take(note)
+        if answer is not None:
+            self.out.send([(answer,)], None)
+        self.bytes_received += len(content)
+        return content
+
+    def _read_past_asyncio(self) -> None:
+        assert self.transport is not None
+        own: socket.socket = self.transport.get_extra_info("socket").dup()
+        self.transport.pause_reading()
+        self._socket = own
+        self._selector.read(own, self._readable)
+
+    def _readable(self) -> None:
+        assert self._socket is not None
+        try:
+            come = self.frames.receive(self._socket)
+        except BlockingIOError:
+            return
+        except OSError as error:
+            self.close(str(error))
+            return
+        if isinstance(come, bytes):
+            self.bytes_received += LENGTH.size + len(come)
+            try:
+                self._subscription.take(come, self.header or {})
+            except MessageError as error:
+                self.close(str(error))
+        elif come:
+            self.buffer_updated(come)
+        else:
+            self.close("the peer closed the connection")
+
+    def closed(self, reason: str, /) -> None:
+        if self._socket is not None:
+            self._selector.forget(self._socket)
+            self._socket.close()
+        if self._shelf is not None:
+            self._shelf.close()
+        if not self.ended.done():
+            self.ended.set_result(reason)
