@@ -430,3 +430,17 @@ def test_the_first_record_is_as_long_as_rosbags(messages: Messages, tmp_path: Pa
     assert header + padding == 4096
     assert data[21 + header : 21 + 4096].strip() == b""
     assert sum(1 for _ in recovered(path)) == count
+
+
+def test_a_connection_that_is_named_twice_is_counted_twice(messages: Messages, tmp_path: Path) -> None:
+    """As one wrong byte in the index makes of two."""
+    path = tmp_path / "x.bag"
+    with create_bag(path) as out:
+        for topic in ("/a", "/b"):
+            md5sum = messages.md5("std_msgs/Empty")
+            made = BagConnection(topic=topic, type="std_msgs/Empty", md5sum=md5sum, definition="")
+            out.write(BagMessage(made, 10**18, b""))
+    head, _, tail = path.read_bytes().rpartition(b"conn=\1\0\0\0")
+    path.write_bytes(head + b"conn=\0\0\0\0" + tail)
+    with open_bag(path) as bag:
+        assert len(bag.connections) == len(bag.counts) == 2

@@ -60,7 +60,7 @@ def migrator(files: list[str], *, with_plugins: bool, is_forced: bool = False) -
 def migrations(bag: BagReader, rules: Migrator) -> dict[BagConnection, Migration]:
     """What becomes of each connection, in the order of their first messages."""
     found: dict[BagConnection, Migration] = {}
-    waiting = {connection for connection, count in zip(bag.connections, bag.counts, strict=True) if count}
+    waiting = set(bag.connections)
     for message in bag.messages(waiting.__contains__):
         connection = message.connection
         if connection in waiting:

@@ -25,7 +25,7 @@ class Ros1Reader:
         with _told(path):
             self._reader.open()
         self._by_id = {c.id: _connection(c) for c in self._reader.connections}
-        self.connections = list(self._by_id.values())
+        self.connections = [self._by_id[c.id] for c in self._reader.connections]  # a damaged one may name an id twice
         self.counts = [int(c.msgcount) for c in self._reader.connections]
         infos = self._reader.chunk_infos
         self.start_ns = min((info.start_time for info in infos if info.connection_counts), default=0)
