@@ -1,6 +1,7 @@
 """Nodes among themselves: topics, services, parameters, logs; in one process and over sockets."""
 
 import asyncio
+import errno
 import io
 import queue
 import sys
@@ -28,13 +29,19 @@ from trundle.ros.nearby import address_nearby
 STRING = "std_msgs/String"
 
 
-@pytest.fixture(params=["same process", "nearby", "TCP", "TCP without writev"])
+@pytest.fixture(params=["same process", "nearby", "TCP", "TCP without writev", "TCP with too many files"])
 def pair(request: pytest.FixtureRequest, graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch) -> tuple[Any, Any]:
     """A talking and a listening node."""
     if request.param.startswith("TCP"):
         monkeypatch.setattr("trundle.ros.subscription.address_nearby", lambda _: None)
     if "writev" in request.param:
         monkeypatch.delattr("os.writev")
+    if "files" in request.param:
+
+        def refuse(_: object) -> None:
+            raise OSError(errno.EMFILE, "too many open files")
+
+        monkeypatch.setattr("asyncio.trsock.TransportSocket.dup", refuse)
     return graph.node("talker"), (graph if request.param == "same process" else far).node("listener")
 
 

@@ -17,6 +17,8 @@ from .shelf import LONG_BYTES, Shelf
 _MOST_KERNEL_BYTES = 4 * 1024 * 1024
 """As much as TCP may take by Linux's own settings."""
 _UNIX = getattr(socket, "AF_UNIX", None)
+_AGAIN_S = 0.05
+"""After which it is tried again where the loop cannot look."""
 _AT_ONCE = 200
 """Frames given to the kernel in one call, which takes at most IOV_MAX (1024) pieces; a frame has three at most."""
 
@@ -214,8 +216,11 @@ class Outgoing:
     def _wait(self) -> None:
         with self._lock:
             if self._is_full and self.is_behind and not self._is_waiting:
-                self._is_waiting = True
-                self._loop.add_writer(self._open_twin().fileno(), self._go_on)
+                try:
+                    self._loop.add_writer(self._open_twin().fileno(), self._go_on)
+                    self._is_waiting = True
+                except OSError:  # no number is left for it
+                    self._loop.call_later(_AGAIN_S, self._go_on)
 
     def _go_on(self) -> None:
         """Send more, now that there is room."""
