@@ -201,6 +201,7 @@ class Writer {
   }
 
   void write_numbers(const Field& field, PyObject* value) {
+    if (PyList_CheckExact(value) || PyTuple_CheckExact(value)) return write_plain(field, value);
     const View view(value, PyBUF_ND | PyBUF_FORMAT);
     const char* const told = view.format ? view.format : "B";
     const bool is_plain = !*told || !std::strchr("@=<^", *told);  // numpy's '=' says that they lie anywhere
@@ -216,6 +217,31 @@ class Writer {
     } else if (view.len) {
       std::memcpy(out.add(static_cast<size_t>(view.len)), view.buf, static_cast<size_t>(view.len));
     }
+  }
+
+  // A list of plain numbers: to read them runs no Python code that could change it. Others are the caller's to mend.
+  void write_plain(const Field& field, PyObject* list) {
+    const Py_ssize_t count = PySequence_Fast_GET_SIZE(list);
+    put_count(field, count);
+    for (Py_ssize_t i = 0; i < count; ++i) {
+      PyObject* const item = PySequence_Fast_GET_ITEM(list, i);
+      if (!is_plain(field.kind, item)) refuse(PyExc_TypeError, "'%U' is no list of plain numbers", field.name.get());
+      write_one(field, item);
+    }
+  }
+
+  static bool is_plain(Kind kind, PyObject* item) {
+    if (kind == Kind::kBool) return PyBool_Check(item);
+    if (!is_real(kind)) return PyLong_CheckExact(item);
+    return PyFloat_Check(item) || (PyLong_CheckExact(item) && is_exact(item));
+  }
+
+  // Whether a double is the same integer: others would be rounded twice on their way to a float32.
+  static bool is_exact(PyObject* integer) {
+    constexpr long long kMost = 1LL << std::numeric_limits<double>::digits;
+    int overflow = 0;
+    const long long number = PyLong_AsLongLongAndOverflow(integer, &overflow);
+    return !overflow && -kMost <= number && number <= kMost;
   }
 
   // Whether numbers of the right size are of that kind; those without sign count as those with one.

@@ -73,7 +73,7 @@ class Codec:
             raise MessageError(f"{len(data)} bytes are no {self.type}: {error}") from None
 
     def _mended(self, message: Any, write: "Callable[[Any], Any]") -> Any:
-        """Write a message that has lists where numpy arrays belong, or something wrong."""
+        """Write a message that has other lists than of plain numbers where numpy arrays belong, or something wrong."""
         try:
             return write(self._mend(message))
         except MISFITS as error:

@@ -2,21 +2,20 @@
 
 import dataclasses
 import numbers
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from rosbags.interfaces import Nodetype
 
 from .errors import MessageError
+from .makers import DURATION, TIME, Makers, UnusualError, dtype_of, numbers_at_once
 from .type_texts import fields_of
 
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
 
-_TIME, _DURATION = "builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"
 _HEADER = "std_msgs/msg/Header"
-_DTYPES = {"bool": "bool", "byte": "int8", "char": "uint8"}
 _TIME_FIELDS = {"secs": "sec", "nsecs": "nanosec", "sec": "sec", "nanosec": "nanosec"}
 """rospy says secs and nsecs, rosbags sec and nanosec; both are understood."""
 
@@ -26,14 +25,24 @@ class Filling:
 
     def __init__(self, store: "Typestore") -> None:
         self._store = store
-        self._makers: dict[str, Callable[[], Any]] = {}
-        """Type → makes a message of it whose fields all have ROS's default."""
+        self._makers = Makers(store)
 
-    def message(self, key: str, given: Any, now_ns: int, path: str = "") -> Any:
+    def message(self, key: str, given: Any, now_ns: int) -> Any:
         """Make a message of type `key` ('geometry_msgs/msg/Twist') from a dictionary, a list or another message."""
+        try:
+            return self._makers.make(key, given)
+        except UnusualError:
+            return self._message(key, given, now_ns, "")
+
+    def fresh(self, key: str) -> Any:
+        """Make a message whose fields all have ROS's default."""
+        return self._makers.fresh(key)
+
+    def _message(self, key: str, given: Any, now_ns: int, path: str) -> Any:
+        """Make a message, or say which field does not fit."""
         cls = self._store.types[key]
         fields = fields_of(self._store, key)
-        if key in (_TIME, _DURATION):
+        if key in (TIME, DURATION):
             return self._time(key, given, now_ns, path)
         if dataclasses.is_dataclass(given) and not isinstance(given, type):
             if getattr(given, "__msgtype__", None) != key:
@@ -60,14 +69,10 @@ class Filling:
             *(
                 self._value(desc, values[name], now_ns, f"{path}.{name}".lstrip("."))
                 if name in values
-                else self._maker(desc)()
+                else self._makers.default(desc)()
                 for name, desc in fields
             )
         )
-
-    def fresh(self, key: str) -> Any:
-        """Make a message whose fields all have ROS's default."""
-        return self._maker_of(key)()
 
     def _by_order(self, key: str, given: Sequence[Any], path: str) -> dict[str, Any]:
         names = [name for name, _ in fields_of(self._store, key)]
@@ -78,34 +83,12 @@ class Filling:
             )
         return dict(zip(names, given, strict=True))
 
-    def _maker_of(self, key: str) -> Callable[[], Any]:
-        if key not in self._makers:
-            cls, makers = self._store.types[key], [self._maker(desc) for _, desc in fields_of(self._store, key)]
-            self._makers[key] = lambda: cls(*[make() for make in makers])
-        return self._makers[key]
-
-    def _maker(self, desc: Any) -> Callable[[], Any]:
-        """Return what makes the default of a field."""
-        kind, detail = desc
-        if kind == Nodetype.BASE:
-            value: Any = {"string": "", "bool": False, "float32": 0.0, "float64": 0.0}.get(detail[0], 0)
-            return lambda: value
-        if kind == Nodetype.NAME:
-            return self._maker_of(detail)
-        inner, count = detail
-        length = count if kind == Nodetype.ARRAY else 0
-        if inner[0] == Nodetype.BASE and inner[1][0] != "string":
-            dtype = _DTYPES.get(inner[1][0], inner[1][0])
-            return lambda: np.zeros(length, dtype)
-        make = self._maker(inner)
-        return lambda: [make() for _ in range(length)]
-
     def _value(self, desc: Any, given: Any, now_ns: int, path: str) -> Any:
         kind, detail = desc
         if kind == Nodetype.BASE:
             return _scalar(detail[0], given, path)
         if kind == Nodetype.NAME:
-            return self.message(detail, {} if given is None else given, now_ns, path)
+            return self._message(detail, {} if given is None else given, now_ns, path)
         inner, count = detail
         if inner[0] == Nodetype.BASE and inner[1][0] != "string":
             value: Any = _numbers(inner[1][0], given, path)
@@ -121,7 +104,7 @@ class Filling:
     def _time(self, key: str, given: Any, now_ns: int, path: str) -> Any:
         cls = self._store.types[key]
         if isinstance(given, str):
-            if given != "now" or key != _TIME:
+            if given != "now" or key != TIME:
                 raise MessageError(f"{_field(path)}a time is {{secs, nsecs}}, nanoseconds or 'now', got {given!r}")
             return cls(now_ns // 10**9, now_ns % 10**9)
         if isinstance(given, numbers.Integral):
@@ -136,7 +119,7 @@ class Filling:
         for name, value in cast("Mapping[str, Any]", given).items():
             if name not in _TIME_FIELDS:
                 raise MessageError(f"{_field(path)}a time has no field {name!r}; fields here: 'secs', 'nsecs'")
-            parts[_TIME_FIELDS[name]] = _scalar("int32" if key == _DURATION else "uint32", value, f"{path}.{name}")
+            parts[_TIME_FIELDS[name]] = _scalar("int32" if key == DURATION else "uint32", value, f"{path}.{name}")
         return cls(**parts)
 
 
@@ -157,14 +140,14 @@ def _scalar(kind: str, given: Any, path: str) -> Any:
         return float(given)
     if not isinstance(given, numbers.Integral):
         raise MessageError(f"field {path!r} is a {kind}, got {given!r}")
-    limits = np.iinfo(_DTYPES.get(kind, kind))
+    limits = np.iinfo(dtype_of(kind))
     if not limits.min <= int(given) <= limits.max:
         raise MessageError(f"field {path!r} is a {kind} ({limits.min} to {limits.max}), got {given}")
     return int(given)
 
 
 def _numbers(kind: str, given: Any, path: str) -> Any:
-    dtype = np.dtype(_DTYPES.get(kind, kind))
+    dtype = dtype_of(kind)
     if isinstance(given, str):
         raise MessageError(f"field {path!r} is a list of {kind}, got {given!r}")
     if isinstance(given, bytes | bytearray | memoryview):
@@ -174,25 +157,10 @@ def _numbers(kind: str, given: Any, path: str) -> Any:
     if not isinstance(given, Sequence):
         raise MessageError(f"field {path!r} is a list of {kind}, got {given!r}")
     elements = cast("Sequence[Any]", given)
-    quick = _at_once(elements, dtype)
+    quick = numbers_at_once(elements, dtype)
     if quick is not None:
         return quick
     return np.array([_scalar(kind, item, f"{path}[{i}]") for i, item in enumerate(elements)], dtype)
-
-
-def _at_once(elements: "Sequence[Any]", dtype: "np.dtype[Any]") -> "np.ndarray[Any, Any] | None":
-    """Convert a list of plain numbers that fit; None where one by one must say which does not."""
-    try:
-        array = np.asarray(elements)
-    except (ValueError, OverflowError):
-        return None
-    if array.ndim != 1 or array.dtype.kind not in ("iuf" if dtype.kind == "f" else "iu"):
-        return None
-    if dtype.kind != "f" and array.size:
-        limits = np.iinfo(dtype)
-        if array.min() < limits.min or array.max() > limits.max:
-            return None
-    return array.astype(dtype)
 
 
 def _refuse(kind: str, given: object, path: str) -> Any:

@@ -110,7 +110,7 @@ class FrameCutter:
         self._rest, self._filled = b"", len(rest)
 
 
-def untouched(size: int) -> memoryview:
+def _untouched(size: int) -> memoryview:
     """Memory as it comes: to clear a picture's takes as long as to write it."""
     return _numpy().empty(size, "u1").data
 
@@ -124,7 +124,7 @@ def _numpy() -> Any:
 
 def _moved(data: bytes | memoryview, size: int) -> memoryview:
     """Copy to the beginning of new memory, whose rest is not touched."""
-    moved = untouched(size)
+    moved = _untouched(size)
     moved[: len(data)] = data
     return moved
 

@@ -177,7 +177,7 @@ class MessageClasses:
         Raises:
             MessageError: a field holds what its type cannot.
         """
-        return bytes(self._messages.serialize(self._messages.new(kind, fields)))
+        return self._messages.serialize(self._messages.new(kind, fields))
 
     def reader(self, kind: str) -> Callable[[Any], Any]:
         """Return what makes of a field's value, as the store has it, one as genpy has it."""
