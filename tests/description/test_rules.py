@@ -368,6 +368,30 @@ def test_a_link_in_a_gazebo_block_for_the_robot_is_a_body_beside_the_tree(tmp_pa
     ]
 
 
+@pytest.mark.parametrize(
+    ("above", "carrier"),
+    [
+        ("", "base"),
+        ('<link name="foot"/><joint name="f" type="fixed"><parent link="foot"/><child link="base"/></joint>', "foot"),
+        ('<link name="world"/><joint name="f" type="fixed"><parent link="world"/><child link="base"/></joint>', "base"),
+    ],
+)
+def test_the_model_rides_on_the_link_nearest_the_root_wherever_it_is_written(
+    above: str, carrier: str, tmp_path: Path
+) -> None:
+    """As libsdformat orders the links of all URDFs of the corpus; Jackal's wheels are written before its base."""
+    weight = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    links = "".join(f'<link name="{name}">{weight}</link>' for name in ("wheel", "arm", "base"))
+    joints = "".join(
+        f'<joint name="{name}" type="continuous"><parent link="base"/><child link="{child}"/></joint>'
+        for name, child in (("b", "wheel"), ("a", "arm"))
+    )
+
+    (model,) = read(tmp_path, f'<robot name="r">{links}{above}{joints}</robot>', name="r.urdf").world.models
+
+    assert model.canonical_link == carrier
+
+
 def test_a_ring_that_no_joint_leads_to_is_left_out_of_a_urdf(tmp_path: Path) -> None:
     ring = "".join(
         f'<joint name="{parent}{child}" type="fixed"><parent link="{parent}"/><child link="{child}"/></joint>'

@@ -136,8 +136,24 @@ class _Lowering:
             links=links,
             joints=joints,
             plugins=plugins,
-            canonical_link=links[0].name if links else None,
+            canonical_link=self._first({link.name for link in links}) if links else None,
         )
+
+    def _first(self, names: set[str]) -> str | None:
+        """Of some links the one that Gazebo comes upon first: from the root down, children by their joints' names.
+
+        It carries the model, wherever in the file it stands: Jackal's wheels come before its base there.
+        """
+        below: dict[str, list[RobotJoint]] = {}
+        for joint in sorted(self.robot.joints, key=lambda joint: joint.name, reverse=True):
+            below.setdefault(joint.parent, []).append(joint)
+        waiting = [self.robot.root]
+        while waiting:
+            link = waiting.pop()
+            if link in names:
+                return link
+            waiting += [joint.child for joint in below.get(link, ())]
+        return None
 
     def _without_mass(self) -> set[str]:
         """Lumps that weigh nothing, with all that hang below them."""
