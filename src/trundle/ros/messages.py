@@ -9,9 +9,10 @@ import time
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 from .codec import Codec
+from .constants import read_type
 from .errors import MessageError
 from .sources import Definitions, split_service
 from .type_texts import BUILTIN, TypeTexts, ros_name
@@ -279,15 +280,15 @@ class Messages:
         return self._services[type_name]
 
     def _register(self, type_name: str) -> None:
-        from rosbags.typesys import TypesysError, get_types_from_msg
+        from rosbags.typesys import TypesysError
 
         text = self._definitions.messages[type_name]
         package, _, name = type_name.partition("/")
         key = f"{package}/msg/{name}"
         try:
-            types = get_types_from_msg(text, key)
-            self._store.register({key: types[key]})
-        except (TypesysError, KeyError) as error:
+            constants, fields = read_type(text, key)
+            self._store.register({key: (cast("Any", constants), fields)})
+        except (TypesysError, MessageError) as error:
             raise MessageError(f"the definition of {type_name} cannot be read: {error}") from None
         self._texts.own[key] = text
         for depends in self._texts.direct(key):

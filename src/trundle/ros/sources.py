@@ -10,7 +10,6 @@ from pathlib import Path
 _SHIPPED = Path(__file__).parent / "definitions"
 DEBIAN_SHARE = "/usr/share"
 """Debian's rospkg looks here last, whatever ROS_PACKAGE_PATH says."""
-_CONSTANT = re.compile(r"^\s*(?P<type>[A-Za-z0-9_]+)\s+(?P<name>[A-Za-z][A-Za-z0-9_]*)\s*=(?P<value>.*)$", re.MULTILINE)
 
 
 @dataclass(slots=True)
@@ -107,16 +106,6 @@ def split_action(name: str, text: str) -> dict[str, str]:
         "Feedback": feedback,
     }
     return {f"{package}/{base}{part}": part_text for part, part_text in texts.items()}
-
-
-def constant_texts(text: str) -> dict[str, str]:
-    """Values of constants exactly as written: the md5 sum is over the text, and `1.50` is not `1.5`."""
-    found: dict[str, str] = {}
-    for match in _CONSTANT.finditer(text):
-        value = match["value"]
-        # Only string constants may hold a '#'; everything up to the end of the line is theirs (msg specification).
-        found[match["name"]] = value.strip() if match["type"] == "string" else value.partition("#")[0].strip()
-    return found
 
 
 def _bare(text: str) -> list[str]:

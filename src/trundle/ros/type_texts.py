@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, cast
 
+from .constants import constant_texts, read_type
 from .errors import MessageError
-from .sources import Definitions, constant_texts
+from .sources import Definitions
 
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
@@ -51,10 +52,9 @@ class TypeTexts:
         `rosbag check` compares texts, comments included, and not md5 sums.
         """
         if self._installed is not None and (text := self._installed.installed(ros_name(key))) is not None:
-            from rosbags.typesys import TypesysError, get_types_from_msg
-
-            with suppress(TypesysError):
-                if get_types_from_msg(text, key)[key] == (self._store.fielddefs[key][0], fields_of(self._store, key)):
+            with suppress(MessageError):
+                constants, fields = read_type(text, key)
+                if (constants, fields) == (self._store.fielddefs[key][0], fields_of(self._store, key)):
                     return text
         if key in self.own:
             return self.own[key]

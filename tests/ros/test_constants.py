@@ -1,0 +1,47 @@
+"""Constants of message types: values and sums as genmsg has them (sums by genmsg 0.6)."""
+
+import math
+
+import pytest
+
+from trundle.ros import MessageError, Messages
+
+
+@pytest.mark.parametrize(
+    ("line", "value", "md5"),
+    [
+        ('string A="x"\nint32 b\n', '"x"', "970aa51ab26f2b387e665440185d99ad"),
+        ("string A='x y' # no\nint32 b\n", "'x y' # no", "4ca2e8ac60fdc33ca98e18f3fd52d752"),
+        ("string A=\nint32 b\n", "", "4268d9430987762c7a2ba93a875d1467"),
+        ('string A="a" "b"\nint8 b', '"a" "b"', "cb383abc87eff5e5bcff53bed1ec20a6"),
+    ],
+)
+def test_a_text_is_all_that_stands_behind_the_sign(line: str, value: str, md5: str) -> None:
+    messages = Messages()
+    messages.add("p/T", line)
+    assert vars(type(messages.new("p/T")))["A"] == value
+    assert messages.md5("p/T") == md5
+
+
+def test_numbers_and_truths() -> None:
+    messages = Messages()
+    messages.add("p/T", "uint32 M=4294967295\nfloat32 G=5.\nfloat64 H=inf\nfloat64 N=nan\nbool T=True # yes\nint8 b")
+    made = vars(type(messages.new("p/T")))
+    assert [made[name] for name in "MGHT"] == [4294967295, 5.0, math.inf, True]
+    assert math.isnan(made["N"])
+
+
+@pytest.mark.parametrize(
+    ("line", "sentence"),
+    [
+        ("uint8 A=256", "256 is no uint8, which is from 0 to 255"),
+        ("byte A=200", "200 is no byte, which is from -128 to 127"),
+        ("int8 A=1.0", "'1.0' is no constant of type int8"),
+        ("bool A=yes", "'yes' is no constant of type bool"),
+        ("time A=3", "'3' is no constant of type time"),
+        ("uint8 A=" + "9" * 5000, "is no constant of type uint8"),
+    ],
+)
+def test_what_is_no_constant_is_said(line: str, sentence: str) -> None:
+    with pytest.raises(MessageError, match=sentence):
+        Messages().add("p/T", f"{line}\nint8 b")
