@@ -209,6 +209,19 @@ def test_find_gives_a_packages_folder_and_xacro_needs_none(tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("$(find car)params/x.yaml", "{car}/params/x.yaml"),
+        ("$(find car)/params", "{car}/params"),
+        ("$(find car):$(find car) $(find car)", "{car}/:{car} {car}"),
+    ],
+)
+def test_what_follows_a_found_folder_is_a_path_in_it(written: str, meant: str, tmp_path: Path) -> None:
+    plan = plan_of(f'<param name="a" value="{written}"/>', packages=Folders({"car": tmp_path}))
+    assert plan.params[0].value == meant.format(car=tmp_path)
+
+
+@pytest.mark.parametrize(
     ("body", "message"),
     [
         ('<param name="a" value="$(find nowhere)"/>', "no package 'nowhere'"),

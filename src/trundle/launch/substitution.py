@@ -55,7 +55,10 @@ class Substitution:
                 raise DescriptionError(at, f"unknown substitution $({body}); there are {known}{extra}")
             if words[0] not in commands:
                 return match[0]
-            return match[0][: match[0].index("$(")] + self._command(words[0], words[1:], body, scope, at)
+            before = match[0][: match[0].index("$(")]
+            # As in roslaunch, what follows a folder up to a blank is a path in it, with or without a slash.
+            between = "/" if words[0] == "find" and match.string[match.end() :][:1] not in ("", " ", "/", "\\") else ""
+            return before + self._command(words[0], words[1:], body, scope, at) + between
 
         return _COMMAND.sub(value, text)
 
