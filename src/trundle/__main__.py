@@ -4,7 +4,7 @@ import sys
 
 
 def main() -> int:
-    """Run the command; Ctrl-C before it could begin ends the process without a word."""
+    """Run the command; Ctrl-C before it could begin, and after it, ends the process without a word."""
     try:
         import signal
 
@@ -16,7 +16,9 @@ def main() -> int:
     from trundle.cli import main as command
 
     signal.signal(signal.SIGINT, before)
-    return command()
+    code = command()
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # while Python ends there is nobody to answer it
+    return code
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import sysconfig
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -44,6 +45,26 @@ def test_ctrl_c_is_let_through_afterwards() -> None:
     with_it_held = f"import signal, os, sys; signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]); {started}"
 
     assert _run(sys.executable, "-c", with_it_held).stdout.splitlines()[-1] == "False"
+
+
+def test_ctrl_c_while_python_ends_is_no_traceback() -> None:
+    lingers = """
+        import sys, threading, time, trundle.cli, trundle.__main__
+        def command():
+            threading.Thread(target=time.sleep, args=(100,)).start()
+            return 0
+        trundle.cli.main = command
+        code = trundle.__main__.main()
+        print("done", flush=True)
+        sys.exit(code)
+    """
+    words = [sys.executable, "-c", textwrap.dedent(lingers)]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
+        assert running.stdout is not None
+        assert running.stdout.readline() == "done\n"
+        running.send_signal(signal.SIGINT)
+        _, said = running.communicate(timeout=50)
+    assert (running.returncode, said) == (-signal.SIGINT, "")
 
 
 def test_a_link_to_it_and_arguments_of_any_kind(tmp_path: Path) -> None:
