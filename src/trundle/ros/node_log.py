@@ -63,6 +63,6 @@ class NodeLog:
                 "file": file,
                 "function": function,
                 "line": line,
-                "topics": list(self._publishers),
+                "topics": sorted(self._publishers),
             }
             self._rosout.publish(fields)
