@@ -48,8 +48,8 @@ def filter_bag(args: argparse.Namespace) -> int:
 
 
 def _size(bag: BagReader) -> int:
-    """What lies in a bag, not compressed [bytes]."""
-    return sum(chunk.size for chunk in bag.chunks)
+    """What lies in a bag, not compressed [bytes]; for one without chunks, the file's size."""
+    return sum(chunk.size for chunk in bag.chunks) or bag.path.stat().st_size
 
 
 def compress(args: argparse.Namespace) -> int:

@@ -51,7 +51,8 @@ class Summary:
         self._name = name
         self._size = bag.path.stat().st_size
         self._start, self._end = _seconds(bag.start_ns), _seconds(bag.end_ns)
-        rates = _rates(bag) if with_rates else {}
+        # rosbag tells the rates of a 1.2 bag unasked.
+        rates = _rates(bag) if with_rates or bag.version.startswith("1.2") else {}
         self._types = sorted({(c.type, c.md5sum) for c in bag.connections})
         self._topics: list[_Topic] = []
         for topic in sorted({c.topic for c in bag.connections}):
@@ -90,7 +91,7 @@ class Summary:
             f"end: {self._end:.6f}",
             f"size: {self._size}",
             f"messages: {sum(self._bag.counts)}",
-            "indexed: True",
+            f"indexed: {not self._bag.version.endswith('(unindexed)')}",
             f"compression: {self._compressions()[0][0]}",
         ]
         if any(kind != "none" for kind, *_ in self._compressions()):

@@ -1,12 +1,15 @@
 """Opens bags by what they are, makes them by what they are called, and saves those that were cut off."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 from .bag import BagError, BagMessage, BagReader, BagWriter
 
 _MCAP_MAGIC = b"\x89MCAP0\r\n"
-_OLD_MAGIC = b"#ROSRECORD"
+_VERSION = re.compile(rb"#ROS.* V(\d\.\d)")
+_LONGEST = 64
+"""[bytes] of the line that tells the version."""
 
 
 def open_bag(path: Path) -> BagReader:
@@ -16,13 +19,19 @@ def open_bag(path: Path) -> BagReader:
         UnindexedBagError: its recording was cut off.
         BagError: it is neither, or damaged.
     """
-    if _is_mcap(path):
-        from .mcap import McapReader
+    match _format(path):
+        case "mcap":
+            from .mcap import McapReader
 
-        return McapReader(path)
-    from .ros1 import Ros1Reader
+            return McapReader(path)
+        case "1.2":
+            from .rosrecord import RosrecordReader
 
-    return Ros1Reader(path)
+            return RosrecordReader(path)
+        case _:
+            from .ros1 import Ros1Reader
+
+            return Ros1Reader(path)
 
 
 def create_bag(path: Path, *, compression: str = "none", chunk_bytes: int = 768 * 1024) -> BagWriter:
@@ -53,21 +62,35 @@ def recovered(path: Path) -> Iterator[BagMessage]:
     Raises:
         BagError: this is no bag.
     """
-    if _is_mcap(path):
-        from .mcap import scan_mcap
+    match _format(path):
+        case "mcap":
+            from .mcap import scan_mcap
 
-        return scan_mcap(path)
-    from .scan import scan_bag
+            return scan_mcap(path)
+        case "1.2":
+            from .rosrecord import scan_rosrecord
 
-    return scan_bag(path)
+            return scan_rosrecord(path)
+        case _:
+            from .scan import scan_bag
+
+            return scan_bag(path)
 
 
-def _is_mcap(path: Path) -> bool:
+def _format(path: Path) -> str:
+    """`mcap`, or the version that the first line of a ROS 1 bag tells; empty if it tells none."""
     try:
         with path.open("rb") as file:
-            start = file.read(len(_OLD_MAGIC))
+            start = file.readline(_LONGEST)
     except OSError as error:
         raise BagError(f"bag file [{path}] cannot be read: {error.strerror}") from None
-    if start.startswith(_OLD_MAGIC):
-        raise BagError(f"{path} is a bag of format 1.x (before 2010); rosbag fix of ROS 1 makes a 2.0 one of it")
-    return start.startswith(_MCAP_MAGIC)
+    if start.startswith(_MCAP_MAGIC):
+        return "mcap"
+    version = _VERSION.match(start)
+    if version is None:
+        return ""
+    if version[1] not in (b"1.2", b"2.0"):
+        raise BagError(
+            f"{path} is a bag of format {version[1].decode()}; formats 1.2 and 2.0 are read here, as by rosbag"
+        )
+    return version[1].decode()

@@ -16,8 +16,8 @@ _MESSAGE, _CHUNK, _CONNECTION = 2, 5, 7
 _LENGTH = struct.Struct("<I")
 
 
-class _CutOffError(Exception):
-    """The file ends, or stops to make sense, within a record."""
+class CutOffError(Exception):
+    """A file ends, or stops to make sense, within a record."""
 
 
 def scan_bag(path: Path) -> Iterator[BagMessage]:
@@ -28,47 +28,47 @@ def scan_bag(path: Path) -> Iterator[BagMessage]:
     """
     connections: dict[int, BagConnection] = {}
     with path.open("rb") as opened:
-        file = _File(opened, path.stat().st_size)
+        file = RecordFile(opened, path.stat().st_size)
         if file.read(len(_MAGIC)) != _MAGIC:
             raise BagError(f"{path} is no ROS 1 bag of format 2.0")
         try:
-            while head := _head(file):
+            while head := read_head(file):
                 fields, size = head
-                if _operation(fields) == _CHUNK:
+                if operation(fields) == _CHUNK:
                     yield from _chunk(fields, file, size, connections)
                 else:
                     yield from _record(fields, _exactly(file, size), connections)
-        except _CutOffError:
+        except CutOffError:
             return
 
 
 def _chunk(
-    fields: dict[str, bytes], file: "_File", size: int, connections: dict[int, BagConnection]
+    fields: dict[str, bytes], file: "RecordFile", size: int, connections: dict[int, BagConnection]
 ) -> Iterator[BagMessage]:
     data = file.read(size)
     try:
         (most,) = _LENGTH.unpack(fields["size"])
     except (KeyError, struct.error):
-        raise _CutOffError from None
+        raise CutOffError from None
     inner = _Bytes(_decompressed(fields.get("compression", b"none").decode("ascii", "replace"), data, most))
-    while head := _head(inner):
+    while head := read_head(inner):
         yield from _record(head[0], _exactly(inner, head[1]), connections)
     if len(data) != size:
-        raise _CutOffError
+        raise CutOffError
 
 
 def _record(fields: dict[str, bytes], data: bytes, connections: dict[int, BagConnection]) -> Iterator[BagMessage]:
-    operation = _operation(fields)
+    kind = operation(fields)
     try:
-        if operation == _CONNECTION:
+        if kind == _CONNECTION:
             (number,) = _LENGTH.unpack(fields["conn"])
             connections.setdefault(number, _connection(fields["topic"], _fields(data)))
-        elif operation == _MESSAGE:
+        elif kind == _MESSAGE:
             (number,) = _LENGTH.unpack(fields["conn"])
             seconds, nanoseconds = struct.unpack("<II", fields["time"])
             yield BagMessage(connections[number], seconds * 10**9 + nanoseconds, data)
     except (KeyError, struct.error):
-        raise _CutOffError from None
+        raise CutOffError from None
 
 
 def chunk_at(file: BinaryIO, position: int) -> Chunk:
@@ -79,16 +79,16 @@ def chunk_at(file: BinaryIO, position: int) -> Chunk:
     """
     try:
         end = file.seek(0, os.SEEK_END)
-        head = _head(_File(file, end - file.seek(position)))
+        head = read_head(RecordFile(file, end - file.seek(position)))
         if head is None:
-            raise _CutOffError
+            raise CutOffError
         (size,) = _LENGTH.unpack(head[0]["size"])
-    except (_CutOffError, KeyError, struct.error):
+    except (CutOffError, KeyError, struct.error):
         raise BagError(f"no chunk at byte {position}; trundle bag reindex saves what is whole") from None
     return Chunk(compression=head[0]["compression"].decode("ascii", "replace"), size=size, compressed=head[1])
 
 
-class _File:
+class RecordFile:
     """A file of which no more is asked for than there is, whatever a length in it promises."""
 
     def __init__(self, file: BinaryIO, size: int) -> None:
@@ -100,6 +100,17 @@ class _File:
         piece = self._file.read(min(size, self._left))
         self._left -= len(piece)
         return piece
+
+    def skip(self, size: int) -> int:
+        """Go on behind so many bytes; returns where in the file they begin.
+
+        Raises:
+            CutOffError: there are not as many.
+        """
+        if size > self._left:
+            raise CutOffError
+        self._left -= size
+        return self._file.seek(size, os.SEEK_CUR) - size
 
 
 class _Bytes:
@@ -116,21 +127,21 @@ class _Bytes:
         return piece
 
 
-def _head(file: "_File | _Bytes") -> tuple[dict[str, bytes], int] | None:
+def read_head(file: "RecordFile | _Bytes") -> tuple[dict[str, bytes], int] | None:
     """Read a record's header and the size of its data; None at the end of the file."""
     start = file.read(4)
     if not start:
         return None
     if len(start) != 4:
-        raise _CutOffError
+        raise CutOffError
     fields = _fields(_exactly(file, _LENGTH.unpack(start)[0]))
     return fields, _LENGTH.unpack(_exactly(file, 4))[0]
 
 
-def _exactly(file: "_File | _Bytes", size: int) -> bytes:
+def _exactly(file: "RecordFile | _Bytes", size: int) -> bytes:
     data = file.read(size)
     if len(data) != size:
-        raise _CutOffError
+        raise CutOffError
     return data
 
 
@@ -139,17 +150,18 @@ def _fields(data: bytes) -> dict[str, bytes]:
     at = 0
     while at < len(data):
         if at + 4 > len(data):
-            raise _CutOffError
+            raise CutOffError
         (size,) = _LENGTH.unpack_from(data, at)
         name, equals, value = data[at + 4 : at + 4 + size].partition(b"=")
         if not equals or at + 4 + size > len(data):
-            raise _CutOffError
+            raise CutOffError
         fields[name.decode("ascii", "replace")] = value
         at += 4 + size
     return fields
 
 
-def _operation(fields: dict[str, bytes]) -> int:
+def operation(fields: dict[str, bytes]) -> int:
+    """What kind of record has this header; 0 if it does not say."""
     value = fields.get("op", b"")
     return value[0] if len(value) == 1 else 0
 
@@ -177,4 +189,4 @@ def _decompressed(compression: str, data: bytes, most: int) -> bytes:
             return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data, most))
     except (OSError, RuntimeError):
         pass
-    raise _CutOffError
+    raise CutOffError

@@ -1,0 +1,111 @@
+"""Bags of format 1.2, as rosrecord wrote them until 2010: http://wiki.ros.org/Bags/Format/1.2."""
+
+import struct
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from operator import itemgetter
+from pathlib import Path
+from typing import Self
+
+from .bag import BagConnection, BagError, BagMessage, Chunk, UnindexedBagError, Wanted
+from .scan import CutOffError, RecordFile, operation, read_head
+
+_DEFINITION, _MESSAGE, _FILE_HEADER = 1, 2, 3
+
+_Entry = tuple[int, BagConnection, int, int]
+"""Stamp [ns], connection, where the data begins and how long it is [bytes]."""
+
+
+class RosrecordReader:
+    """Reads a 1.2 bag by a walk over its records; the index at the end of some says nothing more."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        walk = _Walk(path)
+        if walk.broke_off or walk.index_at == 0:
+            raise UnindexedBagError(path)
+        self.version = "1.2 (unindexed)" if walk.index_at is None else "1.2"
+        self.connections = list(walk.connections.values())
+        counts = Counter(connection.topic for _, connection, *_ in walk.entries)
+        self.counts = [counts[connection.topic] for connection in self.connections]
+        self.chunks: list[Chunk] = []
+        self._entries = sorted(walk.entries, key=itemgetter(0))
+        self.start_ns, self.end_ns = (self._entries[i][0] if self._entries else 0 for i in (0, -1))
+
+    def messages(
+        self, wanted: Wanted | None = None, *, start_ns: int | None = None, end_ns: int | None = None
+    ) -> Iterator[BagMessage]:
+        """See `BagReader`."""
+        chosen = {connection for connection in self.connections if wanted is None or wanted(connection)}
+        first = self.start_ns if start_ns is None else start_ns
+        last = self.end_ns if end_ns is None else end_ns
+        return _read(self.path, (entry for entry in self._entries if first <= entry[0] <= last and entry[1] in chosen))
+
+    def close(self) -> None:
+        """Do nothing: the file is open only while messages are read."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def scan_rosrecord(path: Path) -> Iterator[BagMessage]:
+    """Yield every message that is whole, as it lies, of a bag that may end anywhere."""
+    return _read(path, _Walk(path).entries)
+
+
+class _Walk:
+    """Where the messages of a file lie, in its order, as far as it makes sense."""
+
+    def __init__(self, path: Path) -> None:
+        self.connections: dict[bytes, BagConnection] = {}
+        """By topic, each as it was first defined."""
+        self.entries: list[_Entry] = []
+        self.index_at: int | None = None
+        """Where the index begins; 0: it was never written; None: this bag is to have none."""
+        self.broke_off = False
+        with path.open("rb") as opened:
+            version = opened.readline()
+            file = RecordFile(opened, path.stat().st_size - len(version))
+            try:
+                while head := read_head(file):
+                    self._take(head[0], file.skip(head[1]), head[1])
+            except (CutOffError, KeyError, struct.error):
+                self.broke_off = True
+
+    def _take(self, fields: dict[str, bytes], at: int, size: int) -> None:
+        kind = operation(fields)
+        if kind == _FILE_HEADER:
+            (self.index_at,) = struct.unpack("<Q", fields["index_pos"])
+        elif kind == _DEFINITION:
+            topic, type_, md5sum, definition = (
+                fields[name].decode("utf-8", "replace") for name in ("topic", "type", "md5", "def")
+            )
+            made = BagConnection(topic=topic, type=type_, md5sum=md5sum, definition=definition)
+            self.connections.setdefault(fields["topic"], made)
+        elif kind == _MESSAGE:
+            seconds, nanoseconds = struct.unpack("<II", fields["sec"] + fields["nsec"])
+            connection = self.connections.get(fields["topic"]) or self._defined_elsewhere(fields)
+            self.entries.append((seconds * 10**9 + nanoseconds, connection, at, size))
+
+    def _defined_elsewhere(self, fields: dict[str, bytes]) -> BagConnection:
+        """Find the definition of a type that was written for another topic alone."""
+        type_ = fields["type"].decode("utf-8", "replace")
+        for connection in self.connections.values():
+            if connection.type == type_:
+                topic = fields["topic"].decode("utf-8", "replace")
+                return self.connections.setdefault(fields["topic"], replace(connection, topic=topic))
+        raise CutOffError
+
+
+def _read(path: Path, entries: Iterable[_Entry]) -> Iterator[BagMessage]:
+    with path.open("rb") as file:
+        for stamp_ns, connection, at, size in entries:
+            file.seek(at)
+            data = file.read(size)
+            if len(data) != size:
+                raise BagError(f"{path} became shorter while it was read")
+            yield BagMessage(connection, stamp_ns, data)
