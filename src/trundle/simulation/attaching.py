@@ -3,9 +3,10 @@
 from dataclasses import replace
 
 from trundle.diagnostics import UsageError
-from trundle.model import Joint, JointAxis, JointType, Model, World
+from trundle.model import Joint, JointAxis, JointType, World
 from trundle.spatial import Pose
 
+from .changing import placed
 from .handles import LinkHandle, ModelHandle
 
 WORLD = "world"
@@ -36,13 +37,10 @@ def attached(world: World, models: list[ModelHandle], joint: Joint) -> World:
     seen_from = Pose() if parent is None else _at_zero(*parent) @ parent[1].pose.inverse()
     moved = (seen_from @ child[1].pose) @ child[1].link.model_from_link.inverse()
 
-    def put(model: Model) -> Model:
-        return replace(model, world_from_model=moved) if model.name == child[0].name else model
-
     joint = replace(joint, axis=_turned(joint.axis, seen_from), axis2=_turned(joint.axis2, seen_from))
     # A parent in the same model stands where its child does: the two are at zero together or not at all.
-    models_put = world.models if parent is not None and parent[0] is child[0] else tuple(map(put, world.models))
-    return replace(world, models=models_put, joints=(*world.joints, joint))
+    put = world if parent is not None and parent[0] is child[0] else placed(world, child[0].name, moved)
+    return replace(put, joints=(*world.joints, joint))
 
 
 def _find(models: list[ModelHandle], name: str) -> tuple[ModelHandle, LinkHandle] | None:

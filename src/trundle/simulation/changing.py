@@ -1,12 +1,12 @@
-"""Worlds that change while they run: what may come and go, other names, and links that come free."""
+"""Worlds that change while they run: what may come and go, and how the engine goes on with what there is then."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from itertools import count
 
-from trundle.diagnostics import UsageError
+from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, World
-from trundle.physics import Engine
+from trundle.physics import Engine, compile_world
 from trundle.spatial import Pose, Twist
 
 
@@ -81,13 +81,46 @@ def renamed(world: World, name: str, new: str) -> World:
     )
 
 
+def placed(world: World, name: str, world_from_model: Pose) -> World:
+    """The world with a model elsewhere."""
+    return replace(
+        world,
+        models=tuple(
+            replace(model, world_from_model=world_from_model) if model.name == name else model for model in world.models
+        ),
+    )
+
+
 def renamed_in(names: Iterable[str], models: Mapping[str, str]) -> list[str]:
     """`model::name` of each, with models called as they are now."""
     parts = [name.partition("::") for name in names]
     return [f"{models.get(model, model)}{colons}{rest}" for model, colons, rest in parts]
 
 
-def keep_free(old: Engine, engine: Engine, links: Mapping[int, int]) -> None:
+def carried_over(
+    old: Engine, world: World, report: Diagnostics, models: Mapping[str, str]
+) -> tuple[Engine, dict[int, int]]:
+    """An engine of a changed world in the state of the old one, and where each link went that is still there.
+
+    Args:
+        old: as it was.
+        world: the changed one.
+        report: takes what physics has to mend.
+        models: those that have another name now, by the one they had.
+
+    Raises:
+        DescriptionError: the engine cannot simulate it.
+    """
+    engine = Engine(compile_world(world, report))
+    engine.take_over(old, renamed=models)
+    there = {name: i for i, name in enumerate(engine.compiled.link_names)}
+    before = enumerate(renamed_in(old.compiled.link_names, models))
+    links = {i: there[name] for i, name in before if name in there}
+    _keep_free(old, engine, links)
+    return engine, links
+
+
+def _keep_free(old: Engine, engine: Engine, links: Mapping[int, int]) -> None:
     """Have links that hung from something and are free now stay where they are, as fast as they were.
 
     Args:

@@ -15,6 +15,7 @@ from trundle.model import Link, Model, World
 from trundle.physics import GripLaw
 from trundle.spatial import Pose, Twist, Vector3, Wrench, cross
 
+from .changing import placed
 from .handle import Handle, expect_finite
 from .joint_handle import JointHandle
 
@@ -73,7 +74,8 @@ class LinkHandle(Handle):
             wrench: replaces whatever was applied to this link before.
             duration_s: simulation time; None: until something else is applied.
         """
-        self._simulation.apply_wrench(self.index, wrench, duration_s=duration_s)
+        until = self._simulation.step_after(duration_s)
+        self._simulation.pushes.hold_wrench(self.index, wrench, until=until)
 
     def add_wrench(self, wrench: Wrench, *, at: Vector3 | None = None) -> None:
         """Add to what pushes the link, up to the next hook: what wind, water and air do, called at every step.
@@ -87,7 +89,7 @@ class LinkHandle(Handle):
             arm = (at[0] - com.position[0], at[1] - com.position[1], at[2] - com.position[2])
             turning = cross(arm, wrench.force)
             wrench = wrench + Wrench(torque=turning)
-        self._simulation.add_wrench(self.index, wrench)
+        self._simulation.pushes.add_wrench(self.index, wrench)
 
     def set_grip(self, law: GripLaw | None) -> None:
         """Have a law say, at every step and for every contact, how the link's surface moves and slips there.
@@ -95,7 +97,7 @@ class LinkHandle(Handle):
         Args:
             law: asked with where the link touches; None: contacts are ordinary ones again.
         """
-        self._simulation.set_grip(self.index, law)
+        self._simulation.pushes.set_grip(self.index, law)
 
 
 _Named = TypeVar("_Named", LinkHandle, JointHandle)
@@ -157,7 +159,8 @@ class ModelHandle:
         moved = pose @ self.pose.inverse()
         free = [link for link in self.links if self._simulation.engine.is_free(link.index)]
         if not free:
-            self._simulation.fix_elsewhere(self, moved @ self.model.world_from_model)
+            simulation = self._simulation
+            simulation.edit(placed(simulation.world, self.name, moved @ self.model.world_from_model))
         for link, there in [(link, moved @ link.pose) for link in free]:
             link.set_pose(there)
 
@@ -228,4 +231,19 @@ def handles_of(simulation: "Simulation", world: World, known: Mapping[str, Model
         handles.append(handle)
         link += len(model.links)
         joint += len(model.joints)
+    return handles
+
+
+def world_joints_of(simulation: "Simulation", world: World, known: Mapping[str, JointHandle]) -> list[JointHandle]:
+    """One handle for each joint between models, in order; those that are known are moved to where they belong."""
+    gone = dict(known)
+    first = sum(len(model.joints) for model in world.models)
+    handles: list[JointHandle] = []
+    for i, joint in enumerate(world.joints, first):
+        handle = gone.pop(joint.name, None) or JointHandle(simulation, joint, i)
+        handle.joint = joint
+        handle.move_to(i)
+        handles.append(handle)
+    for handle in gone.values():
+        handle.move_to(None)
     return handles

@@ -99,20 +99,20 @@ class JointHandle(Handle):
             duration_s: simulation time; None: until told otherwise.
         """
         self._simulation.engine.motors.set_effort(self._axis(axis), effort)
-        self._simulation.end_effort(self, axis, duration_s=duration_s)
+        self._simulation.pushes.hold_effort(self, axis, until=self._simulation.step_after(duration_s))
 
     def set_velocity(
         self, velocity: float, *, max_effort: float = math.inf, axis: int = 0, often: bool = False
     ) -> None:
         """Keep this speed [rad/s or m/s] with at most so much effort, as Gazebo's SetVelocity with fmax; `often`: see
         `Motors.set_velocity`."""
-        self._simulation.end_effort(self, axis, duration_s=None)
+        self._simulation.pushes.hold_effort(self, axis, until=None)
         self._simulation.engine.motors.set_velocity(self._driven(axis), velocity, max_effort, often=often)
 
     def hold(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
         """Go to a position [rad or m] and stay, with at most so much effort; limits are respected."""
         driven = self._driven(axis)
-        self._simulation.end_effort(self, axis, duration_s=None)
+        self._simulation.pushes.hold_effort(self, axis, until=None)
         self._simulation.engine.motors.hold(driven, self._within_limits(position, driven), max_effort)
 
     def set_position(self, position: float, *, axis: int = 0) -> None:

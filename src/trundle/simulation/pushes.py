@@ -27,7 +27,8 @@ class Ends:
 class Pushes:
     """Wrenches, efforts and grips of one simulation."""
 
-    def __init__(self) -> None:
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
         self.ends = Ends()
         self._added_to: dict[int, Wrench] = {}
         """Link → its lasting wrench, below what was added for the coming step."""
@@ -57,19 +58,19 @@ class Pushes:
             {axis: after.step_at(before.time_ns(end)) for axis, end in self.ends.efforts.items()},
         )
 
-    def hold_wrench(self, engine: Engine, link: int, wrench: Wrench, *, until: int | None) -> None:
+    def hold_wrench(self, link: int, wrench: Wrench, *, until: int | None) -> None:
         """Hold a wrench up to a step, or for good."""
         self._added_to.pop(link, None)
-        engine.set_wrench(link, wrench)
+        self._engine.set_wrench(link, wrench)
         self.ends.wrenches.pop(link, None)
         if until is not None:
             self.ends.wrenches[link] = until
 
-    def add_wrench(self, engine: Engine, link: int, wrench: Wrench) -> None:
+    def add_wrench(self, link: int, wrench: Wrench) -> None:
         """Add to what pushes, for the coming step."""
-        now = engine.wrench(link)
+        now = self._engine.wrench(link)
         self._added_to.setdefault(link, now)
-        engine.set_wrench(link, now + wrench)
+        self._engine.set_wrench(link, now + wrench)
 
     def hold_effort(self, joint: JointHandle, axis: int, *, until: int | None) -> None:
         """Have an effort that was set end at a step, or never."""
@@ -77,27 +78,27 @@ class Pushes:
         if until is not None:
             self.ends.efforts[joint, axis] = until
 
-    def set_grip(self, engine: Engine, link: int, law: GripLaw | None) -> None:
+    def set_grip(self, link: int, law: GripLaw | None) -> None:
         """Have a link's contacts follow a law, or none."""
         if law is None:
             self._grips.pop(link, None)
         else:
             self._grips[link] = law
-        engine.set_grips(self._grips)
+        self._engine.set_grips(self._grips)
 
     def next_ends(self) -> Iterator[int]:
         """The steps at which something ends."""
         yield from self.ends.wrenches.values()
         yield from self.ends.efforts.values()
 
-    def end(self, engine: Engine, step: int) -> None:
+    def end(self, step: int) -> None:
         """Take away what is over at a step, and what was added for it."""
         for link, lasting in self._added_to.items():
-            engine.set_wrench(link, lasting)
+            self._engine.set_wrench(link, lasting)
         self._added_to.clear()
         for link in [link for link, end in self.ends.wrenches.items() if end <= step]:
             del self.ends.wrenches[link]
-            engine.set_wrench(link, Wrench())
+            self._engine.set_wrench(link, Wrench())
         for joint, axis in [key for key, end in self.ends.efforts.items() if end <= step]:
             if joint.is_there:
                 joint.set_effort(0.0, axis=axis)
@@ -111,9 +112,10 @@ class Pushes:
             links: where each link went; those that went nowhere are missing.
             engine: the other.
         """
+        self._engine = engine
         wrenches = {links[link]: end for link, end in self.ends.wrenches.items() if link in links}
         self.ends = Ends(wrenches, self.ends.efforts)
         self._added_to = {links[link]: wrench for link, wrench in self._added_to.items() if link in links}
         self._grips = {links[link]: law for link, law in self._grips.items() if link in links}
         if self._grips:
-            engine.set_grips(self._grips)
+            self._engine.set_grips(self._grips)

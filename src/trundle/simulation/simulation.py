@@ -12,27 +12,26 @@ from typing import TypeAlias
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, Model, Moment, World
-from trundle.physics import Contact, Engine, GripLaw, compile_world
-from trundle.spatial import Pose, Wrench
+from trundle.physics import Contact, Engine, compile_world
 
 from .actors import ActorWalk, with_actors
 from .attaching import attached
 from .changing import (
+    carried_over,
     free_name,
-    keep_free,
     refuse_others,
     refuse_taken,
     renamed,
-    renamed_in,
     without_joint,
     without_model,
 )
-from .handles import ModelHandle, handles_of
-from .hooks import AfterStep, BeforeStep, ScheduledHook
+from .handles import ModelHandle, handles_of, world_joints_of
+from .hooks import AfterStep, BeforeStep
 from .joint_handle import JointHandle
 from .line import Line
 from .pushes import Pushes
 from .saved import SavedSimulation
+from .schedule import Schedule, act, look
 from .snapshot import Snapshot
 from .timeline import NS, Period, Timeline, step_ns_of
 
@@ -57,16 +56,17 @@ class Simulation:
         self.engine = Engine(compile_world(with_actors(world, report), report))
         self.world = self.engine.compiled.world
         """Without nested models: their links and joints are the outer model's, called `inner::name`."""
+        self.pushes = Pushes(self.engine)
+        """What handles have pushed."""
         self._timeline = Timeline(step_ns_of(world))
         self.steps = 0
         self.models = handles_of(self, self.world, {})
-        first = self._first_world_joint
-        self.joints = [JointHandle(self, joint, first + i) for i, joint in enumerate(self.world.joints)]
+        self.joints = world_joints_of(self, self.world, {})
         """Between models, in file order."""
         self.lines: dict[str, Line] = {}
         """What plugins draw, by `model::name`."""
         self._commands: deque[Command] = deque()
-        self._hooks: list[ScheduledHook] = []
+        self._schedule = Schedule(self._timeline)
         self._on_change: list[Callable[[], None]] = []
         self.actors = {
             actor.name: ActorWalk(actor, self[actor.name])
@@ -78,11 +78,6 @@ class Simulation:
             wanted = partial(walk.wanted, self.models)
             self.add_hook(walk, period_ns=walk.period_ns, wanted=wanted)
         self._on_reset: list[Callable[[], None]] = []
-        self._pushes = Pushes()
-
-    @property
-    def _first_world_joint(self) -> int:
-        return sum(len(model.joints) for model in self.world.models)
 
     @property
     def time_ns(self) -> int:
@@ -142,26 +137,13 @@ class Simulation:
 
     def _stride(self, target: int) -> None:
         self._drain()
-        hooks = [hook for hook in self._hooks if hook.wakes(self.steps)]
-        for hook in hooks:
-            if hook.before is not None and hook.before_alarm.rings(self.steps):
-                hook.before(self)
-        stop = min([target, self.steps + _LONGEST, *(hook.next_step for hook in hooks), *self._pushes.next_ends()])
+        hooks = self._schedule.awake(self.steps)
+        act(hooks, self)
+        stop = min([target, self.steps + _LONGEST, *(hook.next_step for hook in hooks), *self.pushes.next_ends()])
         self.engine.step(stop - self.steps)
         self.steps = stop
-        self._pushes.end(self.engine, self.steps)
-        self._look(hooks)
-
-    def _look(self, hooks: list[ScheduledHook]) -> None:
-        due = [hook for hook in hooks if hook.after is not None and hook.after_alarm.rings(self.steps)]
-        if due:
-            snapshot = self.snapshot()
-            for hook in due:
-                if hook.before_look is not None:
-                    hook.before_look(snapshot)
-            for hook in due:
-                if hook.after is not None:
-                    hook.after(snapshot)
+        self.pushes.end(self.steps)
+        look(hooks, self.steps, self.snapshot)
 
     def add_hook(
         self, hook: BeforeStep | AfterStep, *, period_ns: Period = 0, wanted: Callable[[], bool] | None = None
@@ -173,16 +155,15 @@ class Simulation:
             period_ns: how often [ns]; 0: at every step, which costs Python at every step.
             wanted: asked before each stride; while it says no, the hook costs no stride.
         """
-        self._hooks.append(ScheduledHook(hook, period_ns, self._timeline, now_ns=self.time_ns, wanted=wanted))
+        self._schedule.add(hook, period_ns, now_ns=self.time_ns, wanted=wanted)
 
     def retime_hook(self, hook: object, period_ns: Period) -> None:
         """Call a hook from now on at another period [ns]; it keeps its turn among the others."""
-        for scheduled in (each for each in self._hooks if each.hook is hook):
-            scheduled.retime(period_ns, now_ns=self.time_ns)
+        self._schedule.retime(hook, period_ns, now_ns=self.time_ns)
 
     def remove_hook(self, hook: object) -> None:
         """Call a hook no more."""
-        self._hooks = [scheduled for scheduled in self._hooks if scheduled.hook is not hook]
+        self._schedule.remove(hook)
 
     # -- state
 
@@ -202,16 +183,15 @@ class Simulation:
 
     def save(self) -> SavedSimulation:
         """Keep the state, to go back to it exactly."""
-        return SavedSimulation(self.steps, self._timeline, self.engine.save(), self._pushes.ends.copy())
+        return SavedSimulation(self.steps, self._timeline, self.engine.save(), self.pushes.ends.copy())
 
     def restore(self, saved: SavedSimulation) -> None:
         """Go back to a saved state; hooks are due as if time had just got there."""
         self.steps = saved.steps
         self.engine.restore(saved.engine)
-        self._pushes.restore(saved.ends)
+        self.pushes.restore(saved.ends)
         self._follow(saved.timeline)
-        for hook in self._hooks:
-            hook.restart(self.steps)
+        self._schedule.restart(self.steps)
 
     def reset(self, *, time: bool = True, poses: bool = True) -> None:
         """Go back to the start.
@@ -223,13 +203,12 @@ class Simulation:
         steps = self.steps
         if poses:
             self.engine.reset()
-            self._pushes.clear()
+            self.pushes.clear()
         if time:
             self.steps = 0
-            self._pushes.shift(-steps)
+            self.pushes.shift(-steps)
             self._follow(Timeline(self.step_ns))
-            for hook in self._hooks:
-                hook.restart(0)
+            self._schedule.restart(0)
         self.engine.set_time(self.time_ns / NS)
         if poses:
             for call in self._on_reset:
@@ -303,11 +282,6 @@ class Simulation:
         """
         self._go_on_with(without_joint(self.world, name))
 
-    def fix_elsewhere(self, handle: ModelHandle, world_from_model: Pose) -> None:
-        """Put a model that hangs from the world elsewhere; see `ModelHandle.set_pose`."""
-        moved = replace(handle.model, world_from_model=world_from_model)
-        self.edit(replace(self.world, models=tuple(moved if m.name == handle.name else m for m in self.world.models)))
-
     def edit(self, world: World) -> None:
         """Go on with another time step, gravity, masses, surfaces or limits; all keep their state, to the bit.
 
@@ -332,38 +306,21 @@ class Simulation:
             world: the changed one.
             was: models that had another name, by the new one.
         """
-        was, old = was or {}, self.engine
-        engine = Engine(compile_world(world, self.report))
-        names = {handle.name: new for new, handle in was.items()}
-        engine.take_over(old, renamed=names)
-        there = {name: i for i, name in enumerate(engine.compiled.link_names)}
-        before = enumerate(renamed_in(old.compiled.link_names, names))
-        links = {i: there[name] for i, name in before if name in there}
-        keep_free(old, engine, links)
-        self.engine, self.world = engine, engine.compiled.world
+        was = was or {}
+        self.engine, links = carried_over(self.engine, world, self.report, {old.name: new for new, old in was.items()})
+        self.world = self.engine.compiled.world
         self.models[:] = handles_of(self, self.world, {handle.name: handle for handle in self.models} | dict(was))
-        self._find_world_joints()
-        self._pushes.carry_over(links, engine)
+        self.joints[:] = world_joints_of(self, self.world, {handle.name: handle for handle in self.joints})
+        self.pushes.carry_over(links, self.engine)
         timeline = self._timeline.with_steps_of(step_ns_of(world), since=self.steps)
-        self._pushes.retime(self._timeline, timeline)
+        self.pushes.retime(self._timeline, timeline)
         self._follow(timeline)
         for call in self._on_change:
             call()
 
     def _follow(self, timeline: Timeline) -> None:
         self._timeline = timeline
-        for hook in self._hooks:
-            hook.follow(timeline)
-
-    def _find_world_joints(self) -> None:
-        """Have a handle for each joint between models; those that are known are moved to where they belong."""
-        known = {handle.name: handle for handle in self.joints}
-        self.joints[:] = [known.pop(joint.name, None) or JointHandle(self, joint, 0) for joint in self.world.joints]
-        for i, (handle, joint) in enumerate(zip(self.joints, self.world.joints, strict=True), self._first_world_joint):
-            handle.joint = joint
-            handle.move_to(i)
-        for gone in known.values():
-            gone.move_to(None)
+        self._schedule.follow(timeline)
 
     # -- commands
 
@@ -375,21 +332,6 @@ class Simulation:
         for _ in range(len(self._commands)):
             self._commands.popleft()(self)
 
-    def apply_wrench(self, link: int, wrench: Wrench, *, duration_s: float | None = None) -> None:
-        """Push and twist a link, by its index; see `LinkHandle.apply_wrench`."""
-        self._pushes.hold_wrench(self.engine, link, wrench, until=self._until(duration_s))
-
-    def add_wrench(self, link: int, wrench: Wrench) -> None:
-        """Add to what pushes a link, up to the next hook; see `LinkHandle.add_wrench`."""
-        self._pushes.add_wrench(self.engine, link, wrench)
-
-    def end_effort(self, joint: JointHandle, axis: int, *, duration_s: float | None) -> None:
-        """Have an effort end after a while; see `JointHandle.set_effort`."""
-        self._pushes.hold_effort(joint, axis, until=self._until(duration_s))
-
-    def set_grip(self, link: int, law: GripLaw | None) -> None:
-        """Have the contacts of a link, by its index, follow a law; see `LinkHandle.set_grip`."""
-        self._pushes.set_grip(self.engine, link, law)
-
-    def _until(self, duration_s: float | None) -> int | None:
+    def step_after(self, duration_s: float | None) -> int | None:
+        """The step at which what begins now and lasts so long is over; None: it lasts."""
         return None if duration_s is None else self.steps + max(1, round(duration_s * NS / self.step_ns))

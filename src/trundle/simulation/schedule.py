@@ -1,0 +1,71 @@
+"""The hooks of one simulation, and which of them are due."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from .hooks import AfterStep, BeforeStep, ScheduledHook
+from .snapshot import Snapshot
+from .timeline import Period, Timeline
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
+
+
+class Schedule:
+    """Hooks in the order in which they came."""
+
+    def __init__(self, timeline: Timeline) -> None:
+        self._timeline = timeline
+        self._hooks: list[ScheduledHook] = []
+
+    def add(
+        self, hook: BeforeStep | AfterStep, period_ns: Period, *, now_ns: int, wanted: Callable[[], bool] | None
+    ) -> None:
+        """Have a hook called from now [ns] on; see `Simulation.add_hook`."""
+        self._hooks.append(ScheduledHook(hook, period_ns, self._timeline, now_ns=now_ns, wanted=wanted))
+
+    def retime(self, hook: object, period_ns: Period, *, now_ns: int) -> None:
+        """Call a hook from now [ns] on at another period [ns]; it keeps its turn among the others."""
+        for scheduled in self._hooks:
+            if scheduled.hook is hook:
+                scheduled.retime(period_ns, now_ns=now_ns)
+
+    def remove(self, hook: object) -> None:
+        """Call a hook no more."""
+        self._hooks = [scheduled for scheduled in self._hooks if scheduled.hook is not hook]
+
+    def follow(self, timeline: Timeline) -> None:
+        """Keep every rhythm at other steps."""
+        self._timeline = timeline
+        for hook in self._hooks:
+            hook.follow(timeline)
+
+    def restart(self, step: int) -> None:
+        """Count time anew from a step that is a reset's or a restored state's."""
+        for hook in self._hooks:
+            hook.restart(step)
+
+    def awake(self, step: int) -> list[ScheduledHook]:
+        """Those that want to be called in the stride that begins with this step."""
+        return [hook for hook in self._hooks if hook.wakes(step)]
+
+
+def act(hooks: list[ScheduledHook], sim: "Simulation") -> None:
+    """Have those that are due at this step act on the world."""
+    for hook in hooks:
+        if hook.before is not None and hook.before_alarm.rings(sim.steps):
+            hook.before(sim)
+
+
+def look(hooks: list[ScheduledHook], step: int, snapshot: Callable[[], Snapshot]) -> None:
+    """Have those that are due at a step see the world; the snapshot is taken if there are any."""
+    due = [hook for hook in hooks if hook.after is not None and hook.after_alarm.rings(step)]
+    if not due:
+        return
+    seen = snapshot()
+    for hook in due:
+        if hook.before_look is not None:
+            hook.before_look(seen)
+    for hook in due:
+        if hook.after is not None:
+            hook.after(seen)
