@@ -3,7 +3,6 @@
 import asyncio
 import threading
 import time
-from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -13,18 +12,19 @@ from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import World
 from trundle.packages import Packages
-from trundle.ros import NOETIC, Node, SimClock
+from trundle.ros import Node, SimClock
 from trundle.sensors import CameraSensor, MeasuringSensor
-from trundle.simulation import ModelHandle, Simulation, SimulationUnstableError
+from trundle.simulation import Simulation, SimulationUnstableError
 from trundle.spatial import Pose
 
 from .gazebo_models import read_spawned
+from .gazebo_plugins import GazeboPlugins
 from .gazebo_sensors import GazeboSensors
+from .gazebo_window import GazeboWindow
 from .graph import Graph
 from .in_step import Steps
 from .pace import Pacer, take_turns
-from .page import Page
-from .plugins import load_plugins, load_world_plugins
+from .posted_calls import PostedCalls
 from .renderers import RendererName
 from .state_logs import WorldRecorder
 
@@ -32,7 +32,6 @@ _EMPTY_WORLD = "worlds/empty.world"
 _IDLE_S = 0.01
 _LOOK_S = 0.5
 _END_S = 2.0
-_CALL_S = 30.0
 
 
 class GazeboWorld:
@@ -72,24 +71,19 @@ class GazeboWorld:
         self._report = report
         self._folder = folder
         self._say = say
-        self._window = window
+        self._window = GazeboWindow(window, say)
         self._thread: threading.Thread | None = None
-        self._commands: deque[tuple[Callable[[], None], object]] = deque()
-        """Each with what ends its being under way."""
+        self._calls = PostedCalls(graph.loop)
         self._ending = threading.Event()
         self._simulation: Simulation | None = None
         self._renderer: RendererName = renderer
         self._steps = steps
         self._sensors: GazeboSensors | None = None
-        self._plugin_nodes: list[Node] = []
-        """Of the models whose plugins are being loaded."""
-        self._nodes: dict[str, list[Node]] = {}
-        """Model → nodes of its plugins; the world's have no name."""
+        self._plugins: GazeboPlugins | None = None
         self._clock = SimClock(graph.loop)
         self._clock_hz: float | None = None
         self._pacer = Pacer(speed)
         take_turns()
-        self._page: Page | None = None
         self._record: Path | None = None
         self._recorder: WorldRecorder | None = None
         self._node: Node | None = None
@@ -153,14 +147,13 @@ class GazeboWorld:
 
     def post(self, call: Callable[[], None]) -> None:
         """Have a function called between two strides."""
-        self._commands.append((call, self._graph.loop.work.begin()))
+        self._calls.post(call)
 
     async def show(self, node: Node) -> int:
         """Open the page, once there is something to show, and keep it until cancelled."""
         while not node.closed.is_set():
-            window = self._window
-            if window is not None and self._simulation is not None and self._page is None:
-                self.post(lambda window=window: self._open_page(window, node))
+            if self._window.is_wanted and self._simulation is not None:
+                self.post(lambda: self._window.open(self.simulation, self.sensors, node))
             await asyncio.sleep(_LOOK_S)
         return 0
 
@@ -171,25 +164,21 @@ class GazeboWorld:
             return
         self._ending.set()
         thread.join(_END_S)
-        while self._commands:
-            self._graph.loop.work.end(self._commands.popleft()[1])
-        for nodes in self._nodes.values():
-            for node in nodes:
-                self._graph.loop.spawn(node.shutdown())
-        self._nodes.clear()
+        self._calls.drop()
+        if self._plugins is not None:
+            self._plugins.close()
         self._simulation = None
         self._ending.clear()
 
     @property
     def url(self) -> str | None:
         """Where the page is; None before it is served."""
-        page = self._page
-        return None if page is None else page.url
+        return self._window.url
 
     @property
     def is_over(self) -> bool:
         """Whether there will be no page."""
-        return self._window is None
+        return self._window.is_over
 
     @property
     def is_open(self) -> bool:
@@ -213,6 +202,11 @@ class GazeboWorld:
     def _measuring(self) -> GazeboSensors:
         assert self._sensors is not None, "open() comes first"
         return self._sensors
+
+    @property
+    def _loaded(self) -> GazeboPlugins:
+        assert self._plugins is not None, "open() comes first"
+        return self._plugins
 
     @property
     def in_step(self) -> bool:
@@ -241,14 +235,13 @@ class GazeboWorld:
         handle = simulation.spawn(replace(model, name=name, world_from_model=pose))
         self._measuring.mount(name, robot=robot)
         self._show_anew()
-        self._load_plugins(simulation, [handle])
+        self._loaded.load_of(handle)
 
     def delete(self, name: str) -> None:
         """Remove a model."""
         simulation = self.simulation
         simulation.delete(name)
-        for node in self._nodes.pop(name, []):
-            self._graph.loop.run(node.shutdown(), timeout_s=_CALL_S)
+        self._loaded.unload(name)
         self._measuring.unmount(name)
         self._show_anew()
 
@@ -276,30 +269,17 @@ class GazeboWorld:
             self._graph.loop.gather()
         try:
             while not self._ending.is_set():
-                self._obey()
+                self._calls.obey()
                 if self._simulation is None:
                     time.sleep(_IDLE_S)
                     continue
-                if self._page is not None:
-                    self._paused = self._page.obey(self._pacer, paused=self._paused)
-                    self._page.feed(self._pacer, paused=self._paused)
+                self._paused = self._window.attend(self._pacer, paused=self._paused)
                 self._go_on(self._simulation)
         finally:
-            if self._page is not None:
-                self._page.close()
-                self._page = None
+            self._window.close()
             if self._recorder is not None:
                 self._recorder.close()
                 self._recorder = None
-
-    def _obey(self) -> None:
-        for _ in range(len(self._commands)):
-            call, token = self._commands.popleft()
-            try:
-                call()
-            finally:
-                self._graph.loop.release()
-                self._graph.loop.work.end(token)
 
     def _go_on(self, simulation: Simulation) -> None:
         if self._paused or not (self._steps is None or self._steps.may_pass):
@@ -327,7 +307,7 @@ class GazeboWorld:
         while simulation.time_ns < until_ns and not self._paused and not self._ending.is_set():
             simulation.stride(until_ns)
             self._clock.set(simulation.time_ns)
-            steps.settle(self._obey, lambda: bool(self._commands) or self._ending.is_set(), self._ending.is_set)
+            steps.settle(self._calls.obey, lambda: self._calls.any() or self._ending.is_set(), self._ending.is_set)
             steps.stepped(simulation.time_ns)
 
     def _stand_still(self, why: str) -> None:
@@ -344,40 +324,17 @@ class GazeboWorld:
             simulation.add_hook(self._recorder, period_ns=self._recorder.period_ns)
         self._sensors = GazeboSensors(simulation, self._node, self._renderer, self._report)
         self._sensors.mount()
-        self._load_plugins(simulation, None)
+        self._plugins = GazeboPlugins(
+            simulation,
+            self._node,
+            graph=self._graph,
+            env=self._env,
+            clock=self._clock,
+            deliver=self.post,
+            say=self._say,
+        )
+        self._plugins.load()
 
     def _show_anew(self) -> None:
-        if self._page is not None:
-            self._page.replace(self.simulation, self._measuring.all)
+        self._window.replace(self.simulation, self.sensors)
         self._pacer.restart()
-
-    def _load_plugins(self, simulation: Simulation, models: list[ModelHandle] | None) -> None:
-        for handle in simulation.models if models is None else models:
-            self._plugin_nodes = []
-            load_plugins(simulation, self._make_node, self._env, say=self._say, models=[handle])
-            self._nodes[handle.name] = self._plugin_nodes
-        if models is None:
-            self._plugin_nodes = []
-            load_world_plugins(simulation, self._make_node, self._env, say=self._say)
-            self._nodes[""] = self._plugin_nodes
-
-    def _make_node(self, name: str) -> Node:
-        graph = self._graph
-        node = Node(
-            name, loop=graph.loop, master_uri=graph.master_uri, clock=self._clock, deliver=self.post, host=graph.host
-        )
-        node.profile = NOETIC if self._node is None else self._node.profile
-        self._plugin_nodes.append(node)
-        return node
-
-    def _open_page(self, window: tuple[str, int | None], node: Node) -> None:
-        if self._page is not None:
-            return
-        host, port = window
-        try:
-            self._page = Page.open(self.simulation, self._measuring.all, None, host=host, port=port)
-        except TrundleError as error:
-            node.log_error(str(error))
-            self._window = None
-        else:
-            self._say(f"see the simulation at {self._page.url}")

@@ -1,0 +1,73 @@
+"""The window of the world behind /gazebo: a page, once somebody asks for it."""
+
+from collections.abc import Callable, Sequence
+
+from trundle.diagnostics import TrundleError
+from trundle.ros import Node
+from trundle.sensors import CameraSensor, MeasuringSensor
+from trundle.simulation import Simulation
+
+from .pace import Pacer
+from .page import Page
+
+
+class GazeboWindow:
+    """What gzclient shows; all but `url`, `is_over` and `is_wanted` belongs to the simulation's thread."""
+
+    def __init__(self, at: tuple[str, int | None] | None, say: Callable[[str], None]) -> None:
+        """Show nothing yet.
+
+        Args:
+            at: host and port of the page; None: headless.
+            say: is told where the page is.
+        """
+        self._at = at
+        self._say = say
+        self._page: Page | None = None
+
+    @property
+    def url(self) -> str | None:
+        """Where the page is; None before it is served."""
+        page = self._page
+        return None if page is None else page.url
+
+    @property
+    def is_over(self) -> bool:
+        """Whether there will be no page."""
+        return self._at is None
+
+    @property
+    def is_wanted(self) -> bool:
+        """Whether a page is still to be opened."""
+        return self._at is not None and self._page is None
+
+    def open(self, simulation: Simulation, sensors: Sequence[CameraSensor | MeasuringSensor], node: Node) -> None:
+        """Open the page, unless it is open or cannot be; a node says why."""
+        if self._at is None or self._page is not None:
+            return
+        host, port = self._at
+        try:
+            self._page = Page.open(simulation, sensors, None, host=host, port=port)
+        except TrundleError as error:
+            node.log_error(str(error))
+            self._at = None
+        else:
+            self._say(f"see the simulation at {self._page.url}")
+
+    def replace(self, simulation: Simulation, sensors: Sequence[CameraSensor | MeasuringSensor]) -> None:
+        """Show it anew: models or lights came or went."""
+        if self._page is not None:
+            self._page.replace(simulation, sensors)
+
+    def attend(self, pacer: Pacer, *, paused: bool) -> bool:
+        """Do what was pressed, and show where everything is; return whether the simulation is paused now."""
+        if self._page is not None:
+            paused = self._page.obey(pacer, paused=paused)
+            self._page.feed(pacer, paused=paused)
+        return paused
+
+    def close(self) -> None:
+        """Take the page down."""
+        if self._page is not None:
+            self._page.close()
+            self._page = None
