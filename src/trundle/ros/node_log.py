@@ -1,11 +1,13 @@
 """What a node says: on stderr, and on /rosout once somebody gathers it. Any thread may speak."""
 
 import traceback
-from typing import TextIO
+from typing import Any, TextIO
 
 from .clock import Clock, WallClock
+from .errors import ServiceError
 from .log import LEVELS, Level, caller, print_log
 from .loggers import Loggers
+from .messages import Message
 from .publisher import Publisher
 
 
@@ -66,3 +68,14 @@ class NodeLog:
                 "topics": sorted(self._publishers),
             }
             self._rosout.publish(fields)
+
+    def _get_loggers(self, request: Message) -> dict[str, Any]:
+        del request
+        return {"loggers": [{"name": name, "level": level} for name, level in self.loggers.levels()]}
+
+    def _set_logger_level(self, request: Message) -> dict[str, Any]:
+        try:
+            self.loggers.set(request.logger, request.level.lower())
+        except ValueError as error:
+            raise ServiceError(str(error)) from None
+        return {}
