@@ -2,6 +2,7 @@
 
 import math
 import re
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import pytest
 
 from trundle.drawing import Curve, curves_svg, curves_text
 from trundle.ros import WallClock
+from trundle.xmlnode import parse_xml
 
 
 @pytest.fixture
@@ -96,6 +98,23 @@ def test_a_curve_is_broken_where_it_is_no_number() -> None:
     curve = Curve("c", [(0.0, 1.0), (1.0, 2.0), (2.0, math.nan), (3.0, math.inf), (4.0, 1.0), (5.0, 1.0)])
     assert len(_lines(curves_svg([curve]))) == 2
     assert "*" in curves_text([curve], columns=60, rows=10)
+
+
+def test_large_numbers_near_one_another_are_told_apart() -> None:
+    """Eastings of a map, stamps: all marks of the axis had been 4.5e+06."""
+    curve = Curve("easting", [(0.0, 4_500_000.0), (1.0, 4_500_000.5)])
+    marks = [text.text for text in parse_xml(curves_svg([curve]), name="x.svg").all("text")]
+    assert {"4500000", "4500000.2", "4500000.4"} <= set(marks)
+    text = curves_text([curve], columns=60, rows=10)
+    assert "easting = 4500000.5" in text
+    assert max(map(len, text.splitlines())) <= 60
+
+
+def test_the_greatest_double_is_no_number_to_draw() -> None:
+    curve = Curve("limit", [(0.0, sys.float_info.max), (1.0, -sys.float_info.max), (2.0, 1.0), (3.0, 2.0)])
+    (line,) = _lines(curves_svg([curve]))
+    assert len(line) == 2
+    assert "limit = 2" in curves_text([curve], columns=60, rows=10)
 
 
 def test_a_spike_among_a_hundred_thousand_points_is_seen() -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.nodes import STAND_INS, Executable, Missing, Replacement, find_node
+from trundle.nodes import STAND_INS, Executable, Missing, Replacement, find_node, program_names
 
 
 def program(path: Path, mode: int = 0o755) -> Path:
@@ -26,6 +26,36 @@ def test_the_packages_own_program_goes_before_the_stand_in(tmp_path: Path) -> No
     assert find_node("rviz", "rviz", lambda _: tmp_path, env={}) == Executable(path)
     path.chmod(0o644)
     assert isinstance(find_node("rviz", "rviz", lambda _: tmp_path, env={}), Replacement)
+
+
+@pytest.mark.parametrize(
+    ("sources", "built"),
+    [
+        ("share/amcl", "lib/amcl"),  # /opt/ros/noetic
+        ("ws/src/navigation/amcl", "ws/devel/lib/amcl"),
+        ("ws/src/amcl", "ws/install/lib/amcl"),
+        ("ws/src/amcl", "ws/install/amcl/lib/amcl"),  # colcon
+        ("elsewhere/amcl", "prefix/lib/amcl"),
+    ],
+)
+def test_what_was_built_of_a_package_is_run_where_nothing_stands_in(tmp_path: Path, sources: str, built: str) -> None:
+    """roslaunch and rosrun look there too; most of a ROS that is installed are no scripts in a package's folder."""
+    folder = tmp_path / sources
+    folder.mkdir(parents=True)
+    path = program(tmp_path / built / "amcl")
+    env = {"CMAKE_PREFIX_PATH": f"{tmp_path / 'none'}:{tmp_path / 'prefix'}"}
+    assert find_node("amcl", "amcl", lambda _: folder, env=env) == Executable(path)
+    assert program_names("amcl", folder, env=env) == {"amcl"}
+
+    own = program(folder / "scripts/amcl")
+    assert find_node("amcl", "amcl", lambda _: folder, env=env) == Executable(own)
+
+
+def test_a_stand_in_goes_before_what_is_installed(tmp_path: Path) -> None:
+    """Debian's rviz is a program in /usr/share/rviz."""
+    program(tmp_path / "lib/rviz/rviz")
+    folder = program(tmp_path / "share/rviz/rviz").parent
+    assert isinstance(find_node("rviz", "rviz", lambda _: folder, env={}), Replacement)
 
 
 def test_programs_in_hidden_and_build_folders_do_not_count(tmp_path: Path) -> None:

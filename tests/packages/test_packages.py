@@ -90,6 +90,25 @@ def test_an_ignored_folder_holds_no_packages(tmp_path: Path) -> None:
         resolve("package://hand/x", tmp_path, ROS_PACKAGE_PATH=str(tmp_path))
 
 
+def test_packages_of_the_system_are_found_last(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Debian's rospack looks into /usr/share though ROS_PACKAGE_PATH says nothing of it."""
+    share, own = tmp_path / "share", tmp_path / "ws"
+    monkeypatch.setattr("trundle.packages.ros_packages._INSTALLED", share)
+    package(share / "hand")
+    package(share / "arm")
+    package(share / "gazebo_ros")
+    package(share / "doc/deep")
+    write(share / "leg/meshes/leg.stl")
+    write(own / "arm/meshes/arm.stl")
+
+    packages = Packages({"ROS_PACKAGE_PATH": str(own)}, start=tmp_path / "elsewhere")
+
+    assert packages.find_package("hand") == packages.ros_packages()["hand"] == share / "hand"
+    assert packages.find_package("arm") == own / "arm"
+    assert (packages.find_package("deep"), packages.find_package("leg")) == (None, None)
+    assert packages.find_package("gazebo_ros") != share / "gazebo_ros"
+
+
 def test_below_rospack_nosubdirs_are_no_packages(tmp_path: Path) -> None:
     """As rospack has it: the folder itself may be one."""
     package(tmp_path / "hand")

@@ -175,24 +175,28 @@ def test_meshes_of_stand_ins_can_be_read_and_enclose_something() -> None:
         assert np.einsum("ij,ij->", np.cross(a, b), c) > 0, path
 
 
-def test_every_stock_package_with_a_stand_in_can_be_found_where_none_is_installed(tmp_path: Path) -> None:
+def test_every_stock_package_with_a_stand_in_can_be_found_where_none_is_installed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """An argument's default that nobody reads must not stop a launch; a file that is asked for is missing by name."""
+    monkeypatch.setattr("trundle.packages.ros_packages._INSTALLED", tmp_path / "none")
+    packages = Packages({"HOME": "/nobody"}, start=HERE)
     plugins = {"gazebo_plugins", "gazebo_ros_control", "hector_gazebo_plugins", "velodyne_gazebo_plugins"}
     nodes = {package for package, _ in catalog.STAND_INS}
     names = {kind.partition("/")[0] for kind in CONTROLLERS} | nodes | plugins | {"xacro"}
-    assert [name for name in sorted(names) if PACKAGES.find_folder(name) is None] == []
-    assert PACKAGES.find_package("rviz") is None
+    assert [name for name in sorted(names) if packages.find_folder(name) is None] == []
+    assert packages.find_package("rviz") is None
     launch = tmp_path / "show.launch"
     launch.write_text(
         """<launch><arg name="view" default="$(find rviz)/default.rviz"/>
         <node pkg="rviz" type="rviz" name="rviz" args="-d $(arg view)"/></launch>"""
     )
-    (node,) = read_launch(launch, packages=PACKAGES, report=Diagnostics(), arguments={}, env={}).nodes
+    (node,) = read_launch(launch, packages=packages, report=Diagnostics(), arguments={}, env={}).nodes
     assert node.arguments.endswith("/rviz/default.rviz")
 
     launch.write_text('<launch>\n<rosparam file="$(find joint_state_publisher)/a.yaml"/></launch>')
     with pytest.raises(DescriptionError, match=r"show\.launch:2: error: .*no file .*joint_state_publisher/a\.yaml"):
-        read_launch(launch, packages=PACKAGES, report=Diagnostics(), arguments={}, env={})
+        read_launch(launch, packages=packages, report=Diagnostics(), arguments={}, env={})
 
 
 def test_an_installed_package_comes_before_the_stock_one(tmp_path: Path) -> None:

@@ -130,7 +130,7 @@ def _programs(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     from trundle.packages import Packages
 
     packages = Packages(os.environ, start=Path.cwd())
-    return sorted(program_names(parsed_args.package, packages.find_package(parsed_args.package)))
+    return sorted(program_names(parsed_args.package, packages.find_package(parsed_args.package), env=os.environ))
 
 
 def _launch_words(parsed_args: argparse.Namespace, prefix: str, **_: Any) -> list[str]:

@@ -3,13 +3,16 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
+from itertools import pairwise
 from typing import Literal, TypeAlias
 
+from .layers import Vertex, layers
+
 Item: TypeAlias = tuple[Literal["node", "topic"], str]
-_ROW, _GAP, _HEIGHT, _CHARACTER, _MARGIN = 44, 70, 26, 7.2, 16
-"""[px] Rows are this far apart, columns this far, boxes this high, letters this wide."""
-_SWEEPS = 4
-"""Passes of sorting each column by its neighbours, which takes most crossings out."""
+_ROW, _SLOT, _GAP, _HEIGHT, _CHARACTER, _MARGIN = 40, 12, 80, 26, 7.2, 16
+"""[px] Boxes in a column are this far apart, arrows that pass it, columns; boxes are this high, letters this wide."""
+_LEVEL, _LOWER = 10, 7
+"""[px] An arrow runs level this far beside a column; one that closes a loop begins and ends this much lower."""
 _QUIET = ("/rosout", "/rosout_agg", "/clock", "/diagnostics", "/statistics")
 """What everybody talks about; rqt_graph hides them too."""
 
@@ -60,100 +63,69 @@ def graph_dot(drawing: Drawing) -> str:
 
 def graph_svg(drawing: Drawing) -> str:
     """Draw it: each item right of those that feed it, as far as loops allow."""
-    columns = _columns(drawing)
-    places: dict[Item, tuple[float, float, float]] = {}
-    """x, y, width of each box."""
+    placed = layers(drawing.items, drawing.edges, box_gap=_ROW, slot_gap=_SLOT)
+    widths: dict[Vertex, float] = {item: len(item[1]) * _CHARACTER + 20 for item in drawing.items}
+    places: dict[Vertex, _Place] = {}
     left = float(_MARGIN)
-    tallest = max(map(len, columns), default=0)
-    for column in columns:
-        width = max(len(name) for _, name in column) * _CHARACTER + 20
-        top = _MARGIN + (tallest - len(column)) * _ROW / 2
-        for row, item in enumerate(column):
-            own = len(item[1]) * _CHARACTER + 20
-            places[item] = (left + (width - own) / 2, top + row * _ROW, own)
-        left += width + _GAP
-    size = f'width="{max(left - _GAP, 0) + _MARGIN:g}" height="{tallest * _ROW + _MARGIN:g}"'
+    for column in placed.columns:
+        widest = max((widths.get(vertex, 0.0) for vertex in column), default=0.0)
+        for vertex in column:
+            width = widths.get(vertex, widest)
+            middle = _MARGIN + _HEIGHT / 2 + placed.heights[vertex]
+            places[vertex] = _Place(left + (widest - width) / 2, middle, width, (left - _LEVEL, left + widest + _LEVEL))
+        left += widest + _GAP
+    height = max(placed.heights.values(), default=0.0) + _HEIGHT + 2 * _MARGIN
     return "\n".join(
         [
-            f'<svg xmlns="http://www.w3.org/2000/svg" {size}>',
+            f'<svg xmlns="http://www.w3.org/2000/svg" width="{max(left - _GAP, 0) + _MARGIN:g}" height="{height:g}">',
             "<title>ROS graph</title>",
             "<style>text{font:12px monospace;fill:#1d2733;text-anchor:middle}.node{fill:#dfeefc;stroke:#5b8db8}"
             ".topic{fill:#f3f4f6;stroke:#8a93a0}path{fill:none;stroke:#7a90a8}marker path{fill:#7a90a8}</style>",
             '<marker id="tip" viewBox="0 0 8 8" refX="8" refY="4" markerWidth="8" markerHeight="8" orient="auto">'
             '<path d="M0 0L8 4L0 8z"/></marker>',
             '<rect width="100%" height="100%" fill="#fff"/>',
-            *(_arrow(places[start], places[end]) for start, end in drawing.edges if start in places and end in places),
-            *(_box(item, place) for item, place in places.items()),
+            *(_arrow([places[vertex] for vertex in route]) for route in placed.routes),
+            *(_box(item, places[item]) for item in drawing.items),
             "</svg>",
             "",
         ]
     )
 
 
-def _columns(drawing: Drawing) -> list[list[Item]]:
-    """Put each item into the column after the last of those that feed it; an edge that closes a loop counts not."""
-    below: dict[Item, list[Item]] = {item: [] for item in drawing.items}
-    for start, end in drawing.edges:
-        below.setdefault(start, []).append(end)
-        below.setdefault(end, [])
-    order = _without_loops(below)
-    depth = dict.fromkeys(order, 0)
-    position = {item: i for i, item in enumerate(order)}
-    for item in order:
-        for other in below[item]:
-            if position[other] > position[item]:
-                depth[other] = max(depth[other], depth[item] + 1)
-    columns: list[list[Item]] = [[] for _ in range(max(depth.values(), default=-1) + 1)]
-    for item in order:
-        columns[depth[item]].append(item)
-    above: dict[Item, list[Item]] = {item: [] for item in below}
-    for item, others in below.items():
-        for other in others:
-            above[other].append(item)
-    for _ in range(_SWEEPS):
-        rows = {item: row / len(column) for column in columns for row, item in enumerate(column)}
-        for column in columns:
-            column.sort(key=lambda item: _mean([rows[other] for other in (*above[item], *below[item])]))
-    return columns
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """Of a box, or of the slot that an arrow has in a column it passes [px]."""
+
+    left: float
+    middle: float
+    width: float
+    column: tuple[float, float]
+    """Between which arrows run level."""
 
 
-def _without_loops(below: dict[Item, list[Item]]) -> list[Item]:
-    """Order the items so that arrows point forwards, but for those that close a loop."""
-    done: dict[Item, None] = {}
-    entered: set[Item] = set()
-    for first in below:
-        waiting = [(first, iter(below[first]))] if first not in entered else []
-        entered.add(first)
-        while waiting:
-            item, rest = waiting[-1]
-            following = next((other for other in rest if other not in entered), None)
-            if following is None:
-                done[item] = None
-                waiting.pop()
-            else:
-                entered.add(following)
-                waiting.append((following, iter(below[following])))
-    return list(done)[::-1]
+def _arrow(route: Sequence[_Place]) -> str:
+    """Level through columns, bent between them; an arrow that closes a loop goes from right to left."""
+    forwards = route[0].column <= route[-1].column
+    start, end = route[0], route[-1]
+    heights = [place.middle for place in route]
+    if not forwards:
+        heights[0] += _LOWER
+        heights[-1] += _LOWER
+    path = f"M{start.left + start.width if forwards else start.left:.1f} {heights[0]:.1f}"
+    for (one, y0), (other, y1) in pairwise(zip(route, heights, strict=True)):
+        x0, x1 = (one.column[1], other.column[0]) if forwards else (one.column[0], other.column[1])
+        half = (x0 + x1) / 2
+        path += f"H{x0:.1f}C{half:.1f} {y0:.1f} {half:.1f} {y1:.1f} {x1:.1f} {y1:.1f}"
+    return f'<path d="{path}H{end.left if forwards else end.left + end.width:.1f}" marker-end="url(#tip)"/>'
 
 
-def _mean(values: list[float]) -> float:
-    return sum(values) / len(values) if values else 0.5
-
-
-def _arrow(start: tuple[float, float, float], end: tuple[float, float, float]) -> str:
-    x0, y0 = start[0] + start[2], start[1] + _HEIGHT / 2
-    x1, y1 = end[0], end[1] + _HEIGHT / 2
-    bend = max(30.0, abs(x1 - x0) / 2)
-    return f'<path d="M{x0:g} {y0:g}C{x0 + bend:g} {y0:g} {x1 - bend:g} {y1:g} {x1:g} {y1:g}" marker-end="url(#tip)"/>'
-
-
-def _box(item: Item, place: tuple[float, float, float]) -> str:
+def _box(item: Item, place: _Place) -> str:
     kind, name = item
-    x, y, width = place
     radius = _HEIGHT / 2 if kind == "node" else 3
     return (
-        f'<rect class="{kind}" x="{x:g}" y="{y:g}" width="{width:g}" height="{_HEIGHT}" rx="{radius:g}"/>'
-        f'<text x="{x + width / 2:g}" y="{y + 17:g}">{escape(name)}</text>'
+        f'<rect class="{kind}" x="{place.left:.1f}" y="{place.middle - _HEIGHT / 2:.1f}" width="{place.width:.1f}" '
+        f'height="{_HEIGHT}" rx="{radius:g}"/>'
+        f'<text x="{place.left + place.width / 2:.1f}" y="{place.middle + 4:.1f}">{escape(name)}</text>'
     )
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias, cast
 
+from trundle.packages import program_folders
 from trundle.ros import Node
 
 from .catalog import NODELETS, OURS_ALWAYS, STAND_INS
@@ -49,10 +50,11 @@ class Missing:
 def find_node(
     package: str, type_name: str, find_package: FindPackage, *, env: Mapping[str, str], arguments: str = ""
 ) -> Executable | Replacement | Missing:
-    """Find a node: an executable in the package's folder, else a stand-in, else what is missing.
+    """Find a node: an executable in the package's folder, a stand-in, a program built elsewhere; or what is missing.
 
     Where a package's sources lie in the workspace, its program is a script for a ROS that need not be installed:
-    one that imports rospy, or messages, gives way to the stand-in on a machine without.
+    one that imports rospy, or messages, gives way to the stand-in on a machine without. Before the programs of a
+    package that is installed the stand-in goes always: its window needs no display, its messages no sockets.
 
     Args:
         package: as the launch file names it.
@@ -70,10 +72,13 @@ def find_node(
         for path in _files(folder, type_name):
             if not os.access(path, os.X_OK):
                 plain = plain or path
-            elif target is None or can_run(path, env):
+            elif target is None or (folder.parent.name != "share" and can_run(path, env)):
                 return Executable(path)
     if target is not None:
         return _nodelet(arguments) or Replacement(target) if type_name == "nodelet" else Replacement(target)
+    built = None if folder is None else _built(package, type_name, folder, env)
+    if built is not None:
+        return Executable(built)
     if plain is not None:
         return Missing(f"{plain} is not executable; run chmod +x on it")
     way_out = f"; {WAYS_OUT[package]}" if package in WAYS_OUT else ""
@@ -98,12 +103,19 @@ def _nodelet(arguments: str) -> Missing | None:
             return None
 
 
-def program_names(package: str, folder: Path | None) -> set[str]:
+def _built(package: str, name: str, folder: Path, env: Mapping[str, str]) -> Path | None:
+    """A program that catkin or colcon has put elsewhere than into the package's folder."""
+    paths = (path for home in program_folders(package, folder, env) for path in _files(home, name))
+    return next((path for path in paths if os.access(path, os.X_OK)), None)
+
+
+def program_names(package: str, folder: Path | None, *, env: Mapping[str, str]) -> set[str]:
     """Names that `find_node` knows in a package."""
     found = {name for owner, name in STAND_INS if owner == package}
-    for root, folders, files in os.walk(folder) if folder is not None else ():
-        folders[:] = [each for each in folders if not each.startswith(".") and each not in _NOT_SEARCHED]
-        found.update(name for name in files if os.access(os.path.join(root, name), os.X_OK))
+    for home in [folder, *program_folders(package, folder, env)] if folder is not None else ():
+        for root, folders, files in os.walk(home):
+            folders[:] = [each for each in folders if not each.startswith(".") and each not in _NOT_SEARCHED]
+            found.update(name for name in files if os.access(os.path.join(root, name), os.X_OK))
     return found
 
 

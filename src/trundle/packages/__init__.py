@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from .model_config import model_file, refuse_template
     from .packages import ALLOW_OUTSIDE, Packages
     from .rule_exports import exported_rules
+    from .workspace import program_folders
 
 _HOMES = {
     "ALLOW_OUTSIDE": "packages",
@@ -18,8 +19,18 @@ _HOMES = {
     "is_stand_in": "gazebo_paths",
     "model_file": "model_config",
     "needs": "manifest",
+    "program_folders": "workspace",
     "refuse_template": "model_config",
 }
 __getattr__ = opened_on_use(__name__, _HOMES)
 
-__all__ = ["ALLOW_OUTSIDE", "Packages", "exported_rules", "is_stand_in", "model_file", "needs", "refuse_template"]
+__all__ = [
+    "ALLOW_OUTSIDE",
+    "Packages",
+    "exported_rules",
+    "is_stand_in",
+    "model_file",
+    "needs",
+    "program_folders",
+    "refuse_template",
+]

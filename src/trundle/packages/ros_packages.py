@@ -21,6 +21,8 @@ _ALONE_BY = frozenset({*MANIFESTS, "rospack_nosubdirs"})
 """Below a folder with one of these there are no packages."""
 SHIPPED = Path(__file__).parent / "ros"
 """Packages of our own: for the few stock ones that launch files only take a file from, and the examples."""
+_INSTALLED = Path("/usr/share")
+"""Debian's packages of ROS; its rospack looks there last, whatever ROS_PACKAGE_PATH says."""
 _CHECKOUT_EXAMPLES = Path(__file__).parents[3] / "examples"
 
 
@@ -64,6 +66,9 @@ class RosPackages:
             self._crawl(SHIPPED)
             if (_CHECKOUT_EXAMPLES / "smartcar").is_dir():
                 self._crawl(_CHECKOUT_EXAMPLES)
+            for folder, name in _installed():
+                if name not in self._folders:
+                    self._by_name.setdefault(name, folder)
         return self._by_name
 
     def searched(self) -> list[Path]:
@@ -78,6 +83,13 @@ class RosPackages:
             if name is not None:
                 self._by_name.setdefault(name, folder)
             self._folders.setdefault(folder.name, folder)
+
+
+def _installed() -> Iterator[tuple[Path, str]]:
+    """Those right below the system's folder: it holds much else, so none is looked for further down."""
+    if _INSTALLED.is_dir():
+        folders = (Path(entry.path) for entry in os.scandir(_INSTALLED))
+        yield from ((folder, _package_name(folder)) for folder in folders if (folder / MANIFESTS[0]).is_file())
 
 
 def _packages_below(root: Path, most: int | None) -> Iterator["_Folder"]:

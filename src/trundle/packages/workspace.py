@@ -1,6 +1,7 @@
 """What lies around a file: the package it is in, the workspace, the folders to look for its neighbours in."""
 
-from collections.abc import Iterator
+import os
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 MANIFESTS = ("package.xml", "manifest.xml")
@@ -25,6 +26,24 @@ def workspaces(start: Path) -> Iterator[Path]:
             beside = (folder.parent / space for space in _SPACES[folder.name])
             yield from (space for space in beside if space.is_dir())
             return
+
+
+def program_folders(package: str, folder: Path, environment: Mapping[str, str]) -> list[Path]:
+    """Where catkin and colcon put the programs of a package that they build: lib/PACKAGE of a prefix.
+
+    Args:
+        package: its name.
+        folder: where it lies, among sources or below a prefix's share.
+        environment: CMAKE_PREFIX_PATH names prefixes.
+    """
+    prefixes = [Path(entry) for entry in environment.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if entry]
+    if folder.parent.name == "share":
+        prefixes.append(folder.parent.parent)
+    sources = next((each for each in folder.parents if each.name == "src"), None)
+    if sources is not None:
+        prefixes += [sources.parent / "devel", sources.parent / "install", sources.parent / "install" / package]
+    homes = (prefix / "lib" / package for prefix in prefixes)
+    return [home for home in dict.fromkeys(homes) if home.is_dir()]
 
 
 def nearby(start: Path, *, levels: int = 4) -> list[Path]:

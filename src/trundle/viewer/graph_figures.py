@@ -4,7 +4,7 @@ import asyncio
 import contextlib
 
 from trundle.diagnostics import TrundleError
-from trundle.drawing import curves_svg, graph_of, graph_svg
+from trundle.drawing import Drawing, curves_svg, graph_of, graph_svg
 from trundle.ros import Field, Node, Trace, curves_of, follow_trace, split_topic, spread_fields
 
 _PERIOD_S = 1.0
@@ -25,6 +25,8 @@ class GraphFigures:
         self._task: asyncio.Task[None] | None = None
         self.drawings: dict[str, str] = {}
         """The newest, by title."""
+        self._drawn: Drawing | None = None
+        self._picture = ""
 
     @property
     def titles(self) -> tuple[str, ...]:
@@ -49,7 +51,9 @@ class GraphFigures:
                 if self._shows_graph:
                     publishers, subscribers, _ = await self._node.ask("getSystemState")
                     drawing = graph_of(dict(publishers), dict(subscribers), with_all=False)
-                    self.drawings[GRAPH] = await asyncio.to_thread(graph_svg, drawing)
+                    if drawing != self._drawn:  # of a large graph it takes a while
+                        self._drawn, self._picture = drawing, await asyncio.to_thread(graph_svg, drawing)
+                    self.drawings[GRAPH] = self._picture
                 await self._find_topics()
             if self._traces:
                 curves = curves_of(self._traces, last_s=_SHOWN_S)
