@@ -58,5 +58,11 @@ NB_MODULE(_wire, module) {
       })
       .def("read", [](const Program& self, nb::handle data) {
         return answer([&] { return self.read(data.ptr()); });
+      })
+      .def("receive", [](const Program& self, nb::handle recv_into, nb::handle room) {
+        return answer([&] { return self.receive(recv_into.ptr(), room.ptr()); });
       });
+  module.def("receive", [](nb::handle recv_into, nb::handle room) {
+    return answer([&] { return receive(recv_into.ptr(), room.ptr()); });
+  });
 }

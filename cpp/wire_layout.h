@@ -65,9 +65,15 @@ class Program {
   // A tuple of `bytes`, its length in front; the first long array in between, where it lies.
   Object frame(PyObject* message) const;
   Object read(PyObject* data) const;
+  // As `receive`, but with the message that the frame holds; a frame that holds none is not told apart.
+  Object receive(PyObject* recv_into, PyObject* room) const;
 
  private:
   std::vector<std::unique_ptr<Layout>> layouts_;
 };
+
+// Calls `recv_into(room)`. A pair: the content of a frame, if what came is one alone, as nearly always, else None; and
+// how much came.
+Object receive(PyObject* recv_into, PyObject* room);
 
 }  // namespace trundle::wire

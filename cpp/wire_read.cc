@@ -127,8 +127,46 @@ class Reader {
   Py_ssize_t at_ = 0;
 };
 
+struct Received {
+  Object content, count;
+
+  Received(PyObject* recv_into, PyObject* room) : count(taken(PyObject_CallOneArg(recv_into, room))) {
+    const Py_ssize_t come = PyLong_AsSsize_t(count.get());
+    if (come < 0 && PyErr_Occurred()) throw Raised{};
+    const View view(room, PyBUF_SIMPLE);
+    uint32_t size = 0;
+    constexpr Py_ssize_t kBegin = sizeof size;
+    if (come < kBegin || come > view.len) return;
+    std::memcpy(&size, view.buf, sizeof size);
+    if (size == come - kBegin)
+      content = taken(PyBytes_FromStringAndSize(static_cast<const char*>(view.buf) + kBegin, come - kBegin));
+  }
+
+  Object with(const Object& first) const {
+    return taken(PyTuple_Pack(2, first ? first.get() : Py_None, count.get()));
+  }
+};
+
 }  // namespace
 
 Object Program::read(PyObject* data) const { return Reader(data).read_all(*layouts_.back()); }
+
+Object Program::receive(PyObject* recv_into, PyObject* room) const {
+  const Received received(recv_into, room);
+  Object message;
+  if (received.content) {
+    try {
+      message = read(received.content.get());
+    } catch (const Raised&) {
+      PyErr_Clear();  // whoever cuts the frame out of the room meets it again
+    }
+  }
+  return received.with(message);
+}
+
+Object receive(PyObject* recv_into, PyObject* room) {
+  const Received received(recv_into, room);
+  return received.with(received.content);
+}
 
 }  // namespace trundle::wire

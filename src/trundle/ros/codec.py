@@ -33,8 +33,11 @@ class Codec:
 
         self.type = key.replace("/msg/", "/", 1)
         self._program = compile_type(store, key)
-        self.exact_frame, self.exact_read = self._program.frame, self._program.read
-        """As `frame` and `read`, but what these would mend or explain raises a `MISFITS`."""
+        self.exact_frame = self._program.frame
+        """As `frame`, but what that would mend or explain raises a `MISFITS`."""
+        self.receive = self._program.receive
+        """Called with a socket's `recv_into` and room for it; returns a message whose frame came alone, or None, and
+        how much came."""
         self._mend = mend
 
     def write(self, message: Any) -> bytes:

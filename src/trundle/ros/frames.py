@@ -1,6 +1,5 @@
 """Frames out of a stream of bytes: each is its length, then so many bytes."""
 
-import socket
 import struct
 import threading
 from collections.abc import Callable, Iterator
@@ -58,19 +57,9 @@ class FrameCutter:
         self._shared[: len(self._rest)] = self._rest
         return self._shared[len(self._rest) :]
 
-    def receive(self, sock: socket.socket) -> bytes | int:
-        """Read what there is: one short frame alone, as nearly always, or so many bytes to be `cut`; 0: it has ended.
-
-        Raises:
-            OSError: the connection is broken; BlockingIOError: there is nothing.
-        """
-        if self._rest or self._own is not None or self._expected:
-            return sock.recv_into(self.room())
-        shared = self._shared
-        count = sock.recv_into(shared)
-        if LENGTH.size <= count <= _LONG_BYTES and LENGTH.unpack_from(shared)[0] == count - LENGTH.size:
-            return bytes(shared[LENGTH.size : count])
-        return count
+    def room_for_one(self) -> memoryview | None:
+        """Return where a frame may come to lie that comes alone; None within one, or after a long one."""
+        return None if self._rest or self._own is not None or self._expected else self._shared
 
     def cut(self, count: int) -> Iterator[bytes | memoryview]:
         """Take note of so many new bytes; yield the frames that are complete, without their lengths.

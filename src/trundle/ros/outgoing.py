@@ -17,6 +17,8 @@ from .shelf import LONG_BYTES, Shelf
 _MOST_KERNEL_BYTES = 4 * 1024 * 1024
 """As much as TCP may take by Linux's own settings."""
 _UNIX = getattr(socket, "AF_UNIX", None)
+_WRITEV: "Callable[[int, Sequence[bytes | memoryview]], int] | None" = getattr(os, "writev", None)
+"""Not on Windows, where a socket is no file."""
 _AGAIN_S = 0.05
 """After which it is tried again where the loop cannot look."""
 _AT_ONCE = 200
@@ -66,10 +68,10 @@ class Outgoing:
 
     def send(self, frames: Sequence[Pieces], queue_size: int | None) -> None:
         """Send, from any thread; never blocks. At most `queue_size` frames wait, and the oldest go."""
+        if len(frames) == 1 and self.give(frames[0]):
+            return
         with self._lock:
             if self._is_closed:
-                return
-            if not self.is_behind and len(frames) == 1 and self._give_whole(frames[0]):
                 return
             self._queue.extend(frames)
             if not self.is_behind:
@@ -80,6 +82,26 @@ class Outgoing:
             if self._is_waiting or not self._is_full:
                 return
         self._call_soon(self._wait)
+
+    def give(self, frame: Pieces) -> bool:
+        """Give the kernel one short frame past the queue, as nearly all go; any thread. False: it took nothing."""
+        size = len(frame[0]) if len(frame) == 1 else _size(frame)
+        if _WRITEV is None or (self.is_near and size >= LONG_BYTES):
+            return False
+        with self._lock:
+            if self.is_behind or self._is_closed:
+                return False
+            try:
+                sent = _WRITEV(self._fd, frame)
+            except OSError:  # the queue meets it again
+                return False
+            self.bytes_sent += sent
+            self.frames_sent += 1
+            if sent < size:
+                self._rest = _after(frame, sent)
+                self.is_behind = self._is_full = True
+                self._call_soon(self._wait)
+        return True
 
     def take_note(self, note: bytes) -> None:
         """Take what the peer says of the memory that both see, and go on if that makes room; on the loop.
@@ -105,23 +127,6 @@ class Outgoing:
                 self._twin.close()
             if self._shelf is not None:
                 self._shelf.close()
-
-    def _give_whole(self, frame: Pieces) -> bool:
-        """Give the kernel one short frame past the queue, as nearly all go; False: it took nothing."""
-        size = len(frame[0]) if len(frame) == 1 else _size(frame)
-        if not hasattr(os, "writev") or (self.is_near and size >= LONG_BYTES):
-            return False
-        try:
-            sent = os.writev(self._fd, frame)
-        except OSError:  # the queue meets it again
-            return False
-        self.bytes_sent += sent
-        self.frames_sent += 1
-        if sent < size:
-            self._rest = _after(frame, sent)
-            self.is_behind = self._is_full = True
-            self._call_soon(self._wait)
-        return True
 
     def _write(self) -> None:
         """Give the kernel, or the shelf, as much as it takes."""
@@ -181,7 +186,7 @@ class Outgoing:
                 self._rest = (*self._rest, self._shelf.offer())
 
     def _give(self, pieces: list[bytes | memoryview]) -> int:
-        return os.writev(self._fd, pieces) if hasattr(os, "writev") else self._open_twin().send(pieces[0])
+        return self._open_twin().send(pieces[0]) if _WRITEV is None else _WRITEV(self._fd, pieces)
 
     def _widen(self, size: int) -> None:
         """Have the kernel take a whole long frame at once; it does so by itself for TCP only."""

@@ -43,6 +43,7 @@ class Publisher:
         self.type = type_name
         self.latch = latch
         self._node = node
+        self._loop_threads = node.loop.own_threads
         self._queue_size = queue_size
         self._on_connect = on_connect
         self._foreign = foreign
@@ -234,7 +235,7 @@ class Publisher:
         Waking the loop's thread takes longer than sending.
         """
         outs = self._direct
-        if not outs or threading.get_ident() in self._node.loop.own_threads or not self._turn.acquire(blocking=False):
+        if not outs or threading.get_ident() in self._loop_threads or not self._turn.acquire(blocking=False):
             return False
         try:
             if outs is not self._direct or self._flushes or self._outbox:
@@ -251,7 +252,8 @@ class Publisher:
                 framed = self._framed(message)
             if framed is not None:
                 for out in outs:
-                    out.send([framed], self._queue_size)
+                    if not out.give(framed):
+                        out.send([framed], self._queue_size)
             return True
         finally:
             self._turn.release()

@@ -36,12 +36,12 @@ class ReadingSelector(selectors.DefaultSelector):
     def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
         """As the loop calls it, who hears of its own sockets only."""
         if self._epoll is not None:
-            numbers, ready = [number for number, _ in self._epoll.poll(timeout, _AT_ONCE)], None
+            events, ready = self._epoll.poll(timeout, _AT_ONCE), None
         else:
             ready = super().select(timeout)
-            numbers = [key.fd for key, _ in ready]
+            events = [(key.fd, mask) for key, mask in ready]
         has_more = False
-        for number in numbers:
+        for number, _ in events:
             if (readable := self._readers.get(number)) is None:
                 has_more = True
                 continue

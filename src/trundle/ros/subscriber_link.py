@@ -5,8 +5,9 @@ import contextlib
 import socket
 from typing import TYPE_CHECKING
 
+from . import _wire
+from .codec import Codec
 from .errors import MessageError, WireError
-from .frames import LENGTH
 from .headers import check_md5
 from .messages import ANY_TYPE
 from .selector import ReadingSelector
@@ -20,12 +21,15 @@ if TYPE_CHECKING:
 class SubscriberLink(FrameProtocol):
     """Asks for a topic, then hands on what comes; read past asyncio once both headers are there."""
 
-    def __init__(self, subscription: "Subscription", request: dict[str, str], selector: ReadingSelector) -> None:
+    def __init__(
+        self, subscription: "Subscription", request: dict[str, str], selector: ReadingSelector, codec: Codec | None
+    ) -> None:
         super().__init__()
         self.ended: asyncio.Future[str] = asyncio.get_running_loop().create_future()
         self._subscription = subscription
         self._request = request
         self._selector = selector
+        self._receive = _wire.receive if codec is None else codec.receive
         self._socket: socket.socket | None = None
         """The connection once more, read past asyncio."""
         self._shelf: ShelfReader | None = None
@@ -71,23 +75,28 @@ class SubscriberLink(FrameProtocol):
 
     def _readable(self) -> None:
         assert self._socket is not None
+        room = self.frames.room_for_one()
         try:
-            come = self.frames.receive(self._socket)
+            if room is None:
+                come, count = None, self._socket.recv_into(self.frames.room())
+            else:
+                come, count = self._receive(self._socket.recv_into, room)
         except BlockingIOError:
             return
         except OSError as error:
             self.close(str(error))
             return
-        if isinstance(come, bytes):
-            self.bytes_received += LENGTH.size + len(come)
-            try:
-                self._subscription.take(come, self.header or {})
-            except MessageError as error:
-                self.close(str(error))
-        elif come:
-            self.buffer_updated(come)
+        if come is None:
+            if count:
+                self.buffer_updated(count)
+            else:
+                self.close("the peer closed the connection")
+            return
+        self.bytes_received += count
+        if self._subscription.is_raw:
+            self._subscription.take(come, self.header or {})
         else:
-            self.close("the peer closed the connection")
+            self._subscription.receive(come)
 
     def closed(self, reason: str, /) -> None:
         if self._socket is not None:

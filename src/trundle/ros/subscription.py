@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Awaitable, Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from .codec import MISFITS, Codec
+from .codec import Codec
 from .errors import MessageError, RosError, WireError
 from .headers import check_md5
 from .messages import ANY_TYPE, Message, RawMessage
@@ -151,12 +151,7 @@ class Subscription:
             MessageError: the bytes are no such message.
         """
         if not self.is_raw:
-            codec = self._codec or self._make_codec()
-            try:
-                message = codec.exact_read(data)
-            except MISFITS:
-                message = codec.read(data)
-            self.receive(message)
+            self.receive((self._codec or self._make_codec()).read(data))
             return
         self.receive(
             RawMessage(
@@ -228,7 +223,8 @@ class Subscription:
             raise WireError(reason)
 
     async def _open(self, host: str, port: int, nearby: str | None) -> "SubscriberLink":
-        link, loop = SubscriberLink(self, self._request(), self._node.loop.selector), asyncio.get_running_loop()
+        loop = asyncio.get_running_loop()
+        link = SubscriberLink(self, self._request(), self._node.loop.selector, self._codec)
         if nearby is not None:
             with contextlib.suppress(OSError):  # not so near, or gone
                 await loop.create_unix_connection(lambda: link, nearby)
