@@ -1,14 +1,14 @@
 """`trundle convert`: what was understood of a file, written out."""
 
-import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Literal, TypeAlias
 
 from trundle.description import Loaded, UriOf, write_sdf, write_urdf, written_uri
-from trundle.diagnostics import DescriptionError, Diagnostics, UsageError
+from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.meshes import Texture
 from trundle.model import flattened
+from trundle.outputs import write_whole
 from trundle.packages import Packages
 
 from .described_file import load_described
@@ -49,7 +49,7 @@ def convert(
     copies = FileCopies(output, report)
     text = _written(loaded, to, copies.uri_of, copies.picture_of, report)
     copies.copy()
-    _replace(output, text)
+    write_whole(output, text)
     return text
 
 
@@ -71,14 +71,3 @@ def _written(
             if len(models) != 1:
                 raise DescriptionError(loaded.world.at, f"a URDF is one robot; here are {len(models)} models")
             return write_urdf(models[0], uri_of=uri_of, report=report)
-
-
-def _replace(output: Path, text: str) -> None:
-    """Write a file whole or not at all."""
-    half = output.with_name(f".{output.name}.part")
-    try:
-        half.write_text(text, encoding="utf-8")
-        os.replace(half, output)
-    except OSError as error:
-        half.unlink(missing_ok=True)
-        raise UsageError(f"cannot write {output}: {error.strerror}") from None

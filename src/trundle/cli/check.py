@@ -40,8 +40,9 @@ def _check(args: argparse.Namespace) -> int:
     warned = any(finding.severity == "warning" for finding in outcome.report.findings)
     if args.graph is not None:
         from trundle.diagram import tree_svg
+        from trundle.outputs import write_whole
 
-        args.graph.write_text(tree_svg(outcome.trees(), title=args.file), encoding="utf-8")
+        write_whole(args.graph, tree_svg(outcome.trees(), title=args.file))
     if args.json:
         import json
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from trundle.diagnostics import UsageError
 from trundle.drawing import graph_dot, graph_of, graph_svg
+from trundle.outputs import write_whole
 
 from .running import master, original_errors
 
@@ -37,8 +38,5 @@ def main(args: argparse.Namespace) -> int:
     target = Path(args.output)
     if target.suffix not in (".svg", ".gv", ".dot"):
         raise UsageError(f"{target} ends in none of .svg, .gv, .dot")
-    try:
-        target.write_text(graph_svg(drawing) if target.suffix == ".svg" else graph_dot(drawing), encoding="utf-8")
-    except OSError as error:
-        raise UsageError(f"{target} cannot be written: {error.strerror}") from None
+    write_whole(target, graph_svg(drawing) if target.suffix == ".svg" else graph_dot(drawing))
     return 0

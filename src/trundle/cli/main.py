@@ -5,6 +5,7 @@ A command is a module `trundle.cli.<name>`: the first line of its docstring is i
 """
 
 import argparse
+import errno
 import gc
 import importlib
 import os
@@ -51,6 +52,8 @@ _OF_ROS = ("core", "topic", "node", "param", "service", "bag", "msg", "srv", "tf
 """Ctrl-C is how their work ends, not how it fails: exit code 0, as of the originals."""
 _INTERMIXED = ("launch", "test", "xacro")
 """Take options between their words, as roslaunch does: `trundle launch robot.launch --headless gui:=false`."""
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+"""Why a file that was opened cannot be written."""
 EXIT_OK, EXIT_INPUT, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
@@ -99,20 +102,32 @@ def _main(arguments: list[str]) -> int:
             from trundle.packages import ALLOW_OUTSIDE
 
             os.environ[ALLOW_OUTSIDE] = "1"
-        return _command(name).main(parsed)
+        code = _command(name).main(parsed)
+        if sys.stdout is not None:  # it was closed: `trundle … >&-`
+            sys.stdout.flush()
+        return code
     except SystemExit as stop:  # argparse's own way to end: 0 after --help, 2 for wrong usage
         return int(stop.code or 0)
     except TrundleError as error:
         print(error if _names_a_place(str(error)) else f"trundle {name}: error: {error}", file=sys.stderr)
         return EXIT_INPUT
     except BrokenPipeError:  # `trundle topic echo … | head`
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _leave_stdout()
         return EXIT_OK
     except OSError as error:  # above all a file that cannot be written
-        if error.filename is None:
+        if error.filename is not None:
+            print(f"trundle {name}: error: {error.filename}: {error.strerror}", file=sys.stderr)
+        elif error.errno in _FULL:
+            print(f"trundle {name}: error: the output cannot be written: {error.strerror}", file=sys.stderr)
+            _leave_stdout()
+        else:
             raise
-        print(f"trundle {name}: error: {error.filename}: {error.strerror}", file=sys.stderr)
         return EXIT_INPUT
+
+
+def _leave_stdout() -> None:
+    """Have what is still to be written, at the latest as Python ends, go nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _heed(words: Arguments) -> None:

@@ -8,10 +8,12 @@ import os
 import re
 import sys
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 from trundle.diagnostics import UsageError
 from trundle.names import join_names
+from trundle.outputs import write_whole
 from trundle.ros import set_leaves
 
 from .running import global_name, master, original_errors
@@ -142,11 +144,7 @@ def _dump(args: argparse.Namespace) -> int:
     if not args.file:
         sys.stdout.write(text)
     else:
-        try:
-            with open(args.file, "w", encoding="utf-8") as file:
-                file.write(text)
-        except OSError as error:
-            raise UsageError(f"cannot write {args.file}: {error.strerror}") from None
+        write_whole(Path(args.file), text)
     return 0
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from trundle.diagnostics import UsageError
 from trundle.drawing import Curve, curves_svg, curves_text
+from trundle.outputs import write_whole
 from trundle.ros import (
     Field,
     GraphLoop,
@@ -55,7 +56,7 @@ def main(args: argparse.Namespace) -> int:
     if target is None:
         print(_terminal(curves))
         return 0
-    target.write_text(curves_svg(curves), encoding="utf-8")
+    write_whole(target, curves_svg(curves))
     return 0
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from trundle.diagnostics import UsageError
 from trundle.diagram import TreeNode, tree_svg, tree_text
+from trundle.outputs import write_whole
 from trundle.ros import follow_time
 
 from .running import running_node
@@ -42,10 +43,7 @@ def main(args: argparse.Namespace) -> int:
         print(tree_text(_roots(found, now_s)))
         return 0
     text = tree_svg(_roots(found, now_s), title="tf frames") if target.suffix == ".svg" else _graphviz(found, now_s)
-    try:
-        target.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise UsageError(f"{target} cannot be written: {error.strerror}") from None
+    write_whole(target, text)
     print(f"{target} generated")
     return 0
 

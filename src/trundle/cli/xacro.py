@@ -31,6 +31,7 @@ def main(args: argparse.Namespace) -> int:
 def _expand(args: argparse.Namespace) -> int:
     from trundle.description import expand_xacro
     from trundle.diagnostics import Diagnostics, UsageError
+    from trundle.outputs import write_whole
     from trundle.packages import Packages
 
     words = [word.partition(":=") for word in args.arguments]
@@ -45,5 +46,5 @@ def _expand(args: argparse.Namespace) -> int:
     if args.output is None:
         print(text, end="")
     else:
-        args.output.write_text(text)
+        write_whole(args.output, text)
     return 0

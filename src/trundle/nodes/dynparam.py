@@ -7,6 +7,7 @@ from typing import Any, cast
 
 import yaml
 
+from trundle.outputs import write_whole
 from trundle.ros import Node, Options, ServiceError, find_reconfigurable, read_options, set_options
 
 from .host import Host
@@ -49,7 +50,7 @@ async def _get(node: Node, args: argparse.Namespace) -> None:
 
 
 async def _dump(node: Node, args: argparse.Namespace) -> None:
-    Path(args.file).write_text(yaml.safe_dump(await _values(node, args)), encoding="utf-8")
+    write_whole(Path(args.file), yaml.safe_dump(await _values(node, args)))
 
 
 async def _set(node: Node, args: argparse.Namespace) -> None:

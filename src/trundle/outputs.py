@@ -1,0 +1,33 @@
+"""Files that a command is asked to write: whole or not at all."""
+
+import os
+from pathlib import Path
+
+from .diagnostics import UsageError
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Write a text as UTF-8; a file that is there keeps what it holds until the new text is on the disk.
+
+    A link stays one, and what is no file, a pipe or /dev/stdout, is written into.
+
+    Raises:
+        UsageError: it cannot be written.
+    """
+    try:
+        if path.exists() and not path.is_file():
+            path.write_text(text, encoding="utf-8")
+        else:
+            _replace(path.resolve(), text)
+    except OSError as error:
+        raise UsageError(f"cannot write {path}: {error.strerror}") from None
+
+
+def _replace(path: Path, text: str) -> None:
+    half = path.with_name(f".{path.name}.part")
+    try:
+        half.write_text(text, encoding="utf-8")
+        os.replace(half, path)
+    except OSError:
+        half.unlink(missing_ok=True)
+        raise

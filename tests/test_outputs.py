@@ -1,0 +1,65 @@
+"""What a command is asked to write: whole or not at all, and never in the place of a device."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from trundle.cli import main
+from trundle.diagnostics import UsageError
+from trundle.outputs import write_whole
+
+MODEL = '<sdf version="1.6"><model name="m"><link name="l"/></model></sdf>'
+DEV_FULL = Path("/dev/full")
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> str:
+    (tmp_path / "m.sdf").write_text(MODEL)
+    return str(tmp_path / "m.sdf")
+
+
+def test_a_file_is_replaced_and_a_link_to_it_stays_one(tmp_path: Path) -> None:
+    file, link = tmp_path / "a.txt", tmp_path / "link"
+    link.symlink_to(file)
+
+    write_whole(link, "α")
+    write_whole(link, "β")
+
+    assert file.read_bytes() == "β".encode()
+    assert link.is_symlink()
+    assert {path.name for path in tmp_path.iterdir()} == {"a.txt", "link"}
+
+
+def test_a_pipe_is_written_into(tmp_path: Path, model: str) -> None:
+    """`trundle convert … -o /dev/stdout` put a file where the device was."""
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    with subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE, text=True) as reader:
+        assert main(["convert", model, "--to", "sdf", "-o", str(pipe)]) == 0
+        assert reader.communicate()[0].startswith("<?xml")
+    assert pipe.is_fifo()
+
+
+def test_what_cannot_be_written_leaves_what_was_there(tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(UsageError, match=r"cannot write .*folder: Is a directory"):
+        write_whole(tmp_path / "folder", "a")
+    with pytest.raises(UsageError, match=r"cannot write .*none/a: No such file"):
+        write_whole(tmp_path / "none/a", "a")
+    assert [path.name for path in tmp_path.iterdir()] == ["folder"]
+
+
+@pytest.mark.skipif(not DEV_FULL.is_char_device(), reason="this system has no /dev/full")
+def test_a_full_disk_is_one_sentence(model: str) -> None:
+    words = [sys.executable, "-m", "trundle", "check", model]
+    with DEV_FULL.open("w") as full:
+        done = subprocess.run(words, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    drawn = subprocess.run([*words, "--graph", str(DEV_FULL)], capture_output=True, text=True, check=False)
+
+    assert (done.returncode, drawn.returncode) == (1, 1)
+    assert done.stderr.splitlines()[-1] == "trundle check: error: the output cannot be written: No space left on device"
+    assert drawn.stderr.splitlines()[-1] == "trundle check: error: cannot write /dev/full: No space left on device"
+    assert "Traceback" not in done.stderr + drawn.stderr
