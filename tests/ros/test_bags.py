@@ -3,7 +3,7 @@
 import os
 import struct
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -21,6 +21,7 @@ from trundle.ros import (
     PlayOptions,
     Recorder,
     RecordOptions,
+    StepRecorder,
     UnindexedBagError,
     create_bag,
     open_bag,
@@ -411,6 +412,76 @@ def test_a_publishers_own_definition_is_recorded_to_the_letter(graph: Any, far: 
     recorder.stop()
     with open_bag(tmp_path / name) as bag:
         assert [c.definition for c in bag.connections] == [text]
+
+
+@contextmanager
+def _largest_file(size: int) -> Iterator[None]:
+    """No file can grow beyond this [bytes], as if the disk were full."""
+    resource = pytest.importorskip("resource", reason="this system limits no files")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+@pytest.mark.parametrize("name", ["x.bag", "x.mcap"])
+def test_a_disk_that_fills_up_costs_nothing_that_is_on_it(graph: Any, tmp_path: Path, name: str) -> None:
+    """What was written after the gap, once there was room again, made a bag that nobody could read."""
+    complaints: list[str] = []
+    publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
+    options = RecordOptions(topics=("/a",), path=tmp_path / name, chunk_bytes=10_000)
+    recorder = Recorder(graph.node("record"), options, say=lambda _: None, complain=complaints.append)
+    with _largest_file(100_000):
+        recorder.start()
+        graph.until(lambda: publisher.has_subscribers)
+        for i in range(300):
+            publisher.publish({"data": f"{i}" + 1000 * "."})
+        graph.until(recorder.done.is_set)
+    recorder.stop()
+
+    active = tmp_path / f"{name}.active"
+    why = f"{active}: File too large; trundle bag reindex makes a bag of what it holds"
+    assert (recorder.error, complaints) == (why, [f"recording broke off: {why}"])
+    assert not (tmp_path / name).exists()
+    kept = [message.data[4:].partition(b".")[0] for message in recovered(active)]
+    assert kept == [b"%d" % i for i in range(len(kept))]
+    assert len(kept) > 80
+
+
+@pytest.mark.parametrize("name", ["x.bag", "x.mcap"])
+def test_a_bag_that_cannot_be_finished_is_said_to_be_not(graph: Any, tmp_path: Path, name: str) -> None:
+    """All that was recorded waited in memory when the disk was full: there was no word of it."""
+    publisher = graph.node("talker").advertise("/a", STRING, latch=True)
+    recorder = Recorder(graph.node("record"), RecordOptions(topics=("/a",), path=tmp_path / name), say=lambda _: None)
+    recorder.start()
+    publisher.publish({"data": 20_000 * "."})
+    graph.until(lambda: recorder.recorded == 1)
+    with _largest_file(10_000):
+        recorder.stop()
+
+    assert recorder.error is not None
+    assert "File too large" in recorder.error
+    assert not (tmp_path / name).exists()
+
+
+def test_a_recording_in_step_that_broke_off_writes_no_more(graph: Any, tmp_path: Path) -> None:
+    complaints: list[str] = []
+    recorder = StepRecorder(graph.loop, tmp_path / "x.bag", complain=complaints.append)
+    publisher = graph.node("talker").advertise("/a", STRING)
+    with _largest_file(100_000):
+        for step in range(9):
+            publisher.publish({"data": f"{step}" + 400_000 * "."})
+            graph.loop.settle()
+            recorder.write(10**18 + step)
+    recorder.write(2 * 10**18)
+    recorder.close()
+
+    assert len(complaints) == 1
+    assert complaints[0].startswith(f"recording broke off: {tmp_path}/x.bag.active: File too large; ")
+    assert [path.name for path in tmp_path.iterdir()] == ["x.bag.active"]
+    assert (tmp_path / "x.bag.active").stat().st_size == 100_000
 
 
 @pytest.mark.parametrize("count", [0, 3])

@@ -1,7 +1,14 @@
 """Recorded and shown again."""
 
 import re
+import subprocess
+import sys
 import urllib.request
+
+import numpy as np
+import pytest
+
+from trundle.simulation import read_state_log
 
 
 def test_a_recorded_run_is_played_on_a_page(start, trundle, until, tmp_path) -> None:
@@ -21,6 +28,22 @@ def test_a_recorded_run_is_played_on_a_page(start, trundle, until, tmp_path) -> 
         assert page.status == 200
     assert playing.interrupt() == 130
     assert "Traceback" not in playing.output()
+
+
+def test_a_run_goes_on_where_its_recording_cannot(env, tmp_path) -> None:
+    """A disk that fills up ended the run with a traceback; here a file may have 512 or 1024 bytes times 20."""
+    file, log = tmp_path / "m.sdf", tmp_path / "run.log"
+    file.write_text('<sdf version="1.6"><model name="m"><pose>0 0 2 0 0 0</pose><link name="a"/></model></sdf>')
+    words = ["run", file, "--headless", "--no-ros", "--speed", "max", "--duration", "9", "--record", log]
+    limited = ["sh", "-c", 'ulimit -f 20 && exec "$@"', "sh", sys.executable, "-m", "trundle", *words]
+    done = subprocess.run(limited, env=env, capture_output=True, text=True, check=False)
+
+    assert done.returncode == 0, done.stderr
+    assert f"recording broke off: {log}: File too large; trundle play shows what it holds" in done.stderr
+    assert "9.000 s simulated" in done.stderr + done.stdout
+    times = read_state_log(log).times
+    assert 10 < len(times) < 9 * 50
+    assert times == pytest.approx(np.arange(len(times)) * 0.02)
 
 
 def test_what_is_no_recording_is_refused_in_a_sentence(trundle, tmp_path) -> None:

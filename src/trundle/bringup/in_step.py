@@ -83,9 +83,6 @@ class Steps:
         """Write what was said up to a time [ns] at which all is settled."""
         if self._recorder is not None:
             self._recorder.write(time_ns)
-            if self._recorder.error is not None and self._say is not None:
-                self._say(f"recording broke off: {self._recorder.error}")
-                self._recorder = None
         if self._end_ns is not None and time_ns >= self._end_ns:
             self.over.set()
 

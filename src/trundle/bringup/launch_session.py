@@ -126,7 +126,7 @@ class LaunchSession:
         """Write every topic into a bag; return who does it where that is done in step with the nodes."""
         graph = self.graph
         if in_step and not programs:
-            steps = StepRecorder(graph.loop, file)
+            steps = StepRecorder(graph.loop, file, complain=self._read.show.line)
             self._open_things.callback(steps.close)
             self._read.show.line(
                 f"{file} will be the same whenever this is run; /rosout and other programs are left out"
@@ -138,7 +138,8 @@ class LaunchSession:
         node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
         self._open_things.callback(lambda: graph.loop.run(node.shutdown(), timeout_s=_START_S))
         graph.loop.run(follow_time(node))
-        recorder = Recorder(node, RecordOptions(all_topics=True, path=file), say=node.log_debug)
+        options = RecordOptions(all_topics=True, path=file)
+        recorder = Recorder(node, options, say=node.log_debug, complain=self._read.show.line)
         recorder.start()
         self._open_things.callback(recorder.stop)
         return None

@@ -24,7 +24,7 @@ from .ros_side import RosSide
 from .showing import Showing
 from .signals import StopFlag, stop_flag
 from .stage import set_stage
-from .state_logs import begin_state_log
+from .state_logs import RunRecorder, begin_state_log
 
 OnInstability: TypeAlias = Literal["pause", "reset", "exit"]
 _MOST_RESETS = 10
@@ -88,7 +88,8 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             ros = open_things.enter_context(RosSide.open(simulation, stage, cameras, sensors, env, host=options.host))
             show.line(ros.story)
         if options.record is not None:
-            recorder = begin_state_log(options.record, simulation, stage.written, report)
+            log = begin_state_log(options.record, simulation, stage.written, report)
+            recorder = RunRecorder(log, show.line)
             simulation.add_hook(recorder, period_ns=recorder.period_ns)
             open_things.callback(recorder.close)
         make_node = None if ros is None else ros.make_node

@@ -22,6 +22,30 @@ def begin_state_log(path: Path, simulation: Simulation, world: World, report: Di
     return recorder
 
 
+class RunRecorder:
+    """A hook that logs a run; where the log cannot go on, the run does."""
+
+    period_ns = StateRecorder.period_ns
+
+    def __init__(self, recorder: StateRecorder, say: Callable[[str], None]) -> None:
+        self._recorder = recorder
+        self._say: Callable[[str], None] | None = say
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Write where everything is, up to the first time that it cannot be."""
+        if self._say is None:
+            return
+        try:
+            self._recorder.after_step(snapshot)
+        except OSError as error:
+            self._say(f"recording broke off: {error.filename}: {error.strerror}; trundle play shows what it holds")
+            self._say = None
+
+    def close(self) -> None:
+        """End the file."""
+        self._recorder.close()
+
+
 class WorldRecorder:
     """A hook that logs a world whose models come and go: each time they have, the next file begins."""
 

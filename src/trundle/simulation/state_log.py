@@ -9,6 +9,7 @@ time [s], x y z qw qx qy qz of every link in the world, the position of every jo
 or, without Trundle, `numpy.fromfile` after the first line.
 """
 
+import contextlib
 import json
 from dataclasses import dataclass
 from pathlib import Path
@@ -44,21 +45,33 @@ class StateRecorder:
         Raises:
             OSError: it cannot be written.
         """
+        self._path = path
         self._file: IO[bytes] = path.open("wb")
         header = {"format": FORMAT, "links": links, "joints": joints, "sdf": sdf}
-        self._file.write(json.dumps(header).encode() + b"\n")
-        self._file.flush()
+        self._write(json.dumps(header).encode() + b"\n")
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Write where everything is."""
+        """Write where everything is.
+
+        Raises:
+            OSError: it cannot be written; the file has ended.
+        """
         time = np.array([snapshot.time_ns / 1e9])
         row = np.concatenate([time, snapshot.poses.reshape(-1), snapshot.joint_positions])
-        self._file.write(row.astype(_ROW).tobytes())
-        self._file.flush()
+        self._write(row.astype(_ROW).tobytes())
 
     def close(self) -> None:
         """End the file."""
         self._file.close()
+
+    def _write(self, data: bytes) -> None:
+        try:
+            self._file.write(data)
+            self._file.flush()
+        except OSError as error:
+            with contextlib.suppress(OSError):  # what did not fit before does not now
+                self._file.close()
+            raise OSError(error.errno, error.strerror, str(self._path)) from None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -12,6 +12,11 @@ class BagError(RosError):
     """A file that is no bag, is damaged, or cannot be written."""
 
 
+def broken_off(path: Path, error: OSError) -> str:
+    """Why recording into a file broke off, and what becomes of what it holds."""
+    return f"{path}: {error.strerror}; trundle bag reindex makes a bag of what it holds"
+
+
 class UnindexedBagError(BagError):
     """A bag whose recording was cut off; its messages are there but not its index."""
 
@@ -105,6 +110,10 @@ class BagWriter(Protocol):
 
     def close(self) -> None:
         """Write the index and close the file."""
+        ...
+
+    def abandon(self) -> None:
+        """Close the file as it is, without an index: what is on the disk stays readable by `recovered`."""
         ...
 
     def __enter__(self) -> Self: ...

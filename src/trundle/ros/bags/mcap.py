@@ -1,5 +1,6 @@
 """ROS 1 messages in MCAP files (profile `ros1`), by the library mcap: https://mcap.dev/spec/registry."""
 
+import contextlib
 import os
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
@@ -116,6 +117,11 @@ class McapWriter:
         """Write the index and close the file."""
         self._writer.finish()
         self._file.close()
+
+    def abandon(self) -> None:
+        """Close the file as it is."""
+        with contextlib.suppress(OSError):  # what did not fit before does not now
+            self._file.close()
 
     def __enter__(self) -> Self:
         return self

@@ -17,7 +17,7 @@ from ..node import Node
 from ..rpc_client import call_value
 from ..subscription import Subscription
 from ..xmlrpc import FaultError
-from .bag import BagConnection, BagMessage, BagWriter
+from .bag import BagConnection, BagMessage, BagWriter, broken_off
 from .files import create_bag
 
 _FLUSH_S = 1.0
@@ -66,11 +66,26 @@ class RecordOptions:
 class Recorder:
     """Subscribes to topics as they come and writes what it hears, in a thread of its own."""
 
-    def __init__(self, node: Node, options: RecordOptions, *, say: Callable[[str], None]) -> None:
-        """Make a recorder; `say` is told what it does, in the original's words."""
+    def __init__(
+        self,
+        node: Node,
+        options: RecordOptions,
+        *,
+        say: Callable[[str], None],
+        complain: Callable[[str], None] = lambda _: None,
+    ) -> None:
+        """Make a recorder.
+
+        Args:
+            node: subscribes.
+            options: what to record, and how.
+            say: is told what it does, in the original's words.
+            complain: is told why recording broke off, as soon as it does.
+        """
         self._node = node
         self._options = options
         self._say = say
+        self._complain = complain
         self._wanted = [re.compile(topic) for topic in options.topics] if options.is_regex else []
         self._excluded = re.compile(options.exclude) if options.exclude else None
         self._subscriptions: dict[str, Subscription] = {}
@@ -216,13 +231,20 @@ class Recorder:
 
     def _write_all(self) -> None:
         try:
-            self._write_until_the_end()
-        except (OSError, RosError) as error:
-            self.error = str(error)
-            self.done.set()
-        finally:
-            with contextlib.suppress(OSError):
+            try:
+                self._write_until_the_end()
+            except RosError as error:
+                self._break_off(str(error))
+            if self._is_open:
                 self._close()
+        except OSError as error:
+            self._writer.abandon()
+            self._break_off(broken_off(self._active, error))
+
+    def _break_off(self, why: str) -> None:
+        self.error = why
+        self._complain(f"recording broke off: {why}")
+        self.done.set()
 
     def _write_until_the_end(self) -> None:
         flushed = time.monotonic()
@@ -273,7 +295,9 @@ class Recorder:
         self._path = self._name()
         self._active = self._path.with_name(f"{self._path.name}.active")
         self._active.unlink(missing_ok=True)
+        self._is_open = False
         writer = create_bag(self._active, compression=self._options.compression, chunk_bytes=self._options.chunk_bytes)
+        self._is_open = True
         self._say(f"Recording to '{self._path}'.")
         if self._begins is not None:
             self._begins.publish({"data": str(self._path)})

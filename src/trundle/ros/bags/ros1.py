@@ -1,5 +1,6 @@
 """ROS 1 bags (format 2.0), by the library rosbags."""
 
+import contextlib
 import struct
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
@@ -90,6 +91,10 @@ class Ros1Writer:
         """Write the index and close the file."""
         self._writer.close()
 
+    def abandon(self) -> None:
+        """Close the file as it is."""
+        self._writer.abandon()
+
     def __enter__(self) -> Self:
         return self
 
@@ -136,6 +141,12 @@ class _FlushingWriter(Writer):
         super().close()
         with self.path.open("r+b") as file:
             _write_padding(file)
+
+    def abandon(self) -> None:
+        """Close the file as it is."""
+        if self.bio is not None:
+            with contextlib.suppress(OSError):  # what did not fit before does not now
+                self.bio.close()
 
     def write_chunk(self, chunk: WriteChunk) -> None:
         """Write a chunk, then keep of its index only the counts, which are all that closing needs."""

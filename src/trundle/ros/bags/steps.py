@@ -1,12 +1,12 @@
 """Records what nodes of this process publish, stamped and put in order by whoever lets time pass: to the byte."""
 
-import contextlib
+from collections.abc import Callable
 from pathlib import Path
 
 from ..loop import GraphLoop
 from ..messages import Message
 from ..publisher import Publisher
-from .bag import BagConnection, BagError, BagMessage
+from .bag import BagConnection, BagError, BagMessage, broken_off
 from .files import create_bag
 
 _NAME = "/record"
@@ -21,8 +21,13 @@ class StepRecorder:
     wants_every = False
     """It writes what is said; nothing is said more often for its sake."""
 
-    def __init__(self, loop: GraphLoop, path: Path) -> None:
+    def __init__(self, loop: GraphLoop, path: Path, *, complain: Callable[[str], None]) -> None:
         """Open the file.
+
+        Args:
+            loop: whose nodes are heard.
+            path: of the bag.
+            complain: is told why recording broke off, if it does.
 
         Raises:
             BagError: it cannot be written.
@@ -32,8 +37,9 @@ class StepRecorder:
         self._active.unlink(missing_ok=True)
         self._writer = create_bag(self._active)
         self._heard: list[tuple[Publisher, bytes]] = []
-        self.error: str | None = None
-        """Why recording broke off, if it did."""
+        self._complain = complain
+        self._has_broken_off = False
+        self._is_abandoned = False
         loop.on_publisher.append(self._follow)
 
     def receive(self, message: Message) -> None:
@@ -47,21 +53,37 @@ class StepRecorder:
     def write(self, stamp_ns: int) -> None:
         """Write what was heard since the last time; called while the loop rests."""
         heard, self._heard = self._heard, []
-        if self.error is not None:
+        if self._has_broken_off:
             return
         # A stable sort: the messages of one publisher stay as they came.
         heard.sort(key=lambda each: (each[0].topic, each[0].caller))
         try:
             for publisher, data in heard:
                 self._writer.write(BagMessage(_connection(publisher), max(stamp_ns, 1), data))
-        except (OSError, BagError) as error:
-            self.error = str(error)
+        except BagError as error:
+            self._break_off(str(error))
+        except OSError as error:
+            self._abandon(error)
 
     def close(self) -> None:
         """Finish the file; what was not written yet came after the end."""
-        with contextlib.suppress(OSError):
+        if self._is_abandoned:
+            return
+        try:
             self._writer.close()
             self._active.replace(self._path)
+        except OSError as error:
+            self._abandon(error)
+
+    def _abandon(self, error: OSError) -> None:
+        """Leave the file as it is: what it would be given later would not follow on what it holds."""
+        self._is_abandoned = True
+        self._writer.abandon()
+        self._break_off(broken_off(self._active, error))
+
+    def _break_off(self, why: str) -> None:
+        self._has_broken_off = True
+        self._complain(f"recording broke off: {why}")
 
     def _follow(self, publisher: Publisher) -> None:
         if publisher.topic not in _BY_THE_WALL:
