@@ -1,11 +1,37 @@
 """The README says what is true."""
 
 import importlib.util
+import textwrap
+from itertools import takewhile
 from pathlib import Path
+
+import pytest
 
 import trundle
 
 ROOT = Path(__file__).parents[1]
+
+
+@pytest.mark.parametrize("home", ["empty", "of the tutorial"])
+def test_its_python_runs_with_the_tutorial_s_model_and_without(
+    home: str,
+    request: pytest.FixtureRequest,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """The tutorial's model, which goes before the one that comes with Trundle, is called my_robot."""
+    if home == "of the tutorial":
+        seeds: Path = request.getfixturevalue("shared") / "seeds"
+        (tmp_path / ".gazebo/models").mkdir(parents=True)
+        (tmp_path / ".gazebo/models/rp2w").symlink_to(seeds / "rp2w")
+    monkeypatch.setenv("HOME", str(tmp_path))
+    _, _, after = (ROOT / "README.md").read_text().partition("From Python, the same simulator:\n\n")
+    lines = list(takewhile(lambda line: not line or line.startswith("    "), after.splitlines()))
+
+    exec(textwrap.dedent("\n".join(lines)), {})
+
+    assert capsys.readouterr().out.startswith("Pose(position=(")
 
 
 def test_its_table_of_what_runs_is_the_code_s_own() -> None:
