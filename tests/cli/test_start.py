@@ -1,5 +1,6 @@
 """The program `trundle` that starts Python: Ctrl-C before Python could answer it, and where it finds its script."""
 
+import os
 import shutil
 import signal
 import subprocess
@@ -81,3 +82,15 @@ def test_without_its_script_it_says_which_is_missing_and_what_to_do(beside: Path
 
     assert done.returncode == 1
     assert done.stderr == f"{beside.with_name('_trundle')}: No such file or directory; install Trundle again\n"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "ascii"])
+def test_a_name_that_the_terminal_cannot_show_is_written_with_backslashes(tmp_path: Path, encoding: str) -> None:
+    """Archives of the years before UTF-8 have names in Latin-1."""
+    env = {**os.environ, "PYTHONIOENCODING": f"{encoding}:strict"}
+    words = [os.fsencode(sys.executable), b"-m", b"trundle", b"check", b"r\xf6bot.urdf"]
+    done = subprocess.run(words, env=env, cwd=tmp_path, capture_output=True, check=False)
+
+    assert done.returncode == 1
+    assert done.stdout.splitlines()[-1] == b"r\\udcf6bot.urdf: refused; 1 error"
+    assert b"Traceback" not in done.stderr

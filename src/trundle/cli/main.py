@@ -13,6 +13,7 @@ import signal
 import sys
 from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
+from io import TextIOWrapper
 from typing import Protocol, cast
 
 from trundle import __version__
@@ -73,6 +74,8 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code: 0 success, 1 bad input, 2 wrong usage, 130 (ROS' tools 0) on Ctrl-C."""
     arguments = list(sys.argv[1:] if argv is None else argv)
+    if isinstance(sys.stdout, TextIOWrapper) and sys.stdout.errors == "strict":
+        sys.stdout.reconfigure(errors="backslashreplace")  # as stderr's: names of files are of any bytes
     try:
         return _main(arguments)
     except KeyboardInterrupt:
