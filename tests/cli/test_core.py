@@ -4,7 +4,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -16,8 +16,8 @@ from trundle.ros import MasterProxy
 
 
 @contextmanager
-def _core(*arguments: str, logs: Path) -> Generator["tuple[subprocess.Popen[str], str]"]:
-    command = [sys.executable, "-m", "trundle", "core", "-p", "0", *arguments]
+def _core(*arguments: str, logs: Path, shell: Sequence[str] = ()) -> Generator["tuple[subprocess.Popen[str], str]"]:
+    command = [*shell, sys.executable, "-m", "trundle", "core", "-p", "0", *arguments]
     env = {**os.environ, "ROS_LOG_DIR": str(logs)}
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=env) as process:
         try:
@@ -38,6 +38,13 @@ def test_it_answers_until_it_is_stopped(number: signal.Signals, tmp_path: Path) 
         assert process.wait(20) == 0
         assert process.stderr is not None
         assert "Traceback" not in process.stderr.read()
+
+
+def test_a_job_in_a_scripts_background_hears_sigint_too(tmp_path: Path) -> None:
+    """`roscore & … kill -INT $!`: such a shell has its jobs ignore it."""
+    with _core(logs=tmp_path, shell=["sh", "-c", "trap '' INT; exec \"$@\"", "sh"]) as (process, _):
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) == 0
 
 
 def test_a_shutdown_request_ends_it(tmp_path: Path) -> None:

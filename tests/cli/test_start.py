@@ -1,4 +1,4 @@
-"""The program `trundle` that starts Python: Ctrl-C before Python could answer it, and where it finds its script."""
+"""How `trundle` starts: Ctrl-C before Python could answer it, where it finds its script, what its terminal can show."""
 
 import os
 import shutil
@@ -75,6 +75,22 @@ def test_a_link_to_it_and_arguments_of_any_kind(tmp_path: Path) -> None:
 
     assert _run(link, "--version").stdout == _run(_installed(), "--version").stdout != ""
     assert "no such file" in _run(link, "check", "a 'b' \"c\" ü").stdout
+
+
+@pytest.mark.parametrize(("command", "shown"), [("check --tree", "\\xdcber"), ("xacro", '<link name="&#220;ber"/>')])
+@pytest.mark.parametrize("terminal", [{"PYTHONIOENCODING": "ascii"}, {"LC_ALL": "POSIX", "PYTHONCOERCECLOCALE": "0"}])
+def test_letters_that_a_terminal_lacks_are_written_by_number(
+    tmp_path: Path, terminal: dict[str, str], command: str, shown: str
+) -> None:
+    file = tmp_path / "robot.urdf"
+    file.write_text('<?xml version="1.0"?><robot name="r"><link name="Über"/></robot>', encoding="utf-8")
+    words = [sys.executable, "-m", "trundle", *command.split(), str(file)]
+    env = {**os.environ, "PYTHONUTF8": "0", **terminal}
+
+    done = subprocess.run(words, env=env, capture_output=True, text=True, check=False)
+
+    assert done.returncode == 0, done.stderr
+    assert shown in done.stdout
 
 
 def test_without_its_script_it_says_which_is_missing_and_what_to_do(beside: Path) -> None:

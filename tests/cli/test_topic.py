@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -225,6 +226,23 @@ def test_piped_documents_are_published(graph: Any, monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(sys, "stdin", io.StringIO("data: one\n---\ndata: two\n---\n"))
     assert graph.trundle("topic", "pub", "/lines", STRING)[0] == 0
     graph.until(lambda: got == ["one", "two"])
+
+
+def test_the_one_message_of_a_file_is_published_again_and_again(graph: Any, tmp_path: Path) -> None:
+    file = tmp_path / "line.yaml"
+    file.write_text("data: one\n")
+    command = [sys.executable, "-m", "trundle", "topic", "pub", "-f", str(file), "/lines", STRING]
+    got: list[Any] = []
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            graph.node("n").subscribe("/lines", STRING, got.append)
+            graph.until(lambda: len(got) > 2)
+            process.send_signal(signal.SIGINT)
+            assert process.wait(PATIENCE_S) == 0
+            assert process.stdout is not None
+            assert process.stdout.read() == "Got one message and a rate, publishing repeatedly\n"
+        finally:
+            process.kill()
 
 
 def test_namespace_and_master_may_be_words(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:

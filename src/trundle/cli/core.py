@@ -38,6 +38,7 @@ def main(args: argparse.Namespace) -> int:
     if not 0 <= args.port < 65536:
         raise UsageError(f"a port lies between 0 and 65535, got {args.port}")
     reasons: SimpleQueue[str] = SimpleQueue()  # not an Event: only this may be told by a signal's handler
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # which a shell's background jobs ignore otherwise
     signal.signal(signal.SIGTERM, lambda _number, _frame: reasons.put("terminated"))
     with GraphLoop() as loop:
         core = Core(

@@ -74,8 +74,7 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code: 0 success, 1 bad input, 2 wrong usage, 130 (ROS' tools 0) on Ctrl-C."""
     arguments = list(sys.argv[1:] if argv is None else argv)
-    if isinstance(sys.stdout, TextIOWrapper) and sys.stdout.errors == "strict":
-        sys.stdout.reconfigure(errors="backslashreplace")  # as stderr's: names of files are of any bytes
+    _print_whatever(as_xml=arguments[:1] in (["convert"], ["xacro"]))
     try:
         return _main(arguments)
     except KeyboardInterrupt:
@@ -131,6 +130,15 @@ def _main(arguments: list[str]) -> int:
 def _leave_stdout() -> None:
     """Have what is still to be written, at the latest as Python ends, go nowhere."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _print_whatever(*, as_xml: bool) -> None:
+    """Have what stdout's encoding lacks written by number, as stderr has it: names of files are of any bytes."""
+    out = sys.stdout
+    if isinstance(out, TextIOWrapper) and (out.encoding.lower(), out.errors) != ("utf-8", "surrogateescape"):
+        out.reconfigure(
+            errors="xmlcharrefreplace" if as_xml else "backslashreplace"
+        )
 
 
 def _heed(words: Arguments) -> None:

@@ -90,7 +90,7 @@ def _publish_documents(args: argparse.Namespace, node: Node, publisher: Publishe
     until = time.monotonic() + _SUBSCRIBER_S
     while not publisher.has_subscribers and time.monotonic() < until:
         time.sleep(0.01)
-    repeats = isinstance(documents, list) and len(documents) == 1 and args.rate is not None
+    repeats = isinstance(documents, list) and len(documents) == 1 and rate is not None
     if repeats:
         print("Got one message and a rate, publishing repeatedly", flush=True)
     while True:

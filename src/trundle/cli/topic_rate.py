@@ -33,6 +33,8 @@ def main(args: argparse.Namespace) -> int:
                 wanted = expression(args.filter)
                 callback = meter.take if wanted is None else _filtered(meter.take, wanted, field.topic)
                 kind = "*" if wanted is None else field.type
+                if wanted is not None:  # the first one read takes long: those that come meanwhile would be one burst
+                    loop.messages.deserialize(loop.messages.serialize(loop.messages.new(kind)), kind)
                 node.subscribe(field.topic, kind, callback, queue_size=None, tcp_nodelay=args.tcpnodelay)
             elif is_delay:
                 if "header" not in loop.messages.fields(field.type):
