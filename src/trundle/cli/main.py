@@ -136,9 +136,7 @@ def _print_whatever(*, as_xml: bool) -> None:
     """Have what stdout's encoding lacks written by number, as stderr has it: names of files are of any bytes."""
     out = sys.stdout
     if isinstance(out, TextIOWrapper) and (out.encoding.lower(), out.errors) != ("utf-8", "surrogateescape"):
-        out.reconfigure(
-            errors="xmlcharrefreplace" if as_xml else "backslashreplace"
-        )
+        out.reconfigure(errors="xmlcharrefreplace" if as_xml else "backslashreplace")
 
 
 def _heed(words: Arguments) -> None:
