@@ -228,6 +228,28 @@ def test_a_recorded_topic_has_the_name_it_was_asked_for_by(graph: Any, original:
         assert _counts(tmp_path / "ours.bag") == _counts(tmp_path / "theirs.bag") == {topic: 1}
 
 
+@pytest.mark.real_ros
+def test_a_remapping_after_topics_is_none_of_them(graph: Any, original: Any, bag: Path) -> None:
+    """A launch file's <remap> comes after its args."""
+    got: list[str] = []
+    graph.node("listener").subscribe("/robot/moved", STRING, lambda m: got.append(m.data))
+    words = [
+        "-q",
+        "--wait-for-subscribers",
+        "-r",
+        "10",
+        str(bag),
+        "--topics",
+        "/fixed",
+        "/fixed:=moved",
+        "__ns:=/robot",
+    ]
+    assert graph.trundle("bag", "play", *words)[0] == 0
+    graph.until(lambda: got == ["map"])
+    original("rosbag", "play", *words)
+    graph.until(lambda: got == ["map", "map"])
+
+
 def test_what_udp_was_asked_for_comes_over_tcp(graph: Any, tmp_path: Path) -> None:
     node = graph.node("talker")
     node.advertise("/a", STRING, latch=True).publish({"data": "hello"})

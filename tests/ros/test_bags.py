@@ -270,36 +270,6 @@ def test_messages_published_too_fast_for_their_queue_are_counted(graph: Any, far
     assert publisher.dropped == 7
 
 
-def test_playing_waits_for_whoever_controls_the_rate(graph: Any, tmp_path: Path) -> None:
-    """The follower says by its stamps how far it has come; the player is at most 10 s ahead."""
-    kind = "geometry_msgs/PointStamped"
-    messages = Messages()
-    made = BagConnection(topic="/a", type=kind, md5sum=messages.md5(kind), definition=messages.definition(kind))
-    with create_bag(tmp_path / "x.bag") as out:
-        for second in range(1, 41):
-            message = messages.new(kind, {"header": {"stamp": second * 10**9}})
-            out.write(BagMessage(made, second * 10**9, bytes(messages.serialize(message))))
-    got: list[int] = []
-    follower = graph.node("follower")
-    done = follower.advertise("/done", kind, latch=True)
-    follower.subscribe("/a", kind, lambda m: got.append(m.header.stamp.sec), queue_size=None)
-    ahead: list[int] = []
-    with open_bag(tmp_path / "x.bag") as bag:
-        options = PlayOptions(immediate=True, rate_control_topic="/done", rate_control_s=10.0)
-        player = Player(graph.node("play"), [bag], options)
-        (publisher,) = player.advertise()
-        graph.until(lambda: publisher.has_subscribers and done.has_subscribers)
-
-        def attend() -> None:
-            ahead.append(player.played)
-            if player.played == 11 and len(got) == 11:
-                done.publish({"header": {"stamp": 40 * 10**9}})
-
-        player.play(attend)
-    graph.until(lambda: got == list(range(1, 41)))
-    assert ahead.count(11) > 1
-
-
 def test_playing_from_within_begins_with_a_message_and_with_what_was_latched(graph: Any, tmp_path: Path) -> None:
     """As rosbag does: no silence first, and whoever needs a map recorded before the start gets it."""
     made = BagConnection(topic="/a", type=STRING, md5sum=Messages().md5(STRING), definition="string data\n")

@@ -9,7 +9,6 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
-from trundle.names import parse_arguments
 from trundle.ros import BagReader, Node, Player, PlayOptions, open_bag
 
 from .running import running_node
@@ -21,13 +20,13 @@ _TERMINAL_S = 0.1
 
 def main(args: argparse.Namespace) -> int:
     """Play to the end, or until Ctrl-C."""
-    words = parse_arguments([*args.bags, *args.more_bags])
-    if not words.rest:
+    names = [*args.bags, *args.more_bags]
+    if not names:
         args.refuse("You must specify at least 1 bag file to play back.")
     say = _quiet if args.quiet else _say
-    with ExitStack() as stack, running_node("play", words) as (loop, node):
+    with ExitStack() as stack, running_node("play", args.words) as (loop, node):
         bags: list[BagReader] = []
-        for name in words.rest:
+        for name in names:
             say(f"[ INFO] [{time.time():.9f}]: Opening {name}\n")
             bags.append(stack.enter_context(open_bag(Path(name))))
         if args.prefix:
@@ -55,10 +54,10 @@ def main(args: argparse.Namespace) -> int:
         with _keys() as pressed:
             attend = _Attendant(player, pressed, quiet=args.quiet)
             player.play(attend)
+            if args.keep_alive:
+                player.linger(attend)
             while args.loop:
                 player.play(attend)
-            while args.keep_alive:
-                time.sleep(_CONNECTED_S)
         say("\nDone.\n")
         time.sleep(_CONNECTED_S)  # the last messages leave in the loop's own time
     return 0
@@ -84,7 +83,7 @@ def _options(args: argparse.Namespace) -> PlayOptions:
 def _provide_pausing(node: Node, player: Player) -> None:
     def pause(request: Any) -> dict[str, Any]:
         if player.is_paused == request.data:
-            return {"success": False, "message": f"Playback is already {'paused' if request.data else 'running'}"}
+            return {"success": False, "message": f"Bag is already {'paused' if request.data else 'running'}."}
         player.is_paused = request.data
         return {"success": True, "message": f"Playback is now {'paused' if request.data else 'resumed'}"}
 
@@ -107,6 +106,8 @@ class _Attendant:
                 player.is_paused = not player.is_paused
             case "s":
                 player.steps += player.is_paused
+            case "t":
+                player.heeds_pause_topics = not player.heeds_pause_topics
             case _:
                 pass
         if self._tells and time.monotonic() - self._told_s > _TERMINAL_S:

@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from trundle.diagnostics import UsageError
-from trundle.names import parse_arguments
 from trundle.ros import BagError, Recorder, RecordOptions, follow_time
 
 from .running import running_node
@@ -18,13 +17,12 @@ from .running import running_node
 
 def main(args: argparse.Namespace) -> int:
     """Record until a limit is reached, Ctrl-C or SIGTERM; the bag is closed and readable after each of them."""
-    words = parse_arguments(_without_size(args))
-    options = _options(args, words.rest)
+    options = _options(args, tuple(_without_size(args)))
     if args.udp:
         print("--udp: there is no UDPROS here; the messages come over TCP", file=sys.stderr)
     if args.node and not args.quiet:
         print(f"Recording from: {args.node}", flush=True)
-    with running_node("record", words) as (loop, node):
+    with running_node("record", args.words) as (loop, node):
         loop.run(follow_time(node), None)
         recorder = Recorder(node, options, say=(lambda _: None) if args.quiet else _say)
         recorder.start()

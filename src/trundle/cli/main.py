@@ -47,8 +47,8 @@ COMMANDS: dict[str, str] = {
 }
 """Name and one line of help; the order of `trundle --help`."""
 
-_REMAPPED = ("service", "tf", "topic")
-"""Take `a:=b` and `__name:=n` anywhere, as rosservice, rostopic and tf's tools do: launch files start them."""
+_REMAPPED = ("bag", "service", "tf", "topic")
+"""Take `a:=b` and `__name:=n` anywhere, as rosbag, rosservice, rostopic and tf's tools do: launch files start them."""
 _OF_ROS = ("core", "topic", "node", "param", "service", "bag", "msg", "srv", "tf", "plot", "log", "exec")
 """Ctrl-C is how their work ends, not how it fails: exit code 0, as of the originals."""
 _INTERMIXED = ("launch", "test", "xacro")

@@ -62,6 +62,8 @@ class Publisher:
         self._turn = threading.Lock()
         """Held while a thread other than the loop's sends, and while somebody joins and gets what is latched."""
         self._latched: Any = None
+        self.latched_for_others: tuple[bytes, ...] = ()
+        """What whoever joins gets before the last message: the last ones of all but one of those whom this repeats."""
         self._class: type[Message] | None = None
         """Of the messages so far."""
         self._codec: Codec | None = None
@@ -157,8 +159,9 @@ class Publisher:
         with self._turn:
             self._listeners.far[link] = peer
             self._look_who_listens()
-            if self._latched is not None and (framed := self._framed(self._latched)) is not None:
-                link.out.send([framed], self._queue_size)
+            for message in self._held():
+                if (framed := self._framed(message)) is not None:
+                    link.out.send([framed], self._queue_size)
         self._count()
 
     def catch_up(self) -> None:
@@ -179,10 +182,10 @@ class Publisher:
         with self._turn:
             self._listeners.local[subscriber] = name
             self._look_who_listens()
-            latched = self._latched
+            held = self._held()
         self._count()
-        if latched is not None:
-            self._hand_over(latched, subscriber, None)
+        for message in held:
+            self._hand_over(message, subscriber, None)
 
     def detach(self, subscriber: LocalSubscriber) -> None:
         """Forget a subscription of this process."""
@@ -206,6 +209,10 @@ class Publisher:
     def dropped(self) -> int:
         """Messages that left the queue unsent: published too fast, or slow subscribers, connected now, lost them."""
         return self._lost + self._listeners.dropped
+
+    def _held(self) -> tuple[Any, ...]:
+        """What whoever joins gets."""
+        return () if self._latched is None else (*self.latched_for_others, self._latched)
 
     def _mismatch(self, header: dict[str, str], peer: str) -> str | None:
         """Why a subscriber cannot read what is published here, in the original's words."""

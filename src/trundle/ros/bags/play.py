@@ -8,8 +8,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 
-from trundle.names import join_names
-
 from ..messages import RawMessage
 from ..node import Node
 from ..publisher import Publisher
@@ -33,10 +31,12 @@ class PlayOptions:
     pause_topics: frozenset[str] = frozenset()
     """Pause before each message of these."""
     prefix: str = ""
+    """Put before every topic as it is: `foo` makes /foo/scan of /scan, and fooscan of scan."""
     clock_hz: float | None = None
     """Publish /clock at this rate of the wall's time."""
     immediate: bool = False
     queue_size: int = 100
+    """Messages waiting for a slow subscriber; 0: any number."""
     skip_empty_s: float | None = None
     """Longer silences are skipped [s]."""
     rate_control_topic: str | None = None
@@ -53,8 +53,14 @@ class Player:
         self._bags = bags
         self._options = options
         self._publishers: dict[BagConnection, Publisher] = {}
+        self._held: dict[Publisher, dict[str, bytes]] = {}
+        """What is latched on a topic, by who had published it."""
         self._clock: Publisher | None = None
+        self._clock_due_s = 0.0
+        self._pace = _Pace(options.rate, 0)
         self.is_paused = False
+        self.heeds_pause_topics = True
+        """Whether messages of the topics to pause before do so."""
         self.steps = 0
         """Messages to let through although it is paused."""
         self.played = 0
@@ -82,16 +88,14 @@ class Player:
         for connection in (c for bag in self._bags for c in bag.connections):
             if self._wants(connection):
                 self._publishers[connection] = self._node.advertise(
-                    join_names(self._options.prefix, connection.topic.lstrip("/"))
-                    if self._options.prefix
-                    else connection.topic,
+                    self._options.prefix + connection.topic,
                     connection.type,
                     latch=connection.topic in latched,
-                    queue_size=self._options.queue_size,
+                    queue_size=self._options.queue_size or None,
                     foreign=(connection.md5sum, connection.definition),
                 )
-        for connection, data in self._latched_before().items():
-            self._publishers[connection].publish(data)
+        for message in self._latched_before():
+            self._publish(message)
         return list(dict.fromkeys(self._publishers.values()))
 
     def play(self, attend: Callable[[], None]) -> None:
@@ -100,48 +104,81 @@ class Player:
         Args:
             attend: called again and again, between messages and while waiting; may set `is_paused` and `steps`.
         """
-        pace = None
-        clock_due_s = 0.0
-        previous_ns = self.start_ns
-        for message in self._messages():
-            if pace is None:
-                pace, previous_ns = _Pace(self._options.rate, message.stamp_ns), message.stamp_ns
-            if message.connection.topic in self._options.pause_topics:
-                self.is_paused = True
-            if (
-                self._options.skip_empty_s is not None
-                and message.stamp_ns - previous_ns > self._options.skip_empty_s * 1e9
-            ):
-                pace.skip(message.stamp_ns - previous_ns)
-            previous_ns = message.stamp_ns
-            while True:
-                attend()
-                if (self.is_paused and self.steps == 0) or self._is_ahead(message.stamp_ns):
-                    time.sleep(_NAP_S)
-                    pace.hold()
-                    continue
-                wait_s = 0.0 if self._options.immediate or self.is_paused else pace.wait_s(message.stamp_ns)
-                if wait_s <= 0.0:
-                    break
-                self.now_ns = pace.now_ns()
-                if self._clock is not None and time.monotonic() >= clock_due_s:
-                    clock_due_s = self._tick(self.now_ns)
-                time.sleep(min(wait_s, _NAP_S, max(0.0, clock_due_s - time.monotonic()) or _NAP_S))
-            self.steps -= self.is_paused
+        for i, message in enumerate(self._messages()):
+            if i == 0:
+                self._pace = _Pace(self._options.rate, message.stamp_ns)
+                self.now_ns = self._follower_ns = message.stamp_ns
+            self._wait_for(message, attend)
             self.now_ns = message.stamp_ns
-            if self.is_paused:
-                pace.jump(message.stamp_ns)
-            if self._clock is not None and (
-                self._options.immediate or self.is_paused or time.monotonic() >= clock_due_s
-            ):
-                clock_due_s = self._tick(message.stamp_ns)
-            self._publishers[message.connection].publish(message.data)
+            self._tick(at_once=self._options.immediate or self.is_paused)
+            self._publish(message)
             self.played += 1
 
-    def _is_ahead(self, stamp_ns: int) -> bool:
+    def linger(self, attend: Callable[[], None]) -> None:
+        """Let the time go on behind the end, for whoever comes late."""
+        while True:
+            attend()
+            if self.is_paused or self._options.immediate:
+                self._pace.hold()
+            else:
+                self.now_ns = self._pace.now_ns()
+            self._nap(_NAP_S)
+
+    def _wait_for(self, message: BagMessage, attend: Callable[[], None]) -> None:
+        """Wait until it is a message's time."""
+        options = self._options
+        if self.heeds_pause_topics and message.connection.topic in options.pause_topics:
+            self.is_paused = True
+        if options.skip_empty_s is not None and message.stamp_ns - self.now_ns > options.skip_empty_s * 1e9:
+            self._pace.jump(message.stamp_ns)
+        # Decided here and once: a follower hears nothing in a silence, and cannot come further in it.
+        is_ahead = self._is_ahead()
+        while True:
+            attend()
+            is_ahead = is_ahead and self._is_ahead()
+            if self.is_paused and self.steps > 0:
+                self.steps -= 1
+                self._pace.jump(message.stamp_ns)
+                return
+            if self.is_paused or is_ahead:
+                self._pace.hold()
+                self._nap(_NAP_S)
+                continue
+            wait_s = 0.0 if options.immediate else self._pace.wait_s(message.stamp_ns)
+            if wait_s <= 0.0:
+                return
+            self.now_ns = self._pace.now_ns()
+            self._nap(wait_s)
+
+    def _nap(self, longest_s: float) -> None:
+        """Tell the time if that is due, and rest for a moment."""
+        self._tick()
+        due_s = _NAP_S if self._clock is None else max(0.0, self._clock_due_s - time.monotonic())
+        time.sleep(min(longest_s, due_s, _NAP_S))
+
+    def _tick(self, *, at_once: bool = False) -> None:
+        """Publish the time, at its rate or whether that is due or not."""
+        if self._clock is None or not (at_once or time.monotonic() >= self._clock_due_s):
+            return
+        assert self._options.clock_hz is not None
+        self._clock.publish(struct.pack("<II", *divmod(self.now_ns, 10**9)))
+        self._clock_due_s = time.monotonic() + 1.0 / self._options.clock_hz
+
+    def _publish(self, message: BagMessage) -> None:
+        """Publish a message; who joins a latched topic later gets the last one of each who published there."""
+        connection = message.connection
+        publisher = self._publishers[connection]
+        if connection.latching:
+            held = self._held.setdefault(publisher, {})
+            held.pop(connection.caller, None)
+            publisher.latched_for_others = tuple(held.values())
+            held[connection.caller] = message.data
+        publisher.publish(message.data)
+
+    def _is_ahead(self) -> bool:
         if self._options.rate_control_topic is None:
             return False
-        return stamp_ns - self._follower_ns > self._options.rate_control_s * 1e9
+        return self.now_ns - self._follower_ns > self._options.rate_control_s * 1e9
 
     def _hear_follower(self, message: RawMessage) -> None:
         """Take the stamp from the header that the message starts with, whatever its type."""
@@ -151,22 +188,16 @@ class Player:
         sec, nanosec = struct.unpack_from("<II", message.data, 4)
         self._follower_ns = sec * 10**9 + nanosec
 
-    def _tick(self, ns: int) -> float:
-        """Publish the time; returns when to do it again."""
-        assert self._clock is not None
-        assert self._options.clock_hz is not None
-        self._clock.publish({"clock": ns})
-        return time.monotonic() + 1.0 / self._options.clock_hz
-
-    def _latched_before(self) -> dict[BagConnection, bytes]:
+    def _latched_before(self) -> list[BagMessage]:
         """Find what whoever came at the start had got from latching publishers."""
         if self._options.start_s <= 0.0:
-            return {}
-        return {
-            message.connection: message.data
+            return []
+        last = {
+            message.connection: message
             for bag in self._bags
             for message in bag.messages(lambda c: c.latching and self._wants(c), end_ns=self.start_ns - 1)
         }
+        return list(last.values())
 
     def _messages(self) -> Iterator[BagMessage]:
         streams = [bag.messages(self._wants, start_ns=self.start_ns, end_ns=self.end_ns) for bag in self._bags]
@@ -204,7 +235,3 @@ class _Pace:
     def jump(self, ns: int) -> None:
         """Make it this bag time."""
         self._bag_ns, self._wall_s, self._now_ns = ns, time.monotonic(), ns
-
-    def skip(self, ns: int) -> None:
-        """Leave out a silence."""
-        self._bag_ns += ns
