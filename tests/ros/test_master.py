@@ -140,6 +140,17 @@ def test_followers_of_a_parameter_are_told_except_the_one_that_set_it(graph: Any
     assert first.told == [("paramUpdate", ["/master", "/a/", {}])]
 
 
+def test_who_sets_a_namespace_is_told_of_the_parts_it_follows(graph: Any, stdlib: Any, listeners: Any) -> None:
+    """As by rosmaster: a node that caches a part would keep the old value for ever."""
+    follower = listeners[0]
+    stdlib.subscribeParam("/one", follower.uri, "/a/b")
+    stdlib.subscribeParam("/one", follower.uri, "/a/c")
+    stdlib.setParam("/one", "/a/c", 1)
+    stdlib.setParam("/one", "/a", {"b": 3})
+    graph.until(lambda: len(follower.told) > 1)
+    assert follower.told == [("paramUpdate", ["/master", "/a/b/", 3]), ("paramUpdate", ["/master", "/a/c/", {}])]
+
+
 def test_an_older_node_of_the_same_name_is_told_to_go(graph: Any, stdlib: Any, listeners: Any) -> None:
     older = listeners[0]
     stdlib.registerPublisher("/twin", "/t", "std_msgs/String", older.uri)

@@ -262,7 +262,7 @@ class Master:
         table = self._books.parameters.entries
         for key, changed, new in updates(list(table), name, value):
             for node, uri in table[key]:
-                if node != by:
+                if node != by or changed != _followed(name):  # who set the whole may not know of its parts
                     self._notices.send(uri, "paramUpdate", "/master", changed, new)
 
 
