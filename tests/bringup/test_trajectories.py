@@ -45,7 +45,7 @@ _CONTROLLERS: dict[str, Any] = {
     },
 }
 FOLLOW = "control_msgs/FollowJointTrajectory"
-SUCCEEDED, ABORTED, PREEMPTED = 3, 4, 2
+SUCCEEDED, ABORTED, PREEMPTED, REJECTED = 3, 4, 2, 5
 
 
 @pytest.fixture
@@ -102,8 +102,26 @@ def test_a_goal_is_reached_in_its_time(
 def test_a_trajectory_that_does_not_fit_is_refused(robot: Robot, goal: dict[str, Any], code: int, text: str) -> None:
     results = ask(robot, "arm", goal)
     until(lambda: results)
-    assert (results[0].status.status, results[0].result.error_code) == (ABORTED, code)
+    assert (results[0].status.status, results[0].result.error_code) == (REJECTED, code)
     assert text in results[0].result.error_string
+
+
+def test_a_goal_that_is_refused_leaves_the_one_before_it_running(robot: Robot) -> None:
+    results = ask(robot, "arm", trajectory(["a", "b"], point(1.0, 1.0, at_s=1.0)), key="good")
+    states = robot.gazebo.hear("/r/arm/follow_joint_trajectory/status", "actionlib_msgs/GoalStatusArray")
+    until(lambda: robot.joint("a").position[0] > 0.0)
+    ask(robot, "arm", trajectory(["a"], point(1.0, at_s=1.0)), key="bad")
+    until(lambda: len(results) == 2)
+    assert [(r.status.goal_id.id, r.status.status) for r in results] == [("bad", REJECTED), ("good", SUCCEEDED)]
+    assert {s.status for state in states for s in state.status_list if s.goal_id.id == "bad"} <= {0, REJECTED}
+
+
+def test_stopping_a_controller_preempts_its_goal(robot: Robot) -> None:
+    results = ask(robot, "arm", trajectory(["a", "b"], point(1.0, 1.0, at_s=500.0)))
+    until(lambda: robot.joint("a").position[0] > 0.0)
+    robot.ask("switch_controller", "SwitchController", stop_controllers=["arm"], strictness=2)
+    until(lambda: results)
+    assert results[0].status.status == PREEMPTED
 
 
 def test_a_goal_that_cannot_be_reached_is_given_up(robot: Robot) -> None:

@@ -5,7 +5,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -136,7 +136,8 @@ def test_one_that_watches_a_parameter(graph: Any) -> None:
 def test_one_that_waits_for_an_action(graph: Any) -> None:
     node, goals, may_end = graph.node("n"), list[int](), asyncio.Event()
 
-    async def work(goal: Any) -> ActionOutcome:
+    async def work(goal: Any, accept: Callable[[], None]) -> ActionOutcome:
+        accept()
         goals.append(goal.order)
         await may_end.wait()
         return ActionOutcome(result={"sequence": [0, 1, 1]})

@@ -1,6 +1,7 @@
 """tf2_ros/buffer_server: answers where frames are, as an action, for those who keep no buffer of their own."""
 
 import asyncio
+from collections.abc import Callable
 from typing import Any
 
 import yaml
@@ -43,8 +44,9 @@ class BufferServer:
         await node.closed.wait()
         return 0
 
-    async def _look_up(self, goal: Message) -> ActionOutcome:
+    async def _look_up(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
         """Look until it is found or the time is over."""
+        accept()
         clock = self._node.clock
         end_ns = clock.now_ns() + ns_of(goal.timeout)
         while True:

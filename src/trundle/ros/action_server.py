@@ -13,8 +13,8 @@ from .node import Node
 _STATUS_RATE_HZ = 5.0
 _KEPT_S = 5.0
 """How long a finished goal stays in the status list, as in actionlib."""
-_PENDING, _ACTIVE, _PREEMPTED, _SUCCEEDED, _ABORTED = 0, 1, 2, 3, 4
-_NUMBERS = {"succeeded": _SUCCEEDED, "aborted": _ABORTED, "preempted": _PREEMPTED}
+_PENDING, _ACTIVE = 0, 1
+_NUMBERS = {"preempted": 2, "succeeded": 3, "aborted": 4, "rejected": 5}
 _MOST_GOALS = 1000
 
 
@@ -22,7 +22,7 @@ _MOST_GOALS = 1000
 class ActionOutcome:
     """How a goal ended."""
 
-    status: Literal["succeeded", "aborted", "preempted"] = "succeeded"
+    status: Literal["succeeded", "aborted", "preempted", "rejected"] = "succeeded"
     result: dict[str, Any] = field(default_factory=dict[str, Any])
     text: str = ""
 
@@ -45,7 +45,7 @@ class ActionServer:
         node: Node,
         name: str,
         type_name: str,
-        work: Callable[[Message], Awaitable[ActionOutcome]],
+        work: Callable[[Message, Callable[[], None]], Awaitable[ActionOutcome]],
         *,
         side_by_side: bool = False,
     ) -> None:
@@ -55,8 +55,9 @@ class ActionServer:
             node: whose topics they are.
             name: the action's namespace, resolved as a topic is.
             type_name: without the suffix Action: 'control_msgs/FollowJointTrajectory'.
-            work: a coroutine function of the goal; it is cancelled when the goal is.
-            side_by_side: whether goals are worked on at once.
+            work: a coroutine function of the goal, and of a function to call, on the loop, once the goal is taken and
+                not rejected; it is cancelled when the goal is.
+            side_by_side: whether a goal leaves those before it alone; `work` may preempt them.
         """
         self._node = node
         self._work = work
@@ -119,10 +120,13 @@ class ActionServer:
             goal.task.cancel()
 
     async def _run(self, goal: _Goal, asked: Message) -> None:
-        goal.status = _ACTIVE
-        self._publish_status()
+        def accept() -> None:
+            if goal.status == _PENDING:  # and not cancelled meanwhile
+                goal.status = _ACTIVE
+                self._publish_status()
+
         try:
-            outcome = await self._work(asked)
+            outcome = await self._work(asked, accept)
         except asyncio.CancelledError:
             outcome = ActionOutcome(status="preempted")
         goal.status, goal.text = _NUMBERS[outcome.status], outcome.text

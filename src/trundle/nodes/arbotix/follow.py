@@ -1,6 +1,7 @@
 """arbotix_python's follow_controller: servos along a trajectory, as an action and on a topic."""
 
 import asyncio
+from collections.abc import Callable
 
 from trundle.ros import ActionOutcome, ActionServer, Message, Node, SettingError, Settings, ns_of
 
@@ -48,7 +49,8 @@ class FollowController:
     def _active(self) -> bool:
         return self._server.active or (self._topic_task is not None and not self._topic_task.done())
 
-    async def _asked(self, goal: Message) -> ActionOutcome:
+    async def _asked(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
+        accept()
         return await self._follow(goal.trajectory)
 
     def _command(self, trajectory: Message) -> None:

@@ -2,6 +2,7 @@
 
 import asyncio
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from trundle.ros import ActionOutcome, ActionServer, Message, Node, SettingError, Settings
@@ -117,7 +118,8 @@ class GripperController:
     def _hear(self, message: Message) -> None:
         self._positions.update(zip(message.name, map(float, message.position), strict=False))
 
-    async def _move(self, goal: Message) -> ActionOutcome:
+    async def _move(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
+        accept()
         opening_m = float(goal.command.position)
         try:
             commands = self._gripper.commands(opening_m)

@@ -37,7 +37,9 @@ class GripperController:
         self._moved_ns = 0
         self._is_running = False
         self._settled: Callable[[ActionOutcome], None] | None = None
-        self._server = ActionServer(site.node, f"{site.name}/gripper_cmd", "control_msgs/GripperCommand", self._asked)
+        self._server = ActionServer(
+            site.node, f"{site.name}/gripper_cmd", "control_msgs/GripperCommand", self._asked, side_by_side=True
+        )
 
     @classmethod
     def make(cls, site: Site) -> Self:
@@ -74,7 +76,7 @@ class GripperController:
     def stop(self) -> None:
         """Let go."""
         self._is_running = False
-        self._settle("aborted", reached=False)
+        self._settle("preempted", reached=False)
         self._joint.rest()
 
     def close(self) -> None:
@@ -83,7 +85,7 @@ class GripperController:
         self._server.close()
         self._ends.close()
 
-    async def _asked(self, goal: Message) -> ActionOutcome:
+    async def _asked(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
         """Close or open; on the loop."""
         ended: asyncio.Future[ActionOutcome] = asyncio.get_running_loop().create_future()
 
@@ -92,9 +94,10 @@ class GripperController:
 
         def begin() -> None:
             if not self._is_running:
-                settle(ActionOutcome(status="aborted", text="the controller is not running"))
+                settle(ActionOutcome(status="rejected", text="the controller is not running"))
                 return
             self._settle("preempted", reached=False)
+            self._node.loop.call_soon(accept)
             self._wanted, self._most_effort = float(goal.command.position), float(goal.command.max_effort)
             self._moved_ns = self._node.clock.now_ns()
             self._settled = settle

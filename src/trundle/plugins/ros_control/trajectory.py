@@ -58,7 +58,7 @@ class TrajectoryController:
             node.advertise_service(f"{site.name}/query_state", "control_msgs/QueryTrajectoryState", self._query),
         )
         action = f"{site.name}/follow_joint_trajectory"
-        self._server = ActionServer(node, action, "control_msgs/FollowJointTrajectory", self._asked)
+        self._server = ActionServer(node, action, "control_msgs/FollowJointTrajectory", self._asked, side_by_side=True)
 
     @classmethod
     def make(cls, site: Site) -> Self:
@@ -99,7 +99,7 @@ class TrajectoryController:
     def stop(self) -> None:
         """Let go."""
         self._is_running = False
-        self._settle("aborted", 0, "the controller was stopped")
+        self._settle("preempted", 0, "the controller was stopped")
         for joint in self._joints:
             joint.rest()
 
@@ -151,8 +151,8 @@ class TrajectoryController:
 
     # -- the action
 
-    async def _asked(self, goal: Message) -> ActionOutcome:
-        """Follow a trajectory to its end; on the loop."""
+    async def _asked(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
+        """Follow a trajectory to its end; on the loop. One that is refused leaves the one before it running."""
         loop = asyncio.get_running_loop()
         ended: asyncio.Future[ActionOutcome] = loop.create_future()
 
@@ -161,15 +161,16 @@ class TrajectoryController:
 
         def begin() -> None:
             if not self._is_running:
-                settle(_outcome("aborted", GoalError.INVALID_GOAL, "the controller is not running"))
+                settle(_outcome("rejected", GoalError.INVALID_GOAL, "the controller is not running"))
                 return
             names = [joint.name for joint in self._joints]
             try:
                 self._begin(goal.trajectory, self._usual.overridden(goal, names))
             except GoalError as error:
-                settle(_outcome("aborted", error.code, str(error)))
+                settle(_outcome("rejected", error.code, str(error)))
                 return
             self._settle("preempted", 0, "another goal came")
+            self._node.loop.call_soon(accept)
             self._settled = settle
 
         assert self._node.deliver is not None, "plugins' nodes deliver to the simulation's thread"
