@@ -248,6 +248,16 @@ def test_names_are_remapped(graph: Any) -> None:
     assert node.resolve("~out") == "/ns/result"
 
 
+def test_a_remapped_parameter_is_searched_by_its_other_name(graph: Any) -> None:
+    """As by roscpp and rospy: robot_state_publisher with robot_description:=arm_description takes the arm."""
+    node = graph.node("n", namespace="/arm", remappings={"robot_description": "arm_description"})
+    graph.ready(node)
+    run = graph.loop.run
+    run(node.set_param("/robot_description", "<the base/>"))
+    run(node.set_param("/arm_description", "<the arm/>"))
+    assert run(node.search_param("robot_description")) == "/arm_description"
+
+
 def test_what_a_node_says_is_on_stderr_and_gathered(graph: Any, far: Any, capfd: Any) -> None:
     node, reader = graph.node("sayer"), far.node("reader")
     got: list[Any] = []

@@ -75,8 +75,9 @@ class Node(NodeEnds, NodeLog):
         self.quiet_log: TextIO | None = None
         self.closed = asyncio.Event()
         """Set when the node has shut down; awaited on the loop."""
+        self.written_remappings = dict(remappings or {})
         self._remappings = {
-            resolve_name(a, self.name): resolve_name(b, self.name) for a, b in (remappings or {}).items()
+            resolve_name(a, self.name): resolve_name(b, self.name) for a, b in self.written_remappings.items()
         }
         self._params = dict(params or {})
         self._address = server_address(host)

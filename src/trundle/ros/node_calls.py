@@ -28,6 +28,8 @@ class NodeCalls:
     master_uri: str
     loop: GraphLoop
     clock: Clock
+    written_remappings: dict[str, str]
+    """Name → name, both as written, not resolved."""
     watched: dict[str, list[ParamCallback]]
     """Parameters that this node is told about."""
 
@@ -123,10 +125,10 @@ class NodeCalls:
         return bool(await self.ask("hasParam", self.resolve(name)))
 
     async def search_param(self, key: str) -> str | None:
-        """Find the full name of the nearest parameter upwards from this node."""
+        """Find the full name of the nearest parameter upwards from this node; a remapped key is searched as written."""
         await self.params_told()
         try:
-            return str(await self.ask("searchParam", key))
+            return str(await self.ask("searchParam", self.written_remappings.get(key, key)))
         except MasterError:
             return None
 
