@@ -107,6 +107,15 @@ def test_parameters_resolve_against_the_caller(stdlib: Any) -> None:
     assert {"/ns/node/gain", "/ns/rate"} <= set(stdlib.getParamNames("/x")[2])
 
 
+@pytest.mark.parametrize("value", [None, [1, None], {"a": {"b": None}}])
+def test_a_parameter_that_cannot_be_told_is_refused(graph: Any, value: Any) -> None:
+    """It would keep everyone from the namespaces it is in, `rosparam dump` among them."""
+    with xmlrpc.client.ServerProxy(graph.core.uri, allow_none=True) as proxy:
+        code, text, _ = proxy.setParam("/x", "/nothing", value)
+        assert (code, text.startswith("ERROR: parameter [value]")) == (-1, True)
+        assert proxy.getParam("/x", "/")[0] == 1
+
+
 def test_several_calls_can_travel_together(stdlib: Any) -> None:
     several = xmlrpc.client.MultiCall(stdlib)
     several.setParam("/x", "/a", 1)

@@ -16,6 +16,7 @@ from .notices import Notices
 from .parameters import ParameterTree, updates
 from .registrations import Answer, Register, Registrations
 from .rpc_server import RpcServer
+from .xmlrpc import encode_response
 
 ANY_TYPE = "*"
 
@@ -195,8 +196,13 @@ class Master:
 
     def _set_param(self, caller: str, key: Any, value: Any) -> Answer:
         name = _parameter(key, caller)
+        if value is None:
+            raise BadArgumentError("ERROR: parameter [value] must be specified")
         try:
+            encode_response(value)  # who asks for a namespace cannot be answered if one value cannot be sent
             self.set_param(name, value, by=caller)
+        except ValueError as error:
+            return -1, f"ERROR: parameter [value]: {error}", 0
         except TypeError as error:
             return -1, f"Error: invalid arguments: {error}", 0
         except ParameterError as error:
