@@ -104,15 +104,21 @@ def test_the_buffer_server_looks_frames_up(stage) -> None:
     stage.start("tf2_ros/buffer_server")
     kind = "tf2_msgs/LookupTransform"
     goal = {"target_frame": "base", "source_frame": "camera", "timeout": {"sec": 60}}
-    goals, results = ask(stage, "/buffer_server", kind, goal)
+    goals, results = ask(stage, "/tf2_buffer_server", kind, goal)
     stage.until(lambda: results)
     assert results[0].status.status == SUCCEEDED
     assert results[0].result.transform.transform.translation.y == 2.0
 
     goals.publish({"goal_id": {"id": "2"}, "goal": {**goal, "source_frame": "moon", "timeout": {}}})
     stage.until(lambda: len(results) == 2)
-    assert (results[1].status.status, results[1].result.error.error) == (ABORTED, 1)
+    assert (results[1].status.status, results[1].result.error.error) == (SUCCEEDED, 1)  # clients look no further else
     assert "moon" in results[1].result.error.error_string
+
+    for number, (target, source, error) in enumerate([("/base", "camera", 4), ("base", "", 4), ("base", "base", 0)]):
+        frames = {"target_frame": target, "source_frame": source}
+        goals.publish({"goal_id": {"id": f"more{number}"}, "goal": frames})
+        stage.until(lambda expected=number + 3: len(results) == expected)
+        assert (results[-1].status.status, results[-1].result.error.error) == (SUCCEEDED, error)
 
 
 @pytest.mark.parametrize(

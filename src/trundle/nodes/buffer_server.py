@@ -18,15 +18,20 @@ from trundle.ros import (
     TransformListener,
     ns_of,
 )
+from trundle.spatial import Pose
 
 from .host import Host
 
-_NO_ERROR, _LOOKUP_ERROR, _CONNECTIVITY_ERROR, _EXTRAPOLATION_ERROR = 0, 1, 2, 3
+_ACTION = "tf2_buffer_server"
+_NO_ERROR, _LOOKUP_ERROR, _CONNECTIVITY_ERROR, _EXTRAPOLATION_ERROR, _INVALID_ARGUMENT_ERROR = 0, 1, 2, 3, 4
 _LOOK_S = 0.02
 
 
 class BufferServer:
-    """One action, `~`, that any number of clients ask at once."""
+    """One action, `tf2_buffer_server`, that any number of clients ask at once.
+
+    Parameters, of the namespace: buffer_size 120 [s], publish_frame_service, use_node_namespace (the action is `~`).
+    """
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
         del arguments, host
@@ -35,17 +40,19 @@ class BufferServer:
     async def run(self) -> int:
         """Answer until cancelled."""
         node = self._node
-        settings = Settings(await node.get_param("~", {}), node.name)
+        namespace = node.resolve("")
+        settings = Settings(await node.get_param(namespace, {}), namespace)
         buffer = TransformBuffer(settings.number("buffer_size", 120.0))
         self._buffer = TransformListener(node, buffer).buffer
-        ActionServer(node, node.name, "tf2_msgs/LookupTransform", self._look_up, side_by_side=True)
+        action = node.name if settings.flag("use_node_namespace", default=False) else _ACTION
+        ActionServer(node, action, "tf2_msgs/LookupTransform", self._look_up, side_by_side=True)
         if settings.flag("publish_frame_service", default=False):
             node.advertise_service("~tf2_frames", "tf2_msgs/FrameGraph", self._frames)
         await node.closed.wait()
         return 0
 
     async def _look_up(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
-        """Look until it is found or the time is over."""
+        """Look until it is found or the time is over; to have an answer, be it an error, is a success."""
         accept()
         clock = self._node.clock
         end_ns = clock.now_ns() + ns_of(goal.timeout)
@@ -54,13 +61,17 @@ class BufferServer:
                 found = self._ask(goal)
             except TransformError as error:
                 if clock.now_ns() >= end_ns:
-                    return ActionOutcome(status="aborted", result={"error": _error(error)})
+                    return ActionOutcome(result={"error": _error(error)})
             else:
                 return ActionOutcome(result={"transform": _stamped(found), "error": {"error": _NO_ERROR}})
             await asyncio.sleep(_LOOK_S)
 
     def _ask(self, goal: Message) -> Transform:
         buffer, source_ns = self._buffer, ns_of(goal.source_time)
+        for what in ("target_frame", "source_frame", "fixed_frame")[: 3 if goal.advanced else 2]:
+            _check_frame(getattr(goal, what), what)
+        if not goal.advanced and goal.target_frame == goal.source_frame:
+            return self._itself(goal.source_frame, source_ns)
         if not goal.advanced:
             return buffer.lookup(goal.target_frame, goal.source_frame, source_ns)
         then = buffer.lookup(goal.fixed_frame, goal.source_frame, source_ns)
@@ -74,15 +85,36 @@ class BufferServer:
             rotation=pose.quaternion,
         )
 
+    def _itself(self, frame: str, stamp_ns: int) -> Transform:
+        """A frame in itself, known or not."""
+        latest = None if self._buffer.is_static(frame) else self._buffer.latest(frame)
+        stamp_ns = stamp_ns or (latest.stamp_ns if latest is not None else 0)
+        return Transform(
+            parent=frame, child=frame, stamp_ns=stamp_ns, translation=Pose().position, rotation=Pose().quaternion
+        )
+
     def _frames(self, _request: Message) -> dict[str, Any]:
         frames = {name: {"parent": parent} for name, parent in self._buffer.frames().items() if parent is not None}
         return {"frame_yaml": yaml.safe_dump(frames)}
 
 
+def _check_frame(name: str, what: str) -> None:
+    """Refuse, in tf2's words, what tf2 does not take for a frame."""
+    text = f"passed to lookupTransform argument {what} in tf2 frame_ids cannot"
+    if not name:
+        raise TransformError(f"Invalid argument {text} be empty")
+    if name.startswith("/"):
+        raise TransformError(f"Invalid argument \"{name}\" {text} start with a '/' like: ")
+
+
 def _error(error: TransformError) -> dict[str, Any]:
     text = str(error)
-    for part, number in (("extrapolation", _EXTRAPOLATION_ERROR), ("connection", _CONNECTIVITY_ERROR)):
-        if part in text:
+    for part, number in (
+        ("Invalid argument", _INVALID_ARGUMENT_ERROR),
+        ("Lookup would require extrapolation", _EXTRAPOLATION_ERROR),
+        ("Could not find a connection", _CONNECTIVITY_ERROR),
+    ):
+        if text.startswith(part):
             return {"error": number, "error_string": text}
     return {"error": _LOOKUP_ERROR, "error_string": text}
 
