@@ -110,6 +110,11 @@ def test_large_numbers_near_one_another_are_told_apart() -> None:
     assert max(map(len, text.splitlines())) <= 60
 
 
+def test_the_noise_of_what_is_at_rest_is_not_magnified() -> None:
+    (line,) = _lines(curves_svg([Curve("x", [(0.0, 0.8), (1.0, 0.8 + 1e-10)])]))
+    assert line[0][1] == line[1][1]
+
+
 def test_the_greatest_double_is_no_number_to_draw() -> None:
     curve = Curve("limit", [(0.0, sys.float_info.max), (1.0, -sys.float_info.max), (2.0, 1.0), (3.0, 2.0)])
     (line,) = _lines(curves_svg([curve]))

@@ -10,6 +10,8 @@ _MARKS = "*+ox#%@&"
 _WIDTH, _HEIGHT, _LEFT, _BOTTOM, _TOP, _LINE, _CHARACTER = 900, 420, 80, 40, 16, 18, 7.2
 """[px] Of the picture without its legend, of its margins, a line of the legend, a letter."""
 _TICKS = 6
+_NOISE = 1e-9
+"""Of a value, what is drawn as a level line: a robot at rest is not magnified."""
 _BEYOND = 1e300
 """What is larger, as the greatest double, is no number to draw: spans of such are beyond a double."""
 
@@ -93,7 +95,8 @@ def _ranges(curves: Sequence[Curve]) -> tuple[tuple[float, float], tuple[float, 
     times = [t for curve in curves if curve.points for t in (curve.points[0][0], curve.points[-1][0])] or [0.0]
     values = [value for curve in curves for _, value in curve.points if abs(value) < _BEYOND] or [0.0]
     start, end, low, high = min(times), max(times), min(values), max(values)
-    margin = (high - low) * 0.05 or abs(high) * 0.05 or 1.0
+    most, span = max(abs(low), abs(high)), high - low
+    margin = span * 0.05 if span > most * _NOISE else most * 0.05 or 1.0
     return (start, end if end > start else start + 1.0), (low - margin, high + margin)
 
 
