@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 from trundle.launch import LaunchNode, LaunchPlan
-from trundle.nodes import WORLDS, Executable, Host, Simulator, find_node
+from trundle.nodes import WINDOWS, WORLDS, Executable, Host, Simulator, find_node
 from trundle.ros import PROFILES, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
 from trundle.supervisor import Event, Patience
 
@@ -184,13 +184,19 @@ class LaunchSession:
             report=read.report,
             folder=logs / "spawned",
             say=read.show.line,
-            window=None if options.headless else (options.host, options.view_port),
+            window=None if options.headless else (options.host, self._window_port()),
             speed=options.speed,
             renderer=options.renderer,
             steps=self._steps,
         )
         self._open_things.callback(gazebo.close)
         return gazebo
+
+    def _window_port(self) -> int | None:
+        """Of the simulation's page: beside that of rviz and its like it is the next one."""
+        port = self._options.view_port
+        is_beside = any((node.package, node.type) in WINDOWS for node in self._read.plan.nodes)
+        return port + 1 if port and is_beside else port
 
     def start(self, nodes: Sequence[LaunchNode], *, is_ending: Callable[[], bool] = lambda: False) -> RunningNodes:
         """Start nodes, unless the end comes first, and say what runs."""
