@@ -38,7 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add("--distro", choices=PROFILES, help="which ROS to be like (what the master says, or noetic)")
     add("-p", "--port", type=int, metavar="N", help="the master's port (that of ROS_MASTER_URI, 11311)")
-    add("--view-port", type=int, metavar="N", help="the page's port (8080 or a free one); Gazebo's beside rviz is N + 1")
+    add("--view-port", type=int, metavar="N", help="the page's port (8080 or a free one); Gazebo's beside rviz: N + 1")
     add("--host", default="127.0.0.1", help="address that everything binds (127.0.0.1)")
     add("--strict", action="store_true", help="a warning about the file is an error")
     add("--screen", action="store_true", help="show the output of every node")
