@@ -22,6 +22,8 @@ from .files import create_bag
 
 _FLUSH_S = 1.0
 """What SIGKILL can cost at most."""
+_LOOK_S = 0.25
+"""How often it is looked whether the time is over, where nothing comes."""
 _POLL_S = 0.5
 """How often the master is asked for new topics."""
 _FULL_S = 5.0
@@ -120,14 +122,15 @@ class Recorder:
 
     def start(self) -> None:
         """Open the first file and subscribe."""
+        self._start_ns = self.clock.now_ns()
         self._writer = self._open()
         self._thread.start()
         options = self._options
-        if not (options.is_regex or options.all_topics or options.of_node):
+        if not options.is_regex:
             # On the loop: a latched message must not come before its subscription is known.
             for topic in options.topics:
                 self._node.loop.call_soon(lambda topic=topic: self._subscribe(topic))
-        else:
+        if options.is_regex or options.all_topics or options.of_node:
             self._node.loop.spawn(self._follow())
 
     def stop(self) -> None:
@@ -250,17 +253,19 @@ class Recorder:
         flushed = time.monotonic()
         while True:
             with self._wake:
-                self._wake.wait_for(lambda: self._queue or self._is_ending, timeout=_FLUSH_S)
+                self._wake.wait_for(lambda: self._queue or self._is_ending, timeout=_LOOK_S)
                 batch, self._queue = self._queue, deque()
                 self._queued_bytes = 0
                 is_last = self._is_ending
             for message in batch:
-                self._next_file_if_due(message.stamp_ns)
+                self._next_file_if_due(message.stamp_ns, by_size=True)
                 if self.done.is_set() and not self._options.limit:
                     return
-                if self._first_ns is None:
-                    self._first_ns = message.stamp_ns
                 self._write(message)
+            if not batch:  # time passes in a silence, too
+                self._next_file_if_due(self.clock.now_ns(), by_size=False)
+                if self.done.is_set() and not self._options.limit:
+                    return
             if time.monotonic() - flushed >= _FLUSH_S:
                 self._writer.flush()
                 flushed = time.monotonic()
@@ -273,15 +278,18 @@ class Recorder:
         if self._options.repeats_latched and message.connection.latching:
             self._latched[message.connection] = message
 
-    def _next_file_if_due(self, stamp_ns: int) -> None:
+    def _next_file_if_due(self, stamp_ns: int, *, by_size: bool) -> None:
         options = self._options
-        is_long = options.max_ns and self._first_ns is not None and stamp_ns - self._first_ns > options.max_ns
-        is_large = options.max_bytes and self._writer.size > options.max_bytes
+        self._start_ns = self._start_ns or stamp_ns  # simulated time may not have begun before
+        is_long = 0 < options.max_ns < stamp_ns - self._start_ns
+        is_large = by_size and options.max_bytes and self._writer.size > options.max_bytes
         if not (is_long or is_large):
             return
         if not options.splits:
             self.done.set()
             return
+        if is_long:
+            self._start_ns += (stamp_ns - self._start_ns) // options.max_ns * options.max_ns
         self._say(f"Closing '{self._path}'.")
         self._close()
         while options.max_splits and len(self._files) >= options.max_splits:
@@ -291,7 +299,6 @@ class Recorder:
             self._writer.write(BagMessage(message.connection, stamp_ns, message.data))
 
     def _open(self) -> BagWriter:
-        self._first_ns: int | None = None
         self._path = self._name()
         self._active = self._path.with_name(f"{self._path.name}.active")
         self._active.unlink(missing_ok=True)
@@ -318,4 +325,6 @@ class Recorder:
             stem = str(options.path)[: len(str(options.path)) - len(suffix)]
             return Path(f"{stem}{number}{suffix or options.suffix}")
         date = time.strftime("%Y-%m-%d-%H-%M-%S", time.localtime(WallClock().now_ns() / 1e9))
-        return Path("_".join(part for part in (options.prefix, date) if part) + number + options.suffix)
+        return Path(
+            "_".join(part for part in (options.prefix.removesuffix(".bag"), date) if part) + number + options.suffix
+        )
