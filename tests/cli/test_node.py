@@ -1,12 +1,17 @@
 """`trundle node`, with rosnode's output."""
 
 import os
+import subprocess
+import sys
 from io import StringIO
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from trundle.ros import MasterProxy
+from tests.cli.conftest import PATIENCE_S
+
+from trundle.ros import MasterProxy, open_bag
 
 STRING = "std_msgs/String"
 
@@ -95,3 +100,26 @@ def test_cleanup_ends_where_nobody_answers(graph: Any, monkeypatch: pytest.Monke
 def test_machines_are_listed(graph: Any) -> None:
     assert graph.trundle("node", "machine")[1] == "127.0.0.1\n"
     assert graph.trundle("node", "machine", "127.0.0.1")[1] == "/rosout\n"
+
+
+@pytest.mark.parametrize(
+    "command",
+    ["topic pub -r 10 /said std_msgs/String x", "topic echo /said", "tf echo a b", "bag record -a -O a.bag"],
+)
+def test_a_command_ends_when_its_node_is_killed(graph: Any, tmp_path: Path, command: str) -> None:
+    words = [sys.executable, "-m", "trundle", *command.split(), "__name:=tool"]
+    node = graph.node("talker")
+    node.advertise("/said", STRING, latch=True).publish({"data": "hello"})
+    graph.ready(node)
+    with subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.DEVNULL) as process:
+        try:
+            graph.until(lambda: "/tool" in graph.trundle("node", "list")[1])
+            if "record" in words:
+                graph.until(lambda: b"hello" in (tmp_path / "a.bag.active").read_bytes())
+            assert graph.trundle("node", "kill", "/tool")[:2] == (0, "killing /tool\nkilled\n")
+            assert process.wait(PATIENCE_S) == 0
+        finally:
+            process.kill()
+    if "record" in words:
+        with open_bag(tmp_path / "a.bag") as bag:
+            assert "/said" in [connection.topic for connection in bag.connections]

@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 from tests.nodes.conftest import PATIENCE_S
 
+from trundle.ros import MasterProxy
+
 
 def test_rostopic_publishes(stage) -> None:
     heard = stage.listen("/told", "std_msgs/String")
@@ -33,6 +35,9 @@ def test_what_was_recorded_is_played(stage, tmp_path: Path) -> None:
 
     stage.until(lambda: heard)
     assert heard[0].data == "hello"
+    # One node, which has what the launch file's has.
+    publishers, _, services = map(dict, MasterProxy(stage.uri).call("getSystemState"))
+    assert publishers["/repeated"] == services["/play/pause_playback"] == ["/play"]
 
 
 def test_frames_are_drawn_where_view_frames_is_run(stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

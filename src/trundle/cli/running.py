@@ -1,5 +1,6 @@
 """What the commands that look at a running graph share: names, the master, and what to say when nobody answers."""
 
+import _thread
 import argparse
 import functools
 import os
@@ -67,7 +68,7 @@ def master(script: str) -> MasterProxy:
 
 @contextmanager
 def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[GraphLoop, Node]"]:
-    """Run an anonymous node; shut it down at the end, Ctrl-C included.
+    """Run an anonymous node; shut it down at the end, Ctrl-C and `rosnode kill` included.
 
     Args:
         base: what its name begins with.
@@ -87,7 +88,17 @@ def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[
             remappings=words.remappings,
             rosout=False,
         )
+        if threading.current_thread() is threading.main_thread():
+            node.on_shutdown(lambda _: _interrupt())
         yield loop, node
+
+
+def _interrupt() -> None:
+    """Have the main thread end as by Ctrl-C."""
+    if hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
+    else:
+        _thread.interrupt_main()
 
 
 @contextmanager

@@ -35,9 +35,12 @@ class Tool:
             "ROS_MASTER_URI": node.master_uri,
             "ROS_NAMESPACE": node.name.rpartition("/")[0],
         }
-        remappings = [f"{a}:={b}" for a, b in node.remappings.items()] if self.takes_remappings else []
+        words: list[str] = []
+        if self.takes_remappings:
+            await node.shutdown()  # the tool is the node of this name
+            words = [f"__name:={node.name.rpartition('/')[2]}", *(f"{a}:={b}" for a, b in node.remappings.items())]
         process = await asyncio.create_subprocess_exec(
-            *(sys.executable, "-m", "trundle", *self.command, *self._arguments, *remappings),
+            *(sys.executable, "-m", "trundle", *self.command, *self._arguments, *words),
             env=environment,
             stdin=subprocess.DEVNULL,
             start_new_session=os.name == "posix",
