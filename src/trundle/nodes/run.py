@@ -1,5 +1,7 @@
 """Runs a stand-in as its node."""
 
+import asyncio
+
 from trundle.ros import NOETIC, PROFILES, Node, follow_time
 
 from .find import Replacement
@@ -7,7 +9,7 @@ from .host import Host
 
 
 async def run_stand_in(replacement: Replacement, node: Node, arguments: list[str], host: Host) -> int:
-    """Run a stand-in until it ends or is cancelled, and shut its node down; return the exit code.
+    """Run a stand-in until it ends, is cancelled or its node is killed, and shut that down; return the exit code.
 
     Args:
         replacement: from `find_node`.
@@ -15,11 +17,21 @@ async def run_stand_in(replacement: Replacement, node: Node, arguments: list[str
         arguments: the command line without the program and without remappings.
         host: what the program offers.
     """
+    killed = asyncio.Event()
+    node.on_shutdown(lambda _: killed.set())
     try:
         await node.ready()  # its `_name:=value` parameters are set
         await follow_time(node)
         distro = str(await node.get_param("/rosdistro", "")).strip()
         node.profile = PROFILES.get(distro, NOETIC)
-        return await replacement.load()(node, arguments, host).run()
+        running = asyncio.create_task(replacement.load()(node, arguments, host).run())
+        waiting = asyncio.create_task(killed.wait())
+        try:
+            await asyncio.wait((running, waiting), return_when=asyncio.FIRST_COMPLETED)
+            return running.result() if running.done() else 0
+        finally:
+            running.cancel()
+            waiting.cancel()
+            await asyncio.wait((running,))
     finally:
         await node.shutdown()
