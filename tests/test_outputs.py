@@ -26,9 +26,11 @@ def test_a_file_is_replaced_and_a_link_to_it_stays_one(tmp_path: Path) -> None:
     link.symlink_to(file)
 
     write_whole(link, "α")
+    file.chmod(0o600)
     write_whole(link, "β")
 
     assert file.read_bytes() == "β".encode()
+    assert file.stat().st_mode & 0o777 == 0o600
     assert link.is_symlink()
     assert {path.name for path in tmp_path.iterdir()} == {"a.txt", "link"}
 

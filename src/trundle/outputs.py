@@ -1,6 +1,7 @@
 """Files that a command is asked to write: whole or not at all."""
 
 import os
+import shutil
 from pathlib import Path
 
 from .diagnostics import UsageError
@@ -9,7 +10,7 @@ from .diagnostics import UsageError
 def write_whole(path: Path, text: str) -> None:
     """Write a text as UTF-8; a file that is there keeps what it holds until the new text is on the disk.
 
-    A link stays one, and what is no file, a pipe or /dev/stdout, is written into.
+    Who may read it stays, a link stays one, and what is no file, a pipe or /dev/stdout, is written into.
 
     Raises:
         UsageError: it cannot be written.
@@ -27,6 +28,8 @@ def _replace(path: Path, text: str) -> None:
     half = path.with_name(f".{path.name}.part")
     try:
         half.write_text(text, encoding="utf-8")
+        if path.exists():
+            shutil.copymode(path, half)
         os.replace(half, path)
     except OSError:
         half.unlink(missing_ok=True)
