@@ -15,11 +15,10 @@ Forward is the model's +y, where both cameras look. Parameters, all optional, in
 
 import math
 
-from trundle.bridge import JointStates
+from trundle import bridge, ros
 from trundle.control import DifferentialDrive, WheelOdometry, approach
 from trundle.model import PluginTag
 from trundle.plugins import Plugin
-from trundle.ros import Node, StaticTransformBroadcaster, Transform, TransformBroadcaster
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
 PERIOD_S = 0.02
@@ -34,7 +33,7 @@ class Rp2w(Plugin):
 
     period_ns = round(PERIOD_S * 1e9)
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
+    def __init__(self, sim: Simulation, model: ModelHandle, node: "ros.Node | None", tag: PluginTag) -> None:
         report, numbers = sim.report, tag.node
         self.drive = DifferentialDrive(
             wheel_radius=numbers.number("wheel_radius", default=0.0635, report=report),
@@ -54,7 +53,7 @@ class Rp2w(Plugin):
             self.join(node, sim, model)
 
     @classmethod
-    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> "Rp2w":
+    def load(cls, sim: Simulation, model: ModelHandle, node: "ros.Node | None", tag: PluginTag) -> "Rp2w":
         return cls(sim, model, node, tag)
 
     def reset(self) -> None:
@@ -65,13 +64,13 @@ class Rp2w(Plugin):
         self.look(self.pan, 0.0)
         self.look(self.tilt, 0.0)
 
-    def join(self, node: Node, sim: Simulation, model: ModelHandle) -> None:
+    def join(self, node: "ros.Node", sim: Simulation, model: ModelHandle) -> None:
         """Speak and listen on the ROS graph; callbacks run between two steps."""
         self.odom = node.advertise("/odom", "nav_msgs/Odometry", queue_size=5)
-        self.tf = TransformBroadcaster(node)
+        self.tf = ros.TransformBroadcaster(node)
         x_forward = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
-        StaticTransformBroadcaster(node).send(Transform(parent="world", child="odom", rotation=x_forward))
-        states = JointStates(node, model)
+        ros.StaticTransformBroadcaster(node).send(ros.Transform(parent="world", child="odom", rotation=x_forward))
+        states = bridge.JointStates(node, model)
         sim.add_hook(states, period_ns=states.period_ns, wanted=states.wanted)
         node.subscribe("/cmd_vel", "geometry_msgs/Twist", self.take)
         node.subscribe("/camera/pan", "std_msgs/Float64", lambda message: self.look(self.pan, message.data))
@@ -106,7 +105,7 @@ class Rp2w(Plugin):
         here = self.odometry
         qw, qz = math.cos(here.yaw / 2), math.sin(here.yaw / 2)
         self.tf.send(
-            Transform(
+            ros.Transform(
                 parent="odom",
                 child=self.frame,
                 stamp_ns=time_ns,

@@ -2,22 +2,24 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import chain, count
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
 from trundle.model import PluginTag
 from trundle.names import ros_name
 from trundle.plugins import Hooks, Plugin, find_plugin, find_sensor_plugin, find_world_plugin
-from trundle.ros import Node
 from trundle.sensors import CameraSensor, MeasuringSensor
 from trundle.simulation import ModelHandle, Simulation
+
+if TYPE_CHECKING:  # a run without ROS starts without its modules
+    from trundle.ros import Node
 
 _Kind = TypeVar("_Kind", bound=Hooks)
 
 
 def load_plugins(
     simulation: Simulation,
-    make_node: Callable[[str], Node] | None,
+    make_node: "Callable[[str], Node] | None",
     environment: Mapping[str, str],
     *,
     say: Callable[[str], None],
@@ -51,7 +53,7 @@ def load_plugins(
 
 def load_world_plugins(
     simulation: Simulation,
-    make_node: Callable[[str], Node] | None,
+    make_node: "Callable[[str], Node] | None",
     environment: Mapping[str, str],
     *,
     say: Callable[[str], None],
@@ -77,7 +79,7 @@ def load_world_plugins(
 _Sensor = TypeVar("_Sensor", CameraSensor, MeasuringSensor)
 
 
-def attach_sensor_plugins(sensors: Sequence[_Sensor], node: Node, report: Diagnostics) -> list[_Sensor]:
+def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diagnostics) -> list[_Sensor]:
     """Have sensors' plugins publish what they measure, as their files say; return those without, in order."""
     silent: list[_Sensor] = []
     for sensor in sensors:

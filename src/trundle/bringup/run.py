@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
@@ -17,14 +17,15 @@ from trundle.simulation import Simulation, SimulationUnstableError, with_actors
 from .exposure import warn_of_exposure
 from .outcome import Outcome
 from .pace import NS, Pacer, take_turns
-from .page import Page
 from .plugins import load_plugins, load_world_plugins
 from .renderers import RENDERERS, RendererName
-from .ros_side import RosSide
 from .showing import Showing
 from .signals import StopFlag, stop_flag
 from .stage import set_stage
-from .state_logs import RunRecorder, begin_state_log
+
+if TYPE_CHECKING:  # a run without a page or a graph starts without their modules
+    from .page import Page
+    from .ros_side import RosSide
 
 OnInstability: TypeAlias = Literal["pause", "reset", "exit"]
 _MOST_RESETS = 10
@@ -85,9 +86,13 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         show.findings()
         ros = None
         if options.ros:
+            from .ros_side import RosSide
+
             ros = open_things.enter_context(RosSide.open(simulation, stage, cameras, sensors, env, host=options.host))
             show.line(ros.story)
         if options.record is not None:
+            from .state_logs import RunRecorder, begin_state_log
+
             log = begin_state_log(options.record, simulation, stage.written, report)
             recorder = RunRecorder(log, show.line)
             simulation.add_hook(recorder, period_ns=recorder.period_ns)
@@ -98,6 +103,8 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         show.findings()
         page = None
         if not options.headless:
+            from .page import Page
+
             shown = (*cameras, *sensors)
             page = open_things.enter_context(Page.open(simulation, shown, ros, host=options.host, port=options.port))
             show.line(f"see it at {page.url}")
@@ -116,8 +123,8 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
 
 def _drive(
     simulation: Simulation,
-    ros: RosSide | None,
-    page: Page | None,
+    ros: "RosSide | None",
+    page: "Page | None",
     options: RunOptions,
     stop: StopFlag,
     say: Callable[[str], None],

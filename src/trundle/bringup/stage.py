@@ -3,13 +3,16 @@
 import os
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from trundle.description import Loaded, load
 from trundle.diagnostics import Diagnostics
 from trundle.model import World, flattened
 from trundle.packages import Packages
-from trundle.robot import Robot
 from trundle.simulation import Simulation, with_actors
+
+if TYPE_CHECKING:  # an SDF file starts without what reads URDF
+    from trundle.robot import Robot
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -20,7 +23,7 @@ class Stage:
     """Nested models are part of the outer ones, as everything that simulates wants it."""
     written: World
     """The same, nested as in the file."""
-    robot: Robot | None
+    robot: "Robot | None"
     urdf: str | None
     """The expanded XML, what goes on the parameter /robot_description."""
 

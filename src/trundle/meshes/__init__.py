@@ -1,16 +1,47 @@
 """Vertex arrays from .dae, .stl, .obj and .glb files, from images and from outlines."""
 
-from .cache import keep, load_kept
-from .heights import read_heights
-from .load import load_mesh
-from .load_skin import load_motion, load_skin
-from .mesh import Mesh, MeshPart, Texture
-from .polygons import triangles_of
-from .raw import MeshError, RawPart
-from .skeleton import Motion, Skin, matched, root_of
-from .solids import cone_mesh, prism_mesh, terrain_mesh
-from .strip import strip_mesh
-from .texture import mean_colour, png_of
+from typing import TYPE_CHECKING
+
+from trundle.doors import opened_on_use
+
+if TYPE_CHECKING:
+    from .cache import keep, load_kept
+    from .heights import read_heights
+    from .load import load_mesh
+    from .mesh import Mesh, MeshPart, Texture
+    from .polygons import triangles_of
+    from .raw import MeshError, RawPart
+    from .skeleton import Motion, Skin, matched, root_of
+    from .skins import load_motion, load_skin
+    from .solids import cone_mesh, prism_mesh, terrain_mesh
+    from .strip import strip_mesh
+    from .texture import mean_colour, png_of
+
+_HOMES = {
+    "Mesh": "mesh",
+    "MeshError": "raw",
+    "MeshPart": "mesh",
+    "Motion": "skeleton",
+    "RawPart": "raw",
+    "Skin": "skeleton",
+    "Texture": "mesh",
+    "cone_mesh": "solids",
+    "keep": "cache",
+    "load_kept": "cache",
+    "load_mesh": "load",
+    "load_motion": "skins",
+    "load_skin": "skins",
+    "matched": "skeleton",
+    "mean_colour": "texture",
+    "png_of": "texture",
+    "prism_mesh": "solids",
+    "read_heights": "heights",
+    "root_of": "skeleton",
+    "strip_mesh": "strip",
+    "terrain_mesh": "solids",
+    "triangles_of": "polygons",
+}
+__getattr__ = opened_on_use(__name__, _HOMES)
 
 __all__ = [
     "Mesh",

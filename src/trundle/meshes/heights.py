@@ -4,7 +4,6 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from .raw import MeshError
 
@@ -25,6 +24,8 @@ def read_heights(path: Path, *, sampling: int = 1, most: int = MOST_SAMPLES) -> 
     Raises:
         MeshError: it cannot be read, or is too large or a mere line.
     """
+    from PIL import Image  # slow to load, and few worlds have terrain
+
     try:
         with Image.open(path) as image:
             if max(image.size) > _MOST_PIXELS or min(image.size) < 2:

@@ -12,13 +12,15 @@ import sys
 from collections.abc import Callable, Mapping
 from importlib.metadata import entry_points
 from pathlib import Path, PurePosixPath
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.model import PluginTag
-from trundle.ros import Node
 
 from .plugin import Hooks, Plugin, WorldPlugin
+
+if TYPE_CHECKING:
+    from trundle.ros import Node
 
 BUILTIN: dict[str, str] = {
     "libActorPlugin.so": "trundle.plugins.actor:WanderingActor",
@@ -112,7 +114,7 @@ def find_world_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[t
     return _find(tag, environment, WorldPlugin)
 
 
-def find_sensor_plugin(tag: PluginTag) -> Callable[[Any, Node, PluginTag, Diagnostics], None] | None:
+def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, Node, PluginTag, Diagnostics], None] | None":
     """The function that publishes a sensor's readings as a plugin does; None: there is none of this name."""
     target = OF_SENSORS.get(PurePosixPath(tag.filename.replace("\\", "/")).name)
     if target is None:

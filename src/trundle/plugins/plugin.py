@@ -18,11 +18,13 @@ Write a class like this in `rp2w.py` beside `model.sdf`, name `librp2w.so` (or `
             self.joint.set_effort(0.5)
 """
 
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from trundle.model import PluginTag
-from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
+
+if TYPE_CHECKING:  # a run without ROS starts without its modules
+    from trundle.ros import Node
 
 
 class Hooks:
@@ -45,7 +47,7 @@ class Plugin(Hooks):
     """Drives a model and speaks for it on the ROS graph."""
 
     @classmethod
-    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+    def load(cls, sim: Simulation, model: ModelHandle, node: "Node | None", tag: PluginTag) -> Self:
         """Make the plugin for one model.
 
         Args:
@@ -61,6 +63,6 @@ class WorldPlugin(Hooks):
     """Acts on a whole world: the Python counterpart of a Gazebo WorldPlugin."""
 
     @classmethod
-    def load(cls, sim: Simulation, node: Node | None, tag: PluginTag) -> Self:
+    def load(cls, sim: Simulation, node: "Node | None", tag: PluginTag) -> Self:
         """Make the plugin for the world; see `Plugin.load`."""
         raise NotImplementedError(f"{cls.__name__} needs a load(cls, sim, node, tag)")

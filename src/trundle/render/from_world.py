@@ -24,7 +24,6 @@ from trundle.model import (
 from .roads import road_shapes
 from .scene import Scene, SceneLight, SceneSkin, Shape, ShapeGeometry
 from .skins import skin_shapes
-from .terrain import painted_terrain
 
 _COLLISION: Rgba = (1.0, 0.55, 0.1, 0.45)
 _SKY: tuple[Rgba, Rgba] = ((0.86, 0.91, 0.96, 1.0), (0.30, 0.52, 0.82, 1.0))
@@ -170,6 +169,8 @@ def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeome
         case Polyline(outlines, height):
             return _prism(outlines, height, at, report)
         case Heightmap():
+            from .terrain import painted_terrain  # with Pillow, which is slow to load
+
             return painted_terrain(geometry, at, report)
         case MeshFile(path=path):
             assert path is not None  # caught above

@@ -5,7 +5,6 @@ from io import BytesIO
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from trundle.meshes import Texture
 
@@ -17,6 +16,8 @@ _LARGEST = 4096
 @lru_cache(maxsize=64)
 def load_texture(texture: Texture) -> NDArray[np.uint8] | None:
     """Read an image as (height, width, 3), the highest row first; None where it cannot be read."""
+    from PIL import Image  # slow to load, and robots of plain shapes have no textures
+
     try:
         with Image.open(BytesIO(texture) if isinstance(texture, bytes) else texture) as image:
             if image.width * image.height > _MOST_PIXELS:

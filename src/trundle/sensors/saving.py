@@ -3,8 +3,6 @@
 import tempfile
 from pathlib import Path
 
-from PIL import Image
-
 from trundle.diagnostics import Diagnostics, Source
 
 from .camera import CameraReading, CameraSensor
@@ -38,6 +36,8 @@ class PictureSaver:
 
     def save(self, reading: CameraReading) -> None:
         """Write one picture."""
+        from PIL import Image
+
         path = self._folder / f"{self._start}-{self._count:04}.jpg"
         try:
             self._folder.mkdir(parents=True, exist_ok=True)

@@ -8,9 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from trundle.diagnostics import Diagnostics
-from trundle.meshes import MeshError, load_mesh
 from trundle.model import Actor, Box, Link, Model, Moment, Skin, Visual, World
-from trundle.render import why_stiff
 from trundle.spatial import Pose, Vector3
 
 from .actor_script import ActorScript
@@ -94,6 +92,8 @@ def _body(actor: Actor, skin: Skin, report: Diagnostics) -> Link:
         place = Pose.from_rpy(0.0, height / 2 - _HIPS, 0.0, -1.5707963)
     name = f"{actor.name}_pose"
     box = Visual(name=name, at=actor.at, geometry=Box((width, depth, height)), link_from_visual=place)
+    from trundle.render import why_stiff
+
     why = why_stiff(actor)
     if why is None:
         report.info(actor.at, f"actor {actor.name!r}: cameras and lidars see its bones move; the page draws it stiff")
@@ -110,6 +110,8 @@ def _size(skin: Skin) -> Vector3:
     """Lengths of the box, the largest upwards."""
     if skin.path is None:
         return _PERSON
+    from trundle.meshes import MeshError, load_mesh
+
     try:
         vertices = load_mesh(skin.path).vertices
     except MeshError:
