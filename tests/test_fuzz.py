@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 from tests.meshes.test_parts import MTL, OBJ, collada
-from tests.meshes.test_skin import BVH
+from tests.meshes.test_skins import BVH
 from tests.skinned import bending_column
 
 from trundle.description import expand_xacro
