@@ -1,22 +1,35 @@
-"""Camera pictures a second, both cameras of the RP2W, new poses every picture."""
+"""Camera pictures a second: both cameras of the RP2W, and a ring of RGB-D cameras as quadrupeds carry it."""
 
+import math
 import statistics
+import tempfile
 import time
 from pathlib import Path
 
 import trundle
 from bench.table import Row
-from trundle.render import NativeRenderer
+from trundle.bringup.renderers import RENDERERS
 from trundle.sensors import mount_cameras
 
 ROBOT = Path(__file__).parents[1] / "examples/rp2w"
 _ROUNDS = 20
+_RING = 5
 
 
 def run() -> list[Row]:
-    """Measure the sensors by themselves: no stepping, no topics."""
-    sim = trundle.load(str(ROBOT))
-    cameras = mount_cameras(sim, NativeRenderer)
+    """Measure the sensors by themselves, with new poses every picture: no stepping, no topics."""
+    with tempfile.TemporaryDirectory() as folder:
+        ring = Path(folder) / "ring.world"
+        ring.write_text(_ring(), encoding="utf-8")
+        return [
+            Row("RP2W, both cameras, 320x240", _rate(str(ROBOT)), "images/s", "", None),
+            Row("five RGB-D cameras, 928x800, noise", _rate(str(ring)), "images/s", "", None),
+        ]
+
+
+def _rate(file: str) -> float:
+    sim = trundle.load(file)
+    cameras = mount_cameras(sim, RENDERERS["cpu"])
     rates: list[float] = []
     for _ in range(_ROUNDS):
         sim.step(33)
@@ -27,4 +40,29 @@ def run() -> list[Row]:
         for camera in cameras:
             camera.take(snapshot)
         rates.append(len(cameras) / (time.perf_counter() - start))
-    return [Row("RP2W, both cameras, 320x240", statistics.median(rates), "images/s", "", None)]
+    return statistics.median(rates)
+
+
+def _ring() -> str:
+    """Twenty boxes on the ground around a box with cameras to all sides."""
+    cameras = "".join(_camera(number, math.tau * number / _RING) for number in range(_RING))
+    boxes = "".join(_box(number, math.tau * number / 20) for number in range(20))
+    return f"""<sdf version="1.6"><world name="ring">
+      <include><uri>model://sun</uri></include><include><uri>model://ground_plane</uri></include>
+      <model name="robot"><static>true</static><pose>0 0 0.6 0 0 0</pose><link name="body">
+        <visual name="box"><geometry><box><size>0.3 0.3 0.2</size></box></geometry></visual>{cameras}
+      </link></model>{boxes}</world></sdf>"""
+
+
+def _camera(number: int, yaw: float) -> str:
+    return f"""<sensor name="eye_{number}" type="depth"><update_rate>30</update_rate>
+      <pose>{0.2 * math.cos(yaw)} {0.2 * math.sin(yaw)} 0 0 0.3 {yaw}</pose>
+      <camera><horizontal_fov>1.2</horizontal_fov><image><width>928</width><height>800</height></image>
+      <noise><type>gaussian</type><mean>0</mean><stddev>0.007</stddev></noise></camera></sensor>"""
+
+
+def _box(number: int, angle: float) -> str:
+    geometry = "<geometry><box><size>0.5 0.5 1</size></box></geometry>"
+    return f"""<model name="box_{number}"><static>true</static>
+      <pose>{3 * math.cos(angle)} {3 * math.sin(angle)} 0.5 0 0 {angle}</pose>
+      <link name="link"><visual name="box">{geometry}</visual></link></model>"""

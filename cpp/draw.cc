@@ -38,6 +38,8 @@ struct Renderer::Band {
   }
 };
 
+constexpr int64_t kTilesForThread = 2048;  // 256 ki pixels: of fewer, starting a thread is most of what it saves
+
 // Of all pictures, one below another, each thread has a band from above and one from below: skies are less work than
 // what is under them. The two in the middle are one.
 template <typename Work>
@@ -61,8 +63,9 @@ void Renderer::in_bands(const std::vector<View>& views, const Work& work) {
   };
   std::vector<std::thread> others;
   int64_t started = 1;
+  const int64_t helpful = std::min(count, starts.back() / kTilesForThread + 1);
   try {
-    for (; started < count; ++started) others.emplace_back(draw, started);
+    for (; started < helpful; ++started) others.emplace_back(draw, started);
   } catch (const std::system_error&) {  // the system has no more threads to give: this one does the rest
   }
   for (int64_t thread = started; thread < count; ++thread) draw(thread);

@@ -5,6 +5,7 @@
 #include "cast.h"
 #include "intersect.h"
 #include "lanes.h"
+#include "noise.h"
 #include "raster.h"
 #include "shade.h"
 
@@ -127,6 +128,6 @@ void shade(const View& view, const Solid& solid, const Lighting& lighting, const
 #define TRUNDLE_TEXT(name) #name
 #define TRUNDLE_NAME(name) TRUNDLE_TEXT(name)
 extern const Kernel kernel;
-const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), see, settle, fill, shade, cast};
+const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), see, settle, fill, shade, cast, add_depth_noise, add_colour_noise};
 
 }  // namespace trundle::TRUNDLE_ISA

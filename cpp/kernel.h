@@ -162,6 +162,12 @@ struct Buffers {
   int32_t* large;     // room for the numbers of the faces of the largest mesh
 };
 
+// Gaussian, of the same numbers wherever it has the same key.
+struct Noise {
+  uint32_t key[2];
+  float mean, stddev;
+};
+
 struct Kernel {
   const char* name;
   // Of two at one place the one with the lower number is seen, in whatever order they come.
@@ -172,6 +178,8 @@ struct Kernel {
   // `near` has room for a number for each target.
   void (*cast)(const Target*, const Around*, int32_t target_count, int32_t* near, const double* directions, int64_t count, double reach,
                double* ranges, int32_t* shapes);
+  void (*add_depth_noise)(const Noise&, int64_t count, float* depths);
+  void (*add_colour_noise)(const Noise&, int64_t count, uint8_t* rgb);  // the same on each pixel's three colours
 };
 
 namespace baseline {

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from trundle.render import coloured_points
 from trundle.sensors import CameraReading, CameraSensor, pixels_in
 
 _FLOAT32 = 7
@@ -46,7 +47,7 @@ def _image(pixels: NDArray[np.generic], encoding: str) -> dict[str, object]:
 def cloud_maker(camera: CameraSensor) -> Callable[[CameraReading], dict[str, object]]:
     """What makes sensor_msgs/PointCloud2: a point for each pixel, in its colour, in the optical frame; one without
     depth is not a number."""
-    x, y = (slopes.astype(np.float32) for slopes in camera.view.slopes())
+    right, down = (np.ascontiguousarray(slopes, dtype=np.float32) for slopes in camera.view.slopes())
     fields = [
         {"name": name, "offset": 4 * i, "datatype": _FLOAT32, "count": 1}
         for i, name in enumerate(("x", "y", "z", "rgb"))
@@ -55,13 +56,7 @@ def cloud_maker(camera: CameraSensor) -> Callable[[CameraReading], dict[str, obj
     def cloud(reading: CameraReading) -> dict[str, object]:
         assert reading.depth is not None
         height, width = reading.depth.shape
-        points = np.empty((height, width, 4), dtype="<f4")
-        points[..., 0] = x * reading.depth
-        points[..., 1] = y * reading.depth
-        points[..., 2] = reading.depth
-        colours = points.view(np.uint8).reshape(height, width, 16)[..., 12:]
-        colours[..., :3] = reading.rgb[..., ::-1]
-        colours[..., 3] = 0
+        points = coloured_points(reading.depth, reading.rgb, right, down)
         return {
             "height": height,
             "width": width,

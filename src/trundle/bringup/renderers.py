@@ -1,5 +1,6 @@
 """Which renderer draws: the one that was asked for, never another."""
 
+import os
 from collections.abc import Callable
 from typing import Literal, TypeAlias
 
@@ -7,4 +8,11 @@ from trundle.physics import EglRenderer
 from trundle.render import NativeRenderer, Renderer, Scene
 
 RendererName: TypeAlias = Literal["cpu", "egl"]
-RENDERERS: dict[RendererName, Callable[[Scene], Renderer]] = {"cpu": NativeRenderer, "egl": EglRenderer}
+_MOST_THREADS = 8
+
+
+def _native(scene: Scene) -> Renderer:
+    return NativeRenderer(scene, threads=min(os.cpu_count() or 1, _MOST_THREADS))
+
+
+RENDERERS: dict[RendererName, Callable[[Scene], Renderer]] = {"cpu": _native, "egl": EglRenderer}

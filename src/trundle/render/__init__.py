@@ -8,11 +8,15 @@ if TYPE_CHECKING:
     from .extent import corners_of, outline_of
     from .from_world import scene_of
     from .native import NativeRenderer
+    from .pixels import add_colour_noise, add_depth_noise, coloured_points
     from .renderer import Intrinsics, Picture, Renderer, size_of
     from .scene import Scene, SceneLight, SceneSkin, Shape, ShapeGeometry
     from .skins import move_skins, why_stiff
 
 _HOMES = {
+    "coloured_points": "pixels",
+    "add_depth_noise": "pixels",
+    "add_colour_noise": "pixels",
     "Intrinsics": "renderer",
     "NativeRenderer": "native",
     "Picture": "renderer",
@@ -41,6 +45,9 @@ __all__ = [
     "SceneSkin",
     "Shape",
     "ShapeGeometry",
+    "add_colour_noise",
+    "add_depth_noise",
+    "coloured_points",
     "corners_of",
     "move_skins",
     "outline_of",

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.model import CameraOptics, Noise
-from trundle.render import Intrinsics, Picture
+from trundle.render import Intrinsics, Picture, add_colour_noise
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
@@ -153,8 +153,13 @@ class CameraSensor(MountedSensor[CameraReading]):
         noise = self.optics.noise
         if noise == Noise():
             return rgb
-        grain = self.random.normal(noise.mean, noise.stddev, rgb.shape[:2]) * 255.0
-        return np.clip(np.rint(rgb + grain[..., None]), 0, 255).astype(np.uint8)
+        noisy = np.ascontiguousarray(rgb)
+        add_colour_noise(noisy, seed=self.noise_seed(), mean=noise.mean, stddev=noise.stddev)
+        return noisy
+
+    def noise_seed(self) -> int:
+        """What the noise of the next picture follows from."""
+        return int(self.random.integers(1 << 64, dtype=np.uint64))
 
     def world_from_camera(self, snapshot: Snapshot) -> Pose:
         """Where it is at this instant."""

@@ -3,6 +3,7 @@
 import numpy as np
 
 from trundle.model import Noise
+from trundle.render import add_depth_noise
 from trundle.simulation import Snapshot
 
 from .camera import CameraReading, CameraSensor
@@ -19,10 +20,10 @@ class DepthCameraSensor(CameraSensor):
         assert picture.depth is not None
         noise = self.optics.noise
         near, far = self.optics.depth_near_m, self.optics.depth_far_m
-        depth = picture.depth.copy()
+        depth = np.ascontiguousarray(picture.depth)
         depth[~np.isfinite(depth)] = np.nan
         if noise != Noise():
-            depth += self.random.normal(noise.mean, noise.stddev, depth.shape).astype(np.float32)
+            add_depth_noise(depth, seed=self.noise_seed(), mean=noise.mean, stddev=noise.stddev)
         with np.errstate(invalid="ignore"):
             if near is not None:
                 depth[depth < near] = np.nan

@@ -1,5 +1,7 @@
 """libgazebo_ros_openni_kinect.so and libgazebo_ros_depth_camera.so: pictures, depths and points of one camera."""
 
+from functools import lru_cache
+
 import numpy as np
 
 from trundle.bridge import cloud_maker, depth_image, image_maker
@@ -47,6 +49,7 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
     ignore(parameters, "autoDistortion", "cameraName", "depthImageInfoTopicName", "reflectanceTopicName")
     parameters.report_unread(report)
 
+    @lru_cache(maxsize=1)  # depths and points are of the same reading
     def cut(reading: CameraReading) -> CameraReading:
         assert reading.depth is not None
         with np.errstate(invalid="ignore"):

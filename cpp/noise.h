@@ -1,0 +1,76 @@
+// Gaussian noise of pictures. Each number follows from the key and its own place, so that neither the width of the
+// instruction set nor the number of threads shows in it. Included by kernel.cc alone.
+#pragma once
+
+#include "kernel.h"
+#include "lanes.h"
+
+namespace trundle::TRUNDLE_ISA {
+
+typedef uint32_t U __attribute__((vector_size(kLanes * 4)));
+
+// Wellons' "lowbias32": every bit of the input changes each bit of the output in half of all cases.
+inline U hash(U x) {
+  x ^= x >> 16;
+  x *= 0x7feb352du;
+  x ^= x >> 15;
+  x *= 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+// Taylor series on [-pi/4, pi/4]: within 1e-6.
+inline void sine_cosine(F a, F& sine, F& cosine) {
+  const F z = a * a;
+  sine = a + a * z * (-1.0f / 6 + z * (1.0f / 120 - z * (1.0f / 5040)));
+  cosine = 1.0f + z * (-0.5f + z * (1.0f / 24 + z * (-1.0f / 720 + z * (1.0f / 40320))));
+}
+
+// Box and Muller's transform of the numbers from `first` on, at two places.
+inline void normal_pair(const uint32_t key[2], uint32_t first, F& one, F& other) {
+  const U place = (U)counting_whole() + first;
+  const U a = hash(place ^ key[0]), b = hash(hash(place + key[1]) ^ key[0]);
+  const F chance = (to_float((I)(a >> 8)) + 1.0f) * (1.0f / (1 << 24));  // (0, 1]
+  const F length = sqrt(max(-2.0f * 0.69314718f * log2(chance), F{}));
+  const F angle = to_float((I)(b << 2) >> 8) * (0.78539816f / (1 << 23));  // [-pi/4, pi/4) of one quarter
+  const I quarter = (I)(b >> 30);
+  F sine, cosine;
+  sine_cosine(angle, sine, cosine);
+  const F x = select((quarter & 1) != 0, sine, cosine), y = select((quarter & 1) != 0, cosine, sine);
+  one = select(((quarter + 1) & 2) != 0, -x, x) * length;
+  other = select((quarter & 2) != 0, -y, y) * length;
+}
+
+constexpr int kNoiseBlock = 2 * kWidest;
+
+// kNoiseBlock numbers of a standard normal distribution.
+inline void normal_block(const uint32_t key[2], uint32_t block, float* numbers) {
+  for (int i = 0; i < kWidest; i += kLanes) {
+    F one, other;
+    normal_pair(key, block * kWidest + (uint32_t)i, one, other);
+    store(numbers + i, one);
+    store(numbers + kWidest + i, other);
+  }
+}
+
+void add_depth_noise(const Noise& noise, int64_t count, float* depths) {
+  alignas(64) float normal[kNoiseBlock];
+  for (int64_t at = 0; at < count; at += kNoiseBlock) {
+    normal_block(noise.key, (uint32_t)(at / kNoiseBlock), normal);
+    const int64_t rest = count - at < kNoiseBlock ? count - at : kNoiseBlock;
+    for (int64_t i = 0; i < rest; ++i) depths[at + i] += noise.mean + noise.stddev * normal[i];
+  }
+}
+
+void add_colour_noise(const Noise& noise, int64_t count, uint8_t* rgb) {
+  alignas(64) float normal[kNoiseBlock];
+  for (int64_t at = 0; at < count; at += kNoiseBlock) {
+    normal_block(noise.key, (uint32_t)(at / kNoiseBlock), normal);
+    const int64_t rest = count - at < kNoiseBlock ? count - at : kNoiseBlock;
+    for (int64_t i = 0; i < 3 * rest; ++i) {
+      const float value = (float)rgb[3 * at + i] + 255.0f * (noise.mean + noise.stddev * normal[i / 3]) + 0.5f;
+      rgb[3 * at + i] = (uint8_t)(value > 0.0f ? (value < 255.0f ? value : 255.0f) : 0.0f);
+    }
+  }
+}
+
+}  // namespace trundle::TRUNDLE_ISA

@@ -1,0 +1,39 @@
+"""What is done to each pixel of a picture once it is drawn, in C++."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+
+
+def add_colour_noise(rgb: NDArray[np.uint8], *, seed: int, mean: float, stddev: float) -> None:
+    """Add Gaussian noise to a picture where it is, the same to all colours of a pixel, as Gazebo's shader does.
+
+    Args:
+        rgb: (height, width, 3)
+        seed: the same numbers follow from it on every machine; 0 to 2^64 − 1.
+        mean: 1 is as much as from black to white.
+        stddev: likewise.
+    """
+    _native.add_colour_noise(rgb, seed=seed, mean=mean, stddev=stddev)
+
+
+def add_depth_noise(depths: NDArray[np.float32], *, seed: int, mean: float, stddev: float) -> None:
+    """Add Gaussian noise to (height, width) depths [m] where they are; see `add_colour_noise`."""
+    _native.add_depth_noise(depths, seed=seed, mean=mean, stddev=stddev)
+
+
+def coloured_points(
+    depth: NDArray[np.float32], rgb: NDArray[np.uint8], right: NDArray[np.float32], down: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """A point for each pixel: (height, width, 4) of x, y, z in the optical frame [m], and the colour packed in a float.
+
+    Args:
+        depth: (height, width) [m]; where it is not a number the point is not, either.
+        rgb: (height, width, 3)
+        right: (height, width) how far to the right a pixel looks, 1 m ahead [m].
+        down: (height, width) likewise.
+    """
+    points = np.empty((*depth.shape, 4), dtype=np.float32)
+    _native.fill_cloud(points, depth=depth, rgb=rgb, right=right, down=down)
+    return points

@@ -1,0 +1,109 @@
+"""What is done to each pixel once a picture is drawn."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from trundle.render import add_colour_noise, add_depth_noise, coloured_points
+
+_SEED = 0x1234_5678_9ABC_DEF0
+
+
+def _normal(count: int, seed: int = _SEED) -> np.ndarray:
+    depths = np.zeros((1, count), dtype=np.float32)
+    add_depth_noise(depths, seed=seed, mean=0.0, stddev=1.0)
+    return depths[0].astype(np.float64)
+
+
+def test_noise_is_gaussian() -> None:
+    """A million draws: moments within five standard errors, and the shares beyond 1, 2 and 3 sigma."""
+    numbers = _normal(1_000_000)
+
+    assert abs(numbers.mean()) < 5e-3
+    assert abs(numbers.std() - 1.0) < 4e-3
+    assert abs((numbers**3).mean()) < 0.02
+    assert abs((numbers**4).mean() - 3.0) < 0.05
+    for sigma, share in ((1.0, 0.3173), (2.0, 0.0455), (3.0, 0.0027)):
+        assert np.mean(np.abs(numbers) > sigma) == pytest.approx(share, abs=5 * np.sqrt(share / 1e6))
+
+
+@pytest.mark.parametrize("lag", [1, 4, 8, 16, 32, 640])
+def test_neighbours_in_a_picture_have_nothing_to_do_with_each_other(lag: int) -> None:
+    numbers = _normal(500_000)
+
+    assert abs(np.corrcoef(numbers[:-lag], numbers[lag:])[0, 1]) < 7e-3
+
+
+@pytest.mark.parametrize("other", [_SEED + 1, _SEED + (1 << 32), 0])
+def test_another_seed_gives_other_numbers(other: int) -> None:
+    assert abs(np.corrcoef(_normal(200_000), _normal(200_000, other))[0, 1]) < 0.012
+
+
+@pytest.mark.parametrize("count", [1, 15, 16, 31, 33, 100])
+def test_a_smaller_picture_has_the_first_numbers(count: int) -> None:
+    assert _normal(count).tolist() == _normal(1000)[:count].tolist()
+
+
+def test_every_instruction_set_draws_the_same_noise() -> None:
+    program = (
+        "import numpy as np, sys; from trundle.render import add_depth_noise;"
+        "d = np.ones((37, 41), np.float32); add_depth_noise(d, seed=99, mean=0.1, stddev=0.3);"
+        "sys.stdout.write(d.tobytes().hex())"
+    )
+    told = {
+        subprocess.run(
+            [sys.executable, "-c", program],
+            env={**os.environ, "TRUNDLE_RENDER_ISA": name},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for name in ("baseline", "avx2", "avx512")
+    }
+
+    assert len(told) == 1
+
+
+def test_depths_that_are_nothing_stay_so() -> None:
+    depths = np.array([[np.nan, np.inf, 1.0]], dtype=np.float32)
+
+    add_depth_noise(depths, seed=1, mean=0.5, stddev=0.0)
+
+    assert np.isnan(depths[0, 0])
+    assert np.isinf(depths[0, 1])
+    assert depths[0, 2] == 1.5
+
+
+def test_the_colours_of_a_pixel_have_the_same_noise_within_black_and_white() -> None:
+    rgb = np.zeros((200, 200, 3), dtype=np.uint8)
+    rgb[:] = (0, 128, 255)
+
+    add_colour_noise(rgb, seed=7, mean=0.0, stddev=0.08)
+
+    dark, middle, bright = (rgb[..., i].astype(int) for i in range(3))
+    assert np.abs(dark - np.maximum(middle - 128, 0)).max() <= 1
+    assert np.abs(bright - np.minimum(middle + 127, 255)).max() <= 1
+    assert middle.std() == pytest.approx(20.4, rel=0.03)
+
+
+def test_a_point_is_where_its_pixel_looks_at_its_depth() -> None:
+    random = np.random.default_rng(3)
+    depth, right, down = (random.random((5, 7), dtype=np.float32) for _ in range(3))
+    depth[0, 0] = np.nan
+    rgb = random.integers(0, 256, (5, 7, 3), dtype=np.uint8)
+
+    points = coloured_points(depth, rgb, right, down)
+
+    assert np.array_equal(points[..., :3], np.stack([right * depth, down * depth, depth], axis=-1), equal_nan=True)
+    colours = points.view("<u4")[..., 3]
+    assert np.array_equal(colours, rgb[..., 0].astype(int) << 16 | rgb[..., 1].astype(int) << 8 | rgb[..., 2])
+
+
+def test_arrays_of_other_sizes_are_refused() -> None:
+    flat = np.zeros((2, 2), dtype=np.float32)
+
+    with pytest.raises(ValueError, match="one height and width"):
+        coloured_points(flat, np.zeros((2, 3, 3), dtype=np.uint8), flat, flat)
