@@ -83,3 +83,18 @@ def test_what_is_wrong_with_something_added_is_told_where_it_was_written(tmp_pat
     _, report = changed(tmp_path, '<link element_id="lower"><gravity action="add">maybe</gravity></link>')
 
     assert report.warnings[0].startswith(f"{tmp_path}/x.sdf:3: warning: <gravity>: 'maybe' is neither true nor false")
+
+
+def test_an_attribute_whose_prefix_nobody_declared_is_left_out(tmp_path: Path) -> None:
+    arm, report = changed(
+        tmp_path,
+        '<visual element_id="upper::skin" action="modify" my::a="1">\n<transparency my:a="1">0.25</transparency>'
+        '</visual><my::b element_id="lower" action="add" my::c="1"/>',
+    )
+
+    assert arm.link("upper").visuals[0].transparency == 0.25
+    assert [warning.partition("warning: ")[2] for warning in report.warnings[1:]] == [
+        "attribute 'my::a' has a prefix that nobody declared; it is left out",
+        "attribute 'my:a' has a prefix that nobody declared; it is left out",
+        "<my::b> in <link> is not supported; it is ignored",
+    ]

@@ -276,7 +276,8 @@ def test_the_front_doors_are_what_they_say(room) -> None:
 
 def test_sdf_1_0_writes_values_as_attributes(tmp_path: Path) -> None:
     text = (
-        '<gazebo version="1.0"><world name="w"><physics type="ode"><gravity xyz="0 0 -5"/><ode><solver dt="0.002"/>'
+        '<gazebo version="1.0"><world name="w" my::own="1"><my::own x:y="2"/>'
+        '<physics type="ode"><gravity xyz="0 0 -5"/><ode><solver dt="0.002"/>'
         '</ode></physics><model name="m" static="false"><origin pose="1 2 3 0 0 0"/><link name="a"><inertial mass="7">'
         '<inertia ixx="2" iyy="3" izz="4"/></inertial><collision name="c"><geometry><cylinder radius="0.1" length="2"/>'
         '</geometry><surface><friction><ode mu="0.5"/></friction></surface></collision></link><joint name="j" '

@@ -75,3 +75,64 @@ def test_a_whole_number_may_be_hexadecimal_as_bitmasks_are() -> None:
     node = parse_xml("<contact><collide_bitmask>0x0F</collide_bitmask></contact>", name="w.sdf")
     assert node.integer("collide_bitmask", default=1, report=report) == 15
     assert not report.findings
+
+
+@pytest.mark.parametrize(
+    ("text", "read"),
+    [
+        ('<a><gz::b c::d="1">2</gz::b></a>', '<a><gz::b c::d="1">2</gz::b></a>'),
+        ('<a><x:b y:c="1"/></a>', '<a><x:b y:c="1"/></a>'),
+        ("<a>x &amp; y & z &no;</a>", "<a>x &amp; y  z no;</a>"),
+        ('<a b="x<y"c=1 d=\'"\'/>', '<a b="x&lt;y" c="1" d="&quot;"/>'),
+        ("<a>1\x012</a>", "<a>12</a>"),
+        ("<a>]]></a>", "<a>]]&gt;</a>"),
+        ("<!-- -- --><?xml version='1.0'>\n<a/>", "<a/>"),
+        ("<a/></b> & < more", "<a/>"),
+        ('<?xml version="1.0" encoding="utf-8"?><a>\xe9</a>', "<a>\xe9</a>"),
+        ("<a><1/><!ODD><b/></a>", "<a><b/></a>"),
+    ],
+)
+def test_what_tinyxml_reads_is_read_with_a_warning(text: str, read: str) -> None:
+    """Gazebo 11's libsdformat and urdfdom 3 parse with TinyXML 2.6; each case was held against it."""
+    report = Diagnostics()
+
+    assert parse_xml(text.encode("latin-1"), name="x.sdf", report=report).xml() == read
+    (warning,) = report.warnings
+    assert "warning: not well-formed XML: " in warning
+    assert warning.endswith("; read as Gazebo reads it")
+    with pytest.raises(DescriptionError, match="not well-formed XML"):
+        parse_xml(text.encode("latin-1"), name="x.sdf")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '<a b="1" b="2"/>',
+        "<a b/>",
+        "<a></ a>",
+        "<a>< b></b></a>",
+        "<a><:b>1</:b></a>",
+        '<a b="1>2</a>',
+        "<a><b></a>",
+        "<a>\0</a>",
+        "words <a/>",
+        '<!DOCTYPE a [<!ENTITY x "y">]><a>&x; & &z;</a>',
+    ],
+)
+def test_what_tinyxml_refuses_is_refused(text: str) -> None:
+    with pytest.raises(DescriptionError, match="not well-formed XML"):
+        parse_xml(text, name="x.sdf", report=Diagnostics())
+
+
+def test_lines_stay_where_they_are_in_what_tinyxml_alone_reads() -> None:
+    text = "\n<?xml version='1.0'?>\n<!-- a\n-- b -->\n<a x='1\n2' y = 3>\n&\n<![CDATA[\n]]><b::c\n/>\n<d/></a>"
+    node = parse_xml(text, name="x.sdf", report=Diagnostics())
+
+    assert [(child.tag, child.at.line) for child in node.children] == [("b::c", 10), ("d", 11)]
+
+
+def test_utf_16_is_read_with_a_warning() -> None:
+    report = Diagnostics()
+
+    assert parse_xml("<a>1</a>".encode("utf-16"), name="x.sdf", report=report).text == "1"
+    assert report.warnings == ["x.sdf:1: warning: UTF-16 text, which Gazebo and urdfdom refuse; save it as UTF-8"]

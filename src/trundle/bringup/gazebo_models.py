@@ -1,14 +1,14 @@
 """Reads the text of a spawned model."""
 
 import re
-import xml.etree.ElementTree as ET
 from pathlib import Path
 
 from trundle.description import load
-from trundle.diagnostics import Diagnostics, UsageError
+from trundle.diagnostics import DescriptionError, Diagnostics, UsageError
 from trundle.model import Model
 from trundle.packages import Packages
 from trundle.robot import Robot
+from trundle.xmlnode import parse_xml
 
 _URDF = re.compile(r"<robot[\s>]")
 
@@ -45,10 +45,14 @@ def read_spawned(
 def _in_namespace(xml: str, namespace: str) -> str:
     """Write the namespace into every plugin that has none."""
     try:
-        root = ET.fromstring(xml)
-    except ET.ParseError:
+        root = parse_xml(xml, name="", report=Diagnostics())
+    except DescriptionError:
         return xml  # the reader says what is wrong with it, and where
-    for plugin in root.iter("plugin"):
-        if plugin.find("robotNamespace") is None:
-            ET.SubElement(plugin, "robotNamespace").text = namespace
-    return ET.tostring(root, encoding="unicode")
+    pending = [root]
+    while pending:
+        node = pending.pop()
+        if node.tag != "plugin":
+            pending += node.children
+        elif node.find("robotNamespace") is None:
+            node.write("robotNamespace", namespace)
+    return root.xml()

@@ -25,7 +25,7 @@ def model_file(folder: Path, report: Diagnostics) -> Path:
             raise DescriptionError(Source(str(folder)), f"no model.config in this folder; there is: {_listed(folder)}")
         report.warn(Source(str(manifest)), "manifest.xml is deprecated; name it model.config")
         config = manifest
-    root = read_xml(config)
+    root = read_xml(config, report=report)
     named = root.all("sdf")
     if not named:
         raise DescriptionError(Source(str(config)), "no <sdf> element names the model's file")

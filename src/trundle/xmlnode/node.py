@@ -198,7 +198,7 @@ class XmlNode:
             for name, value in values.items():
                 if texts.get(str(element.tag)) == name:
                     element.text = value
-                elif name in kept:
+                elif name in kept or ":" in name or "}" in name:  # a prefixed one belongs to another format
                     continue
                 else:
                     child = etree.SubElement(element, name)
@@ -208,8 +208,9 @@ class XmlNode:
 
     def rename(self, names: Mapping[str, str]) -> None:
         """Give this element and all below their later names."""
-        for element in self._element.iter():
-            element.tag = names.get(str(element.tag), element.tag)
+        for old, new in names.items():
+            for element in self._element.iter(old):
+                element.tag = new
         self._children = None
 
     def append(self, other: "XmlNode") -> None:
@@ -224,12 +225,15 @@ class XmlNode:
         self.children.remove(child)
         self._element.remove(child._element)
 
-    def take_values(self, other: "XmlNode") -> None:
+    def take_values(self, other: "XmlNode", report: Diagnostics) -> None:
         """Take over another element's text, where it has any, and its attributes."""
         if other.text:
             self._element.text = other.text
         for name, value in other.attributes().items():
-            self._element.set(name, value)
+            try:
+                self._element.set(name, value)
+            except ValueError:  # lxml sets no name that XML does not allow
+                report.warn(other.at, f"attribute {name!r} has a prefix that nobody declared; it is left out")
 
     def drop_attributes(self, *names: str) -> None:
         """Take attributes away."""

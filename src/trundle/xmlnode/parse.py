@@ -12,6 +12,7 @@ from lxml import etree
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 
 from .node import XmlNode
+from .tinyxml import rewrite_as_xml
 
 _MAX_BYTES = 64 * 1024 * 1024
 _DEEPEST = 256
@@ -43,6 +44,8 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
     if report is not None and not _says_or_is_unicode(data):
         report.warn(Source(name, 1), "bytes that are no UTF-8 in a file that names no encoding; read as Latin-1")
         data = data.decode("latin-1").encode()
+    if report is not None and data.startswith(_UTF_16):
+        report.warn(Source(name, 1), "UTF-16 text, which Gazebo and urdfdom refuse; save it as UTF-8")
     parser = _parser()
     try:
         root = etree.fromstring(data.lstrip(), parser)
@@ -66,41 +69,20 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
     return XmlNode(root, file=name, first_line=blank_lines)
 
 
-_SLIPS = frozenset(
-    {  # of attributes, only what `_with_quotes` does not mend
-        etree.ErrorTypes.ERR_ENTITYREF_NO_NAME,
-        etree.ErrorTypes.ERR_ENTITYREF_SEMICOL_MISSING,
-        etree.ErrorTypes.ERR_UNDECLARED_ENTITY,
-        etree.ErrorTypes.WAR_UNDECLARED_ENTITY,
-        etree.ErrorTypes.ERR_HYPHEN_IN_COMMENT,
-        etree.ErrorTypes.ERR_DOCUMENT_END,
-        etree.ErrorTypes.ERR_NAME_REQUIRED,
-        etree.ErrorTypes.ERR_RESERVED_XML_NAME,
+_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+_PREFIXES = frozenset(
+    {
+        etree.ErrorTypes.NS_ERR_QNAME,
         etree.ErrorTypes.NS_ERR_UNDEFINED_NAMESPACE,
+        etree.ErrorTypes.NS_ERR_XML_NAMESPACE,
     }
 )
-"""What TinyXML let pass: a bare &, `--` in a comment, text after the root, an unquoted value, a prefix nobody declared.
-A document that ends too soon or closes what it did not open is none of these."""
-
-
-_START_TAG = re.compile(rb"<[A-Za-z_][^<>]*>")
-_ATTRIBUTE = re.compile(rb"""(\s*)([\w:.-]+)(\s*=\s*)("[^"]*"|'[^']*'|[^\s"'<>]+?(?=[\s>]|/>))""")
-
-
-def _with_quotes(tag: re.Match[bytes]) -> bytes:
-    """A start tag with every value in quotes and a space before every attribute; lines stay where they are."""
-
-    def mended(attribute: re.Match[bytes]) -> bytes:
-        space, name, equals, value = attribute.groups()
-        quoted = value if value[:1] in b"\"'" else b'"' + value + b'"'
-        return (space or b" ") + name + equals + quoted
-
-    return _ATTRIBUTE.sub(mended, tag[0])
+"""Prefixes that nobody declared, or two of them: names to TinyXML like any other. libxml2 keeps them as written."""
 
 
 def _says_or_is_unicode(data: bytes) -> bool:
     """Whether a document names its encoding, or needs to name none."""
-    if b"encoding" in data[:200].split(b"?>")[0] or data.startswith((b"\xff\xfe", b"\xfe\xff")):
+    if b"encoding" in data[:200].split(b"?>")[0] or data.startswith(_UTF_16):
         return True
     try:
         data.decode()
@@ -145,13 +127,16 @@ def _parser(*, recover: bool = False) -> etree.XMLParser:
 
 
 def _recovered(data: bytes) -> etree._Element | None:  # pyright: ignore[reportPrivateUsage]
-    """The tree of a document whose faults are all slips, or None."""
+    """The tree of a document that TinyXML reads, or None."""
+    text = rewrite_as_xml(data)
+    if text is None:
+        return None
     parser = _parser(recover=True)
     try:
-        root = etree.fromstring(_START_TAG.sub(_with_quotes, data), parser)
+        root = etree.fromstring(text, parser)
     except (etree.XMLSyntaxError, ValueError):
         return None
-    return root if all(entry.type in _SLIPS for entry in parser.error_log) else None
+    return root if all(entry.type in _PREFIXES for entry in parser.error_log) else None
 
 
 def read_xml(path: Path, *, report: Diagnostics | None = None, deepest: int = _DEEPEST) -> XmlNode:
