@@ -312,3 +312,48 @@ def test_automatic_inertia_weighs_the_collisions(tmp_path: Path) -> None:
     assert inertial.link_from_com.position == pytest.approx((8, 0, 0))
     assert inertial.moments[0] == pytest.approx(1000 / 6 + 8000 * 4 / 6)
     assert inertial.moments[1] == pytest.approx(1000 / 6 + 8000 * 4 / 6 + 1000 * 64 + 8000 * 1)
+
+
+@pytest.mark.parametrize(
+    ("parent", "child", "resolved", "origin"),
+    [
+        ("world", "__model__", ("world", "a"), (0, 0, 0)),
+        ("__model__", "b", ("a", "b"), (0, 3, 0)),
+        ("world", "f", ("world", "a"), (5, 0, 0)),
+    ],
+)
+def test_an_end_that_moves_with_the_model_is_its_canonical_link(tmp_path, parent, child, resolved, origin) -> None:
+    """As in libsdformat 12; before, it was the world, and the joint was off by the model's pose."""
+    links = '<link name="a"><pose>0 0 1 0 0 0</pose></link><link name="b"><pose>0 3 0 0 0 0</pose></link>'
+    ends = f'<joint name="j" type="fixed"><parent>{parent}</parent><child>{child}</child></joint>'
+    report = Diagnostics()
+
+    frame = '<frame name="f"><pose>5 0 0 0 0 0</pose></frame>'
+    built = model(tmp_path, f"<pose>1 2 3 0 0 0</pose>{links}{frame}{ends}", report)
+
+    (joint,) = built.joints
+    assert (joint.parent, joint.child) == resolved
+    assert model_from_joint(built, joint).position == pytest.approx(origin)
+    assert report.warnings == []
+
+
+def test_a_joint_of_the_canonical_link_and_the_model_joins_nothing(tmp_path: Path) -> None:
+    report = Diagnostics()
+    ends = '<joint name="j" type="fixed"><parent>a</parent><child>__model__</child></joint>'
+
+    assert model(tmp_path, f'<link name="a"/>{ends}', report).joints == ()
+    assert "joint 'j' joins 'a' to itself; the joint is left out" in report.warnings[0]
+
+
+@pytest.mark.parametrize(
+    ("version", "x", "said"), [("1.6", 3.0, ""), ("1.7", 1.0, "<pose frame='a'> is ignored: SDF 1.7 calls it")]
+)
+def test_a_pose_has_a_frame_until_1_6(tmp_path: Path, version: str, x: float, said: str) -> None:
+    links = '<link name="a"><pose>2 0 0 0 0 0</pose></link><link name="b"><pose frame="a">1 0 0 0 0 0</pose></link>'
+    report = Diagnostics()
+
+    (built,) = read(tmp_path, f'<model name="m">{links}</model>', report, version=version).models
+
+    assert built.link("b").model_from_link.position[0] == x
+    assert said in "".join(report.warnings)
+    assert bool(said) == bool(report.warnings)

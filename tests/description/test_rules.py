@@ -32,7 +32,12 @@ def sdf(folder: Path, version: str, body: str, report: Diagnostics | None = None
     [
         ("1.4", "", "", (1, 0, 0)),
         ("1.5", "", "", (0, 1, 0)),
+        ("1.4", ' expressed_in="b"', "", (1, 0, 0)),
+        ("1.5", ' expressed_in="__model__"', "", (1, 0, 0)),
+        ("1.6", ' expressed_in="a"', "", (1, 0, 0)),
         ("1.6", "", "<use_parent_model_frame>1</use_parent_model_frame>", (1, 0, 0)),
+        ("1.6", ' expressed_in="b"', "<use_parent_model_frame>1</use_parent_model_frame>", (1, 0, 0)),
+        ("1.7", "", "<use_parent_model_frame>1</use_parent_model_frame>", (0, 1, 0)),
         ("1.7", "", "", (0, 1, 0)),
         ("1.7", ' expressed_in="__model__"', "", (1, 0, 0)),
         ("1.9", ' expressed_in="a"', "", (1, 0, 0)),

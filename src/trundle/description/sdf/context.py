@@ -71,8 +71,12 @@ def read_pose(node: XmlNode, context: Context) -> RawPose:
     child = node.find("pose")
     if child is None:
         return RawPose()
-    # 1.5 and 1.6 called it `frame`; Gazebo 11 converts it to `relative_to` before it reads on.
-    relative_to = child.attribute("relative_to") or child.attribute("frame")
+    relative_to, frame = child.attribute("relative_to"), child.attribute("frame")
+    # 1.5 and 1.6 called it `frame`; Gazebo 11 converts it to `relative_to` before it reads on, and from 1.7 on no more.
+    if context.version < (1, 7):
+        relative_to = relative_to if frame is None else frame
+    elif frame:
+        context.report.warn(child.at, f"<pose frame={frame!r}> is ignored: SDF 1.7 calls it relative_to")
     return RawPose(_numbers(child, context), relative_to or None, child.at)
 
 

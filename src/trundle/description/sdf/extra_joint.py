@@ -24,7 +24,7 @@ def read_extra_joint(node: XmlNode, model: Model, report: Diagnostics) -> Joint 
     """
     folder = Path(node.at.file).parent
     context = Context(version=_RULES, folder=folder, packages=Packages({}, start=folder), report=report)
-    graph = FrameGraph(MODEL, report)
+    graph = FrameGraph(MODEL, report, model.canonical_link)
     for link in model.links:
         graph.add(link.name, RawPose(link.model_from_link), link.at)
     joint = WrittenJoint(node, graph, context)

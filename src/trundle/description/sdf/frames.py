@@ -52,6 +52,8 @@ class FrameGraph:
     root: str
     """`__model__` or `world`."""
     report: Diagnostics
+    canonical_link: str | None = None
+    """The link that what is attached to the model itself moves with, as far as that is known."""
     _entries: dict[str, _Entry] = field(default_factory=dict[str, _Entry])
     _scopes: dict[str, Scope] = field(default_factory=dict[str, Scope])
     _found: dict[str, Pose] = field(default_factory=dict[str, Pose])
@@ -134,11 +136,11 @@ class FrameGraph:
             name = entry.attached_to
         return name
 
-    def scope(self, canonical_link: str | None) -> Scope:
+    def scope(self) -> Scope:
         """Everything here, for the surroundings; what is attached to nothing moves with the canonical link."""
         poses = {self.root: Pose(), **{name: self.pose(name) for name in self._entries}}
         links = {name: link for name in poses if (link := self.link(name)) is not None}
-        links = {name: canonical_link if link == self.root else link for name, link in links.items()}
+        links = {name: self.canonical_link if link == self.root else link for name, link in links.items()}
         links = {name: link for name, link in links.items() if link is not None}
         for model, inner in self._scopes.items():
             for name, pose in inner.poses.items():

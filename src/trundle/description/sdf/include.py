@@ -98,7 +98,7 @@ def _root(file: Path, node: XmlNode, context: Context) -> tuple[XmlNode, Context
 
 def _robot(model: Model, context: Context) -> Part:
     """A converted URDF, its links and frames known by their names."""
-    graph = FrameGraph(MODEL, context.report)
+    graph = FrameGraph(MODEL, context.report, model.canonical_link)
     for link in model.links:
         graph.add(link.name, RawPose(link.model_from_link), link.at)
     for frame in model.frames:
@@ -106,4 +106,4 @@ def _robot(model: Model, context: Context) -> Part:
     for joint in model.joints:
         if joint.name not in graph:
             graph.add(joint.name, RawPose(model_from_joint(model, joint)), joint.at, attached_to=joint.child)
-    return Part(model=model, scope=graph.scope(model.canonical_link), raw=RawPose())
+    return Part(model=model, scope=graph.scope(), raw=RawPose())

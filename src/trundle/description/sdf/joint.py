@@ -1,6 +1,4 @@
-"""Reads <joint>: SDF 1.0 to 1.4 write axes in the model frame, 1.5 and 1.6 in the joint's unless told otherwise,
-1.7 and later in whichever frame `expressed_in` names.
-"""
+"""Reads <joint>: SDF 1.0 to 1.4 write axes in the model frame, later ones in the joint's or in the one they name."""
 
 import math
 from collections.abc import Callable
@@ -54,8 +52,8 @@ def read_joint(
         child=child,
         at=node.at,
         child_from_joint=child_from_joint,
-        axis=None if type_ in _WITHOUT_AXIS else _read_axis(axis, node, name, frame, context),
-        axis2=_read_axis(axis2, node, name, frame, context) if type_ in _TWO_AXES else None,
+        axis=None if type_ in _WITHOUT_AXIS else _read_axis(axis, node, frame, graph.root, context),
+        axis2=_read_axis(axis2, node, frame, graph.root, context) if type_ in _TWO_AXES else None,
         thread_pitch=_thread_pitch(node, context),
         gearbox_ratio=node.number("gearbox_ratio", default=1.0, report=report),
         gearbox_reference_body=node.string("gearbox_reference_body") or None,
@@ -77,12 +75,13 @@ def _thread_pitch(node: XmlNode, context: Context) -> float:
     return node.number("thread_pitch", default=1.0, report=context.report)
 
 
-def _read_axis(node: XmlNode | None, joint: XmlNode, name: str, frame: FrameOf, context: Context) -> JointAxis:
-    report = context.report
+def _read_axis(node: XmlNode | None, joint: XmlNode, frame: FrameOf, root: str, context: Context) -> JointAxis:
+    report, name = context.report, joint.required_attribute("name")
     if node is None:
         report.warn(joint.at, f"joint {name!r} has no <axis>; 0 0 1 is used, without limits")
         return JointAxis(direction=_seen_from("", (0.0, 0.0, 1.0), frame))
-    direction = _direction(node, name, frame, context)
+    unit = _unit(node, name, context)
+    direction = _seen_from(_expressed_in(node, name, frame, root, context), unit, frame)
     limit, dynamics = node.find("limit"), node.find("dynamics")
 
     def of(parent: XmlNode | None, tag: str, default: float) -> float:
@@ -130,25 +129,34 @@ def _mimic(axis: XmlNode, context: Context) -> Mimic | None:
     return mimic
 
 
-def _direction(node: XmlNode, name: str, frame: FrameOf, context: Context) -> Vector3:
-    """The axis in the model frame, unit."""
+def _unit(node: XmlNode, name: str, context: Context) -> Vector3:
+    """The axis as written, unit."""
+    unit = normalized(node.vector("xyz", default=(0.0, 0.0, 1.0), report=context.report))
+    if unit is None:
+        context.report.warn(node.at, f"joint {name!r}: an axis of no length; 0 0 1 is used")
+    return unit or (0.0, 0.0, 1.0)
+
+
+def _expressed_in(node: XmlNode, name: str, frame: FrameOf, root: str, context: Context) -> str:
+    """The frame an axis is written in; "" is the joint's own.
+
+    Gazebo 11 converts every version to 1.7: 1.4's rule and a true <use_parent_model_frame> become
+    expressed_in="__model__", and otherwise an `expressed_in` means what it says in every version.
+    """
     report = context.report
     xyz = node.find("xyz")
-    written = node.vector("xyz", default=(0.0, 0.0, 1.0), report=report)
-    unit = normalized(written)
-    if unit is None:
-        report.warn(node.at, f"joint {name!r}: an axis of no length; 0 0 1 is used")
-        unit = (0.0, 0.0, 1.0)
-    in_model = node.flag("use_parent_model_frame", default=context.version < (1, 5), report=report)
+    written = (None if xyz is None else xyz.attribute("expressed_in")) or ""
     if context.version < (1, 7):
         if context.version < (1, 5):
             report.info(node.at, f"SDF {context.version}: the axis of joint {name!r} is read in the model frame")
-        return unit if in_model else _seen_from("", unit, frame)
-    expressed_in = (None if xyz is None else xyz.attribute("expressed_in")) or ""
-    if frame(expressed_in) is None:
-        report.warn(node.at, f"joint {name!r}: no frame {expressed_in!r}; its axis is read in the joint's own frame")
-        expressed_in = ""
-    return _seen_from(expressed_in, unit, frame)
+        if node.flag("use_parent_model_frame", default=context.version < (1, 5), report=report):
+            if written not in ("", root):
+                report.warn(node.at, f"joint {name!r}: its axis is read in the model frame, not in {written!r}")
+            return root
+    if frame(written) is None:
+        report.warn(node.at, f"joint {name!r}: no frame {written!r}; its axis is read in the joint's own frame")
+        return ""
+    return written
 
 
 def _seen_from(expressed_in: str, direction: Vector3, frame: FrameOf) -> Vector3:

@@ -36,6 +36,7 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> Part:
     links = placed_links(node.all("link"), graph, context)
     nested, dissolved = _nested(node, graph, context, depth)
     frames = read_frames(node, graph, context)
+    graph.canonical_link = _canonical(node, links, nested, dissolved, graph)
     joints = [joint for child in node.all("joint") if (joint := WrittenJoint(child, graph, context)).is_sound]
     for joint in joints:
         joint.add_to(graph)
@@ -55,7 +56,7 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> Part:
     model = labelled(model, node.all("plugin"), context)
     for each in dissolved:
         model = each.into(model, graph)
-    model = replace(model, canonical_link=_canonical(node, model, graph))
+    model = replace(model, canonical_link=graph.canonical_link)
     if model.canonical_link is None and not model.static:
         context.report.warn(node.at, f"model {name!r} has no links; nothing of it can move")
     raw = read_pose(node, context)
@@ -63,7 +64,7 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> Part:
         context.report.info(node.at, f"attribute 'namespace' of model {name!r} is not supported; it is ignored")
     placement = node.attribute("placement_frame") or ""
     node.report_unread(context.report)
-    return Part(model=model, scope=graph.scope(model.canonical_link), raw=raw, placement_frame=placement)
+    return Part(model=model, scope=graph.scope(), raw=raw, placement_frame=placement)
 
 
 def placed_links(nodes: Iterable[XmlNode], graph: FrameGraph, context: Context) -> dict[str, XmlNode]:
@@ -126,16 +127,20 @@ def read_frames(node: XmlNode, graph: FrameGraph, context: Context) -> list[Fram
     return frames
 
 
-def _canonical(node: XmlNode, model: Model, graph: FrameGraph) -> str | None:
+def _canonical(
+    node: XmlNode, links: Iterable[str], nested: Iterable[Part], dissolved: Iterable[Merged], graph: FrameGraph
+) -> str | None:
     """The link a model rides on: the one it names, else its first, its own before those of nested models."""
     named = node.attribute("canonical_link")
     if named:
         if named in graph and (link := graph.link(named)) not in (None, MODEL):
             return link
         graph.report.warn(node.at, f"canonical_link {named!r}: no such link; the first one is taken")
-    if model.links:
-        return model.links[0].name
-    return next((f"{inner.name}::{inner.canonical_link}" for inner in model.models if inner.canonical_link), None)
+    lost = [each.part.model for each in dissolved]
+    inner = [*(part.model for part in nested), *(model for outer in lost for model in outer.models)]
+    first = [*links, *(link.name for model in lost for link in model.links)]
+    first += [f"{model.name}::{model.canonical_link}" for model in inner if model.canonical_link]
+    return next(iter(first), None)
 
 
 class WrittenJoint:
@@ -169,13 +174,14 @@ class WrittenJoint:
                 why = f"{who}: no link {end!r}; links here: {graph.names()}"
                 if "::" not in end:  # else it reaches into a model whose <include> was left out
                     raise DescriptionError(self._node.at, why)
-            elif self._ends[0] == self._ends[1]:
-                why = f"{who} joins {end!r} to itself"
             else:
                 continue
             graph.report.warn(self._node.at, f"{why}; the joint is left out")
             return False
-        return True
+        parent, child = (_link(end, graph) for end in self._ends)
+        if parent == child:
+            graph.report.warn(self._node.at, f"{who} joins {parent!r} to itself; the joint is left out")
+        return parent != child
 
     def add_to(self, graph: FrameGraph) -> None:
         """Make the joint's frame known: it is where its child is."""
@@ -218,5 +224,8 @@ def _end(node: XmlNode, tag: str) -> str:
 
 
 def _link(name: str, graph: FrameGraph) -> str:
+    """The link that an end of a joint moves with; what moves with the model, with the link the model rides on."""
     link = graph.link(name)
+    if link == MODEL:
+        link = graph.canonical_link
     return WORLD if link is None or link == graph.root else link

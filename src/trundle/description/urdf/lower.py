@@ -111,7 +111,8 @@ class _Lowering:
             for joint in self.robot.joints
             if self.lump_of[joint.child] not in dropped and (lowered := self._joint(joint, poses, held)) is not None
         )
-        graph = FrameGraph(MODEL, self.report)
+        canonical = self._first({link.name for link in links}) if links else None
+        graph = FrameGraph(MODEL, self.report, canonical)
         for link in links:
             graph.add(link.name, RawPose(link.model_from_link), link.at)
             for part, pose in self.lumps[link.name].parts[1:]:
@@ -136,7 +137,7 @@ class _Lowering:
             links=links,
             joints=joints,
             plugins=plugins,
-            canonical_link=self._first({link.name for link in links}) if links else None,
+            canonical_link=canonical,
         )
 
     def _first(self, names: set[str]) -> str | None:
