@@ -28,7 +28,11 @@ class Materials:
         self._report = report
         self._looks: dict[str, Look] = {}
         for node in nodes:
-            name = node.required_attribute("name")
+            name = node.attribute("name")
+            if name is None:
+                report.warn(node.at, "<material> without a name can be used nowhere; it is left out")
+                node.mark_all_read()
+                continue
             if name in self._looks:
                 raise DescriptionError(node.at, f"a second material {name!r}")
             self._looks[name] = self._read(node)

@@ -1,28 +1,15 @@
 """Reads a URDF by urdfdom's rules."""
 
-import math
 from typing import cast, get_args
 
 from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.spatial import Pose, Vector3
-from trundle.xmlnode import XmlNode, parse_numbers
+from trundle.spatial import Vector3
+from trundle.xmlnode import XmlNode
 
-from .materials import Look, Materials
-from .robot import (
-    JointLimit,
-    Mimic,
-    Robot,
-    RobotBox,
-    RobotCylinder,
-    RobotGeometry,
-    RobotInertial,
-    RobotJoint,
-    RobotJointType,
-    RobotLink,
-    RobotMesh,
-    RobotShape,
-    RobotSphere,
-)
+from .link import read_link
+from .materials import Materials
+from .robot import JointLimit, Mimic, Robot, RobotJoint, RobotJointType, RobotLink
+from .values import read_optional, read_origin, read_vector
 
 _TYPES: tuple[str, ...] = get_args(RobotJointType)
 _LIMITED = ("revolute", "prismatic")
@@ -42,9 +29,12 @@ def read_robot(root: XmlNode, report: Diagnostics) -> Robot:
     name = root.attribute("name")
     if not name:
         raise DescriptionError(root.at, "<robot> needs a name")
+    version = root.attribute("version")
+    if version is not None and version != "1.0":
+        report.warn(root.at, f"version {version!r}: urdfdom 3 refuses any but 1.0; it is read as that")
     materials = Materials(root.all("material"), report)
     link_nodes = root.all("link")
-    links = [_read_link(node, materials, report) for node in link_nodes]
+    links = [read_link(node, materials, report) for node in link_nodes]
     joints = [_read_joint(node, report) for node in root.all("joint")]
     for tag in _FOR_OTHERS:
         root.all(tag)
@@ -110,92 +100,6 @@ def _reached(root: str, joints: list[RobotJoint]) -> set[str]:
     return reached
 
 
-def _read_link(node: XmlNode, materials: Materials, report: Diagnostics) -> RobotLink:
-    name = node.required_attribute("name")
-    link = RobotLink(
-        name=name,
-        at=node.at,
-        inertial=_read_inertial(node, name, report),
-        visuals=tuple(s for n in node.all("visual") if (s := _read_shape(n, materials, report)) is not None),
-        collisions=tuple(s for n in node.all("collision") if (s := _read_shape(n, None, report)) is not None),
-    )
-    node.attributes()
-    node.report_unread(report)
-    return link
-
-
-def _read_inertial(link: XmlNode, name: str, report: Diagnostics) -> RobotInertial | None:
-    """Where anything required is missing the whole element is dropped, as urdfdom does."""
-    node = link.find("inertial")
-    if node is None:
-        return None
-    mass, inertia = node.find("mass"), node.find("inertia")
-    if mass is None or inertia is None:
-        missing = "<mass>" if mass is None else "<inertia>"
-        report.warn(node.at, f"link {name!r}: <inertial> without {missing} is dropped")
-        return None
-    values = [_number(mass, "value", report)]
-    values += [_number(inertia, key, report) for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")]
-    if any(value is None for value in values):
-        report.warn(node.at, f"link {name!r}: <inertial> is dropped")
-        return None
-    numbers = cast(list[float], values)
-    return RobotInertial(
-        mass=numbers[0],
-        link_from_com=_read_origin(node, report),
-        moments=(numbers[1], numbers[2], numbers[3]),
-        products=(numbers[4], numbers[5], numbers[6]),
-    )
-
-
-def _read_shape(node: XmlNode, materials: Materials | None, report: Diagnostics) -> RobotShape | None:
-    geometry = _read_geometry(node, report)
-    if geometry is None:
-        return None
-    material = node.find("material")
-    look = Look() if material is None or materials is None else materials.look(material)
-    shape = RobotShape(
-        name=node.attribute("name") or "",
-        geometry=geometry,
-        at=node.at,
-        link_from_shape=_read_origin(node, report),
-        rgba=look.rgba,
-        texture=look.texture,
-        material="" if material is None else material.attribute("name") or "",
-    )
-    node.report_unread(report)
-    return shape
-
-
-def _read_geometry(owner: XmlNode, report: Diagnostics) -> RobotGeometry | None:
-    node = owner.find("geometry")
-    if node is None or not node.children:
-        report.warn(owner.at, f"<{owner.tag}> without a shape; it is left out")
-        return None
-    shape = node.children[0]
-    node.find(shape.tag)
-    match shape.tag:
-        case "box":
-            size = _vector(shape, "size", report)
-            return None if size is None else RobotBox(size)
-        case "cylinder":
-            radius, length = _number(shape, "radius", report), _number(shape, "length", report)
-            return None if radius is None or length is None else RobotCylinder(radius, length)
-        case "sphere":
-            radius = _number(shape, "radius", report)
-            return None if radius is None else RobotSphere(radius)
-        case "mesh":
-            uri = shape.attribute("filename")
-            if not uri:
-                report.warn(shape.at, "<mesh> without a filename; it is left out")
-                return None
-            scale = (1.0, 1.0, 1.0) if shape.attribute("scale") is None else _vector(shape, "scale", report)
-            return RobotMesh(uri, scale or (1.0, 1.0, 1.0))
-        case other:
-            report.warn(shape.at, f"<{other}> is no URDF shape; this <{owner.tag}> is left out")
-            return None
-
-
 def _read_joint(node: XmlNode, report: Diagnostics) -> RobotJoint:
     name = node.required_attribute("name")
     type_ = node.required_attribute("type")
@@ -207,21 +111,27 @@ def _read_joint(node: XmlNode, report: Diagnostics) -> RobotJoint:
         if not link:
             raise DescriptionError(node.at, f"joint {name!r} has no <{tag} link=…>")
     dynamics = node.find("dynamics")
+    if dynamics is not None and dynamics.attribute("damping") is None and dynamics.attribute("friction") is None:
+        what = f"joint {name!r}: <dynamics> with neither damping nor friction, for which urdfdom refuses the robot"
+        report.warn(dynamics.at, f"{what}; both are 0")
     joint = RobotJoint(
         name=name,
         type=cast(RobotJointType, type_),
         parent=links["parent"],
         child=links["child"],
         at=node.at,
-        parent_from_joint=_read_origin(node, report),
+        parent_from_joint=read_origin(node, report),
         axis=_read_axis(node, name, type_, report),
         limit=_read_limit(node, name, type_, report),
-        damping=_optional(dynamics, "damping", 0.0, report),
-        friction=_optional(dynamics, "friction", 0.0, report),
+        damping=read_optional(dynamics, "damping", 0.0, report),
+        friction=read_optional(dynamics, "friction", 0.0, report),
         mimic=_read_mimic(node, name, report),
     )
-    for tag in ("safety_controller", "calibration"):  # ros_control's and real hardware's
-        node.find(tag)
+    node.find("calibration")  # real hardware's
+    safety = node.find("safety_controller")  # ros_control's
+    if safety is not None and safety.attribute("k_velocity") is None:
+        what = f"joint {name!r}: <safety_controller> without k_velocity, for which urdfdom refuses the robot"
+        report.warn(safety.at, f"{what}; it is ignored")
     node.report_unread(report)
     return joint
 
@@ -230,7 +140,7 @@ def _read_axis(node: XmlNode, name: str, type_: str, report: Diagnostics) -> Vec
     axis = node.find("axis")
     if axis is None or type_ in ("fixed", "floating"):
         return (1.0, 0.0, 0.0)
-    vector = _vector(axis, "xyz", report)
+    vector = read_vector(axis, "xyz", report)
     if vector is None:
         return (1.0, 0.0, 0.0)
     if not any(vector):
@@ -249,10 +159,10 @@ def _read_limit(node: XmlNode, name: str, type_: str, report: Diagnostics) -> Jo
         if limit.attribute(key) is None:
             raise DescriptionError(limit.at, f"joint {name!r}: <limit> needs {key!r}")
     return JointLimit(
-        lower=_optional(limit, "lower", 0.0, report),
-        upper=_optional(limit, "upper", 0.0, report),
-        effort=_optional(limit, "effort", 0.0, report),
-        velocity=_optional(limit, "velocity", 0.0, report),
+        lower=read_optional(limit, "lower", 0.0, report),
+        upper=read_optional(limit, "upper", 0.0, report),
+        effort=read_optional(limit, "effort", 0.0, report),
+        velocity=read_optional(limit, "velocity", 0.0, report),
     )
 
 
@@ -265,42 +175,6 @@ def _read_mimic(node: XmlNode, name: str, report: Diagnostics) -> Mimic | None:
         raise DescriptionError(mimic.at, f"joint {name!r}: <mimic> names no joint")
     return Mimic(
         joint=leader,
-        multiplier=_optional(mimic, "multiplier", 1.0, report),
-        offset=_optional(mimic, "offset", 0.0, report),
+        multiplier=read_optional(mimic, "multiplier", 1.0, report),
+        offset=read_optional(mimic, "offset", 0.0, report),
     )
-
-
-def _read_origin(node: XmlNode, report: Diagnostics) -> Pose:
-    origin = node.find("origin")
-    if origin is None:
-        return Pose()
-    parts: list[Vector3] = []
-    for key in ("xyz", "rpy"):
-        vector = (0.0, 0.0, 0.0) if origin.attribute(key) is None else _vector(origin, key, report)
-        parts.append(vector or (0.0, 0.0, 0.0))
-    return Pose.from_rpy(*parts[0], *parts[1])
-
-
-def _vector(node: XmlNode, key: str, report: Diagnostics) -> Vector3 | None:
-    text = node.attribute(key)
-    values = parse_numbers(text or "")
-    if values is None or len(values) != 3 or not all(map(math.isfinite, values)):
-        report.warn(node.at, f"<{node.tag} {key}={text!r}> wants three numbers; it is ignored")
-        return None
-    return (values[0], values[1], values[2])
-
-
-def _number(node: XmlNode, key: str, report: Diagnostics) -> float | None:
-    text = node.attribute(key)
-    values = parse_numbers(text or "")
-    if values is None or len(values) != 1 or not math.isfinite(values[0]):
-        report.warn(node.at, f"<{node.tag} {key}={text!r}> wants one number")
-        return None
-    return values[0]
-
-
-def _optional(node: XmlNode | None, key: str, default: float, report: Diagnostics) -> float:
-    if node is None or node.attribute(key) is None:
-        return default
-    value = _number(node, key, report)
-    return default if value is None else value

@@ -52,6 +52,7 @@ from ..sdf.frames import MODEL, FrameGraph
 from ..sdf.version import Version
 from .gazebo_tags import GazeboTags
 from .lump import WORLD, Lump, follow_lumps, lump_links, lumped_inertial, shape_name
+from .massless import massless_lumps
 
 _TYPES = {
     "revolute": JointType.REVOLUTE,
@@ -98,7 +99,7 @@ class _Lowering:
     def model(self) -> Model:
         """The robot as one model."""
         poses = root_from_links(self.robot, {})
-        dropped = self._without_mass()
+        dropped = massless_lumps(self.robot, self.lumps, self.report)
         links = tuple(
             self._link(lump, poses[lump.name])
             for lump in self.lumps.values()
@@ -155,30 +156,6 @@ class _Lowering:
                 return link
             waiting += [joint.child for joint in below.get(link, ())]
         return None
-
-    def _without_mass(self) -> set[str]:
-        """Lumps that weigh nothing, with all that hang below them."""
-        dropped: set[str] = set()
-        below: dict[str, list[str]] = {}
-        for joint in self.robot.joints:
-            below.setdefault(self.lump_of[joint.parent], []).append(self.lump_of[joint.child])
-        for lump in self.lumps.values():
-            if lump.name == WORLD or lump.name in dropped or self._inertials(lump):
-                continue
-            pending, gone = [lump.name], list[str]()
-            while pending:
-                name = pending.pop()
-                if name not in dropped:
-                    dropped.add(name)
-                    gone.append(name)
-                    pending += [child for child in below.get(name, []) if child != name]
-            with_it = f" with {', '.join(map(repr, gone[1:]))} below it" if gone[1:] else ""
-            self.report.warn(
-                self.links[lump.name].at,
-                f"link {lump.name!r} has no mass; as in Gazebo it is left out of the simulation{with_it}; "
-                "give it an <inertial>",
-            )
-        return dropped
 
     def _inertials(self, lump: Lump) -> list[tuple[RobotInertial, Pose]]:
         found = [(self.links[name].inertial, pose) for name, pose in lump.parts]

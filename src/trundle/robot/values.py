@@ -1,0 +1,43 @@
+"""Reads the numbers of a URDF's attributes; a bad one is named, and None or the default taken."""
+
+import math
+
+from trundle.diagnostics import Diagnostics
+from trundle.spatial import Pose, Vector3
+from trundle.xmlnode import XmlNode, parse_numbers
+
+
+def read_origin(node: XmlNode, report: Diagnostics) -> Pose:
+    origin = node.find("origin")
+    if origin is None:
+        return Pose()
+    parts: list[Vector3] = []
+    for key in ("xyz", "rpy"):
+        vector = (0.0, 0.0, 0.0) if origin.attribute(key) is None else read_vector(origin, key, report)
+        parts.append(vector or (0.0, 0.0, 0.0))
+    return Pose.from_rpy(*parts[0], *parts[1])
+
+
+def read_vector(node: XmlNode, key: str, report: Diagnostics) -> Vector3 | None:
+    text = node.attribute(key)
+    values = parse_numbers(text or "")
+    if values is None or len(values) != 3 or not all(map(math.isfinite, values)):
+        report.warn(node.at, f"<{node.tag} {key}={text!r}> wants three numbers; it is ignored")
+        return None
+    return (values[0], values[1], values[2])
+
+
+def read_number(node: XmlNode, key: str, report: Diagnostics) -> float | None:
+    text = node.attribute(key)
+    values = parse_numbers(text or "")
+    if values is None or len(values) != 1 or not math.isfinite(values[0]):
+        report.warn(node.at, f"<{node.tag} {key}={text!r}> wants one number")
+        return None
+    return values[0]
+
+
+def read_optional(node: XmlNode | None, key: str, default: float, report: Diagnostics) -> float:
+    if node is None or node.attribute(key) is None:
+        return default
+    value = read_number(node, key, report)
+    return default if value is None else value

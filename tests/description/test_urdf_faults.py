@@ -1,0 +1,94 @@
+"""URDFs with a fault, read as urdfdom 3 and the conversion of libsdformat 9 read them."""
+
+from pathlib import Path
+
+import pytest
+
+from trundle.description import load
+from trundle.diagnostics import Diagnostics
+from trundle.model import Model
+from trundle.packages import Packages
+
+BODY = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+
+
+def robot(folder: Path, text: str, report: Diagnostics) -> Model:
+    (folder / "r.urdf").write_text(text)
+    return load(str(folder / "r.urdf"), report, packages=Packages({}, start=folder)).world.models[0]
+
+
+def test_what_hangs_on_a_lumped_link_without_mass_falls_away(tmp_path: Path) -> None:
+    """libsdformat 9 and 12 stop at such a link on their way down the tree; its shapes went into the body above."""
+    report = Diagnostics()
+    text = f"""<robot name="r"><link name="base">{BODY}</link><link name="mount"/><link name="arm">{BODY}</link>
+<link name="heavy"><inertial><mass value="2"/></inertial></link><link name="hand">{BODY}</link>
+<joint name="j1" type="fixed"><parent link="base"/><child link="mount"/></joint>
+<joint name="j2" type="continuous"><parent link="mount"/><child link="arm"/></joint>
+<joint name="j3" type="fixed"><parent link="base"/><child link="heavy"/></joint>
+<joint name="j4" type="continuous"><parent link="heavy"/><child link="hand"/></joint></robot>"""
+
+    model = robot(tmp_path, text, report)
+
+    assert ([link.name for link in model.links], [joint.name for joint in model.joints]) == (["base", "hand"], ["j4"])
+    assert report.warnings[-1].endswith(
+        "link 'mount' has no mass; as in Gazebo what hangs on it is left out of the simulation: 'arm'; "
+        "give it an <inertial>"
+    )
+
+
+@pytest.mark.parametrize(("mass", "links"), [("1e-6", 1), ("2e-6", 2), ("0", 1), ("-1", 1)])
+def test_a_millionth_of_a_kilogram_is_no_mass(tmp_path: Path, mass: str, links: int) -> None:
+    """ignition::math::equal takes it for zero."""
+    tip = BODY.replace('mass value="1"', f'mass value="{mass}"')
+    text = f"""<robot name="r"><link name="base">{BODY}</link><link name="tip">{tip}</link>
+<joint name="j" type="continuous"><parent link="base"/><child link="tip"/></joint></robot>"""
+
+    assert len(robot(tmp_path, text, Diagnostics()).links) == links
+
+
+def test_a_link_is_read_up_to_its_fault_as_by_urdfdom(tmp_path: Path) -> None:
+    """A mass without <inertia> is kept, and nothing after it is read; likewise what comes after a shape of none."""
+    report = Diagnostics()
+    ball, none = ("<geometry><sphere radius='1'/></geometry>", "<geometry><cone/></geometry>")
+    text = f"""<robot name="r"><link name="base"><visual>{ball}</visual>
+<inertial><origin xyz="1 0 0"/><mass value="2"/></inertial></link>
+<link name="tip">{BODY}<collision>{ball}</collision><visual>{ball}</visual><visual>{none}</visual></link>
+<joint name="j" type="continuous"><parent link="base"/><child link="tip"/></joint></robot>"""
+
+    model = robot(tmp_path, text, report)
+
+    base, tip = model.links
+    assert (base.inertial.mass, base.inertial.moments) == (2.0, (0.0, 0.0, 0.0))
+    assert base.inertial.link_from_com.position == (1.0, 0.0, 0.0)
+    assert [(len(link.visuals), len(link.collisions)) for link in (base, tip)] == [(0, 0), (1, 0)]
+    assert [warning.partition("warning: ")[2] for warning in report.warnings] == [
+        "link 'base': <inertial> without a whole <inertia>; as by urdfdom, its mass of 2 kg is kept "
+        "and its inertia is zero",
+        "link 'base': as by urdfdom, <visual> after a fault is not read",
+        "<cone> is no URDF shape; this <visual> is left out",
+        "link 'tip': as by urdfdom, <collision> after a fault is not read",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("attributes", "inside", "warning"),
+    [
+        ('version="2.0"', "", "version '2.0': urdfdom 3 refuses any but 1.0; it is read as that"),
+        ("", "<dynamics/>", "joint 'j': <dynamics> with neither damping nor friction, for which urdfdom refuses"),
+        (
+            "",
+            "<safety_controller soft_upper_limit='1'/>",
+            "joint 'j': <safety_controller> without k_velocity, for which",
+        ),
+    ],
+)
+def test_what_urdfdom_refuses_is_read_with_a_warning(
+    tmp_path: Path, attributes: str, inside: str, warning: str
+) -> None:
+    report = Diagnostics()
+    text = f"""<robot name="r" {attributes}><link name="base">{BODY}</link><link name="tip">{BODY}</link>
+<joint name="j" type="continuous"><parent link="base"/><child link="tip"/>{inside}</joint></robot>"""
+
+    assert len(robot(tmp_path, text, report).links) == 2
+    (said,) = report.warnings
+    assert warning in said
