@@ -349,3 +349,17 @@ def test_a_default_machine_is_that_of_the_nodes_behind_it() -> None:
 def test_a_machine_that_is_perhaps_the_default_is_refused() -> None:
     with pytest.raises(DescriptionError, match="default 'maybe'; there are true, false, never"):
         plan_of('<machine name="m" address="a" default="maybe"/>')
+
+
+def test_blank_lines_before_the_declaration_are_named(tmp_path: Path) -> None:
+    """roslaunch's parser, expat, refuses them."""
+    report = Diagnostics()
+    inner, outer = tmp_path / "i.launch", tmp_path / "o.launch"
+    inner.write_text('\n<?xml version="1.0"?><launch/>')
+    outer.write_text(f'\n<launch><include file="{inner}"/></launch>')
+
+    read_launch(outer, packages=Folders(), report=report)
+
+    assert report.warnings == [
+        f"{inner}:1: warning: blank lines before <?xml …?>, for which roslaunch refuses the file"
+    ]

@@ -72,7 +72,7 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics,
     Raises:
         DescriptionError: it is no SDF.
     """
-    from .sdf import Context, read_root, read_version, rewrite_old_style
+    from .sdf import Context, name_missing_attributes, read_root, read_version, rewrite_old_style
 
     if root.tag not in ("sdf", "gazebo"):
         raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")
@@ -80,6 +80,9 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics,
     if version < (1, 2):
         report.info(root.at, f"SDF {version}: values written as attributes are read as the elements of SDF 1.2")
         rewrite_old_style(root)
+    if root.tag == "gazebo":
+        report.warn(root.at, "<gazebo> at the root was SDF's until 1.2; Gazebo refuses the file: it wants <sdf>")
+    name_missing_attributes(root, version, report)
 
     def read_urdf(file: Path, robot: XmlNode) -> Model:
         text = file.read_text(encoding="utf-8", errors="replace")

@@ -213,7 +213,8 @@ def _parse_for(original: Callable[..., Any], packages: Packages, report: Diagnos
             data = _data(Path(filename))
             if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
                 raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
-            # Blank lines before <?xml …?> stop expat, and no robot.
+            if data[:1].isspace() and data.lstrip().startswith(b"<?xml"):
+                report.warn(Source(filename, 1), "blank lines before <?xml …?>, for which xacro refuses the file")
             document = xml.dom.minidom.parseString(data.lstrip()) if data.strip() else original(inp, filename)
             if any(start in data for start in _BARE):
                 _prefix_core_tags(document, filename, report)

@@ -52,7 +52,7 @@ def read_launch(
     """
     reader = _Reader(packages=packages, report=report, env=env or {})
     for file in [files] if isinstance(files, Path) else files:
-        reader.read_root(read_xml(file), file, arguments or {}, namespace)
+        reader.read_root(_read(file, report), file, arguments or {}, namespace)
     for name, text in texts:
         reader.read_root(parse_xml(text, name=name), Path(name), arguments or {}, namespace)
     reader.refuse_unknown(arguments or {})
@@ -241,7 +241,7 @@ class _Reader:
         if not is_file(file):
             raise DescriptionError(node.at, f"no launch file {file!r} to include")
         try:
-            self._launch(read_xml(Path(file)), passed, depth=depth + 1)
+            self._launch(_read(Path(file), self._report), passed, depth=depth + 1)
         except DescriptionError as error:
             way = f"; included at {node.at}"
             if depth >= _MOST_TOLD or error.what.endswith(way):
@@ -250,6 +250,13 @@ class _Reader:
         if unused := sorted(given - passed.declared):
             known = ", ".join(map(repr, sorted(passed.declared))) or "none"
             raise DescriptionError(node.at, f"{file!r} has no argument {unused[0]!r}; its arguments: {known}")
+
+
+def _read(file: Path, report: Diagnostics) -> XmlNode:
+    root = read_xml(file)
+    if root.is_declared_late:
+        report.warn(Source(str(file), 1), "blank lines before <?xml …?>, for which roslaunch refuses the file")
+    return root
 
 
 def _launch_of(root: XmlNode) -> XmlNode:

@@ -19,7 +19,16 @@ _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]{1,16}")
 class XmlNode:
     """One element. Whatever is asked for counts as read; `report_unread` names the rest."""
 
-    __slots__ = ("_children", "_element", "_file", "_first_line", "_read_attributes", "_read_once", "_read_tags")
+    __slots__ = (
+        "_children",
+        "_element",
+        "_file",
+        "_first_line",
+        "_read_attributes",
+        "_read_once",
+        "_read_tags",
+        "is_declared_late",
+    )
 
     def __init__(self, element: etree._Element, *, file: str, first_line: int = 0) -> None:  # pyright: ignore[reportPrivateUsage]
         self._element = element
@@ -30,6 +39,8 @@ class XmlNode:
         """Of which the first was asked for alone."""
         self._read_attributes: set[str] = set()
         self._children: list[XmlNode] | None = None
+        self.is_declared_late = False
+        """Whether blank lines stand before its document's <?xml …?>, which TinyXML skips and expat refuses."""
 
     @property
     def tag(self) -> str:

@@ -39,8 +39,6 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
         raise DescriptionError(Source(name), f"{len(data)} bytes; the largest file read is {_MAX_BYTES}")
     if not data.strip():
         raise DescriptionError(Source(name, 1), "the file is empty")
-    # Tutorials and xacro templates often carry blank lines before <?xml …?>, which Gazebo and ROS accept.
-    blank_lines = data[: len(data) - len(data.lstrip())].count(b"\n")
     if report is not None and not _says_or_is_unicode(data):
         report.warn(Source(name, 1), "bytes that are no UTF-8 in a file that names no encoding; read as Latin-1")
         data = data.decode("latin-1").encode()
@@ -50,7 +48,7 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
     try:
         root = etree.fromstring(data.lstrip(), parser)
     except etree.XMLSyntaxError as error:
-        line = (error.lineno or 1) + blank_lines
+        line = (error.lineno or 1) + _blank_lines(data)
         what = _POSITION.sub("", error.msg or "no element found")
         at = Source(name, line)
         if deepest > _DEEPEST and any(entry.type == _TOO_MUCH for entry in parser.error_log):
@@ -59,14 +57,26 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
                 raise DescriptionError(
                     at, f"elements more than {deepest} deep in one another, or entities that multiply"
                 ) from None
-            return XmlNode(root, file=name, first_line=blank_lines)
+            return _node(root, data, name)
         root = None if report is None else _recovered(data.lstrip())
         if root is None or report is None:
             raise DescriptionError(at, f"not well-formed XML: {what}") from None
         report.warn(at, f"not well-formed XML: {what}; read as Gazebo reads it")
     except ValueError as error:  # "Unicode strings with encoding declaration": only bytes come here
         raise DescriptionError(Source(name, 1), f"not readable as XML: {error}") from None
-    return XmlNode(root, file=name, first_line=blank_lines)
+    return _node(root, data, name)
+
+
+def _node(root: etree._Element, data: bytes, name: str) -> XmlNode:  # pyright: ignore[reportPrivateUsage]
+    """The root of a document, which may start with blank lines: tutorials and templates do, Gazebo and ROS read on."""
+    start = data.lstrip()
+    node = XmlNode(root, file=name, first_line=_blank_lines(data))
+    node.is_declared_late = len(start) < len(data) and start.startswith(b"<?xml")
+    return node
+
+
+def _blank_lines(data: bytes) -> int:
+    return data[: len(data) - len(data.lstrip())].count(b"\n")
 
 
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from .extra_joint import read_extra_joint
     from .gazebo_materials import GAZEBO_MATERIALS
     from .old_style import rewrite_old_style
+    from .required import name_missing_attributes
     from .version import read_version
     from .world import read_root
 
@@ -16,6 +17,7 @@ _HOMES = {
     "DEEPEST": "context",
     "GAZEBO_MATERIALS": "gazebo_materials",
     "Context": "context",
+    "name_missing_attributes": "required",
     "read_extra_joint": "extra_joint",
     "read_root": "world",
     "read_version": "version",
@@ -27,6 +29,7 @@ __all__ = [
     "DEEPEST",
     "GAZEBO_MATERIALS",
     "Context",
+    "name_missing_attributes",
     "read_extra_joint",
     "read_root",
     "read_version",

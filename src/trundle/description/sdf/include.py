@@ -14,6 +14,7 @@ from .context import DEEPEST, Context, RawPose, read_pose
 from .frames import MODEL, FrameGraph
 from .params import apply_params
 from .part import Part
+from .required import name_missing_attributes
 from .sensor import read_plugin
 from .version import read_version
 
@@ -93,7 +94,9 @@ def _root(file: Path, node: XmlNode, context: Context) -> tuple[XmlNode, Context
         return root, context.inside(file.resolve(), context.version)
     if root.tag != "sdf":
         raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")
-    return root, context.inside(file.resolve(), read_version(root, context.report))
+    version = read_version(root, context.report)
+    name_missing_attributes(root, version, context.report)
+    return root, context.inside(file.resolve(), version)
 
 
 def _robot(model: Model, context: Context) -> Part:

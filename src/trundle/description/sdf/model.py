@@ -169,7 +169,7 @@ class WrittenJoint:
         who = f"joint {self._name!r}"
         for tag, end in zip(("parent", "child"), self._ends, strict=True):
             if not end:
-                why = f"{who} has no <{tag}>"
+                why = f"{who} has no <{tag}>, for which Gazebo refuses the whole file"
             elif end != WORLD and end not in graph:
                 why = f"{who}: no link {end!r}; links here: {graph.names()}"
                 if "::" not in end:  # else it reaches into a model whose <include> was left out

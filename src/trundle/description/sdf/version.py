@@ -20,7 +20,7 @@ def read_version(root: XmlNode, report: Diagnostics) -> Version:
     text = root.attribute("version")
     newest = Version(NEWEST)
     if text is None:
-        report.warn(root.at, f"<{root.tag}> has no version; read as {newest}")
+        report.warn(root.at, f"<{root.tag}> has no version, for which Gazebo refuses the file; read as {newest}")
         return newest
     try:
         major, minor = (int(part) for part in text.strip().split("."))

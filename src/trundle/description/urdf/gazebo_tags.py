@@ -13,6 +13,7 @@ from trundle.xmlnode import XmlNode
 
 from ..sdf.context import Context
 from ..sdf.frames import MODEL, FrameGraph
+from ..sdf.required import name_missing_attributes
 from .lump import Lump
 
 if TYPE_CHECKING:
@@ -46,6 +47,7 @@ class GazeboTags:
         self._read: set[tuple[str, str]] = set()
         for block in root.all("gazebo"):
             reference = block.attribute("reference") or ""
+            name_missing_attributes(block, context.version, context.report)
             for node in block.children:
                 self._nodes.setdefault((reference, node.tag), []).append(node)
 
