@@ -10,6 +10,9 @@ MAX_HEAD_BYTES = 64 * 1024
 MAX_BODY_BYTES = 64 * 1024 * 1024
 """A parameter tree with several robot descriptions is a few MB; anything near this bound is no graph traffic."""
 
+XML = "text/xml"
+_OWN_FETCH = ("node", "undici")
+"""User agents of Node's `fetch`, a program's, which calls its mode `cors` as a browser's does."""
 _MAX_PORT = 65535
 _ADDRESS = re.compile(r"(?:http|rosrpc)://(?P<host>\[[^]/@]+\]|:?:?[^][/@?#:][^][/@?#]*):(?P<port>\d{1,5})(?:[/?#]|$)")
 
@@ -65,20 +68,40 @@ def parse_head(data: bytes) -> Head:
     return Head(start=(start[0], start[1], start[2] if len(start) > 2 else ""), fields=fields)
 
 
+def refusal_of_browsers(head: Head) -> str | None:
+    """Return why a call is refused as one that a web page may have made; None: a program made it.
+
+    A page can reach loopback. It cannot send text/xml to another origin without asking first, its POST carries an
+    Origin, and a browser of today adds Sec-Fetch-Site. Programs: rospy, roscpp, rosnodejs, goroslib, rosjava and
+    @foxglove/ros1 send text/xml; roslibrust and rosrust send no type. `Host` says nothing: they dial aliases.
+    """
+    fields = head.fields
+    agent, origin = fields.get("user-agent", ""), fields.get("origin")
+    is_electron = "Electron/" in agent and origin in (None, "file://")  # Foxglove's and Lichtblick's desktop programs
+    marks = [] if is_electron else [name for name in fields if name == "origin" or name.startswith("sec-fetch-")]
+    if marks and not (marks == ["sec-fetch-mode"] and agent in _OWN_FETCH):
+        made_by = f"a page of {origin[:100]!r}" if origin else "a web page"
+        return f"{made_by} sent it, and web pages may not call ROS nodes"
+    kind = fields.get("content-type", XML).partition(";")[0].strip().lower()
+    if kind != XML or (is_electron and "content-type" not in fields):
+        return f"an XML-RPC call has the Content-Type {XML}, not {fields.get('content-type', 'none')[:100]!r}"
+    return None
+
+
 def request(uri: str, body: bytes) -> bytes:
     """Write a POST; the connection closes after the answer."""
     parts = urlsplit(uri)
     head = (
         f"POST {parts.path or '/'} HTTP/1.1\r\nHost: {parts.netloc}\r\nUser-Agent: trundle\r\n"
-        f"Content-Type: text/xml\r\nContent-Length: {len(body)}\r\nConnection: close\r\n\r\n"
+        f"Content-Type: {XML}\r\nContent-Length: {len(body)}\r\nConnection: close\r\n\r\n"
     )
     return head.encode("latin-1", "replace") + body
 
 
-def answer(status: str, body: bytes, *, keep_alive: bool) -> bytes:
+def answer(status: str, body: bytes, *, keep_alive: bool, kind: str = XML) -> bytes:
     """Write an answer, such as `answer("200 OK", …)`."""
     head = (
-        f"HTTP/1.1 {status}\r\nServer: trundle\r\nContent-Type: text/xml\r\nContent-length: {len(body)}\r\n"
+        f"HTTP/1.1 {status}\r\nServer: trundle\r\nContent-Type: {kind}\r\nContent-length: {len(body)}\r\n"
         f"Connection: {'keep-alive' if keep_alive else 'close'}\r\n\r\n"
     )
     return head.encode("latin-1") + body

@@ -9,7 +9,7 @@ from collections.abc import Awaitable, Callable
 from typing import Any
 
 from .errors import PortTakenError, RosError, WireError
-from .http import MAX_HEAD_BYTES, Head, answer, parse_head
+from .http import MAX_HEAD_BYTES, Head, answer, parse_head, refusal_of_browsers
 from .loop import close_server
 from .xmlrpc import decode_call, encode_fault, encode_response
 
@@ -40,6 +40,7 @@ class RpcServer:
         self._server: asyncio.Server | None = None
         self._clients: dict[asyncio.StreamWriter, None] = {}
         """The one that has been silent longest comes first."""
+        self._has_warned = False
         self.port = 0
 
     async def start(self, host: str, port: int) -> None:
@@ -94,6 +95,10 @@ class RpcServer:
             first = await reader.readexactly(1)
         async with asyncio.timeout(_REQUEST_S):
             head = parse_head(first + await reader.readuntil(b"\r\n\r\n"))
+            if (why := refusal_of_browsers(head)) is not None:
+                self._warn(why)
+                writer.write(answer("403 Forbidden", f"refused: {why}\n".encode(), keep_alive=False, kind="text/plain"))
+                return False
             refusal = _refusal(head)
             if refusal is not None:
                 writer.write(answer(refusal, b"", keep_alive=False))
@@ -105,6 +110,12 @@ class RpcServer:
         async with asyncio.timeout(_REQUEST_S):
             await writer.drain()
         return head.keeps_alive
+
+    def _warn(self, why: str) -> None:
+        """Log the first refusal; a page can try a thousand times."""
+        if not self._has_warned:
+            self._has_warned = True
+            _log.warning("port %d refused an HTTP request: %s", self.port, why)
 
     async def _answer(self, body: bytes) -> bytes:
         try:
