@@ -62,7 +62,7 @@ def test_listening_beyond_this_machine_is_warned_of(tmp_path: Path) -> None:
         process.send_signal(signal.SIGTERM)
         assert process.wait(20) == 0
         assert process.stderr is not None
-        assert "listening on 0.0.0.0: ROS 1 and the page have no passwords" in process.stderr.read()
+        assert "listening on 0.0.0.0: ROS 1 has no passwords" in process.stderr.read()
 
 
 def test_an_address_that_leads_elsewhere_is_one_sentence(capfd: pytest.CaptureFixture[str], monkeypatch: Any) -> None:

@@ -1,4 +1,4 @@
-"""The joystick of the page: its order of axes and buttons, and who may move it."""
+"""The joystick of the page: its order of axes and buttons, and which requests move it."""
 
 import json
 import urllib.error
@@ -9,6 +9,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
+from trundle.access import Access
 from trundle.viewer import MoveJoystick
 from trundle.viewer.joystick import JoystickServer, joystick_of
 
@@ -20,14 +21,14 @@ class Served:
 
     def __init__(self) -> None:
         self.moved: list[MoveJoystick] = []
-        self.server = JoystickServer("127.0.0.1", self.moved.append)
+        self.server = JoystickServer(Access(host="127.0.0.1", port=8080), self.moved.append)
 
-    def post(self, body: bytes | dict[str, Any], *, path: str = "move", origin: str | None = None) -> int:
+    def post(self, body: bytes | dict[str, Any], *, path: str = "/move", query: str | None = None) -> int:
         at = urlsplit(self.server.url)
         data = body if isinstance(body, bytes) else json.dumps(body).encode()
-        headers = {"Origin": origin or f"http://{at.netloc}"}
+        url = at._replace(path=path, query=at.query if query is None else query).geturl()
         try:
-            with urllib.request.urlopen(urllib.request.Request(self.server.url + path, data, headers), timeout=60) as r:
+            with urllib.request.urlopen(urllib.request.Request(url, data), timeout=60) as r:
                 return int(r.status)
         except urllib.error.HTTPError as error:
             error.close()
@@ -50,10 +51,10 @@ def test_a_standard_pad_is_told_in_the_order_of_linux() -> None:
 
 
 def test_who_listens_everywhere_has_an_address_for_other_machines() -> None:
-    served = JoystickServer("0.0.0.0", [].append)
+    served = JoystickServer(Access(host="0.0.0.0", port=8080), [].append)
     try:
         here, elsewhere = urlsplit(served.url), urlsplit(served.url_elsewhere or "")
-        assert (here.hostname, here.port, here.path) == ("127.0.0.1", elsewhere.port, elsewhere.path)
+        assert (here.hostname, here.port, here.query) == ("127.0.0.1", elsewhere.port, elsewhere.query)
         assert elsewhere.hostname not in (None, "", "0.0.0.0")
         for url in (served.url, served.url_elsewhere):
             with urllib.request.urlopen(str(url), timeout=60) as page:
@@ -74,8 +75,9 @@ def test_what_its_page_sends_is_taken(served: Served) -> None:
 @pytest.mark.parametrize(
     ("body", "more", "code"),
     [
-        (REST, {"origin": "http://evil.example"}, 403),
-        (REST, {"path": "../move"}, 403),
+        (REST, {"query": ""}, 403),
+        (REST, {"query": "token=guessed"}, 403),
+        (REST, {"path": "/"}, 404),
         (b"{", {}, 400),
         ({**REST, "sticks": [0, 9, 0, 0]}, {}, 400),
         ({**REST, "sticks": [0, float("nan"), 0, 0]}, {}, 400),
@@ -89,11 +91,11 @@ def test_anything_else_is_refused(served: Served, body: Any, more: dict[str, str
     assert served.moved == []
 
 
-def test_its_page_is_at_its_secret_address_alone(served: Served) -> None:
+def test_its_page_opens_to_the_token_alone(served: Served) -> None:
     with urllib.request.urlopen(served.server.url, timeout=60) as answer:
         assert b"getGamepads" in answer.read()
     root = f"http://{urlsplit(served.server.url).netloc}/"
     with pytest.raises(urllib.error.HTTPError) as refused:
         urllib.request.urlopen(root, timeout=60)
     refused.value.close()
-    assert refused.value.code == 404
+    assert refused.value.code == 403

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
+from trundle.access import PageAddress
 from trundle.diagnostics import TrundleError
 from trundle.ros import Node
 from trundle.sensors import CameraSensor, MeasuringSensor
@@ -14,11 +15,11 @@ from .page import Page
 class GazeboWindow:
     """What gzclient shows; all but `url`, `is_over` and `is_wanted` belongs to the simulation's thread."""
 
-    def __init__(self, at: tuple[str, int | None] | None, say: Callable[[str], None]) -> None:
+    def __init__(self, at: PageAddress | None, say: Callable[[str], None]) -> None:
         """Show nothing yet.
 
         Args:
-            at: host and port of the page; None: headless.
+            at: address of the page; None: headless.
             say: is told where the page is.
         """
         self._at = at
@@ -45,9 +46,8 @@ class GazeboWindow:
         """Open the page, unless it is open or cannot be; a node says why."""
         if self._at is None or self._page is not None:
             return
-        host, port = self._at
         try:
-            self._page = Page.open(simulation, sensors, None, host=host, port=port)
+            self._page = Page.open(simulation, sensors, None, self._at)
         except TrundleError as error:
             node.log_error(str(error))
             self._at = None

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from trundle.access import PageAddress
 from trundle.bridge import ClockTopic, clock_rate_hz
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
@@ -46,7 +47,7 @@ class GazeboWorld:
         report: Diagnostics,
         folder: Path,
         say: Callable[[str], None],
-        window: tuple[str, int | None] | None,
+        window: PageAddress | None,
         speed: float | None = 1.0,
         renderer: RendererName = "cpu",
         steps: Steps | None = None,
@@ -60,7 +61,7 @@ class GazeboWorld:
             report: takes what files and physics leave to be said.
             folder: takes the text of each spawned model, which messages name lines of.
             say: tells the user a thing.
-            window: host and port of the page; None: headless.
+            window: address of the page; None: headless.
             speed: times real time; None: flat out.
             renderer: draws what cameras see.
             steps: say when time may go on; None: always.

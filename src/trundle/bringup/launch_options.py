@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from trundle.access import AllowedNames
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LaunchOptions:
@@ -15,6 +17,8 @@ class LaunchOptions:
     master_port: int | None = None
     view_port: int | None = None
     host: str = "127.0.0.1"
+    allowed: AllowedNames = AllowedNames()
+    """Whom a page serves beside itself."""
     renderer: Literal["cpu", "egl"] = "cpu"
     """As `RunOptions.renderer`."""
     output: Literal["screen", "log"] | None = None

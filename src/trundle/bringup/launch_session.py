@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
+from trundle.access import PageAddress
 from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import WINDOWS, WORLDS, Executable, Host, Simulator, find_node
 from trundle.ros import PROFILES, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
@@ -108,7 +109,12 @@ class LaunchSession:
             from trundle.viewer import GraphPage  # a launch without a page does not wait for it
 
             self._page = page = GraphPage(
-                packages=read.packages, report=read.report, say=show.line, host=options.host, port=options.view_port
+                packages=read.packages,
+                report=read.report,
+                say=show.line,
+                host=options.host,
+                port=options.view_port,
+                allowed=options.allowed,
             )
             self._open_things.callback(page.close)
         self.starter = NodeStarter(
@@ -184,7 +190,9 @@ class LaunchSession:
             report=read.report,
             folder=logs / "spawned",
             say=read.show.line,
-            window=None if options.headless else (options.host, self._window_port()),
+            window=None
+            if options.headless
+            else PageAddress(host=options.host, port=self._window_port(), allowed=options.allowed),
             speed=options.speed,
             renderer=options.renderer,
             steps=self._steps,

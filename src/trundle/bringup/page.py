@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import Protocol, Self
 
+from trundle.access import PageAddress
 from trundle.sensors import CameraReading, CameraSensor, MeasuringSensor
 from trundle.simulation import Simulation
 from trundle.viewer import Drive, Pause, Play, Reset, SetJoint, SetSpeed, Step, Viewer, ViewerState
@@ -53,9 +54,7 @@ class Page:
         simulation: Simulation,
         sensors: Sequence[CameraSensor | MeasuringSensor],
         driver: Driver | None,
-        *,
-        host: str,
-        port: int | None,
+        at: PageAddress,
     ) -> Self:
         """Start the page.
 
@@ -63,7 +62,7 @@ class Page:
             UsageError: the port asked for is taken.
         """
         layout = lay_out(simulation, _cameras(sensors), drive=driver is not None)
-        viewer = Viewer.start(layout.scene, host=host, port=port, state=layout.first)
+        viewer = Viewer.start(layout.scene, host=at.host, port=at.port, allowed=at.allowed, state=layout.first)
         page = cls(viewer, simulation, driver, layout.joints)
         page._listen(sensors)
         return page

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from trundle.access import AllowedNames
 from trundle.description import load_text
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.model import flattened
@@ -17,7 +18,6 @@ from trundle.packages import Packages
 from trundle.simulation import Simulation, StateLog, read_state_log
 from trundle.viewer import Pause, Play, Reset, SetSpeed, Step, Viewer, ViewerState
 
-from .exposure import warn_of_exposure
 from .page_layout import joint_indices, lay_out
 from .showing import Showing
 from .signals import StopFlag, stop_flag
@@ -31,6 +31,8 @@ class PlayOptions:
 
     host: str = "127.0.0.1"
     port: int | None = None
+    allowed: AllowedNames = AllowedNames()
+    """Whom the page serves beside itself."""
     speed: float = 1.0
     """Recorded seconds per second."""
     paused: bool = False
@@ -54,9 +56,10 @@ def play(file: Path, options: PlayOptions) -> int:
     layout = lay_out(simulation, [], drive=False)
     show = Showing(sys.stderr, report)
     show.findings()
-    warn_of_exposure(options.host, show.line)
     with stop_flag() as stop, ExitStack() as open_things:
-        viewer = Viewer.start(layout.scene, host=options.host, port=options.port, state=layout.first)
+        viewer = Viewer.start(
+            layout.scene, host=options.host, port=options.port, allowed=options.allowed, state=layout.first
+        )
         open_things.callback(viewer.close)
         show.line(f"see it at {viewer.url}")
         _Player(log, viewer, joint_indices(simulation, layout.joints), options).run(stop)

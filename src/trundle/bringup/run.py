@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from trundle.access import AllowedNames, PageAddress
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
 from trundle.sensors import mount_cameras, mount_sensors
@@ -40,6 +41,8 @@ class RunOptions:
     host: str = "127.0.0.1"
     port: int | None = None
     """Of the page; None: 8080 or the next free one."""
+    allowed: AllowedNames = AllowedNames()
+    """Whom the page serves beside itself."""
     duration_s: float | None = None
     """Simulation time; None: until interrupted."""
     speed: float | None = 1.0
@@ -106,7 +109,8 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             from .page import Page
 
             shown = (*cameras, *sensors)
-            page = open_things.enter_context(Page.open(simulation, shown, ros, host=options.host, port=options.port))
+            at = PageAddress(host=options.host, port=options.port, allowed=options.allowed)
+            page = open_things.enter_context(Page.open(simulation, shown, ros, at))
             show.line(f"see it at {page.url}")
         wall_s = _drive(simulation, ros, page, options, stop, show.line)
         show.findings()

@@ -8,6 +8,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
+from trundle.access import AllowedNames
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.names import anonymous_name
 from trundle.packages import Packages
@@ -29,6 +30,8 @@ class ViewOptions:
     host: str = "127.0.0.1"
     port: int | None = None
     """None: 8080 or the next free one."""
+    allowed: AllowedNames = AllowedNames()
+    """Whom the page serves beside itself."""
 
 
 def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> int:
@@ -54,7 +57,14 @@ def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> 
         node = Node(anonymous_name("rviz"), loop=loop, master_uri=uri, host=options.host)
         loop.run(follow_time(node))
         packages = Packages(env, start=Path.cwd())
-        page = GraphPage(packages=packages, report=report, say=show.line, host=options.host, port=options.port)
+        page = GraphPage(
+            packages=packages,
+            report=report,
+            say=show.line,
+            host=options.host,
+            port=options.port,
+            allowed=options.allowed,
+        )
         open_things.callback(page.close)
         shown = loop.spawn(page.show(node, config=options.config, fixed_frame=options.fixed_frame))
         while not stop.wait(0.1):

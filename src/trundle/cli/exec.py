@@ -134,6 +134,7 @@ def _stand_in(args: argparse.Namespace, stand_in: object) -> int:
 @contextmanager
 def _world(node: "Node", *, with_window: bool) -> "Generator[GazeboWorld]":
     """What gzserver simulates in; what its files leave to be said is said."""
+    from trundle.access import PageAddress
     from trundle.bringup.gazebo_world import GazeboWorld
     from trundle.bringup.graph import Graph
     from trundle.bringup.launch_logs import log_folder
@@ -150,7 +151,7 @@ def _world(node: "Node", *, with_window: bool) -> "Generator[GazeboWorld]":
         report=report,
         folder=log_folder(os.environ, "gazebo") / "spawned",
         say=show.line,
-        window=(loopback, None) if with_window else None,
+        window=PageAddress() if with_window else None,
     )
     telling = node.loop.spawn(_tell(show))
     try:

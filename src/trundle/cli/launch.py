@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from trundle.diagnostics import UsageError
 from trundle.ros import PROFILES
 
-from .main import add_allow_outside, add_renderer, quiet_imports
+from .main import add_allow_outside, add_page_access, add_renderer, page_access, quiet_imports
 from .speed import read_speed
 
 if TYPE_CHECKING:
@@ -76,6 +76,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         add(option, dest=f"unused_{option.strip('-')}", metavar="X", help=argparse.SUPPRESS)
     parser.set_defaults(refuse=parser.error)
     add_renderer(parser)
+    add_page_access(parser)
     add_allow_outside(parser)
 
 
@@ -97,6 +98,7 @@ def main(args: argparse.Namespace) -> int:
         master_port=args.port,
         view_port=args.view_port,
         host=args.host,
+        allowed=page_access(args),
         renderer=args.renderer,
         output="log" if args.log else "screen" if args.screen else None,
         all_required=args.required,

@@ -14,11 +14,14 @@ import sys
 from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from io import TextIOWrapper
-from typing import Protocol, cast
+from typing import TYPE_CHECKING, Protocol, cast
 
 from trundle import __version__
 from trundle.diagnostics import TrundleError
 from trundle.names import Arguments, parse_arguments
+
+if TYPE_CHECKING:
+    from trundle.access import AllowedNames
 
 COMMANDS: dict[str, str] = {
     "run": "simulate a robot or a world",
@@ -150,6 +153,26 @@ def add_allow_outside(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--allow-outside", action="store_true", help="read files outside the packages and resource paths too"
     )
+
+
+def add_page_access(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of every command that serves a page."""
+    for option, metavar, what in (
+        ("--allow-host", "NAME", "serve the page at this name too, as behind a proxy; may be given again"),
+        ("--allow-origin", "ORIGIN", "let web pages of this origin in, such as https://robot.example:8443"),
+    ):
+        parser.add_argument(option, action="append", default=[], metavar=metavar, help=what)
+
+
+def page_access(args: argparse.Namespace) -> "AllowedNames":
+    """Return what `add_page_access` declared.
+
+    Raises:
+        UsageError: a name is none.
+    """
+    from trundle.access import AllowedNames
+
+    return AllowedNames(hosts=tuple(args.allow_host), origins=tuple(args.allow_origin))
 
 
 def add_renderer(parser: argparse.ArgumentParser) -> None:

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from .main import add_allow_outside, quiet_imports
+from .main import add_allow_outside, add_page_access, page_access, quiet_imports
 
 EXAMPLES = """
   trundle run world.sdf --record run.log              record where everything is, 50 times a second
@@ -19,6 +19,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--pause", action="store_true", help="start paused")
     parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
     parser.add_argument("--host", default="127.0.0.1", help="address that the page binds (127.0.0.1)")
+    add_page_access(parser)
     add_allow_outside(parser)
 
 
@@ -27,7 +28,10 @@ def main(args: argparse.Namespace) -> int:
     with quiet_imports():
         from trundle.bringup.play import PlayOptions, play
 
-    return play(args.file, PlayOptions(host=args.host, port=args.port, speed=args.speed, paused=args.pause))
+    options = PlayOptions(
+        host=args.host, port=args.port, allowed=page_access(args), speed=args.speed, paused=args.pause
+    )
+    return play(args.file, options)
 
 
 def _positive(text: str) -> float:

@@ -5,7 +5,7 @@ import json
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, add_renderer, quiet_imports
+from .main import add_allow_outside, add_page_access, add_renderer, page_access, quiet_imports
 from .speed import read_speed
 
 EXAMPLES = """
@@ -40,6 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--record", type=Path, metavar="FILE", help="write where everything is, for `trundle play`")
     parser.add_argument("--json", action="store_true", help="print the final state as one JSON object")
+    add_page_access(parser)
     add_allow_outside(parser)
 
 
@@ -51,6 +52,7 @@ def main(args: argparse.Namespace) -> int:
     options = RunOptions(
         headless=args.headless,
         host=args.host,
+        allowed=page_access(args),
         port=args.port,
         duration_s=args.duration,
         speed=args.speed,

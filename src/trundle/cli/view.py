@@ -2,7 +2,7 @@
 
 import argparse
 
-from .main import add_allow_outside, quiet_imports
+from .main import add_allow_outside, add_page_access, page_access, quiet_imports
 
 EXAMPLES = """
   trundle view                                        the graph that ROS_MASTER_URI names
@@ -17,6 +17,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-f", "--fixed-frame", metavar="FRAME", help="the frame everything is seen from")
     parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
     parser.add_argument("--host", default="127.0.0.1", help="address that the page binds (127.0.0.1)")
+    add_page_access(parser)
     add_allow_outside(parser)
 
 
@@ -25,4 +26,11 @@ def main(args: argparse.Namespace) -> int:
     with quiet_imports():
         from trundle.bringup.view import ViewOptions, view
 
-    return view(ViewOptions(config=args.display_config, fixed_frame=args.fixed_frame, host=args.host, port=args.port))
+    options = ViewOptions(
+        config=args.display_config,
+        fixed_frame=args.fixed_frame,
+        host=args.host,
+        port=args.port,
+        allowed=page_access(args),
+    )
+    return view(options)

@@ -6,6 +6,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Protocol
 
+from trundle.access import NONE_ALLOWED, AllowedNames
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
 from trundle.ros import Node
@@ -45,6 +46,7 @@ class GraphPage:
         say: Callable[[str], None],
         host: str = "127.0.0.1",
         port: int | None = None,
+        allowed: AllowedNames = NONE_ALLOWED,
     ) -> None:
         """`say` takes what people must see whatever becomes of a node's log: where the page is."""
         self._say = say
@@ -52,6 +54,7 @@ class GraphPage:
         self._report = report
         self._host = host
         self._port = port
+        self._allowed = allowed
         self._viewer: Viewer | None = None
         self._sliders: tuple[JointSlider, ...] = ()
         self._move: Callable[[str, float], None] | None = None
@@ -141,7 +144,9 @@ class GraphPage:
             self._shown = shown = ShownGraph(node, read, fixed_frame)
             open_things.callback(shown.close)
             first = self._layout(shown)
-            self._viewer = await asyncio.to_thread(Viewer.start, first, host=self._host, port=self._port)
+            self._viewer = await asyncio.to_thread(
+                Viewer.start, first, host=self._host, port=self._port, allowed=self._allowed
+            )
             self._say(f"see it at {self._viewer.url}")
             await self._feed(self._viewer, shown)
         return 0

@@ -1,18 +1,20 @@
 """A joystick in the browser: two sticks and buttons to move by hand, or a real pad that is plugged in there.
 
 viser knows neither; a small page of our own, in a frame of the panel, reads both and sends what changed to a server of
-its own. That one hears only pages that it has served: their address holds a secret, and their origin is checked.
+its own. That one hears only pages whose address holds the page's token.
 """
 
 import json
 import math
-import secrets
 import socket
 import threading
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
 from typing import Any, cast
+
+from trundle.access import Access, PageRequest
 
 from .requests import MoveJoystick
 
@@ -43,23 +45,19 @@ def joystick_of(sticks: Sequence[float], buttons: Sequence[float]) -> MoveJoysti
 class JoystickServer:
     """Serves the frame's page, and takes what it sends."""
 
-    def __init__(self, host: str, send: Callable[[MoveJoystick], None]) -> None:
-        """Serve at any free port."""
-        secret, page = secrets.token_urlsafe(16), files("trundle.viewer").joinpath("joystick.html").read_bytes()
+    def __init__(self, access: Access, send: Callable[[MoveJoystick], None]) -> None:
+        """Serve at any free port, by the page's rules, and by its token alone."""
+        rules, page = replace(access, needs_token=True), files("trundle.viewer").joinpath("joystick.html").read_bytes()
 
         class Handler(_Handler):
-            path_of_page, page_bytes, taken = f"/{secret}/", page, staticmethod(send)
+            access, page_bytes, taken = rules, page, staticmethod(send)
 
-        self._server = ThreadingHTTPServer((host, 0), Handler)
+        self._server = ThreadingHTTPServer((access.host, 0), Handler)
         self._server.daemon_threads = True
-        port = self._server.server_address[1]
-
-        def url(address: str) -> str:
-            return f"http://{f'[{address}]' if ':' in address else address}:{port}/{secret}/"
-
-        everywhere = host in _ANY
-        self.url = url("127.0.0.1" if everywhere else host)
-        self.url_elsewhere = url(_outward_address()) if everywhere else None
+        port = int(self._server.server_address[1])
+        everywhere = access.host in _ANY
+        self.url = rules.url("127.0.0.1" if everywhere else access.host, port)
+        self.url_elsewhere = rules.url(_outward_address(), port) if everywhere else None
         """For other machines, where the first one is for this one only."""
         threading.Thread(target=self._server.serve_forever, name="trundle-joystick", daemon=True).start()
 
@@ -82,14 +80,13 @@ def _outward_address() -> str:
 class _Handler(BaseHTTPRequestHandler):
     protocol_version = "HTTP/1.1"
     timeout = _IDLE_S
-    path_of_page: str
+    access: Access
     page_bytes: bytes
     taken: Callable[[MoveJoystick], None]
 
     def do_GET(self) -> None:
         """Hand the page out."""
-        if self.path != self.path_of_page:
-            self._answer(404)
+        if self._is_refused("/"):
             return
         self._answer(200, self.page_bytes)
 
@@ -101,20 +98,33 @@ class _Handler(BaseHTTPRequestHandler):
             self._answer(413)
             return
         body = self.rfile.read(int(size))
-        origin = f"http://{self.headers.get('Host', '')}"
-        if self.path != f"{self.path_of_page}move" or self.headers.get("Origin") != origin:
-            self._answer(403)
+        if self._is_refused("/move"):
             return
         moved = _read(body)
         if moved is not None:
             self.taken(moved)
         self._answer(400 if moved is None else 204)
 
+    def _is_refused(self, path: str) -> bool:
+        """Answer what is not for this path, or not by the rules."""
+        fields = self.headers
+        asked = PageRequest(
+            target=self.path, host=fields["Host"], origin=fields["Origin"], cookie=fields["Cookie"] or ""
+        )
+        if (why := self.access.refusal(asked)) is not None:
+            self._answer(403, why.encode())
+        elif self.path.partition("?")[0] != path:
+            self._answer(404)
+        else:
+            return False
+        return True
+
     def _answer(self, code: int, body: bytes = b"") -> None:
         self.send_response(code)
         self.send_header("Content-Type", "text/html; charset=utf-8")
         self.send_header("Content-Length", str(len(body)))
         self.send_header("Cache-Control", "no-store")
+        self.send_header("Referrer-Policy", "no-referrer")
         self.end_headers()
         self.wfile.write(body)
 

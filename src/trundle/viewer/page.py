@@ -19,15 +19,18 @@ from typing import BinaryIO
 import numpy as np
 import viser
 
+from trundle.access import Access, PageAddress
+
 from .content import ViewerState
 from .display import Display
 from .framing import Extent
+from .guard import guarded
 from .joystick import JoystickServer
 from .mailbox import Mailbox
 from .panel import Panel
 from .requests import Request
 from .stage import Stage
-from .wire import Refused, Serve, Served, Show
+from .wire import Refused, Served, Show
 
 _DEFAULT_PORT = 8080
 _PORTS_TRIED = 200
@@ -39,9 +42,9 @@ _DARK = 0.4
 class Page:
     """A server and the scene it shows now."""
 
-    def __init__(self, server: viser.ViserServer, mouth: "Mouth", host: str) -> None:
+    def __init__(self, server: viser.ViserServer, mouth: "Mouth", access: Access) -> None:
         self._server = server
-        self._host = host
+        self._access = access
         self._joystick: JoystickServer | None = None
         self._mouth = mouth
         self._display: Display | None = None
@@ -96,7 +99,7 @@ class Page:
     def _joystick_frame(self) -> JoystickServer:
         """Serve the joystick's frame, once."""
         if self._joystick is None:
-            self._joystick = JoystickServer(self._host, self._mouth.say)
+            self._joystick = JoystickServer(self._access, self._mouth.say)
         return self._joystick
 
     def tick(self) -> None:
@@ -159,7 +162,7 @@ class Mouth:
             self._stream.flush()
 
 
-def _free_port(serve: Serve) -> int | Refused:
+def _free_port(serve: PageAddress) -> int | Refused:
     """Find the port to bind, by binding it for a moment: viser itself would try a thousand without a word."""
     asked = serve.port is not None
     ports = (serve.port,) if serve.port is not None else range(_DEFAULT_PORT, _DEFAULT_PORT + _PORTS_TRIED)
@@ -191,20 +194,22 @@ def main() -> None:
     mouth = Mouth(os.fdopen(os.dup(1), "wb"))
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # viser prints banners
     serve, show = pickle.load(sys.stdin.buffer), pickle.load(sys.stdin.buffer)
-    assert isinstance(serve, Serve)
+    assert isinstance(serve, PageAddress)
     port = _free_port(serve)
     if isinstance(port, Refused):
         mouth.say(port)
         return
-    server = viser.ViserServer(host=serve.host, port=port, verbose=False)
+    access = Access(host=serve.host, port=port, allowed=serve.allowed)
+    with guarded(access):
+        server = viser.ViserServer(host=serve.host, port=port, verbose=False)
     if serve.port and server.get_port() != serve.port:  # somebody was faster: viser has moved on
         mouth.say(Refused(f"cannot serve the viewer at {serve.host}:{serve.port}: the port was just taken"))
         os._exit(0)
     reachable = "127.0.0.1" if serve.host in ("0.0.0.0", "") else serve.host
-    page = Page(server, mouth, serve.host)
+    page = Page(server, mouth, access)
     while not page.show(show):
         show = pickle.load(sys.stdin.buffer)
-    mouth.say(Served(f"http://{f'[{reachable}]' if ':' in reachable else reachable}:{server.get_port()}"))
+    mouth.say(Served(access.url(reachable, server.get_port())))
     shows: queue.SimpleQueue[Show] = queue.SimpleQueue()
     threading.Thread(target=_listen, args=(shows,), daemon=True).start()
     while True:

@@ -12,13 +12,14 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from trundle.access import NONE_ALLOWED, AllowedNames, PageAddress
 from trundle.diagnostics import UsageError
 
 from .content import MOST_LINE_POINTS, ViewerScene, ViewerState
 from .errors import ViewerError
 from .mailbox import Mailbox
 from .requests import Request
-from .wire import MOST_FIGURE_BYTES, THUMBNAIL_HEIGHT_PX, THUMBNAIL_WIDTH_PX, Refused, Serve, Served, Show
+from .wire import MOST_FIGURE_BYTES, THUMBNAIL_HEIGHT_PX, THUMBNAIL_WIDTH_PX, Refused, Served, Show
 
 _START_TIMEOUT_S = 60.0
 _STOP_TIMEOUT_S = 1.5
@@ -54,6 +55,7 @@ class Viewer:
         *,
         host: str = "127.0.0.1",
         port: int | None = None,
+        allowed: AllowedNames = NONE_ALLOWED,
         state: ViewerState | None = None,
     ) -> Self:
         """Serve a page and return once it answers.
@@ -62,6 +64,7 @@ class Viewer:
             scene: what to draw.
             host: the address to bind; loopback unless someone asked for more.
             port: None takes 8080 or the next free one, 0 any free one.
+            allowed: who is served beside the page itself.
             state: where things are at first; the camera is placed to frame it.
 
         Raises:
@@ -77,7 +80,7 @@ class Viewer:
         )
         viewer = cls(process)
         try:
-            viewer._send(Serve(host=host, port=port))
+            viewer._send(PageAddress(host=host, port=port, allowed=allowed))
             viewer.replace(scene, state=state)
             viewer._url = viewer._await_served()
         except BaseException:
@@ -87,7 +90,7 @@ class Viewer:
 
     @property
     def url(self) -> str:
-        """Where the page is: `http://127.0.0.1:8080`."""
+        """Where the page is: `http://127.0.0.1:8080`; off loopback with the token that opens it."""
         return self._url
 
     @property
@@ -163,7 +166,7 @@ class Viewer:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _send(self, message: Serve | Show) -> None:
+    def _send(self, message: PageAddress | Show) -> None:
         with contextlib.suppress(OSError):  # a page that died is told by `alive`, or by the reply that never comes
             pickle.dump(message, self._to_page, protocol=5)
             self._to_page.flush()

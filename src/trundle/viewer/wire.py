@@ -18,14 +18,6 @@ MOST_FIGURE_BYTES = 1_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Serve:
-    """Bind this address; a port of None is the first free one from 8080 on."""
-
-    host: str
-    port: int | None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Show:
     """Draw this scene from now on, reading its states and images from these mailboxes."""
 

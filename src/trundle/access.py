@@ -1,0 +1,181 @@
+"""Access to the page: which requests are served, and which header fields answers carry.
+
+Any web page that a person visits can have the browser send requests to loopback, and a name of its own can lead
+there (DNS rebinding). What it cannot do is choose `Origin` and `Host`, or guess the session's token.
+"""
+
+import ipaddress
+import re
+import secrets
+import socket
+from dataclasses import dataclass, field
+from urllib.parse import parse_qs
+
+from .diagnostics import UsageError
+
+_ORIGIN = re.compile(r"https?://[^][:/@;,'\s]+(?::\d{1,5})?/?")
+_AUTHORITY = re.compile(r"(\[[0-9a-f:.%]+\]|[^][:/@\s]+)(?::\d{1,5})?")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AllowedNames:
+    """Who else is served, by `--allow-host` and `--allow-origin`."""
+
+    hosts: tuple[str, ...] = ()
+    """Names that the page is opened at: `robot.example`."""
+    origins: tuple[str, ...] = ()
+    """Origins of other web pages: `https://robot.example:8443`."""
+
+    def __post_init__(self) -> None:
+        """Check them.
+
+        Raises:
+            UsageError: one is no name, or no origin.
+        """
+        for host in self.hosts:
+            if not _AUTHORITY.fullmatch(host.lower()):
+                raise UsageError(f"not the name of a host: '{host}'; one reads like robot.example")
+        for origin in self.origins:
+            if not _ORIGIN.fullmatch(origin.lower()):
+                raise UsageError(f"not the origin of a web page: '{origin}'; one reads like https://robot.example:8443")
+
+
+NONE_ALLOWED = AllowedNames()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PageAddress:
+    """Where a page is to be served, and to whom."""
+
+    host: str = "127.0.0.1"
+    port: int | None = None
+    """None: 8080 or the next free one."""
+    allowed: AllowedNames = NONE_ALLOWED
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PageRequest:
+    """What a browser says of itself in an HTTP request or a WebSocket's upgrade."""
+
+    target: str
+    """Path and query."""
+    host: str | None = None
+    origin: str | None = None
+    cookie: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Access:
+    """The rules of one server."""
+
+    host: str
+    """What it binds."""
+    port: int
+    allowed: AllowedNames = NONE_ALLOWED
+    needs_token: bool = False
+    """Whether only the token opens; always so off loopback."""
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(16))
+
+    def url(self, address: str, port: int) -> str:
+        """Where it is; with the token where that is asked for."""
+        query = f"/?token={self.token}" if self._is_closed else ""
+        return f"http://{f'[{address}]' if ':' in address else address}:{port}{query}"
+
+    def refusal(self, request: PageRequest) -> str | None:
+        """Return why a request is refused, in a sentence; None: it is served."""
+        if self._brings_token(request) or (self._keeps_token(request) and _is_own(request)):
+            return None
+        if self._is_closed:
+            return "this page asks for its token: open the address that trundle printed, with what follows '?token='"
+        if request.origin is not None and _plain(request.origin) in map(_plain, self.allowed.origins):
+            return None
+        if not self._knows(request.host):
+            return (
+                f"this page is not served as {(request.host or '')[:100]!r}; open it at localhost, "
+                "or start trundle with --allow-host NAME"
+            )
+        if not _is_own(request):
+            return (
+                f"this page does not answer pages of {(request.origin or '')[:100]!r}; "
+                "start trundle with --allow-origin ORIGIN to let them in"
+            )
+        return None
+
+    def answer_fields(self, request: PageRequest) -> dict[str, str]:
+        """Return the header fields of an answer to a request that is served.
+
+        The cookie carries the token on to the page's own requests; the policy keeps other pages from framing this
+        one, and what is written in this one from talking to other servers.
+        """
+        framers = " ".join(("'self'", *self.allowed.origins))
+        here = f" ws://{request.host} wss://{request.host}" if _name(request.host) else ""
+        fields = {
+            "Content-Security-Policy": (
+                f"connect-src 'self' data: blob:{here}; "
+                f"frame-ancestors {framers}; "
+                "object-src 'none'; base-uri 'none'; form-action 'none'"
+            ),
+            "Cross-Origin-Resource-Policy": "same-origin",
+            "Referrer-Policy": "no-referrer",
+            "X-Content-Type-Options": "nosniff",
+        }
+        if self._brings_token(request):
+            fields["Set-Cookie"] = f"{self._cookie}={self.token}; Path=/; HttpOnly; SameSite=Strict"
+        return fields
+
+    @property
+    def _is_closed(self) -> bool:
+        return self.needs_token or not is_loopback(self.host)
+
+    @property
+    def _cookie(self) -> str:
+        """Cookies are of a host; the port keeps those of several pages apart."""
+        return f"trundle-{self.port}"
+
+    def _brings_token(self, request: PageRequest) -> bool:
+        return self._matches(parse_qs(request.target.partition("?")[2]).get("token", [""])[-1])
+
+    def _keeps_token(self, request: PageRequest) -> bool:
+        kept = [pair.strip().partition("=") for pair in request.cookie.split(";")]
+        return any(name == self._cookie and self._matches(value) for name, _, value in kept)
+
+    def _matches(self, text: str) -> bool:
+        return secrets.compare_digest(text.encode(), self.token.encode())
+
+    def _knows(self, host: str | None) -> bool:
+        name = _name(host)
+        names = ("localhost", socket.gethostname(), self.host, *self.allowed.hosts)
+        return bool(name) and (_is_address(name) or name in map(_name, names))
+
+
+def is_loopback(host: str) -> bool:
+    """Tell whether a server bound there is reached from this machine only."""
+    if _is_address(host):
+        return ipaddress.ip_address(host).is_loopback
+    return host.lower() == "localhost"
+
+
+def _is_address(name: str) -> bool:
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True
+
+
+def _is_own(request: PageRequest) -> bool:
+    """Whether no page sent it, or one of this very server."""
+    if request.origin is None:
+        return True
+    host = (request.host or "").lower()
+    return request.origin.lower() in (f"http://{host}", f"https://{host}")
+
+
+def _name(host: str | None) -> str:
+    """The name or address in a `Host` field; nothing where there is none."""
+    found = _AUTHORITY.fullmatch((host or "").lower())
+    return "" if found is None else found[1].strip("[]").rstrip(".")
+
+
+def _plain(origin: str) -> str:
+    return origin.lower().rstrip("/")
