@@ -1,61 +1,92 @@
 """A latest-wins slot between two processes: the newest message replaces the one nobody has taken.
 
-Writer and reader share a mapped file and never wait for each other. Two halves alternate: message n lies in
+Writer and reader share mapped memory and never wait for each other. Two halves alternate: message n lies in
 half n % 2, and two counters say which messages were begun and which are done, so that a reader knows whether
-the half it copied was overwritten meanwhile. (`multiprocessing.shared_memory` would do for the bytes, but on
-Python 3.11 a process that merely attaches has its resource tracker remove the block when it ends.)
+the half it copied was overwritten meanwhile. Where the system has it, the memory is a file without a name, which
+ends with the processes that hold it, however they end; elsewhere it is a file of this user's that is removed as soon
+as the reader has it. (`multiprocessing.shared_memory` has a name, which stays behind when both are killed.)
 """
 
 import mmap
 import os
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
 import numpy as np
 
 _HEADER_BYTES = 64
+_NEVER_WAIT = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0) | getattr(os, "O_BINARY", 0)
+"""A number of another process may be a pipe or a terminal by now."""
 _BEGUN, _DONE, _LENGTHS = 0, 1, 2
+
+
+@dataclass(frozen=True, slots=True)
+class BoxAddress:
+    """Where another process of this user finds a box."""
+
+    path: Path
+    inode: int
+    """A path of /proc names whatever has the number now."""
 
 
 class Mailbox:
     """One direction, one writer, one reader."""
 
-    def __init__(self, path: Path, memory: mmap.mmap) -> None:
-        self.path = path
+    def __init__(self, address: BoxAddress, memory: mmap.mmap, descriptor: int | None = None) -> None:
+        self.address = address
         self._memory = memory
+        self._descriptor = descriptor
+        """Keeps a file without a name to be found."""
         self._header = np.frombuffer(memory, dtype=np.int64, count=_HEADER_BYTES // 8)
         self._half_bytes = (len(memory) - _HEADER_BYTES) // 2
         self._taken = 0
 
     @classmethod
     def create(cls, capacity_bytes: int) -> Self:
-        """Make the file, in memory where the system has such a folder; raises OSError where there is no room."""
+        """Make the memory; raises OSError where there is no room."""
         size = _HEADER_BYTES + 2 * capacity_bytes
-        shared = Path("/dev/shm")
         try:
-            return cls._create_in(shared if shared.is_dir() else None, size)
+            descriptor = os.memfd_create("trundle-mailbox", os.MFD_CLOEXEC)
+        except (AttributeError, OSError):  # another system, or a sandbox that forbids it
+            return cls._create_named(size)
+        try:
+            os.posix_fallocate(descriptor, 0, size)  # pages that cannot be had later would end the process
+            address = BoxAddress(Path(f"/proc/{os.getpid()}/fd/{descriptor}"), os.fstat(descriptor).st_ino)
+            return cls(address, mmap.mmap(descriptor, size), descriptor)
         except OSError:
-            return cls._create_in(None, size)  # a container's /dev/shm may be tiny or not ours to write
+            os.close(descriptor)
+            raise
 
     @classmethod
-    def _create_in(cls, folder: Path | None, size: int) -> Self:
-        descriptor, name = tempfile.mkstemp(prefix=f"trundle-{os.getpid()}-", dir=folder)
+    def _create_named(cls, size: int) -> Self:
+        descriptor, name = tempfile.mkstemp(prefix=f"trundle-{os.getpid()}-")  # nobody else may open it
         try:
             with os.fdopen(descriptor, "w+b") as file:
-                # Pages that cannot be had must fail here: touched later they would end the process with SIGBUS.
                 file.write(bytes(size))
                 file.flush()
-                return cls(Path(name), mmap.mmap(file.fileno(), size))
+                address = BoxAddress(Path(name), os.fstat(descriptor).st_ino)
+                return cls(address, mmap.mmap(descriptor, size))
         except OSError:
             Path(name).unlink()
             raise
 
     @classmethod
-    def open(cls, path: Path) -> Self:
-        """Map the file another process made."""
-        with path.open("r+b") as file:
-            return cls(path, mmap.mmap(file.fileno(), 0))
+    def open(cls, address: BoxAddress) -> Self:
+        """Map the memory another process made.
+
+        Raises:
+            FileNotFoundError: that process has let go of it.
+        """
+        try:
+            descriptor = os.open(address.path, os.O_RDWR | _NEVER_WAIT)
+        except OSError as error:
+            raise FileNotFoundError(f"no mailbox at {address.path}: {error.strerror}") from None
+        with os.fdopen(descriptor, "r+b") as file:
+            if os.fstat(descriptor).st_ino != address.inode:
+                raise FileNotFoundError(f"no mailbox at {address.path} any more")
+            return cls(address, mmap.mmap(file.fileno(), 0))
 
     @property
     def capacity_bytes(self) -> int:
@@ -85,5 +116,9 @@ class Mailbox:
         return message
 
     def unlink(self) -> None:
-        """Remove the name; both sides keep the memory as long as they hold it."""
-        self.path.unlink(missing_ok=True)
+        """Have no other process find it; both sides keep the memory as long as they hold it."""
+        if self._descriptor is not None:
+            os.close(self._descriptor)
+            self._descriptor = None
+        elif self.address.path.parts[1] != "proc":
+            self.address.path.unlink(missing_ok=True)

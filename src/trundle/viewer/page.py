@@ -61,7 +61,7 @@ class Page:
         """
         server, scene = self._server, show.scene
         try:
-            boxes = [Mailbox.open(path) for path in (show.state_box, *show.image_boxes, *show.figure_boxes)]
+            boxes = [Mailbox.open(address) for address in (show.state_box, *show.image_boxes, *show.figure_boxes)]
         except FileNotFoundError:
             return False
         self._state_box, *pictures = boxes

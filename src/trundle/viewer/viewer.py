@@ -135,8 +135,8 @@ class Viewer:
         self._state_box, self._image_boxes, self._figure_boxes = state_box, image_boxes, figure_boxes
         if state is not None:
             self.show(state)
-        images, figures = (tuple(box.path for box in boxes) for boxes in (image_boxes, figure_boxes))
-        self._send(Show(scene=scene, state_box=state_box.path, image_boxes=images, figure_boxes=figures))
+        images, figures = (tuple(box.address for box in boxes) for boxes in (image_boxes, figure_boxes))
+        self._send(Show(scene=scene, state_box=state_box.address, image_boxes=images, figure_boxes=figures))
 
     def requests(self) -> list[Request]:
         """Return what people asked for since the last call, oldest first."""

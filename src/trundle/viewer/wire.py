@@ -4,9 +4,9 @@ States and images do not come this way but through mailboxes: they are many, and
 """
 
 from dataclasses import dataclass
-from pathlib import Path
 
 from .content import ViewerScene
+from .mailbox import BoxAddress
 
 THUMBNAIL_WIDTH_PX = 640
 THUMBNAIL_HEIGHT_PX = 480
@@ -22,10 +22,10 @@ class Show:
     """Draw this scene from now on, reading its states and images from these mailboxes."""
 
     scene: ViewerScene
-    state_box: Path
-    image_boxes: tuple[Path, ...]
+    state_box: BoxAddress
+    image_boxes: tuple[BoxAddress, ...]
     """One per camera."""
-    figure_boxes: tuple[Path, ...] = ()
+    figure_boxes: tuple[BoxAddress, ...] = ()
     """One per figure."""
 
 
