@@ -27,9 +27,11 @@ def write_whole(path: Path, text: str) -> None:
 def _replace(path: Path, text: str) -> None:
     half = path.with_name(f".{path.name}.part")
     try:
-        half.write_text(text, encoding="utf-8")
-        if path.exists():
-            shutil.copymode(path, half)
+        half.unlink(missing_ok=True)  # of a program that was killed, or a link that another user put there
+        with half.open("x", encoding="utf-8") as file:
+            if path.exists():
+                shutil.copymode(path, half)
+            file.write(text)
         os.replace(half, path)
     except OSError:
         half.unlink(missing_ok=True)

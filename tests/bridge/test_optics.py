@@ -157,6 +157,23 @@ def test_pictures_are_saved_under_gazebo_s_names(described: Any) -> None:
         assert sim.report.warnings == []
 
 
+def test_a_link_that_waits_at_a_picture_s_name_is_not_written_through(described: Any, tmp_path: Path) -> None:
+    """The names are Gazebo's, known to every user of a machine who can write to /tmp."""
+    ours = tmp_path / "ours"
+    ours.write_text("precious")
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "w_bot_head_eye(1)-0000.jpg").symlink_to(ours)
+        sim = described(eye("camera", inside=f'<save enabled="true"><path>{folder}</path></save>') + WALL)
+        (camera,) = mount_cameras(sim, NativeRenderer)
+        camera.start(sim)
+        sim.run(0.1)
+
+        files = list(Path(folder).iterdir())
+        assert len(files) == 2
+        assert not any(file.is_symlink() for file in files)
+    assert ours.read_text() == "precious"
+
+
 def test_a_file_does_not_choose_where_in_the_system_pictures_are_saved(described: Any) -> None:
     sim = described(eye("camera", inside='<save enabled="true"><path>/etc/shots</path></save>'))
     (camera,) = mount_cameras(sim, NativeRenderer)

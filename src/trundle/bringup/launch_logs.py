@@ -5,14 +5,16 @@ import os
 import socket
 from collections.abc import Mapping
 from pathlib import Path
+from tempfile import mkdtemp
 
 from trundle.diagnostics import UsageError
+from trundle.ownership import home_folder, is_ours
 from trundle.ros import PYTHON_LOG_BACKUPS, PYTHON_LOG_BYTES, LogFile, python_log_line
 
 
 def ros_home(env: Mapping[str, str]) -> Path:
     """ROS_HOME, or ~/.ros; programs start there."""
-    return Path(env.get("ROS_HOME") or Path(env.get("HOME", "/tmp")) / ".ros")
+    return Path(env.get("ROS_HOME") or home_folder(env) / ".ros")
 
 
 def log_folder(env: Mapping[str, str], run_id: str) -> Path:
@@ -25,6 +27,8 @@ def log_folder(env: Mapping[str, str], run_id: str) -> Path:
     folder = parent / (run_id or "trundle")
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        if not is_ours(folder):  # in a folder for all, as /tmp, another user may have been first
+            folder = Path(mkdtemp(prefix=f"{folder.name}-", dir=parent))
         ros_home(env).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UsageError(

@@ -1,6 +1,6 @@
 """Meshes that took long to read, kept on disk under a key made of the file's bytes.
 
-A cache that cannot be written, or whose files are damaged, costs time and nothing else.
+A cache that cannot be written, whose files are damaged, or that another user could write, costs time and nothing else.
 """
 
 import contextlib
@@ -16,6 +16,8 @@ from typing import Any
 
 import numpy as np
 
+from trundle.ownership import home_folder, is_ours
+
 from .raw import RawPart
 
 VERSION = 4
@@ -25,13 +27,15 @@ _MOST_BYTES = 512 * 1024 * 1024
 
 def folder() -> Path:
     """Below XDG_CACHE_HOME, or ~/.cache."""
-    root = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    root = os.environ.get("XDG_CACHE_HOME") or home_folder(os.environ) / ".cache"
     return Path(root) / "trundle" / "meshes"
 
 
 def load_kept(key: str) -> list[RawPart] | None:
     """What was kept under a key; None where nothing was, or it is damaged."""
     path = folder() / f"{key}.npz"
+    if not is_ours(path.parent):  # what another user put there would be taken for the mesh
+        return None
     try:
         data = path.read_bytes()
         parts = _unpacked(data)
@@ -51,7 +55,9 @@ def keep(key: str, parts: Sequence[RawPart]) -> None:
     if len(packed) > _MOST_BYTES // 8:
         return
     try:
-        folder().mkdir(parents=True, exist_ok=True)
+        folder().mkdir(mode=0o700, parents=True, exist_ok=True)
+        if not is_ours(folder()):
+            return
         with tempfile.NamedTemporaryFile(dir=folder(), suffix=".tmp", delete=False) as file:
             file.write(packed)
         os.replace(file.name, folder() / f"{key}.npz")

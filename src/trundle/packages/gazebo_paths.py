@@ -33,7 +33,7 @@ class GazeboPaths:
     """The folders of one environment, around one file."""
 
     def __init__(self, environment: Mapping[str, str], start: Path, ros: RosPackages) -> None:
-        self._home = Path(environment.get("HOME") or "/tmp")
+        self._home = Path(environment.get("HOME") or os.devnull)  # in /tmp all could put models, and their plugins
         self._start = start
         self._ros = ros
         self._named_models = _paths(environment.get("GAZEBO_MODEL_PATH", ""))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from .calls import BadArgumentError, Method, answer_call, name_argument
 from .loop import close_server
-from .nearby import UNIXROS, listen_nearby
+from .nearby import UNIXROS, is_of_this_user, listen_nearby
 from .network import ServerAddress
 from .publisher import Publisher
 from .registrations import Answer
@@ -147,6 +147,9 @@ class _Inbound(FrameProtocol):
         self._newcomers[self] = None
         if len(self._newcomers) > _MAX_NEWCOMERS:
             next(iter(self._newcomers)).close("others wait, too")
+        assert self.transport is not None
+        if self.out.is_near and not is_of_this_user(self.transport.get_extra_info("socket")):
+            self.close("it is another user's")
         if self._node.is_shut_down:  # accepted in the same moment
             self.close("the node shuts down")
 

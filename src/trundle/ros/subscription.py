@@ -11,7 +11,7 @@ from .codec import Codec
 from .errors import MessageError, RosError, WireError
 from .headers import check_md5
 from .messages import ANY_TYPE, Message, RawMessage
-from .nearby import UNIXROS, address_nearby
+from .nearby import UNIXROS, address_nearby, connect_nearby
 from .rpc_client import call
 from .subscriber_link import SubscriberLink
 from .tcpros import FrameProtocol
@@ -227,7 +227,7 @@ class Subscription:
         link = SubscriberLink(self, self._request(), self._node.loop.selector, self._codec)
         if nearby is not None:
             with contextlib.suppress(OSError):  # not so near, or gone
-                await loop.create_unix_connection(lambda: link, nearby)
+                await loop.create_unix_connection(lambda: link, sock=await connect_nearby(loop, nearby))
                 return link
         await loop.create_connection(lambda: link, host, port)
         return link

@@ -41,7 +41,9 @@ class PictureSaver:
         path = self._folder / f"{self._start}-{self._count:04}.jpg"
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
-            Image.fromarray(reading.rgb).save(path, quality=95)
+            path.unlink(missing_ok=True)
+            with path.open("xb") as file:  # what another user put there, as a link in /tmp, is not written through
+                Image.fromarray(reading.rgb).save(file, format="JPEG", quality=95)
         except OSError as error:
             self._gave_up = True
             self._report.warn(self._at, f"{path}: {error.strerror or error}; no more pictures are saved")
