@@ -1,12 +1,16 @@
-"""`trundle exec`: which of several programs of one name runs."""
+"""`trundle exec`: which program runs, under which name, and how it ends."""
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from tests.cli.conftest import PATIENCE_S
+
+from trundle.ros import open_bag, recovered
 
 COMMAND = [sys.executable, "-m", "trundle", "exec", "my_robot", "fly"]
 
@@ -47,3 +51,47 @@ def test_at_a_terminal_the_user_chooses(programs: list[Path]) -> None:
         f"{programs[1]}\n"
     )
     assert done.stderr == ""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows has no such signals")
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_a_tool_that_is_told_to_end_closes_its_bag(graph: Any, tmp_path: Path, number: signal.Signals) -> None:
+    node = graph.node("talker")
+    node.advertise("/said", "std_msgs/String", latch=True).publish({"data": "hello"})
+    graph.ready(node)
+    active = tmp_path / "x.bag.active"
+    with subprocess.Popen([*COMMAND[:4], "rosbag", "record", "-q", "-O", str(tmp_path / "x.bag"), "/said"]) as process:
+        try:
+            graph.until(lambda: active.exists() and active.stat().st_size and list(recovered(active)))
+            process.send_signal(number)
+            assert process.wait(PATIENCE_S) == 0
+        finally:
+            process.kill()
+    with open_bag(tmp_path / "x.bag") as bag:
+        assert bag.counts == [1]
+    assert not any(name.startswith("/record") for name in graph.trundle("node", "list")[1].split())
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows has no such signals")
+def test_two_of_a_kind_run_beside_each_other_until_told_to_end(graph: Any) -> None:
+    words = [*COMMAND[:4], "topic_tools", "relay", "/base/a", "/b"]
+    with subprocess.Popen(words) as one, subprocess.Popen(words) as other:
+
+        def relays() -> int:
+            return graph.trundle("node", "list")[1].count("/a_relay_")
+
+        try:
+            graph.until(lambda: relays() == 2)
+            for process in (one, other):
+                process.send_signal(signal.SIGTERM)
+                assert process.wait(PATIENCE_S) == 0
+        finally:
+            one.kill()
+            other.kill()
+    assert relays() == 0
+
+
+def test_a_tool_takes_its_words_as_they_are(graph: Any) -> None:
+    assert graph.trundle("exec", "rosparam", "rosparam", "set", "/a", "5") == (0, "", "")
+    assert graph.trundle("exec", "rosparam", "rosparam", "get", "/a", "__name:=me") == (0, "5\n", "")
+    assert graph.trundle("exec", "rosparam", "rosparam", "get", "/none")[0] == 1

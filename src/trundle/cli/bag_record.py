@@ -12,11 +12,11 @@ from pathlib import Path
 from trundle.diagnostics import UsageError
 from trundle.ros import BagError, Recorder, RecordOptions, follow_time
 
-from .running import running_node
+from .running import ending_signals, running_node
 
 
 def main(args: argparse.Namespace) -> int:
-    """Record until a limit is reached, Ctrl-C or SIGTERM; the bag is closed and readable after each of them."""
+    """Record until a limit is reached, Ctrl-C, SIGTERM or SIGHUP; the bag is closed and readable after each of them."""
     options = _options(args, tuple(_without_size(args)))
     if args.udp:
         print("--udp: there is no UDPROS here; the messages come over TCP", file=sys.stderr)
@@ -88,7 +88,7 @@ def _say(text: str) -> None:
 @contextmanager
 def _uninterrupted() -> Generator[None]:
     """Hold signals off while a bag is closed: an impatient second Ctrl-C must not cost its index."""
-    before = {number: signal.signal(number, signal.SIG_IGN) for number in (signal.SIGINT, signal.SIGTERM)}
+    before = {number: signal.signal(number, signal.SIG_IGN) for number in ending_signals()}
     try:
         yield
     finally:

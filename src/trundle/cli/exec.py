@@ -3,7 +3,6 @@
 import argparse
 import asyncio
 import os
-import re
 import shlex
 import sys
 from contextlib import ExitStack, closing, contextmanager
@@ -12,13 +11,15 @@ from typing import TYPE_CHECKING
 
 from trundle.diagnostics import UsageError
 
+from .running import interrupted_by_signals
 from .typed import typed_number
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Generator, Sequence
 
     from trundle.bringup.gazebo_world import GazeboWorld
     from trundle.bringup.showing import Showing
+    from trundle.nodes import Replacement
     from trundle.ros import Node
     from trundle.viewer import GraphPage
 
@@ -70,7 +71,8 @@ def main(args: argparse.Namespace) -> int:
         case Replacement() as stand_in:
             if args.prefix:
                 raise UsageError(f"--prefix is for programs; {args.package}/{args.executable} runs in this process")
-            return _stand_in(args, stand_in)
+            command = stand_in.command
+            return _stand_in(args, stand_in) if command is None else _tool(command, args.arguments)
 
 
 def _chosen(first: Path, programs: list[Path]) -> Path:
@@ -100,21 +102,29 @@ class _List(argparse.Action):
         parser.exit()
 
 
-def _stand_in(args: argparse.Namespace, stand_in: object) -> int:
+def _tool(command: "Sequence[str]", arguments: list[str]) -> int:
+    """Be the command: there is no other process, so that a signal reaches what it is meant for."""
+    from trundle.names import parse_arguments
+
+    from .main import REMAPPED
+    from .main import main as run_command
+
+    words = arguments if command[0] in REMAPPED else parse_arguments(arguments).rest
+    return run_command([*command, *words])
+
+
+def _stand_in(args: argparse.Namespace, stand_in: "Replacement") -> int:
     import yaml
 
     from trundle.names import parse_arguments
-    from trundle.nodes import CLIENTS, ROSCPP, WINDOWS, WORLDS, Host, Replacement, run_stand_in
+    from trundle.nodes import CLIENTS, ROSCPP, WINDOWS, WORLDS, Host, default_name, run_stand_in
     from trundle.ros import GraphLoop, Loggers, Node, master_uri_from_env
 
-    assert isinstance(stand_in, Replacement)
     words = parse_arguments(args.arguments)
     what = (args.package, args.executable)
-    name = "gazebo" if what in WORLDS else args.executable.rpartition("/")[2].removesuffix(".py")
-    default = re.sub(r"\W", "_", name)
-    with GraphLoop() as loop:
+    with interrupted_by_signals(), GraphLoop() as loop:
         node = Node(
-            words.name or default,
+            words.name or default_name(*what, words.rest),
             loop=loop,
             master_uri=words.master_uri or master_uri_from_env(),
             namespace=words.namespace or os.environ.get("ROS_NAMESPACE", "/"),

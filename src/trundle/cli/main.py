@@ -50,7 +50,7 @@ COMMANDS: dict[str, str] = {
 }
 """Name and one line of help; the order of `trundle --help`."""
 
-_REMAPPED = ("bag", "service", "tf", "topic")
+REMAPPED = ("bag", "service", "tf", "topic")
 """Take `a:=b` and `__name:=n` anywhere, as rosbag, rosservice, rostopic and tf's tools do: launch files start them."""
 _OF_ROS = ("core", "topic", "node", "param", "service", "bag", "msg", "srv", "tf", "plot", "log", "exec")
 """Ctrl-C is how their work ends, not how it fails: exit code 0, as of the originals."""
@@ -99,7 +99,7 @@ def _main(arguments: list[str]) -> int:
         return EXIT_USAGE
     parser = _parser(name)
     try:
-        words = parse_arguments(arguments[1:]) if name in _REMAPPED else Arguments(rest=tuple(arguments[1:]))
+        words = parse_arguments(arguments[1:]) if name in REMAPPED else Arguments(rest=tuple(arguments[1:]))
         _heed(words)
         parse = parser.parse_intermixed_args if name in _INTERMIXED else parser.parse_args
         parsed = parse(words.rest, argparse.Namespace(words=words))

@@ -78,7 +78,7 @@ def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[
 
     words = words or Arguments()
     MasterProxy(caller_id=f"/{base}").call("getPid")
-    with _interrupted_by_signals(), GraphLoop() as loop:
+    with interrupted_by_signals(), GraphLoop() as loop:
         name = words.name or anonymous_name(base)
         node = Node(
             name,
@@ -101,14 +101,21 @@ def _interrupt() -> None:
         _thread.interrupt_main()
 
 
+def ending_signals() -> list[signal.Signals]:
+    """The signals that end a program in good order; SIGHUP is left out where `nohup` has it ignored."""
+    ends = [signal.SIGINT, signal.SIGTERM]
+    if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # Windows has none
+        ends.append(signal.SIGHUP)
+    return ends
+
+
 @contextmanager
-def _interrupted_by_signals() -> Generator[None]:
-    """Have SIGTERM and SIGINT end a node as Ctrl-C does; a shell's background jobs ignore the latter otherwise."""
+def interrupted_by_signals() -> Generator[None]:
+    """Have SIGTERM, SIGHUP and SIGINT, which a shell's background jobs ignore otherwise, end a node as Ctrl-C does."""
     if threading.current_thread() is not threading.main_thread():  # signals are the main thread's affair
         yield
         return
-    numbers = (signal.SIGINT, signal.SIGTERM)
-    before = {number: signal.signal(number, signal.default_int_handler) for number in numbers}
+    before = {number: signal.signal(number, signal.default_int_handler) for number in ending_signals()}
     try:
         yield
     finally:

@@ -3,6 +3,7 @@
 from .catalog import CLIENTS, ROSCPP, STAND_INS, WINDOWS, WORLDS
 from .find import Executable, Missing, Replacement, find_node, namesakes, program_names
 from .host import Display, Host, Simulator, Slider, StandIn
+from .node_names import default_name
 from .run import run_stand_in
 from .scripts import interpreter
 
@@ -20,6 +21,7 @@ __all__ = [
     "Simulator",
     "Slider",
     "StandIn",
+    "default_name",
     "find_node",
     "interpreter",
     "namesakes",

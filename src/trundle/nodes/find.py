@@ -39,6 +39,11 @@ class Replacement:
         module, _, name = self.target.partition(":")
         return cast(StandInClass, getattr(importlib.import_module(module), name))
 
+    @property
+    def command(self) -> tuple[str, ...] | None:
+        """Of a command line tool: the words behind `trundle` that are the same program."""
+        return getattr(self.load(), "command", None)
+
 
 @dataclass(frozen=True, slots=True)
 class Missing:
