@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -12,6 +13,7 @@ from trundle.names import parse_arguments
 from trundle.nodes import Host, Replacement, run_stand_in
 from trundle.nodes.catalog import STAND_INS
 from trundle.ros import Core, GraphLoop, Message, Messages, Node, Publisher
+from trundle.supervisor import ProcessTree
 
 _FAREWELL_S = 0.1
 """What processes that ended sent last is taken in before the loop ends: a connection half accepted would leak."""
@@ -25,6 +27,7 @@ class Stage:
         self.uri = core.uri
         self.client = Node("/client", loop=loop, master_uri=core.uri)
         self._running: list[tuple[Future[int], Node]] = []
+        self._tree = ProcessTree()
 
     def start(
         self, what: str, arguments: str = "", *, name: str = "", host: Host | None = None, **params: Any
@@ -40,7 +43,9 @@ class Stage:
             params={**given.params, **params},
         )
         stand_in = Replacement(STAND_INS[package, kind])
-        future = self.loop.spawn(run_stand_in(stand_in, node, list(given.rest), host or Host()))
+        future = self.loop.spawn(
+            run_stand_in(stand_in, node, list(given.rest), replace(host or Host(), tree=self._tree))
+        )
         self._running.append((future, node))
         return future
 
@@ -83,6 +88,7 @@ class Stage:
 
         self.loop.run(end(), PATIENCE_S)
         self._running.clear()
+        self._tree.close()
 
     def connected(self, topic: str) -> bool:
         """Whether the client hears a publisher of a topic."""

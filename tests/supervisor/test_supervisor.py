@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from trundle.diagnostics import UsageError
-from trundle.supervisor import Command, Event, Patience, Policy, ProcessJob, Supervisor, TaskJob
+from trundle.supervisor import Command, Event, Patience, Policy, ProcessJob, ProcessTree, Supervisor, TaskJob
 
 TIMEOUT_S = 60.0
 posix_only = pytest.mark.skipif(os.name != "posix", reason="signals and process groups are POSIX")
@@ -26,6 +26,7 @@ class Stage:
         self.folder = folder
         self.seen = asyncio.Event()
         self.supervisor = Supervisor(self.events.append, patience=patience)
+        self.tree = ProcessTree()
 
     def show(self, name: str, line: str) -> None:
         self.lines.append((name, line))
@@ -40,7 +41,7 @@ class Stage:
             output="screen" if screen else "log",
             log_file=self.folder / f"{name}.log",
         )
-        return await self.supervisor.start(ProcessJob(command, self.show), Policy(**policy))
+        return await self.supervisor.start(ProcessJob(command, self.show, tree=self.tree), Policy(**policy))
 
     async def line(self, text: str) -> None:
         while text not in [line for _, line in self.lines]:
@@ -60,6 +61,7 @@ def on_stage(
             await asyncio.wait_for(play(stage), TIMEOUT_S)
         finally:
             await stage.supervisor.stop()
+            stage.tree.close()
         return stage
 
     return asyncio.run(run())
@@ -98,7 +100,7 @@ def test_a_death_is_told_with_code_and_last_output(tmp_path: Path) -> None:
 def test_a_program_that_is_not_there_is_told_and_the_rest_goes_on(tmp_path: Path) -> None:
     async def play(stage: Stage) -> None:
         command = Command(name="a", argv=("/no/such/program",), env={})
-        assert not await stage.supervisor.start(ProcessJob(command, stage.show))
+        assert not await stage.supervisor.start(ProcessJob(command, stage.show, tree=stage.tree))
         assert await stage.python("b", "print('hi')")
         await stage.supervisor.wait()
 

@@ -552,3 +552,32 @@ def test_nodes_are_stopped_though_nobody_reads_what_is_said_any_more(env: dict[s
 
     with pytest.raises(ProcessLookupError):
         os.kill(talk, 0)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="/proc, which shows who lives, is Linux's")
+def test_a_launch_that_is_killed_takes_its_nodes_with_it(start, package: Path, tmp_path: Path, until) -> None:
+    """Also one that writes nothing, what that one started, and the tools that stand in as processes."""
+    script = package / "mute"
+    script.write_text('#!/bin/sh\nsetsid sleep 600 &\necho $! $$ > "$1"\nwait\n')
+    script.chmod(0o755)
+    told, bag = tmp_path / "pids", tmp_path / "a.bag.active"
+    (package / "main.launch").write_text(
+        f'<launch><node pkg="p" type="mute" name="a" args="{told}"/>'
+        f'<node pkg="rosbag" type="record" name="b" args="-a -O {bag.with_suffix("")}"/></launch>'
+    )
+    running = start("launch", "p", "main.launch", "--headless", ROS_PACKAGE_PATH=str(package.parent))
+    until("both to run", lambda: told.exists() and len(told.read_text().split()) == 2 and bag.exists())
+    recorder = [
+        int(entry.name)
+        for entry in Path("/proc").iterdir()
+        if entry.name.isdecimal() and str(bag.with_suffix("")) in (entry / "cmdline").read_text()
+    ]
+    assert len(recorder) == 1
+    running.process.kill()
+
+    for pid in (*map(int, told.read_text().split()), *recorder):
+        until(
+            "its end",
+            lambda pid=pid: not (status := Path(f"/proc/{pid}/status")).exists() or "Z (z" in status.read_text(),
+        )

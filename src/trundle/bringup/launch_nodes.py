@@ -16,7 +16,7 @@ from trundle.names import parse_arguments
 from trundle.nodes import ROSCPP, Executable, Host, Missing, Replacement, find_node, interpreter, run_stand_in
 from trundle.packages import Packages
 from trundle.ros import Loggers, Node
-from trundle.supervisor import Command, Job, Policy, ProcessJob, TaskJob
+from trundle.supervisor import Command, Job, Policy, ProcessJob, ProcessTree, TaskJob
 
 from .graph import Graph
 from .launch_logs import ros_home
@@ -48,6 +48,8 @@ class NodeStarter:
     report: Diagnostics
     host: Host
     """What stand-ins may use."""
+    tree: ProcessTree
+    """What processes belong to."""
     log_folder: Path
     output: Literal["screen", "log"] | None = None
     """Overrides what the launch file says."""
@@ -77,7 +79,7 @@ class NodeStarter:
         name = label.replace("/", "-")
         match find_node(node.package, node.type, self.packages.find_package, env=env, arguments=node.arguments):
             case Executable(path):
-                job = ProcessJob(self._command(node, label, path, env, more), show)
+                job = ProcessJob(self._command(node, label, path, env, more), show, tree=self.tree)
                 logs = f"{self.log_folder / name}*.log"
                 return Launched(node=node, kind="process", what=str(path), job=job, log_files=logs)
             case Replacement() as stand_in:
@@ -119,7 +121,8 @@ class NodeStarter:
         with contextlib.ExitStack() as files:
             if log is not None:
                 ros_node.quiet_log = files.enter_context(log.open("a", encoding="utf-8"))
-            return await run_stand_in(stand_in, ros_node, list(given.rest), replace(self.host, env=dict(node.env)))
+            host = replace(self.host, env=dict(node.env), tree=self.tree)
+            return await run_stand_in(stand_in, ros_node, list(given.rest), host)
 
     def _command(
         self, node: LaunchNode, label: str, program: Path, env: Mapping[str, str], more: tuple[str, ...]

@@ -11,7 +11,7 @@ from trundle.access import PageAddress
 from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import WINDOWS, WORLDS, Executable, Host, Simulator, find_node
 from trundle.ros import PROFILES, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
-from trundle.supervisor import Event, Patience
+from trundle.supervisor import Event, Patience, ProcessTree
 
 from . import launch_print
 from .graph import Graph
@@ -117,12 +117,14 @@ class LaunchSession:
                 allowed=options.allowed,
             )
             self._open_things.callback(page.close)
+        tree = self._open_things.enter_context(ProcessTree(terminate_s=options.terminate_s))
         self.starter = NodeStarter(
             graph=graph,
             packages=read.packages,
             env=read.env,
             report=read.report,
             host=Host(display=self._page, simulator=self._simulator(logs) if _simulates(read.plan) else None),
+            tree=tree,
             log_folder=logs,
             output=options.output,
             all_required=options.all_required,

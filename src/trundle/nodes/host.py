@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from trundle.ros import Node
 from trundle.spatial import Pose
+from trundle.supervisor import ProcessTree
 
 if TYPE_CHECKING:
     from trundle.model import World
@@ -163,6 +164,8 @@ class Host:
     """None: nothing can be simulated here."""
     env: Mapping[str, str] = field(default_factory=dict[str, str])
     """Variables that the launch file sets for this node."""
+    tree: ProcessTree = field(default_factory=ProcessTree)
+    """What processes of its own belong to."""
 
 
 class StandIn(Protocol):

@@ -23,6 +23,7 @@ class Tool:
 
     def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
         self._env = host.env
+        self._tree = host.tree
         self._node = node
         self._arguments = arguments
 
@@ -39,16 +40,19 @@ class Tool:
         if self.takes_remappings:
             await node.shutdown()  # the tool is the node of this name
             words = [f"__name:={node.name.rpartition('/')[2]}", *(f"{a}:={b}" for a, b in node.remappings.items())]
+        self._tree.watch()
         process = await asyncio.create_subprocess_exec(
             *(sys.executable, "-m", "trundle", *self.command, *self._arguments, *words),
-            env=environment,
+            env=self._tree.environment(environment),
             stdin=subprocess.DEVNULL,
             start_new_session=os.name == "posix",
         )
+        self._tree.add(process.pid)
         try:
             return await process.wait()
         finally:
             await _end(process)
+            self._tree.discard(process.pid)
 
 
 async def _end(process: asyncio.subprocess.Process) -> None:

@@ -2,6 +2,7 @@
 
 from .job import Job, JobError, Patience, Policy
 from .process import Command, ProcessJob
+from .process_tree import ProcessTree
 from .supervisor import Event, EventKind, Supervisor
 from .task import TaskJob
 
@@ -14,6 +15,7 @@ __all__ = [
     "Patience",
     "Policy",
     "ProcessJob",
+    "ProcessTree",
     "Supervisor",
     "TaskJob",
 ]

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import IO, Literal
 
 from .job import JobError, Patience
+from .process_tree import ProcessTree
 
 _POSIX = os.name == "posix"
 _CHUNK_BYTES = 65536
@@ -40,10 +41,17 @@ class Command:
 class ProcessJob:
     """Runs a program; its lines go to `show` or to its log file."""
 
-    def __init__(self, command: Command, show: Callable[[str, str], None]) -> None:
-        """`show` takes the job's name and one line, without its end."""
+    def __init__(self, command: Command, show: Callable[[str, str], None], *, tree: ProcessTree) -> None:
+        """Prepare.
+
+        Args:
+            command: the program.
+            show: takes the job's name and one line, without its end.
+            tree: what it belongs to, with all that it starts.
+        """
         self.name = command.name
         self._command = command
+        self._tree = tree
         self._show = show
         self._process: asyncio.subprocess.Process | None = None
         self._readers: list[asyncio.Task[None]] = []
@@ -52,10 +60,11 @@ class ProcessJob:
     async def start(self) -> str:
         command = self._command
         self._last.clear()
+        self._tree.watch()
         try:
             self._process = await asyncio.create_subprocess_exec(
                 *command.argv,
-                env=dict(command.env),
+                env=self._tree.environment(command.env),
                 cwd=command.cwd,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
@@ -66,6 +75,7 @@ class ProcessJob:
             raise JobError(f"{error.filename or command.argv[0]!r} is not there") from None
         except (OSError, ValueError) as error:
             raise JobError(f"{command.argv[0]!r} cannot be run: {error}") from None
+        self._tree.add(self._process.pid)
         assert self._process.stdout is not None
         assert self._process.stderr is not None
         self._readers = [
@@ -80,6 +90,7 @@ class ProcessJob:
         _, late = await asyncio.wait(self._readers, timeout=_EXIT_GRACE_S)
         for reader in late:
             reader.cancel()
+        self._tree.discard(self._process.pid)
         return code
 
     async def stop(self, patience: Patience) -> None:

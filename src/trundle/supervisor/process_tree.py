@@ -1,0 +1,88 @@
+"""Every process that programs start, and those start in turn: none outlives the supervisor, even one that is killed."""
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import uuid
+from collections.abc import Mapping
+from typing import Self
+
+from . import tree_watcher
+from .windows_job import join_windows_job
+
+_POSIX = os.name == "posix"
+_KILL_S = 2.0
+"""How long killed processes may take to be gone."""
+
+
+class ProcessTree:
+    """Programs and their descendants, known by process group and by a variable that they inherit.
+
+    A watcher process, which holds one end of a pipe, kills them when this process dies without closing the tree; on
+    Windows a job object does. Also a context manager.
+    """
+
+    def __init__(self, *, terminate_s: float = 2.0) -> None:
+        """`terminate_s`: how long what is left in the end may take after SIGTERM."""
+        self._mark = uuid.uuid4().hex
+        self._terminate_s = terminate_s
+        self._groups: set[int] = set()
+        self._watcher: subprocess.Popen[str] | None = None
+
+    def environment(self, env: Mapping[str, str]) -> dict[str, str]:
+        """The variables of a program that is to belong to the tree."""
+        return {**env, tree_watcher.VARIABLE: self._mark}
+
+    def watch(self) -> None:
+        """Have the tree end with this process; before its first program starts."""
+        if not _POSIX:
+            join_windows_job()
+        elif self._watcher is None:
+            env = {name: value for name, value in os.environ.items() if name != tree_watcher.VARIABLE}
+            self._watcher = subprocess.Popen(
+                [sys.executable, "-I", "-S", tree_watcher.__file__, self._mark],
+                env=env,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                text=True,
+                start_new_session=True,
+            )
+
+    def add(self, group: int) -> None:
+        """Take in a program that leads its process group."""
+        self._groups.add(group)
+        self._tell_watcher()
+
+    def discard(self, group: int) -> None:
+        """Drop a program that has ended, unless it left processes in its group: its number may be given again."""
+        try:
+            if _POSIX:
+                os.killpg(group, 0)
+        except (ProcessLookupError, PermissionError):
+            self._groups.discard(group)
+            self._tell_watcher()
+
+    def close(self) -> None:
+        """End what programs have left behind; asked first, then killed."""
+        if self._watcher is None:
+            return
+        if not tree_watcher.end_tree(self._mark, self._groups, signal.SIGTERM, self._terminate_s):
+            tree_watcher.end_tree(self._mark, self._groups, signal.SIGKILL, _KILL_S)
+        self._watcher.kill()
+        self._watcher.communicate()
+        self._watcher = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _tell_watcher(self) -> None:
+        assert self._watcher is None or self._watcher.stdin is not None
+        if self._watcher is not None and self._watcher.stdin is not None:
+            with contextlib.suppress(OSError):  # somebody killed it
+                print(*self._groups, file=self._watcher.stdin, flush=True)
