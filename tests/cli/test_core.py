@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from trundle.cli import main
-from trundle.ros import MasterProxy
+from trundle.ros import MasterError, MasterProxy
 
 
 @contextmanager
@@ -30,7 +30,7 @@ def _core(*arguments: str, logs: Path, shell: Sequence[str] = ()) -> Generator["
                 process.kill()
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_it_answers_until_it_is_stopped(number: signal.Signals, tmp_path: Path) -> None:
     with _core(logs=tmp_path) as (process, uri):
         assert MasterProxy(uri).call("getSystemState")[0] == [["/rosout_agg", ["/rosout"]]]
@@ -75,6 +75,46 @@ def test_an_address_that_leads_elsewhere_is_one_sentence(capfd: pytest.CaptureFi
     assert "nothing answers at http://192.0.2.1:" in error
     assert "set ROS_IP or ROS_HOSTNAME" in error
     assert "Traceback" not in error
+
+
+@pytest.mark.parametrize(
+    ("uri", "warning"),
+    [
+        ("http://localhost:11977", "ROS_MASTER_URI port [11977] does not match this roscore [{port}]"),
+        ("http://192.0.2.1:11977", "ROS_MASTER_URI [http://192.0.2.1:11977] host is not set to this machine"),
+        ("nonsense", "ROS_MASTER_URI is"),
+    ],
+)
+def test_a_master_uri_that_names_another_is_warned_of(graph: Any, monkeypatch: Any, uri: str, warning: str) -> None:
+    """On a port that is taken, so that it ends at once."""
+    monkeypatch.setattr("signal.signal", lambda *_: None)
+    monkeypatch.setenv("ROS_MASTER_URI", uri)
+    _, _, error = graph.trundle("core", "-p", str(graph.core.port))
+    assert f"WARNING: {warning.format(port=graph.core.port)}" in error
+
+
+def test_a_master_uri_that_names_this_one_is_fine(graph: Any, monkeypatch: Any) -> None:
+    monkeypatch.setattr("signal.signal", lambda *_: None)
+    monkeypatch.setenv("ROS_MASTER_URI", f"http://localhost:{graph.core.port}/")
+    assert "WARNING" not in graph.trundle("core", "-p", str(graph.core.port))[2]
+
+
+def test_rosout_comes_back_after_it_was_killed(graph: Any) -> None:
+    heard: list[Any] = []
+    node = graph.node("listener")
+    node.subscribe("/rosout_agg", "rosgraph_msgs/Log", heard.append, queue_size=None)
+    graph.ready(node)
+    before = MasterProxy(graph.core.uri).call("lookupNode", "/rosout")
+    assert graph.trundle("node", "kill", "/rosout")[0] == 0
+
+    def is_new() -> bool:
+        try:
+            return MasterProxy(graph.core.uri).call("lookupNode", "/rosout") != before
+        except MasterError:  # between the two
+            return False
+
+    graph.until(is_new)
+    graph.until(lambda: node.log_info("hello") or any(message.msg == "hello" for message in heard))
 
 
 def test_a_distribution_that_is_none_is_refused(capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,6 +3,7 @@
 import argparse
 import os
 import signal
+import socket
 import sys
 from contextlib import suppress
 from pathlib import Path
@@ -11,7 +12,9 @@ from queue import Empty, SimpleQueue
 from trundle.bringup.exposure import warn_of_exposure
 from trundle.bringup.launch_logs import log_folder
 from trundle.diagnostics import UsageError
-from trundle.ros import NOETIC, PROFILES, Core, GraphLoop, RosError
+from trundle.ros import NOETIC, PROFILES, Core, GraphLoop, RosError, host_and_port
+
+from .running import ending_signals
 
 EXAMPLES = """
   trundle core                  the usual place: http://localhost:11311
@@ -34,12 +37,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Run until Ctrl-C, SIGTERM, or a shutdown request."""
+    """Run until Ctrl-C, SIGTERM, SIGHUP, or a shutdown request."""
     if not 0 <= args.port < 65536:
         raise UsageError(f"a port lies between 0 and 65535, got {args.port}")
     reasons: SimpleQueue[str] = SimpleQueue()  # not an Event: only this may be told by a signal's handler
     signal.signal(signal.SIGINT, signal.default_int_handler)  # which a shell's background jobs ignore otherwise
-    signal.signal(signal.SIGTERM, lambda _number, _frame: reasons.put("terminated"))
+    for number in ending_signals()[1:]:
+        signal.signal(number, lambda _number, _frame: reasons.put("terminated"))
+    _warn_of_other_master(os.environ.get("ROS_MASTER_URI"), args.port)
     with GraphLoop() as loop:
         core = Core(
             loop,
@@ -67,6 +72,31 @@ def main(args: argparse.Namespace) -> int:
             loop.run(core.stop(), timeout_s=1.5)
     print(f"core stopped: {reason}", file=sys.stderr)
     return 0
+
+
+def _warn_of_other_master(uri: str | None, port: int) -> None:
+    """Say where programs started from the same shell will look instead, in roscore's words."""
+    if not uri:
+        return
+    try:
+        host, named_port = host_and_port(uri)
+    except RosError as error:
+        print(f"WARNING: ROS_MASTER_URI is {error}", file=sys.stderr, flush=True)
+        return
+    if not _is_local(host):
+        print(f"WARNING: ROS_MASTER_URI [{uri}] host is not set to this machine", file=sys.stderr, flush=True)
+    elif port not in (0, named_port):
+        what = f"WARNING: ROS_MASTER_URI port [{named_port}] does not match this roscore [{port}]"
+        print(f"{what}; unset it, or start this one with -p {named_port}", file=sys.stderr, flush=True)
+
+
+def _is_local(host: str) -> bool:
+    with socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.bind((host, 0))
+        except OSError:
+            return False
+    return True
 
 
 def _log_folder(run_id: str) -> Path | None:

@@ -53,6 +53,7 @@ class Core:
         self._logs: CoreLogs | None = None
         self._rosout: Node | None = None
         self._gathered: Publisher | None = None
+        self._is_stopping = False
         loop.work.ask_also(lambda: self._master.is_busy)
 
     @property
@@ -97,9 +98,23 @@ class Core:
             # roslaunch writes both with a newline at the end, as `rosversion -d > file` does; clients strip it.
             self._master.set_param(f"/{name}", value if name == "run_id" else f"{value}\n")
         if self._wants_rosout:
-            self._rosout = Node("rosout", loop=self._loop, master_uri=self.uri, host=self._host)
-            self._gathered = self._rosout.advertise("/rosout_agg", "rosgraph_msgs/Log", queue_size=100)
-            self._rosout.subscribe("/rosout", "rosgraph_msgs/Log", self._gather, queue_size=100)
+            self._start_rosout()
+
+    def _start_rosout(self) -> None:
+        node = self._rosout = Node("rosout", loop=self._loop, master_uri=self.uri, host=self._host)
+        self._gathered = node.advertise("/rosout_agg", "rosgraph_msgs/Log", queue_size=100)
+        node.subscribe("/rosout", "rosgraph_msgs/Log", self._gather, queue_size=100)
+
+        def respawn(_reason: str) -> None:
+            self._loop.spawn(self._respawn_rosout(node))
+
+        node.on_shutdown(respawn)
+
+    async def _respawn_rosout(self, killed: Node) -> None:
+        """Start it again after `rosnode kill`, as roscore does."""
+        await killed.closed.wait()
+        if not self._is_stopping:
+            self._start_rosout()
 
     def _gather(self, message: Message) -> None:
         if self._gathered is not None:
@@ -114,6 +129,7 @@ class Core:
 
     async def stop(self) -> None:
         """End /rosout, then the master."""
+        self._is_stopping = True
         if self._rosout is not None:
             await self._rosout.shutdown()
         await self._master.stop()
