@@ -6,6 +6,7 @@ def test_the_arm_holds_its_weight(trundle_sim):
     assert abs(sim["arm"].joint("shoulder").position) < 0.01
 """
 
+import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -26,6 +27,6 @@ def trundle_sim(request: pytest.FixtureRequest) -> "Callable[..., Simulation]":
         from trundle import load
 
         beside = request.path.parent / file
-        return load(str(beside) if "://" not in file and beside.exists() else file, seed=seed)
+        return load(str(beside) if "://" not in file and os.path.exists(beside) else file, seed=seed)
 
     return make

@@ -226,7 +226,7 @@ def test_a_file_that_cannot_be_used_is_one_sentence_that_names_it(
 
 
 def test_a_file_that_is_not_there_is_one_sentence(tmp_path: Path) -> None:
-    with pytest.raises(MeshError, match=r"lost\.stl: not readable as \.stl: .*No such file"):
+    with pytest.raises(MeshError, match=r"lost\.stl: No such file"):
         load_mesh(tmp_path / "lost.stl")
 
 

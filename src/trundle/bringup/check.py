@@ -1,5 +1,6 @@
 """`trundle check`: what a file says, and what is doubtful about it; nothing in it is run."""
 
+import os
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -78,7 +79,7 @@ def check(file: str, environment: Mapping[str, str], *, start: Path) -> CheckOut
     packages = Packages(environment, start=start)
     found: Found | None = None
     try:
-        if file.endswith(_LAUNCH) and Path(file).is_file():
+        if file.endswith(_LAUNCH) and os.path.isfile(file):
             from .check_launch import check_launch  # each knows rooms that the other need not load
 
             found = check_launch(Path(file), environment, packages=packages, report=report)

@@ -1,13 +1,16 @@
 """Copies the files that a written description needs into folders beside it."""
 
+import os
 import re
 import shutil
 from pathlib import Path
 
 from trundle.description import written_uri
 from trundle.diagnostics import Diagnostics, Source, UsageError
+from trundle.files import read_text
 from trundle.meshes import MeshError, Texture, load_mesh, png_of
 
+_MOST_BYTES = 256 * 1024 * 1024
 _LIBRARY = re.compile(r"^\s*mtllib\s+(.+?)\s*$", re.MULTILINE)
 
 
@@ -80,8 +83,9 @@ def _companions(path: Path) -> list[Path]:
         return []
     found: list[Path] = []
     if path.suffix.lower() == ".obj":
-        libraries = _LIBRARY.findall(path.read_text(encoding="utf-8", errors="replace"))
-        found += [file for name in libraries if (file := (path.parent / name).resolve()).is_file()]
+        libraries = _LIBRARY.findall(read_text(path, most=_MOST_BYTES))
+        named = (Path(os.path.realpath(path.parent / name)) for name in libraries)
+        found += [file for file in named if os.path.isfile(file)]
     try:
         found += [part.texture.resolve() for part in load_mesh(path).parts if isinstance(part.texture, Path)]
     except MeshError:

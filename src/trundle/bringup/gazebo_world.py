@@ -1,6 +1,7 @@
 """The simulation of a launch: what gzserver opens, spawn_model fills and gzclient shows, on a thread of its own."""
 
 import asyncio
+import os
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -135,7 +136,7 @@ class GazeboWorld:
 
     def _opened(self, world: str) -> str:
         """The world that is asked for, or gzserver's empty one where no such file is."""
-        is_there = world.startswith(("model://", "file://")) or Path(world).expanduser().exists()
+        is_there = world.startswith(("model://", "file://")) or os.path.exists(os.path.expanduser(world))
         if is_there or self._packages.find_world(world) is not None:
             return world
         known = ", ".join(self._packages.worlds())

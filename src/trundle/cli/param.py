@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from trundle.diagnostics import UsageError
+from trundle.files import read_input, read_standard_input
 from trundle.names import join_names
 from trundle.outputs import write_whole
 from trundle.ros import set_leaves
@@ -112,7 +113,7 @@ def _set(args: argparse.Namespace) -> int:
 
 
 def _load(args: argparse.Namespace) -> int:
-    text = sys.stdin.read() if args.file == "-" else _read(args.file).decode("utf-8", "replace")
+    text = (read_standard_input() if args.file == "-" else _read(args.file)).decode("utf-8", "replace")
     if args.verbose:
         print("reading parameters from " + ("stdin" if args.file == "-" else f"[{args.file}]"))
     above = global_name(args.namespace, _SCRIPT).rstrip("/") or "/"
@@ -177,10 +178,9 @@ def _plain(value: object) -> object:
 
 
 def _read(path: str) -> bytes:
-    if not os.path.isfile(path):
+    if not os.path.exists(path):
         raise UsageError(f"file [{path}] does not exist")
-    with open(path, "rb") as file:
-        return file.read()
+    return read_input(path)
 
 
 def _print_pretty(tree: dict[str, Any], indent: str) -> None:

@@ -31,6 +31,7 @@ def main(args: argparse.Namespace) -> int:
 def _expand(args: argparse.Namespace) -> int:
     from trundle.description import expand_xacro
     from trundle.diagnostics import Diagnostics, UsageError
+    from trundle.files import is_stream, read_stream
     from trundle.outputs import write_whole
     from trundle.packages import Packages
 
@@ -39,8 +40,12 @@ def _expand(args: argparse.Namespace) -> int:
         if not assigned:
             raise UsageError(f"{name!r} is no argument; say NAME:=VALUE")
     report = Diagnostics()
-    packages = Packages(dict(os.environ), start=args.file)
-    text = expand_xacro(args.file, {name: value for name, _, value in words}, packages=packages, report=report)
+    path, data = args.file, None
+    if is_stream(path):
+        path, data = Path("<pipe>"), read_stream(path)
+    packages = Packages(dict(os.environ), start=path)
+    arguments = {name: value for name, _, value in words}
+    text = expand_xacro(path, arguments, packages=packages, report=report, data=data)
     for finding in report.findings:
         print(finding, file=sys.stderr)
     if args.output is None:

@@ -1,9 +1,11 @@
 """Finds the reader for a file, a folder or a model:// name."""
 
+import os
 from pathlib import Path
 from urllib.parse import unquote
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.files import is_stream, read_stream, read_text
 from trundle.model import Model
 from trundle.packages import Packages, model_file, refuse_template
 from trundle.xmlnode import XmlNode, parse_xml, read_xml
@@ -20,7 +22,8 @@ def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -
     """Read a description: SDF, URDF or xacro.
 
     Args:
-        what: a path, a folder with model.config, model://NAME, or the name of a world, such as empty.world.
+        what: a path, a folder with model.config, model://NAME, package://NAME/FILE, or the name of a world, such as
+            empty.world; a pipe's relative URIs start in the working directory.
         report: takes everything worth saying.
         packages: where URIs lead.
         seed: of what an SDF places at random.
@@ -30,7 +33,9 @@ def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -
         UsageError: no such model.
     """
     path = _find(what, packages)
-    if path.is_dir():
+    if is_stream(path):
+        return _load_stream(path, report, packages=packages, seed=seed)
+    if os.path.isdir(path):
         path = model_file(path, report)
     refuse_template(path)
     packages = packages.around(path)
@@ -38,14 +43,25 @@ def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -
         return load_urdf(_expanded(path, packages, report), f"{path} (expanded)", path, packages, report)
     root = read_xml(path, report=report, deepest=DEEPEST)
     if root.tag == "robot":
-        text = path.read_text(encoding="utf-8", errors="replace")
+        text = read_text(path)
         if "xmlns:xacro" in text:
             text = _expanded(path, packages, report)
         return load_urdf(text, str(path), path, packages, report)
     return load_sdf(root, path, packages, report, seed=seed)
 
 
-def load_text(text: str, *, name: str, folder: Path, packages: Packages, report: Diagnostics) -> Loaded:
+def _load_stream(path: Path, report: Diagnostics, *, packages: Packages, seed: int) -> Loaded:
+    name = "<stdin>" if path.name == "stdin" else "<pipe>"
+    try:
+        data = read_stream(path)
+    except OSError as error:
+        raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}") from None
+    return load_text(data, name=name, folder=Path.cwd(), packages=packages, report=report, seed=seed)
+
+
+def load_text(
+    text: str | bytes, *, name: str, folder: Path, packages: Packages, report: Diagnostics, seed: int = 0
+) -> Loaded:
     """Read a description that is in no file: SDF or URDF.
 
     Args:
@@ -54,13 +70,15 @@ def load_text(text: str, *, name: str, folder: Path, packages: Packages, report:
         folder: relative URIs start here.
         packages: where URIs lead.
         report: takes everything worth saying.
+        seed: of what an SDF places at random.
 
     Raises:
         DescriptionError: of which nothing sensible can be made.
     """
     root = parse_xml(text, name=name, report=report, deepest=DEEPEST)
     if root.tag != "robot":
-        return load_sdf(root, folder / name, packages, report)
+        return load_sdf(root, folder / name, packages, report, seed=seed)
+    text = text if isinstance(text, str) else text.decode(errors="replace")
     if _XACRO in text:
         raise DescriptionError(root.at, "a xacro file; it is read from a file only, by its name")
     return load_urdf(text, name, folder / name, packages, report)
@@ -85,7 +103,7 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics,
     name_missing_attributes(root, version, report)
 
     def read_urdf(file: Path, robot: XmlNode) -> Model:
-        text = file.read_text(encoding="utf-8", errors="replace")
+        text = read_text(file)
         if _XACRO in text:
             raise DescriptionError(robot.at, "a xacro file cannot be included; `trundle xacro` expands it")
         (model,) = load_urdf(text, str(file), file, packages, report).world.models
@@ -127,10 +145,12 @@ def _expanded(path: Path, packages: Packages, report: Diagnostics) -> str:
 def _find(what: str, packages: Packages) -> Path:
     if what.startswith("model://"):
         return packages.find_model(what.removeprefix("model://").strip("/"))
+    if what.startswith("package://"):
+        return packages.resolve(what, beside=Path.cwd(), at=Source(what))
     if what.startswith("file://"):
         return Path(unquote(what.removeprefix("file://")))
-    path = Path(what).expanduser()
-    if path.exists():
+    path = Path(os.path.expanduser(what))
+    if os.path.exists(path):
         return path
     world = None if path.is_absolute() else packages.find_world(what)
     if world is not None:

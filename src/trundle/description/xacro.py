@@ -4,7 +4,9 @@ Indigo's xacro took `<property>`, `<macro>`, … and calls of macros without the
 the output as plain XML, without a word, and a robot has no links. The pass rewrites them and says so.
 """
 
+import io
 import itertools
+import os
 import re
 import sys
 import threading
@@ -18,6 +20,7 @@ from typing import Any, TextIO
 from xml.parsers.expat import ExpatError
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.files import read_file
 from trundle.packages import Packages
 
 from .xacro_expression import BOUNDED, Evaluator
@@ -78,8 +81,6 @@ _REPEATED = r"<class '[\w.]+'>: (.*?) \1"
 """How the package words an error of $(…): its class, then what it says, twice."""
 _LONGEST = 400
 """Characters of an error: it quotes the expression, and each that this one was part of."""
-_MOST_BYTES = 64 * 1024 * 1024
-"""Of one file."""
 _MOST_ELEMENTS = 50_000
 """What macros may expand to; the largest published robot has some 5,000."""
 _LOCK = threading.Lock()
@@ -103,7 +104,9 @@ _URDF = frozenset(_URDF_TAGS.split())
 """Element names that stay what they are even where a macro has the same name."""
 
 
-def expand_xacro(path: Path, arguments: Mapping[str, str], *, packages: Packages, report: Diagnostics) -> str:
+def expand_xacro(
+    path: Path, arguments: Mapping[str, str], *, packages: Packages, report: Diagnostics, data: bytes | None = None
+) -> str:
     """Expand a file; return the XML text.
 
     Args:
@@ -111,13 +114,18 @@ def expand_xacro(path: Path, arguments: Mapping[str, str], *, packages: Packages
         arguments: `name:=value` of the command line.
         packages: answers `$(find …)`.
         report: takes what was rewritten and what xacro warns of.
+        data: what is in the top file, where that is a pipe; relative paths then start beside `path`.
 
     Raises:
         DescriptionError: it cannot be expanded; the sentence is xacro's, with the file it was in.
     """
-    if not path.is_file():
-        raise DescriptionError(Source(str(path)), "no such file")
-    with _LOCK, _ours(packages.around(path), report, path):
+    if data is None:
+        if not os.path.exists(path):
+            raise DescriptionError(Source(str(path)), "no such file")
+        packages = packages.around(path)
+        packages.check_readable(path, Source(str(path)), told="xacro")
+        data = _data(path)
+    with _LOCK, _ours(packages, report, path, data):
         try:
             document: Any = xacro.process_file(str(path), mappings=dict(arguments), verbosity=0)
             return str(document.toprettyxml(indent="  "))
@@ -145,7 +153,7 @@ def _where(path: Path) -> Source:
 
 
 @contextmanager
-def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None]:
+def _ours(packages: Packages, report: Diagnostics, path: Path, data: bytes) -> Generator[None]:
     """Put our functions in the official package's place, for as long as one file takes."""
 
     def find(name: str) -> str:
@@ -159,13 +167,13 @@ def _ours(packages: Packages, report: Diagnostics, path: Path) -> Generator[None
 
     def open_readable(name: str) -> TextIO:
         packages.check_readable(Path(name), _where(path), told="load_yaml")
-        return Path(name).open(encoding="utf-8")
+        return io.StringIO(read_file(name).decode())
 
     package, arguments = xacro, substitution_args
     names = ("parse", "eval_all", "handle_macro_call", "warning", "print_location", "safe_eval", "eval_text")
     kept = {name: getattr(package, name) for name in names}
     own_find = arguments._eval_find
-    package.parse = _parse_for(kept["parse"], packages, report)
+    package.parse = _parse_for(kept["parse"], packages, report, {str(path): data})
     package.eval_all = _eval_all_for(kept["eval_all"], path)
     package.handle_macro_call = _call_for(kept["handle_macro_call"], report, path)
     evaluate = Evaluator()
@@ -206,11 +214,16 @@ def _substitution_eval(evaluate: Evaluator) -> Callable[[str, object, Any], obje
     return lambda expression, _, symbols: evaluate(expression, dict(names), symbols)
 
 
-def _parse_for(original: Callable[..., Any], packages: Packages, report: Diagnostics) -> Callable[..., Any]:
+def _parse_for(
+    original: Callable[..., Any], packages: Packages, report: Diagnostics, known: Mapping[str, bytes]
+) -> Callable[..., Any]:
+    """Parse files our way; of those `known`, by name, the contents are here."""
+
     def parse(inp: object, filename: str | None = None) -> Any:
         if filename is not None:
-            packages.check_readable(Path(filename), Source(filename), told="xacro:include")
-            data = _data(Path(filename))
+            if filename not in known:
+                packages.check_readable(Path(filename), Source(filename), told="xacro:include")
+            data = known[filename] if filename in known else _data(Path(filename))
             if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
                 raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
             if data[:1].isspace() and data.lstrip().startswith(b"<?xml"):
@@ -226,11 +239,12 @@ def _parse_for(original: Callable[..., Any], packages: Packages, report: Diagnos
 
 
 def _data(path: Path) -> bytes:
-    if not path.is_file():
+    if not os.path.exists(path):
         return b""
-    if path.stat().st_size > _MOST_BYTES:
-        raise DescriptionError(Source(str(path)), f"larger than {_MOST_BYTES} bytes, the largest file read")
-    return path.read_bytes()
+    try:
+        return read_file(path)
+    except OSError as error:
+        raise DescriptionError(Source(str(path)), str(error.strerror)) from None
 
 
 def _prefix_core_tags(document: Any, filename: str, report: Diagnostics) -> None:

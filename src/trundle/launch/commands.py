@@ -107,4 +107,4 @@ def _split(line: str) -> list[str]:
     except ValueError as error:
         raise ValueError(f"command {line!r} cannot be split into words: {error}") from None
     bare = [w[1:-1] if len(w) > 1 and w[0] == w[-1] and w[0] in "'\"" else w for w in words]
-    return [sys.executable, *bare] if bare and bare[0].endswith(".py") and Path(bare[0]).is_file() else bare
+    return [sys.executable, *bare] if bare and bare[0].endswith(".py") and os.path.isfile(bare[0]) else bare

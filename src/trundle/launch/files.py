@@ -1,14 +1,8 @@
 """Reads files that launch files name, which may be anything."""
 
-from pathlib import Path
+import os
 
-
-def is_file(name: str) -> bool:
-    """Tell whether there is such a file; a name that no file could have is none."""
-    try:
-        return Path(name).is_file()
-    except OSError:
-        return False
+from trundle import files
 
 
 def read_file(name: str) -> bytes:
@@ -17,9 +11,9 @@ def read_file(name: str) -> bytes:
     Raises:
         ValueError: there is none, or it cannot be read; the message says so.
     """
-    if not is_file(name):
+    if not os.path.exists(name):
         raise ValueError(f"no file {name!r}")
     try:
-        return Path(name).read_bytes()
+        return files.read_file(name)
     except OSError as error:
         raise ValueError(f"{name!r} cannot be read: {error.strerror}") from None

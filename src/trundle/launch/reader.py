@@ -1,5 +1,6 @@
 """Reads launch files into a plan, by roslaunch's rules of scope and order."""
 
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -9,7 +10,6 @@ from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
 from .attributes import Attributes
 from .draft import Draft
-from .files import is_file
 from .machines import read_machine
 from .nodes import read_node
 from .packages import PackageFinder
@@ -238,7 +238,7 @@ class _Reader:
             raise DescriptionError(node.at, f"argument {name!r} is passed to {file!r} without a value")
         given = passed.declared
         passed.declared = set()
-        if not is_file(file):
+        if not os.path.exists(file):
             raise DescriptionError(node.at, f"no launch file {file!r} to include")
         try:
             self._launch(_read(Path(file), self._report), passed, depth=depth + 1)

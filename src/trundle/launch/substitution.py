@@ -1,5 +1,6 @@
 """Replaces `$(arg x)`, `$(find p)`, `$(env V)`, … in launch files, as roslaunch does."""
 
+import os
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -99,7 +100,7 @@ class Substitution:
 
     def _find(self, name: str, at: Source) -> str:
         folder = self.packages.find_folder(name)
-        if name == "xacro" and (folder is None or not folder.is_dir()):
+        if name == "xacro" and (folder is None or not os.path.isdir(folder)):
             # Trundle expands xacro itself; `$(find xacro)/xacro` only has to stay recognisable, and one word.
             return "xacro"
         if folder is not None:

@@ -34,4 +34,4 @@ def xacro_at_hand(argv: Sequence[str], env: Mapping[str, str]) -> Generator[tupl
 
 
 def _leads_nowhere(word: str) -> bool:
-    return "/" in word and PurePath(word).name in XACRO and not Path(word).exists()
+    return "/" in word and PurePath(word).name in XACRO and not os.path.exists(word)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .skins import load_motion, load_skin
     from .solids import cone_mesh, prism_mesh, terrain_mesh
     from .strip import strip_mesh
-    from .texture import mean_colour, png_of
+    from .texture import image_file, mean_colour, png_of
 
 _HOMES = {
     "Mesh": "mesh",
@@ -26,6 +26,7 @@ _HOMES = {
     "Skin": "skeleton",
     "Texture": "mesh",
     "cone_mesh": "solids",
+    "image_file": "texture",
     "keep": "cache",
     "load_kept": "cache",
     "load_mesh": "load",
@@ -52,6 +53,7 @@ __all__ = [
     "Skin",
     "Texture",
     "cone_mesh",
+    "image_file",
     "keep",
     "load_kept",
     "load_mesh",

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .raw import MeshError
+from .texture import image_file
 
 _MOST_PIXELS = 4096
 """Of each side of an image."""
@@ -27,7 +28,7 @@ def read_heights(path: Path, *, sampling: int = 1, most: int = MOST_SAMPLES) -> 
     from PIL import Image  # slow to load, and few worlds have terrain
 
     try:
-        with Image.open(path) as image:
+        with Image.open(image_file(path)) as image:
             if max(image.size) > _MOST_PIXELS or min(image.size) < 2:
                 raise MeshError(f"{image.size[0]} by {image.size[1]} pixels; 2 to {_MOST_PIXELS} can be used")
             deep = image.mode in ("I", "F") or image.mode.startswith("I;")

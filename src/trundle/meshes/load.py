@@ -1,6 +1,7 @@
 """Reads a mesh file of any format, or takes it from the cache."""
 
 import hashlib
+import os
 import re
 from collections.abc import Sequence
 from functools import lru_cache
@@ -8,6 +9,8 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+
+from trundle.files import read_file
 
 from . import cache
 from .mesh import Mesh, MeshPart, Rgba
@@ -46,6 +49,8 @@ def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -
         return _load(path, suffix, submesh, center, (stat.st_mtime_ns, stat.st_size))
     except MeshError as error:
         raise MeshError(f"{path}: {error}") from None
+    except OSError as error:
+        raise MeshError(f"{path}: {error.strerror or error}") from None
     except Exception as error:  # every reader fails in its own way
         what = " ".join(str(error).split()) or type(error).__name__
         raise MeshError(f"{path}: not readable as {suffix}: {what[:200]}") from None
@@ -53,8 +58,7 @@ def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -
 
 @lru_cache(maxsize=256)
 def _load(path: Path, suffix: str, submesh: str | None, center: bool, state: tuple[int, int]) -> Mesh:
-    if state[1] > MOST_BYTES:
-        raise MeshError(f"larger than {MOST_BYTES >> 20} MiB")
+    del state
     parts = _parts(path, suffix)
     if submesh is not None:
         chosen = [part for part in parts if submesh in part.names]
@@ -66,7 +70,7 @@ def _load(path: Path, suffix: str, submesh: str | None, center: bool, state: tup
 
 
 def _parts(path: Path, suffix: str) -> list[RawPart]:
-    data = path.read_bytes()
+    data = read_file(path, most=MOST_BYTES)
     if suffix not in _SLOW or len(data) < _WORTH_KEEPING:
         return _read(data, suffix, path)
     key = hashlib.sha256(f"{cache.VERSION} {suffix} ".encode() + data)
@@ -103,8 +107,8 @@ def _beside(path: Path, name: str) -> bytes | None:
     """A file in the mesh's folder or below; None where there is none, or it lies elsewhere or is too large."""
     file = path.parent / name.replace("\\", "/")
     try:
-        inside = file.resolve().is_relative_to(path.parent.resolve())
-        return file.read_bytes() if inside and file.is_file() and file.stat().st_size <= MOST_BYTES else None
+        inside = Path(os.path.realpath(file)).is_relative_to(os.path.realpath(path.parent))
+        return read_file(file, most=MOST_BYTES) if inside else None
     except (OSError, ValueError):
         return None
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import DescriptionError
+from trundle.files import read_file
 from trundle.xmlnode import XmlNode, parse_xml
 
 from .bvh import read_bvh
@@ -39,7 +40,7 @@ def load_motion(path: Path) -> Motion:
 @lru_cache(maxsize=32)
 def _load_skin(path: Path, state: tuple[int, int]) -> Skin:
     del state
-    data = path.read_bytes()
+    data = _data(path)
     root = _tree(data, path)
     metres = metres_of(root)
     bones = read_bones(root, metres)
@@ -79,8 +80,8 @@ def _load_motion(path: Path, state: tuple[int, int]) -> Motion:
     del state
     try:
         if path.suffix.lower() == ".bvh":
-            return read_bvh(path.read_text(encoding="utf-8", errors="replace"))
-        root = _tree(path.read_bytes(), path)
+            return read_bvh(_data(path).decode(errors="replace"))
+        root = _tree(_data(path), path)
         return read_motion(root, metres_of(root))
     except MeshError as error:
         raise MeshError(f"{path}: {error}") from None
@@ -93,9 +94,14 @@ def _stat(path: Path) -> tuple[int, int]:
         stat = path.stat()
     except OSError as error:
         raise MeshError(f"{path}: {error.strerror}") from None
-    if stat.st_size > MOST_BYTES:
-        raise MeshError(f"{path}: larger than {MOST_BYTES >> 20} MiB")
     return stat.st_mtime_ns, stat.st_size
+
+
+def _data(path: Path) -> bytes:
+    try:
+        return read_file(path, most=MOST_BYTES)
+    except OSError as error:
+        raise MeshError(f"{path}: {error.strerror}") from None
 
 
 def _tree(data: bytes, path: Path) -> XmlNode:

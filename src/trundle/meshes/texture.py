@@ -1,15 +1,19 @@
 """Images that meshes are painted with: where they are, and what colour they have on the whole."""
 
 import io
+import os
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from trundle.files import read_file
 
 from .mesh import Rgba, Texture
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
+_MOST_BYTES = 256 * 1024 * 1024
 _MOST_PIXELS = 64 * 1024 * 1024
 _BOX = 4
 """Pillow's number for the filter that takes the mean."""
@@ -25,8 +29,18 @@ def find_texture(name: str, mesh: Path) -> Path | None:
         model / "materials" / "textures" / relative.name,
         model / "textures" / relative.name,
     )
-    inside = model.resolve()
-    return next((path for path in candidates if path.is_file() and path.resolve().is_relative_to(inside)), None)
+    inside = os.path.realpath(model)
+    there = (path for path in candidates if os.path.isfile(path))
+    return next((path for path in there if Path(os.path.realpath(path)).is_relative_to(inside)), None)
+
+
+def image_file(texture: Texture) -> io.BytesIO:
+    """An image's file as decoders read it.
+
+    Raises:
+        OSError: it is no regular file, too large, or cannot be read.
+    """
+    return io.BytesIO(texture if isinstance(texture, bytes) else read_file(texture, most=_MOST_BYTES))
 
 
 def mean_colour(texture: Texture) -> Rgba | None:
@@ -41,7 +55,7 @@ def mean_colour(texture: Texture) -> Rgba | None:
 def _mean(texture: Texture, _changed_ns: int) -> Rgba:
     from PIL import Image
 
-    with Image.open(io.BytesIO(texture) if isinstance(texture, bytes) else texture) as image:
+    with Image.open(image_file(texture)) as image:
         _check_size(image)
         image.draft("RGB", (64, 64))
         pixel = image.convert("RGB").resize((1, 1), resample=_BOX).getpixel((0, 0))
@@ -55,7 +69,7 @@ def png_of(texture: Texture) -> bytes | None:
     from PIL import Image
 
     try:
-        with Image.open(io.BytesIO(texture) if isinstance(texture, bytes) else texture) as image:
+        with Image.open(image_file(texture)) as image:
             return as_png(image)
     except Exception:  # every decoder behind Pillow fails in its own way
         return None

@@ -2,10 +2,10 @@
 
 import asyncio
 from dataclasses import dataclass
-from pathlib import Path
 
 import yaml
 
+from trundle.files import read_file
 from trundle.ros import Message, Node, SettingError, Settings
 
 from .host import Host
@@ -83,7 +83,7 @@ def _read(path: str) -> tuple[list[Source], str]:
         SettingError: there is none, or it is of no use.
     """
     try:
-        tree = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        tree = yaml.safe_load(read_file(path))
     except (OSError, ValueError, yaml.YAMLError) as error:
         raise SettingError(f"yaml_cfg_file {path!r} cannot be read: {error}") from None
     settings = Settings(tree, path)

@@ -7,6 +7,7 @@ from typing import Any, cast
 
 import yaml
 
+from trundle.files import read_input
 from trundle.outputs import write_whole
 from trundle.ros import Node, Options, ServiceError, find_reconfigurable, read_options, set_options
 
@@ -61,7 +62,7 @@ async def _set(node: Node, args: argparse.Namespace) -> None:
 
 
 async def _load(node: Node, args: argparse.Namespace) -> None:
-    values = _mapping(Path(args.file).read_text(encoding="utf-8"))
+    values = _mapping(read_input(args.file).decode())
     wanted = {name: value for name, value in values.items() if name != "groups"}
     await set_options(node, args.node, wanted, timeout_s=args.timeout)
 

@@ -133,7 +133,7 @@ def _files(folder: Path, name: str) -> Iterator[Path]:
     """Every file of that name in a package, as rosrun searches it; names may hold folders."""
     direct = folder / name
     if "/" in name:
-        if direct.is_file() and folder.resolve() in direct.resolve().parents:
+        if os.path.isfile(direct) and folder.resolve() in direct.resolve().parents:
             yield direct
         return
     for root, folders, files in os.walk(folder):

@@ -1,6 +1,6 @@
 """rviz/rviz: the viewer, with what the original publishes, listens to and provides."""
 
-from pathlib import Path
+import os
 
 from trundle.ros import Message, Node
 
@@ -22,7 +22,7 @@ class Rviz:
         """Show until the page is closed for good, or for ever where there is none."""
         node = self._node
         config = self._options.get("-d") or self._options.get("--display-config")
-        if config is not None and not Path(config).is_file():
+        if config is not None and not os.path.isfile(config):
             node.log_warn(f"no rviz config {config!r}; the default view is shown")
             config = None
         # Tools of the default layout; the viewer publishes what is clicked.

@@ -7,6 +7,8 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 
+from trundle.files import open_file
+
 _IMPORTS_ROSPY = re.compile(rb"^\s*(?:import|from)\s+(?:rospy|roslib)\b", re.MULTILINE)
 _WANTED = re.compile(rb"^\s*(?:import|from)\s+(rospy|roslib|\w+(?=\.(?:msg|srv)\b))", re.MULTILINE)
 """Modules that only a ROS has, or a workspace that was built."""
@@ -19,7 +21,7 @@ def can_run(program: Path, env: Mapping[str, str]) -> bool:
     """Tell whether a program finds the modules of ROS it wants, rospy and messages."""
     wanted = {os.fsdecode(name) for name in _WANTED.findall(_beginning(program))}
     folders = [_DEBIAN_MODULES, *_told(env)]
-    return all(any(Path(folder, name).is_dir() for folder in folders) for name in wanted)
+    return all(any(os.path.isdir(os.path.join(folder, name)) for folder in folders) for name in wanted)
 
 
 def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
@@ -40,7 +42,7 @@ def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
 
 def _beginning(program: Path) -> bytes:
     try:
-        with program.open("rb") as file:
+        with open_file(program) as file:
             return file.read(100_000)
     except OSError:
         return b""

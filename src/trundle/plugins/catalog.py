@@ -132,7 +132,7 @@ def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> 
     folders = _folders(tag, environment)
     for folder in folders:
         path = folder / python_name(filename)
-        if path.is_file():
+        if os.path.isfile(path):
             return _load_file(path, kind), str(path)
     what = f"plugin {tag.name!r}: no {filename}; Trundle runs Python plugins"
     looked = ", ".join(map(str, folders))

@@ -1,12 +1,11 @@
 """Images that shapes are painted with."""
 
 from functools import lru_cache
-from io import BytesIO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.meshes import Texture
+from trundle.meshes import Texture, image_file
 
 _MOST_PIXELS = 64 * 1024 * 1024
 _LARGEST = 4096
@@ -19,7 +18,7 @@ def load_texture(texture: Texture) -> NDArray[np.uint8] | None:
     from PIL import Image  # slow to load, and robots of plain shapes have no textures
 
     try:
-        with Image.open(BytesIO(texture) if isinstance(texture, bytes) else texture) as image:
+        with Image.open(image_file(texture)) as image:
             if image.width * image.height > _MOST_PIXELS:
                 return None
             if max(image.size) > _LARGEST:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import DescriptionError, Source
+from trundle.files import open_file
 
 from .snapshot import Snapshot
 
@@ -97,7 +98,7 @@ def read_state_log(file: Path | str) -> StateLog:
         OSError: it cannot be read.
     """
     path = Path(file)
-    with path.open("rb") as stream:
+    with open_file(path) as stream:
         line = stream.readline(_LONGEST_HEADER)
         start = stream.tell()
     try:

@@ -1,5 +1,6 @@
 """What of an rviz configuration the page can show."""
 
+import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,6 +9,7 @@ from typing import Literal, TypeAlias, cast
 import yaml
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.files import read_text
 from trundle.model import Rgba
 
 DisplayKind: TypeAlias = Literal["Grid", "Image", "Odometry", "RobotModel", "TF"]
@@ -90,14 +92,16 @@ def read_rviz_config(path: Path | None, report: Diagnostics) -> RvizConfig:
     if path is None:
         return DEFAULT_CONFIG
     here = Source(str(path))
-    if not path.is_file():
+    if not os.path.exists(path):
         report.warn(here, "no such rviz configuration; showing the robot, its frames and its path")
         return DEFAULT_CONFIG
     if path.suffix == ".vcg":
         report.warn(here, "rviz configurations of before Groovy (.vcg) are not supported; showing the usual displays")
         return DEFAULT_CONFIG
     try:
-        root = yaml.compose(path.read_text(encoding="utf-8", errors="replace"), Loader=yaml.SafeLoader)
+        root = yaml.compose(read_text(path), Loader=yaml.SafeLoader)
+    except OSError as error:
+        raise DescriptionError(here, f"cannot be read: {error.strerror}") from None
     except yaml.MarkedYAMLError as error:
         line = None if error.problem_mark is None else error.problem_mark.line + 1
         raise DescriptionError(Source(str(path), line), f"not YAML: {error.problem or error}") from None

@@ -10,6 +10,7 @@ from pathlib import Path
 from lxml import etree
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.files import read_file
 
 from .node import XmlNode
 from .tinyxml import rewrite_as_xml
@@ -156,13 +157,9 @@ def read_xml(path: Path, *, report: Diagnostics | None = None, deepest: int = _D
         DescriptionError: as `parse_xml`, or the file cannot be read.
     """
     try:
-        if path.stat().st_size > _MAX_BYTES:
-            raise DescriptionError(Source(str(path)), f"larger than {_MAX_BYTES} bytes, the largest file read")
-        data = path.read_bytes()
+        data = read_file(path, most=_MAX_BYTES)
     except FileNotFoundError:
         raise DescriptionError(Source(str(path)), "no such file") from None
-    except IsADirectoryError:
-        raise DescriptionError(Source(str(path)), "is a folder, not a file") from None
     except OSError as error:
         raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}") from None
     return parse_xml(data, name=str(path), report=report, deepest=deepest)

@@ -1,10 +1,12 @@
 """Finds a material by name in the scripts that a description points at, and its texture beside them."""
 
+import os
 from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.files import read_text
 from trundle.model import Material
 from trundle.packages import Packages
 from trundle.xmlnode import XmlNode
@@ -71,10 +73,7 @@ def _scripts(places: Iterable[Path]) -> list[Path]:
 
 def _read(file: Path, report: Diagnostics) -> tuple[Block, ...]:
     try:
-        stat = file.stat()
-        if stat.st_size > _LARGEST:
-            raise DescriptionError(Source(str(file)), f"larger than {_LARGEST} bytes, the largest script read")
-        return _materials(file, stat.st_mtime_ns)
+        return _materials(file, file.stat().st_mtime_ns)
     except DescriptionError as error:
         report.warn(error.at, f"{error.what}; this material script is left out")
     except OSError as error:
@@ -84,7 +83,7 @@ def _read(file: Path, report: Diagnostics) -> tuple[Block, ...]:
 
 @lru_cache(maxsize=256)
 def _materials(file: Path, _changed_ns: int) -> tuple[Block, ...]:
-    top = parse_script(file.read_text(encoding="utf-8", errors="replace"), name=str(file))
+    top = parse_script(read_text(file, most=_LARGEST), name=str(file))
     return tuple(block for block in top.blocks if block.header[0] == "material" and len(block.header) > 1)
 
 
@@ -93,7 +92,7 @@ def _texture(name: str, places: Iterable[Path], at: Source, packages: Packages, 
     for place in places:
         folder = place if place.is_dir() else place.parent
         for path in (folder / name, folder.parent / "textures" / name):
-            if path.is_file():
+            if os.path.isfile(path):
                 try:
                     packages.check_readable(path, at, told=f"texture {name!r}", root=folder.parent)
                 except DescriptionError as error:

@@ -2,17 +2,18 @@
 
 import asyncio
 import re
-import sys
-from pathlib import Path
 from typing import Literal
 
 from trundle.diagnostics import TrundleError, UsageError
+from trundle.files import read_input, read_standard_input
 from trundle.ros import Message, Node, ParameterError, RosError
 
 from ..host import Host
 from .messages import pose_fields
 from .spawn_words import SpawnRequest
 from .trimesh import trimesh_sdf
+
+_STDIN = "-stdin"
 
 _TIMEOUT_S = 60.0
 _MESH = re.compile(r"""(<\s*mesh\s[^>]*?\bfilename\s*=\s*["'])package://""")
@@ -96,7 +97,7 @@ class SpawnModel:
             case "-param":
                 xml = await self._parameter(texts["-param"])
             case "-stdin":
-                xml = await asyncio.to_thread(sys.stdin.read)
+                xml = await asyncio.to_thread(_read, _STDIN)
             case _:
                 uri = f"model://{texts['-database']}"
                 return f"<sdf version='1.6'><include><uri>{uri}</uri></include></sdf>", "sdf"
@@ -142,6 +143,6 @@ def _check(answer: Message) -> None:
 
 def _read(file: str) -> str:
     try:
-        return Path(file).read_text(encoding="utf-8", errors="replace")
+        return (read_standard_input() if file == _STDIN else read_input(file)).decode(errors="replace")
     except OSError as error:
-        raise UsageError(f"-file {file}: {error.strerror}") from None
+        raise UsageError(f"{file}: {error.strerror}") from None

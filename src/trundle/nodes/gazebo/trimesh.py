@@ -3,6 +3,7 @@
 Its usage names these options up to Kinetic, though no version of the script reads them; here they do what they say.
 """
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, tostring
@@ -27,7 +28,7 @@ def trimesh_sdf(file: str, words: Mapping[str, str]) -> str:
     unknown = [f"-trimesh_{word}" for word in words if word not in _WORDS]
     if missing or unknown:
         raise UsageError(f"-trimesh needs {', '.join(missing)}" if missing else f"no option {unknown[0]!r}")
-    if not Path(file).is_file():
+    if not os.path.isfile(file):
         raise UsageError(f"-file {file}: there is no such file")
     gravity = _TRUE.get(words["gravity"].lower())
     if gravity is None:

@@ -1,5 +1,6 @@
 """A map's picture as occupancies, and back: map_server's rules."""
 
+import io
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,8 +12,10 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from trundle.diagnostics import UsageError
+from trundle.files import read_file
 
 _FREE, _OCCUPIED, _UNKNOWN = 0, 100, -1
+_MOST_BYTES = 256 * 1024 * 1024
 _LARGEST_PIXELS = 100_000_000
 
 
@@ -34,7 +37,7 @@ def read_map(file: Path) -> OccupancyMap:
         UsageError: a file or a key is missing, or is of no use.
     """
     try:
-        described: Any = yaml.safe_load(file.read_text())
+        described: Any = yaml.safe_load(read_file(file))
     except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
         raise UsageError(f"map {file}: {error}") from None
     if not isinstance(described, dict):
@@ -86,7 +89,7 @@ def read_cells(picture: Path, *, negate: bool, occupied: float, free: float, mod
 def _pixels(picture: Path) -> NDArray[np.float64]:
     """(height, width, channels) 0 … 255, the last channel opacity where there are two or four."""
     try:
-        with Image.open(picture) as image:
+        with Image.open(io.BytesIO(read_file(picture, most=_MOST_BYTES))) as image:
             if image.width * image.height > _LARGEST_PIXELS:
                 raise UsageError(f"{picture}: {image.width} × {image.height} pixels are more than a map may have")
             plain = image if image.mode in ("L", "LA", "RGB", "RGBA") else image.convert("L")

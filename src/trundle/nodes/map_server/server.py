@@ -2,6 +2,7 @@
 
 import asyncio
 import math
+import os
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -68,7 +69,7 @@ class MapServer:
             await self._load(partial(read_map, file))
         except UsageError as error:
             self._node.log_error(str(error))
-            return {"result": _INVALID if file.is_file() else _DOES_NOT_EXIST}
+            return {"result": _INVALID if os.path.exists(file) else _DOES_NOT_EXIST}
         return {"map": self._fields, "result": _SUCCESS}
 
 

@@ -4,6 +4,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from trundle.files import open_file
+
 from .bag import BagError, BagMessage, BagReader, BagWriter
 
 _MCAP_MAGIC = b"\x89MCAP0\r\n"
@@ -80,7 +82,7 @@ def recovered(path: Path) -> Iterator[BagMessage]:
 def _format(path: Path) -> str:
     """`mcap`, or the version that the first line of a ROS 1 bag tells; empty if it tells none."""
     try:
-        with path.open("rb") as file:
+        with open_file(path) as file:
             start = file.readline(_LONGEST)
     except OSError as error:
         raise BagError(f"bag file [{path}] cannot be read: {error.strerror}") from None

@@ -6,6 +6,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeGuard, cast
 
+from trundle.files import read_file
+
 from ..errors import RosError
 from .rule import MessageUpdateRule, MigrationError, Rule, Rules
 
@@ -26,7 +28,7 @@ class RuleFile:
         self._path = path
         names: dict[str, object] = {MessageUpdateRule.__name__: MessageUpdateRule, "__file__": str(path)}
         with _told(path, str(path)):
-            exec(compile(path.read_bytes(), str(path), "exec"), names)
+            exec(compile(read_file(path), str(path), "exec"), names)
         self._classes = [each for each in names.values() if _is_rule(each)]
 
     def rules(self, migrator: Rules) -> Iterator[MessageUpdateRule]:

@@ -1,0 +1,154 @@
+"""Files that the command line or other files name: read whole, bounded in bytes and in time.
+
+Every fault is an `OSError` whose `strerror` is a sentence for the user. Whether a name leads anywhere is asked with
+`os.path`, which says no of names that no file can have; `pathlib` raises for some of them.
+"""
+
+import errno
+import math
+import os
+import re
+import select
+import stat
+import sys
+import time
+from collections.abc import Iterable, Iterator
+from typing import BinaryIO, TypeAlias
+
+AnyPath: TypeAlias = str | os.PathLike[str]
+
+MOST_BYTES = 64 * 1024 * 1024
+"""Of a description or a text; the largest published ones are a few MB."""
+_CHUNK_BYTES = 64 * 1024
+_TIMEOUT_S = 60.0
+"""For a pipe to come to its end; `<param command>` has as long."""
+_DESCRIPTOR = re.compile(r"(?:/dev|/proc/self)/fd/(\d+)")
+_STREAMS = {stat.S_IFIFO: "a pipe", stat.S_IFCHR: "a device", stat.S_IFSOCK: "a socket"}
+_FLAGS = ("O_NONBLOCK", "O_NOCTTY", "O_BINARY", "O_CLOEXEC")
+_OPEN = os.O_RDONLY | sum(getattr(os, flag, 0) for flag in _FLAGS)
+"""A pipe that nothing writes to is opened at once, too."""
+
+
+def read_file(path: AnyPath, /, *, most: int = MOST_BYTES) -> bytes:
+    """Read a regular file.
+
+    Args:
+        path: where it is.
+        most: bytes; counted as they are read, for a file may grow, and those of /proc claim to be empty.
+
+    Raises:
+        OSError: no such file, a pipe, device or folder, a larger one, or one that cannot be read.
+    """
+    with open_file(path) as file:
+        return _joined(iter(lambda: file.read(_CHUNK_BYTES), b""), most, path)
+
+
+def read_text(path: AnyPath, /, *, most: int = MOST_BYTES) -> str:
+    """Read a regular file as UTF-8, any other byte replaced, with the line ends of Unix.
+
+    Raises:
+        OSError: as `read_file`.
+    """
+    return read_file(path, most=most).decode(errors="replace").replace("\r\n", "\n").replace("\r", "\n")
+
+
+def open_file(path: AnyPath, /) -> BinaryIO:
+    """Open a regular file for reading, for a reader that looks here and there in it.
+
+    Raises:
+        OSError: no such file, a pipe, device or folder, or one that cannot be opened.
+    """
+    try:
+        _refuse_irregular(os.stat(path).st_mode, path)  # some devices act when they are opened
+        file = os.fdopen(os.open(path, _OPEN), "rb")
+    except ValueError:  # a NUL in it, or half of a surrogate pair
+        raise FileNotFoundError(errno.ENOENT, "no file can have this name", os.fspath(path)) from None
+    try:
+        _refuse_irregular(os.fstat(file.fileno()).st_mode, path)
+    except OSError:
+        file.close()
+        raise
+    return file
+
+
+def read_input(path: AnyPath, /) -> bytes:
+    """Read a file of the command line, which may be a pipe.
+
+    Raises:
+        OSError: as `read_file` and `read_stream`.
+    """
+    return read_stream(path) if is_stream(path) else read_file(path)
+
+
+def is_stream(path: AnyPath, /) -> bool:
+    """Tell a pipe, a device or a socket from files and folders, and from what is not there."""
+    try:
+        return stat.S_IFMT(os.stat(path).st_mode) in _STREAMS
+    except (OSError, ValueError):
+        return False
+
+
+def read_stream(path: AnyPath, /) -> bytes:
+    """Read what the command line names in place of a file: a pipe such as `<(xacro robot.xacro)`, or /dev/stdin.
+
+    Raises:
+        OSError: it has no end within a minute or `MOST_BYTES`, or cannot be read.
+    """
+    name = os.fspath(path)
+    if name == "/dev/stdin":
+        return read_standard_input()
+    given = _DESCRIPTOR.fullmatch(name)
+    # An end of a pipe that is here is not opened once more: that one would not see that the writer has gone.
+    descriptor = os.dup(int(given[1])) if given else os.open(path, _OPEN)
+    try:
+        return _joined(_arriving(descriptor, name), MOST_BYTES, name)
+    finally:
+        os.close(descriptor)
+
+
+def read_standard_input() -> bytes:
+    """Read standard input to its end; what is typed at a terminal may take any time.
+
+    Raises:
+        OSError: as `read_stream`.
+    """
+    descriptor = 0 if sys.stdin is None else sys.stdin.fileno()  # pyright: ignore[reportUnnecessaryComparison]
+    return _joined(_arriving(descriptor, "<stdin>"), MOST_BYTES, "<stdin>")
+
+
+def _refuse_irregular(mode: int, path: AnyPath) -> None:
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(errno.EISDIR, "it is a folder, not a file", os.fspath(path))
+    if not stat.S_ISREG(mode):
+        kind = _STREAMS.get(stat.S_IFMT(mode), "a device")
+        raise OSError(errno.EINVAL, f"it is {kind}, not a regular file", os.fspath(path))
+
+
+def _joined(chunks: Iterable[bytes], most: int, path: AnyPath) -> bytes:
+    kept: list[bytes] = []
+    left = most
+    for chunk in chunks:
+        kept.append(chunk)
+        left -= len(chunk)
+        if left < 0:
+            raise OSError(errno.EFBIG, f"larger than {most} bytes, the largest file read", os.fspath(path))
+    return b"".join(kept)
+
+
+def _arriving(descriptor: int, name: str) -> Iterator[bytes]:
+    due = time.monotonic() + (math.inf if os.isatty(descriptor) else _TIMEOUT_S)
+    while (left := due - time.monotonic()) > 0.0 and _has_more(descriptor, left):
+        chunk = os.read(descriptor, _CHUNK_BYTES)
+        if not chunk:
+            return
+        yield chunk
+    raise TimeoutError(errno.ETIMEDOUT, f"nothing has written it to its end within {_TIMEOUT_S:g} s", name)
+
+
+def _has_more(descriptor: int, timeout_s: float) -> bool:
+    """Wait for bytes or the end of a stream; where the system cannot wait, reading does."""
+    if not hasattr(select, "poll"):
+        return True
+    poll = select.poll()
+    poll.register(descriptor, select.POLLIN)
+    return bool(poll.poll(None if timeout_s == math.inf else timeout_s * 1000.0))

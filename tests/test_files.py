@@ -1,0 +1,148 @@
+"""Reading files that other files name, and the pipes that the command line may name."""
+
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from trundle import files
+from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError, UsageError
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no FIFOs, /dev or /proc")
+
+
+@pytest.fixture
+def fifo(tmp_path: Path) -> Path:
+    """A pipe with a name that nothing writes to."""
+    os.mkfifo(tmp_path / "fifo")
+    return tmp_path / "fifo"
+
+
+def refused(read: Callable[[], object]) -> str:
+    with pytest.raises(OSError, match=r".") as caught:
+        read()
+    return str(caught.value.strerror)
+
+
+def test_what_a_file_names_is_a_regular_file(fifo: Path) -> None:
+    assert refused(lambda: files.read_file(fifo)) == "it is a pipe, not a regular file"
+    assert refused(lambda: files.read_file("/dev/zero")) == "it is a device, not a regular file"
+    assert refused(lambda: files.read_file(fifo.parent)) == "it is a folder, not a file"
+    assert refused(lambda: files.read_file(fifo.with_name("no"))) == "No such file or directory"
+
+
+@pytest.mark.parametrize("name", ["a\0b", "\ud800"])
+def test_a_name_that_no_file_can_have_is_no_file(name: str) -> None:
+    assert refused(lambda: files.read_file(name)) == "no file can have this name"
+
+
+def test_bytes_are_counted_as_they_are_read(tmp_path: Path) -> None:
+    """A file of /proc has contents and no size."""
+    full = tmp_path / "full"
+    full.write_bytes(b"12345")
+
+    assert files.read_file(full, most=5) == b"12345"
+    assert refused(lambda: files.read_file(full, most=4)) == "larger than 4 bytes, the largest file read"
+    assert files.read_file("/proc/self/status")
+    assert "larger than 9 bytes" in refused(lambda: files.read_file("/proc/self/status", most=9))
+
+
+def test_a_text_has_the_lines_of_unix_and_no_byte_stops_it(tmp_path: Path) -> None:
+    (tmp_path / "text").write_bytes(b"a\r\nb\rc\xff")
+
+    assert files.read_text(tmp_path / "text") == "a\nb\nc\ufffd"
+
+
+def test_a_pipe_of_the_command_line_is_read_to_its_end() -> None:
+    """Its writer is often gone by then, as that of <(cat robot.urdf)."""
+    ours, theirs = os.pipe()
+    os.write(theirs, b"<robot/>")
+    os.close(theirs)
+
+    assert files.is_stream(f"/dev/fd/{ours}")
+    assert files.read_stream(f"/dev/fd/{ours}") == b"<robot/>"
+
+    os.close(ours)
+
+
+def test_a_pipe_that_nothing_writes_to_does_not_hang(fifo: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(files, "_TIMEOUT_S", 0.05)
+
+    assert refused(lambda: files.read_stream(fifo)) == "nothing has written it to its end within 0.05 s"
+
+
+def test_a_stream_without_end_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(files, "MOST_BYTES", 100_000)
+
+    assert refused(lambda: files.read_stream("/dev/zero")) == "larger than 100000 bytes, the largest file read"
+
+
+def test_files_folders_and_nothing_are_no_streams(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+
+    assert not any(files.is_stream(each) for each in (tmp_path, tmp_path / "file", tmp_path / "no", "a\0b"))
+
+
+class TestEveryReader:
+    """None waits for somebody to write into a pipe that a file names."""
+
+    SAID = "it is a pipe, not a regular file"
+
+    def test_of_meshes(self, fifo: Path) -> None:
+        from trundle.meshes import load_mesh, load_motion, load_skin
+
+        fifo = fifo.rename(fifo.with_name("fifo.dae"))
+        for reader in (load_mesh, load_skin, load_motion):
+            with pytest.raises(TrundleError, match=self.SAID):
+                reader(fifo)
+
+    def test_of_images(self, fifo: Path) -> None:
+        from trundle.meshes import png_of, read_heights
+        from trundle.render.textures import load_texture
+
+        assert png_of(fifo) is None
+        assert load_texture(fifo) is None
+        with pytest.raises(TrundleError, match=self.SAID):
+            read_heights(fifo)
+
+    def test_of_maps(self, fifo: Path) -> None:
+        from trundle.nodes.map_server.occupancy import read_map
+
+        keys = "resolution: 1, origin: [0, 0, 0], negate: 0, occupied_thresh: 1, free_thresh: 0"
+        described = fifo.with_name("map.yaml")
+        described.write_text(f"{{image: {fifo}, {keys}}}")
+        for file in (fifo, described):
+            with pytest.raises(UsageError, match=self.SAID):
+                read_map(file)
+
+    def test_of_rviz_configurations(self, fifo: Path) -> None:
+        from trundle.viewer.rviz import read_rviz_config
+
+        with pytest.raises(DescriptionError, match=self.SAID):
+            read_rviz_config(fifo, Diagnostics())
+
+    def test_of_recordings(self, fifo: Path) -> None:
+        from trundle.ros import RosError, open_bag
+        from trundle.simulation import read_state_log
+
+        with pytest.raises(RosError, match=self.SAID):
+            open_bag(fifo)
+        assert refused(lambda: read_state_log(fifo)) == self.SAID
+
+    def test_of_launch_files(self, fifo: Path) -> None:
+        from trundle.launch import read_launch_text
+        from trundle.packages import Packages
+
+        def read(tag: str) -> None:
+            text = f"<launch>\n{tag}</launch>"
+            read_launch_text(text, name="a.launch", packages=Packages({}, start=fifo), report=Diagnostics())
+
+        for tag in ("<rosparam file='{}'/>", "<param name='a' textfile='{}'/>"):
+            with pytest.raises(DescriptionError, match=rf"a\.launch:2: error: .*{self.SAID}"):
+                read(tag.format(fifo))
+        with pytest.raises(DescriptionError, match=rf"fifo: error: .*{self.SAID}; included at a\.launch:2"):
+            read(f"<include file='{fifo}'/>")
+        with pytest.raises(DescriptionError, match=r"a\.launch:2: error: no launch file 'aaa"):
+            read(f"<include file='{'a' * 5000}'/>")
