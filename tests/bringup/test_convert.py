@@ -4,6 +4,7 @@ import contextlib
 import io
 import json
 import sys
+import tempfile
 from pathlib import Path
 
 import mujoco
@@ -49,12 +50,11 @@ def cart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def run(*words: str, stdin: str = "") -> tuple[int, str]:
     out = io.StringIO()
-    kept, sys.stdin = sys.stdin, io.StringIO(stdin)
-    try:
-        with contextlib.redirect_stdout(out):
-            return main(words), out.getvalue()
-    finally:
-        sys.stdin = kept
+    with tempfile.TemporaryFile("w+") as file, contextlib.redirect_stdout(out), pytest.MonkeyPatch.context() as patch:
+        file.write(stdin)
+        file.seek(0)
+        patch.setattr(sys, "stdin", file)
+        return main(words), out.getvalue()
 
 
 def test_what_is_converted_can_be_piped_into_check(cart: Path) -> None:

@@ -15,6 +15,7 @@ from trundle.packages import Packages
 from trundle.sensors import mount_cameras, mount_sensors
 from trundle.simulation import Simulation, SimulationUnstableError, with_actors
 
+from .described_file import name_workspace
 from .exposure import warn_of_exposure
 from .outcome import Outcome
 from .pace import NS, Pacer, take_turns
@@ -65,7 +66,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
     """Simulate what a file describes.
 
     Args:
-        file: a path, a folder with model.config, or model://NAME.
+        file: a path, a folder with model.config, model://NAME, or package://NAME/FILE.
         options: how.
         environment: None: the process's own.
 
@@ -77,7 +78,9 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
     show = Showing(sys.stderr, report)
     warn_of_exposure(options.host, show.line)
     with stop_flag() as stop, ExitStack() as open_things:
-        stage = set_stage(file, Packages(env, start=Path.cwd()), report, seed=options.seed)
+        packages = Packages(env, start=Path.cwd())
+        name_workspace(file, packages, show.line)
+        stage = set_stage(file, packages, report, seed=options.seed)
         simulation = Simulation(stage.world, report, seed=options.seed)
         cameras = mount_cameras(simulation, RENDERERS[options.renderer])
         sensors = mount_sensors(simulation)

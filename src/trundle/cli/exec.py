@@ -51,6 +51,9 @@ def main(args: argparse.Namespace) -> int:
 
     packages = Packages(os.environ, start=Path.cwd())
     folder = packages.find_package(args.package)
+    workspace = None if folder is None else packages.workspace_of(folder)
+    if workspace is not None:
+        print(f"using the workspace {workspace}", file=sys.stderr)
     if args.debug:
         print(f"[rosrun] Looking in rospack dir: {folder or 'none'}")
     match find_node(args.package, args.executable, packages.find_package, env=os.environ):

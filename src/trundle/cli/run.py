@@ -19,7 +19,7 @@ EXAMPLES = """
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("file", metavar="FILE|DIR|model://NAME", help="what to simulate")
+    parser.add_argument("file", metavar="FILE|DIR|model://NAME|package://PKG/FILE", help="what to simulate")
     parser.add_argument("--headless", action="store_true", help="no browser page")
     parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
     parser.add_argument("--host", default="127.0.0.1", help="address that the page and the ROS graph bind (127.0.0.1)")

@@ -7,7 +7,9 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from trundle.diagnostics import DescriptionError
+from trundle.files import read_file
 
+from .confinement import WideFolders
 from .ros_packages import RosPackages
 from .workspace import nearby
 
@@ -35,6 +37,7 @@ class GazeboPaths:
     def __init__(self, environment: Mapping[str, str], start: Path, ros: RosPackages) -> None:
         self._home = Path(environment.get("HOME") or os.devnull)  # in /tmp all could put models, and their plugins
         self._start = start
+        self._wide = WideFolders(environment)
         self._ros = ros
         self._named_models = _paths(environment.get("GAZEBO_MODEL_PATH", ""))
         self._named_resources = _paths(environment.get("GAZEBO_RESOURCE_PATH", ""))
@@ -47,7 +50,7 @@ class GazeboPaths:
             *self._named_models,
             *self._exported("gazebo_model_path"),
             SHIPPED / "models",
-            *([_CHECKOUT_EXAMPLES] if (_CHECKOUT_EXAMPLES / "rp2w").is_dir() else []),
+            *([_CHECKOUT_EXAMPLES] if os.path.isdir(_CHECKOUT_EXAMPLES / "rp2w") else []),
         ]
 
     @cached_property
@@ -67,19 +70,22 @@ class GazeboPaths:
         along = (folder / name for folder in self.model_folders)
         near = (folder / sub / name for folder in nearby(self._start) for sub in (".", "models"))
         stand_in = SHIPPED / "stand_ins" / name
-        candidates = (*along, *(each for each in near if (each / "model.config").is_file()), stand_in)
-        return next((each for each in candidates if each.is_dir()), None)
+        candidates = (*along, *(each for each in near if os.path.isfile(each / "model.config")), stand_in)
+        return next((each for each in candidates if os.path.isdir(each) and each not in self._wide), None)
 
     def find_resource(self, name: str) -> Path | None:
         """A file below a resource folder, such as `worlds/empty.world` or `media/materials/scripts`."""
         if os.path.isabs(name) or ".." in Path(name).parts:
             return None
         tries = (folder / suffix / name for folder in self.resource_folders for suffix in _SUFFIXES)
-        return next((path for path in tries if path.exists()), None)
+        return next((path for path in tries if os.path.exists(path)), None)
 
     def find_fetched(self, url: str) -> Path | None:
         """The folder that `gz fuel download` or `ign fuel download` made of a model's or world's URL."""
-        parts = urlsplit(url)
+        try:
+            parts = urlsplit(url)
+        except ValueError:  # a bracket that is not closed
+            return None
         words = [unquote(word) for word in parts.path.split("/") if word]
         if len(words) < 4 or ".." in words:
             return None
@@ -107,7 +113,7 @@ class GazeboPaths:
         for folder in self._ros.all().values():
             manifest = folder / "package.xml"
             try:
-                if b"gazebo_ros" not in manifest.read_bytes():
+                if b"gazebo_ros" not in read_file(manifest):
                     continue
                 export = read_xml(manifest).find("export")
             except (OSError, DescriptionError):
@@ -118,10 +124,10 @@ class GazeboPaths:
 
 def _folders(folder: Path) -> list[Path]:
     try:
-        return [each for each in folder.iterdir() if each.is_dir()]
+        return [each for each in folder.iterdir() if os.path.isdir(each)]
     except OSError:
         return []
 
 
 def _paths(value: str) -> list[Path]:
-    return [Path(entry).expanduser().absolute() for entry in value.split(os.pathsep) if entry]
+    return [Path(os.path.expanduser(entry)).absolute() for entry in value.split(os.pathsep) if entry]

@@ -1,5 +1,6 @@
 """What a package says it needs."""
 
+import os
 import re
 from pathlib import Path
 
@@ -17,7 +18,7 @@ def needs(folder: Path) -> list[str]:
         DescriptionError: its manifest cannot be read.
     """
     manifest = folder / "package.xml"
-    if manifest.is_file():
+    if os.path.exists(manifest):
         root = read_xml(manifest)
         named = [each.text.strip() for tag in _NEEDS for each in root.all(tag) if _is_for_ros_1(each)]
     else:

@@ -1,5 +1,6 @@
 """model.config: which SDF file of a model folder to read."""
 
+import os
 from pathlib import Path
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
@@ -19,9 +20,9 @@ def model_file(folder: Path, report: Diagnostics) -> Path:
         DescriptionError: no model.config, or it names no file that is there.
     """
     config = folder / "model.config"
-    if not config.is_file():
+    if not os.path.exists(config):
         manifest = folder / "manifest.xml"
-        if not manifest.is_file():
+        if not os.path.exists(manifest):
             raise DescriptionError(Source(str(folder)), f"no model.config in this folder; there is: {_listed(folder)}")
         report.warn(Source(str(manifest)), "manifest.xml is deprecated; name it model.config")
         config = manifest
@@ -36,7 +37,7 @@ def model_file(folder: Path, report: Diagnostics) -> Path:
     if folder.parent == SHIPPED / "stand_ins":
         report.info(root.at, f"model://{folder.name} is not on GAZEBO_MODEL_PATH; {root.string('description')}")
     path = folder / best.text
-    if not path.resolve().is_relative_to(folder.resolve()) or not path.is_file():
+    if not os.path.isfile(path) or not Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder)):
         raise DescriptionError(best.at, f"no file {best.text!r} in {folder}; there is: {_listed(folder)}")
     refuse_template(path)
     return path
@@ -73,5 +74,8 @@ def _rank(node: XmlNode, report: Diagnostics) -> tuple[int, ...]:
 
 
 def _listed(folder: Path) -> str:
-    names = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
+    try:
+        names = sorted(os.listdir(folder))
+    except OSError:
+        names = []
     return ", ".join(names[:12]) + (", …" if len(names) > 12 else "") if names else "nothing"

@@ -1,20 +1,27 @@
 """Where files live: package://, model://, file:// and relative URIs become paths, or one sentence that says why not."""
 
+import os
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from urllib.parse import unquote
 
 from trundle.diagnostics import DescriptionError, Source, UsageError
+from trundle.files import is_stream
 
-from .confinement import Confinement
+from .confinement import Confinement, WideFolders
 from .gazebo_paths import SHIPPED, GazeboPaths, is_stand_in
 from .ros_packages import RosPackages
 from .stock import STOCK
-from .workspace import own_package
+from .workspace import own_confinement
 
 ALLOW_OUTSIDE = "TRUNDLE_ALLOW_OUTSIDE"
 """Set to 1, a description may read any file; `--allow-outside` sets it."""
+
+
+_LONGEST = 200
+"""Characters of a name or URI in a sentence."""
+_MOST_NAMED = 3
 
 
 class Packages:
@@ -33,7 +40,7 @@ class Packages:
         self._start = start
         self._ros = RosPackages(environment, start, None if known is None else known._ros)
         self._gazebo = GazeboPaths(environment, start, self._ros)
-        self._own = own_package(start) or (start if start.is_dir() else start.parent)
+        self._wide = WideFolders(environment)
 
     def around(self, file: Path) -> "Packages":
         """The same, searched around another file."""
@@ -49,6 +56,15 @@ class Packages:
         """What `$(find name)` stands for: of a stock package that is not installed, a folder that is not there."""
         return self._ros.find(name) or (SHIPPED / "ros" / name if name in STOCK else None)
 
+    def workspace_of(self, package: Path) -> Path | None:
+        """The workspace around the start that a package's folder is in, where ROS_PACKAGE_PATH does not name it."""
+        return self._ros.workspace_of(package)
+
+    def passed_over(self) -> Mapping[Path, str]:
+        """Folders that no package was looked for in, and why."""
+        self._ros.all()
+        return self._ros.passed_over
+
     def ros_packages(self) -> Mapping[str, Path]:
         """Every ROS package there is, by name."""
         return self._ros.all()
@@ -57,7 +73,11 @@ class Packages:
         """One sentence for a package that is not there."""
         looked = ", ".join(str(folder) for folder in self._ros.searched())
         where = f"looked below {looked}" if looked else "ROS_PACKAGE_PATH is not set"
-        return f"no package {name!r}; {where}; put the folder that holds it on ROS_PACKAGE_PATH"
+        passed_over = [f"{folder} ({why})" for folder, why in self._ros.passed_over.items()]
+        if passed_over:
+            rest = f" and {len(passed_over) - _MOST_NAMED} more" if len(passed_over) > _MOST_NAMED else ""
+            where += f", but not in {', '.join(passed_over[:_MOST_NAMED])}{rest}"
+        return f"no package {_shown(name)!r}; {where}; put the folder that holds it on ROS_PACKAGE_PATH"
 
     def find_model(self, name: str) -> Path:
         """The folder of `model://name`.
@@ -67,13 +87,13 @@ class Packages:
         """
         folder = self._gazebo.find_model(name)
         if folder is None:
-            raise UsageError(f"no model {name!r}; {self._where_models_are()}")
+            raise UsageError(f"no model {_shown(name)!r}; {self._where_models_are()}")
         return folder
 
     def find_world(self, name: str) -> Path | None:
         """A world file along GAZEBO_RESOURCE_PATH or of our own, as `gazebo worlds/empty.world` finds it."""
         path = self._gazebo.find_resource(name)
-        return path if path is not None and path.is_file() else None
+        return path if path is not None and os.path.isfile(path) else None
 
     def worlds(self) -> list[str]:
         """The worlds of our own, by name."""
@@ -84,7 +104,7 @@ class Packages:
         tries = (
             folder / sub / "materials/scripts" for folder in self._gazebo.resource_folders for sub in (".", "media")
         )
-        return [folder for folder in tries if folder.is_dir()]
+        return [folder for folder in tries if os.path.isdir(folder)]
 
     def resolve(self, uri: str, *, beside: Path, at: Source) -> Path:
         """The file that a URI in a description means.
@@ -98,12 +118,14 @@ class Packages:
             DescriptionError: nothing there, or outside what a description may read.
         """
         root, path = self._located(uri, beside, at)
-        if not path.exists():
+        if not os.path.exists(path):
             path = path.parent / unquote(path.name) if "%" in path.name else path
-        if not path.exists() and is_stand_in(path) and path.with_suffix(".obj").exists():
+        if not os.path.exists(path) and is_stand_in(path) and os.path.exists(path.with_suffix(".obj")):
             path = path.with_suffix(".obj")
-        if not path.exists():
-            raise DescriptionError(at, f"{uri}: no such file {path}")
+        if not os.path.exists(path):
+            raise DescriptionError(at, f"{_shown(uri)}: no such file {_shown(str(path))}")
+        if is_stream(path):
+            raise DescriptionError(at, f"{uri}: {path} is a pipe, a device or a socket, not a file")
         self.check_readable(path, at, told=uri, root=root)
         return path
 
@@ -115,8 +137,8 @@ class Packages:
         """
         if self._environment.get(ALLOW_OUTSIDE) == "1":
             return
-        is_near = self._in_own.allows(path) or (root is not None and Confinement([root]).allows(path))
-        if not (is_near or self._in_ros.allows(path) or self._in_gazebo.allows(path)):
+        is_named = root is not None and Confinement([root], wide=self._wide).allows(path)
+        if not (self._in_own.allows(path) or is_named or self._in_ros.allows(path) or self._in_gazebo.allows(path)):
             raise DescriptionError(
                 at,
                 f"{told} leads to {path}; a description reads only below its own folders, the packages and the "
@@ -125,15 +147,15 @@ class Packages:
 
     @cached_property
     def _in_own(self) -> Confinement:
-        return Confinement([self._own])
+        return own_confinement(self._start, self._wide)
 
     @cached_property
     def _in_ros(self) -> Confinement:
-        return Confinement([*self._ros.roots, *self._ros.all().values()])
+        return Confinement([*self._ros.roots, *self._ros.all().values()], wide=self._wide)
 
     @cached_property
     def _in_gazebo(self) -> Confinement:
-        return Confinement([*self._gazebo.model_folders, *self._gazebo.resource_folders])
+        return Confinement([*self._gazebo.model_folders, *self._gazebo.resource_folders], wide=self._wide)
 
     def _located(self, uri: str, beside: Path, at: Source) -> tuple[Path | None, Path]:
         """Where a URI leads, and the folder of the package or model it names."""
@@ -148,11 +170,11 @@ class Packages:
             case "file" if rest.startswith("/"):
                 return None, Path(unquote(rest)) if separator else Path(rest)
             case "file":
-                found = None if (beside / rest).exists() else self._gazebo.find_resource(rest)
+                found = None if os.path.exists(beside / rest) else self._gazebo.find_resource(rest)
                 return None, found or beside / rest
             case _:
                 known = "package://, model://, file:// and relative paths"
-                raise DescriptionError(at, f"{uri}: {scheme}:// is not known; {known} are")
+                raise DescriptionError(at, f"{_shown(uri)}: {_shown(scheme)}:// is not known; {known} are")
 
     def _in_package_or_model(self, scheme: str, rest: str, uri: str, at: Source) -> tuple[Path, Path]:
         """URDF says package://, its conversion to SDF model://; each stands for the other where it finds nothing."""
@@ -161,8 +183,9 @@ class Packages:
         folder = package or self._gazebo.find_model(name) or self.find_package(name)
         if folder is not None:
             return folder, folder / inside
-        looked = self.why_not_found(name) if scheme == "package" else f"no model {name!r}; {self._where_models_are()}"
-        raise DescriptionError(at, f"{uri}: {looked}")
+        no_model = f"no model {_shown(name)!r}; {self._where_models_are()}"
+        looked = self.why_not_found(name) if scheme == "package" else no_model
+        raise DescriptionError(at, f"{_shown(uri)}: {looked}")
 
     def _fetched(self, url: str, at: Source) -> tuple[Path, Path]:
         folder = self._gazebo.find_fetched(url)
@@ -175,8 +198,12 @@ class Packages:
             advice = f"write model://{local}, which is here"
         else:
             advice = "fetch it with `gz fuel download -u URL`, or put its folder on GAZEBO_MODEL_PATH"
-        raise DescriptionError(at, f"{url}: nothing is fetched from the network; {advice}")
+        raise DescriptionError(at, f"{_shown(url)}: nothing is fetched from the network; {advice}")
 
     def _where_models_are(self) -> str:
         looked = ", ".join(map(str, self._gazebo.model_folders))
         return f"looked in {looked}; put its folder's parent on GAZEBO_MODEL_PATH"
+
+
+def _shown(name: str) -> str:
+    return name if len(name) <= _LONGEST else f"{name[:_LONGEST]}…"

@@ -2,23 +2,20 @@
 
 import os
 import re
-from collections import deque
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TypeAlias
 
-from .workspace import MANIFESTS, PARTS, own_package, workspaces
+from trundle.files import read_text
 
-_DEEPEST = 8
-"""How far below a package path packages are looked for; rospack has no bound, real workspaces need five."""
+from .confinement import WideFolders
+from .walk import MANIFESTS, Walk
+from .workspace import PARTS, own_package, workspaces
+
 _MOST_GUESSED = 5000
 """Folders looked at where nobody said that packages are: a home folder has more than one wants to wait for."""
-_NOT_CRAWLED = frozenset({"build", "node_modules", "__pycache__"})
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _NAME = re.compile(r"<name>\s*([\w.-]+)\s*</name>")
-_IGNORED_BY = ("CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE")
-_ALONE_BY = frozenset({*MANIFESTS, "rospack_nosubdirs"})
-"""Below a folder with one of these there are no packages."""
 SHIPPED = Path(__file__).parent / "ros"
 """Packages of our own: for the few stock ones that launch files only take a file from, and the examples."""
 _INSTALLED = Path("/usr/share")
@@ -42,10 +39,15 @@ class RosPackages:
             known: an index whose walks through folders need not be made again.
         """
         entries = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
-        start = start.resolve()
-        self.roots = [*(Path(entry).expanduser().absolute() for entry in entries if entry), *workspaces(start)]
+        start = Path(os.path.realpath(start))
+        self._wide = WideFolders(environment)
+        self._on_path = [Path(os.path.expanduser(entry)).absolute() for entry in entries if entry]
+        self._around = list(workspaces(start))
+        self.roots = [*self._on_path, *self._around]
         """Folders that are there to hold packages."""
-        own = own_package(start)
+        self.passed_over: dict[Path, str] = {} if known is None else known.passed_over
+        """Folders that could not be looked into, and why."""
+        own = own_package(start, self._wide)
         self._guessed = [] if own is None or own.parent in self.roots else [own, own.parent]
         self._walks: dict[tuple[Path, int | None], list[_Folder]] = {} if known is None else known._walks
         self._by_name: dict[str, Path] | None = None
@@ -64,12 +66,19 @@ class RosPackages:
             for root in self._guessed:
                 self._crawl(root, most=_MOST_GUESSED)
             self._crawl(SHIPPED)
-            if (_CHECKOUT_EXAMPLES / "smartcar").is_dir():
+            if os.path.isdir(_CHECKOUT_EXAMPLES / "smartcar"):
                 self._crawl(_CHECKOUT_EXAMPLES)
             for folder, name in _installed():
                 if name not in self._folders:
                     self._by_name.setdefault(name, folder)
         return self._by_name
+
+    def workspace_of(self, folder: Path) -> Path | None:
+        """The workspace around `start` that a package is from; None: it is from elsewhere, or ROS_PACKAGE_PATH."""
+        if any(folder.is_relative_to(root) for root in self._on_path):
+            return None
+        space = next((space for space in self._around if folder.is_relative_to(space)), None)
+        return None if space is None else space.parent.parent if space.name == "share" else space.parent
 
     def searched(self) -> list[Path]:
         """Where `find` looks, in order."""
@@ -78,50 +87,26 @@ class RosPackages:
     def _crawl(self, root: Path, *, most: int | None = None) -> None:
         assert self._by_name is not None
         if (root, most) not in self._walks:
-            self._walks[root, most] = list(_packages_below(root, most))
+            self._walks[root, most] = list(self._packages_below(Walk(root, most=most)))
         for folder, name in self._walks[root, most]:
             if name is not None:
                 self._by_name.setdefault(name, folder)
             self._folders.setdefault(folder.name, folder)
 
+    def _packages_below(self, walk: Walk) -> Iterator[_Folder]:
+        for folder, names in walk:
+            has_manifest = not names.isdisjoint(MANIFESTS)
+            if (has_manifest or not names.isdisjoint(PARTS)) and folder not in self._wide:
+                yield folder, _package_name(folder) if has_manifest else None
+        if walk.most is None:  # a folder to hold packages, by what the user says
+            self.passed_over.update(walk.passed_over)
+
 
 def _installed() -> Iterator[tuple[Path, str]]:
     """Those right below the system's folder: it holds much else, so none is looked for further down."""
-    if _INSTALLED.is_dir():
+    if os.path.isdir(_INSTALLED):
         folders = (Path(entry.path) for entry in os.scandir(_INSTALLED))
-        yield from ((folder, _package_name(folder)) for folder in folders if (folder / MANIFESTS[0]).is_file())
-
-
-def _packages_below(root: Path, most: int | None) -> Iterator["_Folder"]:
-    for folder, names in _walk(root, most):
-        if not names.isdisjoint(MANIFESTS):
-            yield folder, _package_name(folder)
-        elif not names.isdisjoint(PARTS):
-            yield folder, None
-
-
-def _walk(root: Path, most: int | None) -> Iterator[tuple[Path, set[str]]]:
-    """Every folder and the names in it, the nearest first; what lies inside a package is not looked at."""
-    waiting = deque([(root, 0)])
-    looked_at = 0
-    while waiting and (most is None or looked_at < most):
-        folder, depth = waiting.popleft()
-        looked_at += 1
-        try:
-            with os.scandir(folder) as listing:
-                entries = sorted(listing, key=lambda entry: entry.name)
-        except OSError:
-            continue
-        names = {entry.name for entry in entries}
-        if names.intersection(_IGNORED_BY):
-            continue
-        yield folder, names
-        if depth < _DEEPEST and names.isdisjoint(_ALONE_BY):
-            waiting.extend((Path(entry.path), depth + 1) for entry in entries if _may_hold_packages(entry))
-
-
-def _may_hold_packages(entry: os.DirEntry[str]) -> bool:
-    return not entry.name.startswith(".") and entry.name not in _NOT_CRAWLED and entry.is_dir()
+        yield from ((folder, _package_name(folder)) for folder in folders if os.path.isfile(folder / MANIFESTS[0]))
 
 
 def _package_name(folder: Path) -> str:
@@ -130,7 +115,7 @@ def _package_name(folder: Path) -> str:
     No XML is parsed: rospack's own reader minds little, and of a large workspace hundreds are read.
     """
     try:
-        text = (folder / MANIFESTS[0]).read_text(errors="replace")
+        text = read_text(folder / MANIFESTS[0])
     except OSError:
         return folder.name
     found = _NAME.search(_COMMENT.sub("", text))

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from trundle.diagnostics import DescriptionError
+from trundle.files import read_file
 from trundle.xmlnode import XmlNode, read_xml
 
 _EXPORTS = {
@@ -32,7 +33,7 @@ def _exported(folder: Path, tag: str, attribute: str) -> Iterator[str]:
     for name in ("package.xml", "manifest.xml"):
         manifest = folder / name
         try:
-            if tag.encode() not in manifest.read_bytes():
+            if tag.encode() not in read_file(manifest):
                 continue
             root = read_xml(manifest)
         except (OSError, DescriptionError):

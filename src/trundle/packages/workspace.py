@@ -4,28 +4,64 @@ import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-MANIFESTS = ("package.xml", "manifest.xml")
+from .confinement import Confinement, WideFolders
+from .walk import MANIFESTS, Walk
+
 PARTS = frozenset({"launch", "urdf", "xacro", "meshes", "models", "worlds", "msg"})
 """A published tutorial often has no package.xml: a folder with one of these in it is a package too."""
-_SPACES = {"src": ("src", "devel/share", "install"), "devel": ("devel/share",), "install": ("install",)}
+_CONTENTS = PARTS | {"config", "materials", "media", "params", "textures"}
+"""What a file in one of such a package's folders reads from the others."""
+_SPACES = {"src": ("src", "devel/share", "install"), "devel": ("devel/share", "src"), "install": ("install", "src")}
 """The folders of a catkin or colcon workspace, by the one that the file is in."""
+_DEEPEST = 3
+"""Below the `src` of a workspace, a package in a group in a repository."""
+_MOST_LOOKED_AT = 500
 
 
-def own_package(start: Path) -> Path | None:
-    """The innermost package or model folder that a file or folder is in."""
+def own_package(start: Path, wide: WideFolders) -> Path | None:
+    """The innermost package or model folder that a file or folder is in; of one without a manifest too."""
     for folder in _above(start):
-        if any((folder / name).exists() for name in (*MANIFESTS, "model.config", *PARTS)):
+        if any(os.path.exists(folder / name) for name in (*MANIFESTS, "model.config", *PARTS)) and folder not in wide:
             return folder
     return None
+
+
+def own_confinement(start: Path, wide: WideFolders) -> Confinement:
+    """What a file may read as its own: all of the package or model folder it is in.
+
+    Without a manifest or model.config that is its own folder, and those beside one such as `urdf` or `meshes`.
+    """
+    folders = list(_above(start))
+    for folder in folders:
+        if any(os.path.isfile(folder / name) for name in (*MANIFESTS, "model.config")) and folder not in wide:
+            return Confinement([folder], wide=wide)
+    own = folders[:1]
+    around = next((folder.parent for folder in folders if folder.name in PARTS), folders[0] if own else start.parent)
+    return Confinement([*own, *(around / name for name in _CONTENTS)], wide=wide, beside=[around])
 
 
 def workspaces(start: Path) -> Iterator[Path]:
     """The package folders of the workspace that a file or folder is in, those of its own kind first."""
     for folder in _above(start):
-        if folder.name in _SPACES:
+        if _has_manifest(folder):
+            continue  # its `src` holds programs
+        if folder.name in _SPACES and not _has_manifest(folder.parent):
             beside = (folder.parent / space for space in _SPACES[folder.name])
-            yield from (space for space in beside if space.is_dir())
-            return
+        elif _holds_packages(folder / "src"):
+            beside = (folder / space for space in _SPACES["src"])
+        else:
+            continue
+        yield from (space for space in beside if os.path.isdir(space))
+        return
+
+
+def _has_manifest(folder: Path) -> bool:
+    return any(os.path.isfile(folder / name) for name in MANIFESTS)
+
+
+def _holds_packages(folder: Path) -> bool:
+    walk = Walk(folder, most=_MOST_LOOKED_AT, deepest=_DEEPEST)
+    return any(not names.isdisjoint(MANIFESTS) for _, names in walk)
 
 
 def program_folders(package: str, folder: Path, environment: Mapping[str, str]) -> list[Path]:
@@ -43,7 +79,7 @@ def program_folders(package: str, folder: Path, environment: Mapping[str, str]) 
     if sources is not None:
         prefixes += [sources.parent / "devel", sources.parent / "install", sources.parent / "install" / package]
     homes = (prefix / "lib" / package for prefix in prefixes)
-    return [home for home in dict.fromkeys(homes) if home.is_dir()]
+    return [home for home in dict.fromkeys(homes) if os.path.isdir(home)]
 
 
 def nearby(start: Path, *, levels: int = 4) -> list[Path]:
@@ -53,5 +89,5 @@ def nearby(start: Path, *, levels: int = 4) -> list[Path]:
 
 def _above(start: Path) -> Iterator[Path]:
     """A folder, or a file's, and every folder above but the root of the disk."""
-    folder = start if start.is_dir() else start.parent
+    folder = start if os.path.isdir(start) else start.parent
     return (each for each in (folder, *folder.parents) if each.parent != each)

@@ -1,0 +1,175 @@
+"""Pipes, devices and names that no file can have, where a description names a file: one sentence, and on it goes."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+from trundle.cli import main
+from trundle.description import expand_xacro, load
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.packages import Packages, model_file
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no FIFOs")
+
+SDF = "<sdf version='1.6'>\n{}</sdf>"
+LINK = "<model name='m'><link name='l'><visual name='v'>\n{}</visual></link></model>"
+BOX = "<geometry><box><size>1 1 1</size></box></geometry>"
+XACRO = "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'><link name='base'/>{}</robot>"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A package with a pipe in it that nothing writes to."""
+    (tmp_path / "package.xml").write_text("<package><name>arm</name></package>")
+    os.mkfifo(tmp_path / "pipe.dae")
+    return tmp_path
+
+
+def warnings_of(text: str, folder: Path) -> list[str]:
+    path = folder / "m.sdf"
+    path.write_text(SDF.format(text))
+    report = Diagnostics()
+    load(str(path), report, packages=Packages({"HOME": "/nobody"}, start=path))
+    return [each.removeprefix(f"{folder}/") for each in report.warnings]
+
+
+LONG = "a" * 5000
+MESH = "<geometry><mesh><uri>{}</uri></mesh></geometry>"
+MAP = "<material><pbr><metal><albedo_map>{}</albedo_map></metal></pbr></material>"
+SCRIPT = "<material><script><uri>{}</uri><name>red</name></script></material>"
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        (LINK.format(MESH), 3),
+        (LINK.format(BOX + MAP), 3),
+        (LINK.format(BOX + SCRIPT), 3),
+        ("<world name='w'><include>\n<uri>{}</uri></include></world>", 2),
+    ],
+)
+def test_what_an_sdf_names_is_a_file_that_can_be(folder: Path, text: str, line: int) -> None:
+    for uri in ("pipe.dae", "package://arm/pipe.dae"):
+        said = warnings_of(text.format(uri), folder)
+        assert f"{uri}: {folder}/pipe.dae is a pipe, a device or a socket, not a file" in said[0]
+        assert said[0].startswith(f"m.sdf:{line}: warning: ")
+
+    for uri in (
+        "a" * 5000,
+        f"model://{'a' * 5000}",
+        f"package://arm/{'a' * 5000}",
+        "file:///a%00b",
+        "a%00b",
+        "x/" * 3000,
+    ):
+        said = warnings_of(text.format(uri), folder)
+        assert said[0].startswith(f"m.sdf:{line}: warning: ")
+        assert len(said[0]) < 1000
+
+
+def test_what_a_urdf_names_is_a_file_that_can_be(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    visual = "\n<visual><geometry><mesh filename='{}'/></geometry></visual>"
+    inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
+    link = f"<inertial><mass value='1'/>{inertia}</inertial>{visual}"
+    path = folder / "r.urdf"
+    for name in ("pipe.dae", LONG, f"package://{LONG}/a.dae", "a%00b"):
+        path.write_text(f"<robot name='r'><link name='base'>{link.format(name)}</link></robot>")
+        assert main(["check", str(path)]) == 0
+        assert f"r.urdf:2: warning: {name[:100]}" in capsys.readouterr().out
+
+
+def test_an_include_of_a_name_of_another_host_with_a_bracket_is_left_out(folder: Path) -> None:
+    said = warnings_of("<world name='w'><include><uri>https://[fuel/a/b/c</uri></include></world>", folder)
+
+    assert "nothing is fetched from the network" in said[0]
+
+
+def test_a_material_script_that_is_a_pipe_is_left_out(folder: Path) -> None:
+    (folder / "scripts").mkdir()
+    os.mkfifo(folder / "scripts/red.material")
+
+    said = warnings_of(LINK.format(BOX + SCRIPT.format("scripts")), folder)
+
+    why = "cannot be read: it is a pipe, not a regular file"
+    assert said[0] == f"scripts/red.material: warning: {why}; this material script is left out"
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["<xacro:include filename='pipe.dae'/>", "<link name=\"${xacro.load_yaml('pipe.dae')}\"/>"],
+)
+def test_what_a_xacro_names_is_a_file(folder: Path, text: str) -> None:
+    path = folder / "r.xacro"
+    path.write_text(XACRO.format(text))
+
+    with pytest.raises(DescriptionError, match="it is a pipe, not a regular file"):
+        expand_xacro(path, {}, packages=Packages({}, start=path), report=Diagnostics())
+
+
+def test_a_model_config_that_is_a_pipe_is_refused(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "model.config")
+
+    with pytest.raises(DescriptionError, match=r"model\.config: error: cannot be read: it is a pipe"):
+        model_file(tmp_path, Diagnostics())
+
+
+def test_a_model_config_is_read_as_leniently_as_sdf(tmp_path: Path) -> None:
+    (tmp_path / "model.config").write_text(
+        "<model>\n<author>Ann & Bob</author><sdf version='1.6'>model.sdf</sdf></model>"
+    )
+    (tmp_path / "model.sdf").write_text(SDF.format("<model name='m'><link name='l'/></model>"))
+    report = Diagnostics()
+
+    assert model_file(tmp_path, report) == tmp_path / "model.sdf"
+    assert "model.config:2: warning: not well-formed XML: " in report.warnings[0]
+
+
+class TestThePipeOfACommandLine:
+    """`trundle check <(xacro robot.xacro)` names a pipe."""
+
+    @pytest.fixture
+    def pipe(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        """What a writer that has ended leaves behind, and a box beside the user for it to include."""
+        monkeypatch.chdir(tmp_path)
+        (tmp_path / "box.sdf").write_text(SDF.format("<model name='box'><link name='l'/></model>"))
+        ours, theirs = os.pipe()
+        with os.fdopen(theirs, "w") as writer:
+            writer.write(SDF.format("<world name='w'><include><uri>box.sdf</uri></include><oops/></world>"))
+        yield f"/dev/fd/{ours}"
+        os.close(ours)
+
+    def test_it_is_read_once_and_its_relative_uris_start_where_the_user_is(
+        self, pipe: str, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        assert main(["check", pipe]) == 0
+        printed = capsys.readouterr().out
+        assert "<pipe>:2: warning: <oops>" in printed
+        assert "a world (SDF 1.6): 1 models, 1 links" in printed
+
+    def test_standard_input_is_one_by_its_name_too(
+        self, pipe: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        with open(pipe) as stdin:
+            monkeypatch.setattr(sys, "stdin", stdin)
+            assert main(["check", "-"]) == 0
+        assert "<stdin>:2: warning: <oops>" in capsys.readouterr().out
+
+    def test_one_that_nothing_writes_to_ends_with_a_sentence(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        monkeypatch.setattr("trundle.files._TIMEOUT_S", 0.01)
+        os.mkfifo(tmp_path / "robot.urdf")
+
+        assert main(["check", str(tmp_path / "robot.urdf")]) == 1
+        assert "cannot be read: nothing has written it to its end within 0.01 s" in capsys.readouterr().out
+
+    def test_a_xacro_comes_through_one(self, capfd: pytest.CaptureFixture[str]) -> None:
+        ours, theirs = os.pipe()
+        with os.fdopen(theirs, "w") as writer:
+            writer.write(XACRO.format("<xacro:property name='x' value='7'/><link name='${x}'/>"))
+
+        assert main(["xacro", f"/dev/fd/{ours}"]) == 0
+        assert '<link name="7"/>' in capfd.readouterr().out
+        os.close(ours)

@@ -1,0 +1,102 @@
+"""A home folder is no package, whatever lies in it, and neither is what holds one."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from trundle import packages as room
+from trundle.description import expand_xacro
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.packages import Packages
+
+AT = Source("robot.urdf", 7)
+REFUSED = "reads only below its own folders"
+
+
+def write(path: Path, text: str = "") -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    return path
+
+
+@pytest.fixture
+def home(tmp_path: Path) -> Path:
+    """A home folder with a secret in it."""
+    write(tmp_path / "home/ann/.ssh/id", "key: 7")
+    write(tmp_path / "home/ann/.netrc")
+    write(tmp_path / "home/ann/diary/today.yaml")
+    return tmp_path / "home/ann"
+
+
+def resolve(uri: str, start: Path, home: Path, **environment: str) -> Path:
+    packages = Packages({"HOME": str(home), **environment}, start=start)
+    return packages.resolve(uri, beside=start.parent, at=AT)
+
+
+@pytest.mark.parametrize("holds", ["models/", "launch/", "urdf/", "package.xml", "manifest.xml", "model.config"])
+@pytest.mark.parametrize("file", ["robot.xacro", "urdf/robot.xacro", "work/robot.xacro"])
+def test_what_a_home_folder_holds_makes_it_no_package(home: Path, holds: str, file: str) -> None:
+    if holds.endswith("/"):
+        (home / holds).mkdir()
+    else:
+        write(home / holds, "<package><name>ann</name></package>")
+    read = f"${{xacro.load_yaml('{home}/.ssh/id')['key']}}"
+    start = write(
+        home / file, f"<robot xmlns:xacro='http://ros.org/wiki/xacro' name='r'><link name=\"{read}\"/></robot>"
+    )
+    packages = Packages({"HOME": str(home)}, start=start)
+
+    with pytest.raises(DescriptionError, match=REFUSED):
+        expand_xacro(start, {}, packages=packages, report=Diagnostics())
+
+
+@pytest.mark.parametrize("uri", ["file://{home}/.netrc", "file://{home}/diary/today.yaml", "package://ann/.ssh/id"])
+@pytest.mark.parametrize("path", ["ROS_PACKAGE_PATH", "GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH"])
+def test_a_path_that_names_home_or_what_holds_it_does_not_open_it(home: Path, path: str, uri: str) -> None:
+    write(home / "package.xml", "<package><name>ann</name></package>")
+    start = write(home / "robot.urdf")
+    for folder in (home, home.parent):
+        with pytest.raises(DescriptionError):
+            resolve(uri.format(home=home), start, home, **{path: str(folder)})
+
+
+def test_a_robot_that_lies_in_a_home_folder_reads_what_lies_beside_it(home: Path) -> None:
+    start = write(home / "robot.urdf")
+    mesh, other = write(home / "wheel.stl"), write(home / "meshes/arm.stl")
+
+    assert resolve("wheel.stl", start, home) == mesh
+    assert resolve("meshes/arm.stl", start, home) == other
+    with pytest.raises(DescriptionError, match=REFUSED):
+        resolve("diary/today.yaml", start, home)
+    assert resolve("diary/today.yaml", start, home, **{room.ALLOW_OUTSIDE: "1"}).is_file()
+
+
+def test_packages_and_models_below_a_home_folder_are_open(home: Path) -> None:
+    start = write(home / "robot.urdf")
+    write(home / "ws/arm/package.xml", "<package><name>arm</name></package>")
+    mesh = write(home / "ws/arm/extra/arm.stl")
+    sdf = write(home / "models/cup/extra/cup.sdf")
+    write(home / "models/cup/model.config")
+
+    assert resolve("package://arm/extra/arm.stl", start, home, ROS_PACKAGE_PATH=str(home / "ws")) == mesh
+    assert resolve("model://cup/extra/cup.sdf", start, home) == sdf
+
+
+def test_without_a_manifest_a_file_reads_its_folder_and_the_packages_other_ones(tmp_path: Path, home: Path) -> None:
+    """A published tutorial has often no package.xml; the folder it was put into is not it."""
+    start = write(tmp_path / "arm/urdf/arm.urdf")
+    texture = write(tmp_path / "arm/textures/red.png")
+    common = write(tmp_path / "arm/common.xacro")
+    write(tmp_path / "arm/others/secret.stl")
+
+    assert resolve("../textures/red.png", start, home).samefile(texture)
+    assert resolve("../common.xacro", start, home).samefile(common)
+    with pytest.raises(DescriptionError, match=REFUSED):
+        resolve("../others/secret.stl", start, home)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="drives have letters there")
+def test_the_root_of_a_disk_is_no_package_either(tmp_path: Path) -> None:
+    with pytest.raises(DescriptionError, match=REFUSED):
+        resolve("file:///etc/passwd", write(tmp_path / "robot.urdf"), tmp_path, ROS_PACKAGE_PATH="/")

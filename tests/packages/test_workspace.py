@@ -1,0 +1,49 @@
+"""The workspace that the user is in."""
+
+from pathlib import Path
+
+import pytest
+
+from trundle.cli import main
+from trundle.packages import Packages
+
+ROBOT = (
+    "<robot name='arm'><link name='base'><inertial><mass value='1'/>"
+    "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link></robot>"
+)
+
+
+@pytest.fixture
+def workspace(tmp_path: Path) -> Path:
+    """A workspace of one package, with folders that builds leave."""
+    arm = tmp_path / "ws/src/robots/arm"
+    for folder in (arm / "src/arm", tmp_path / "ws/build/arm", tmp_path / "ws/devel/share"):
+        folder.mkdir(parents=True)
+    (arm / "package.xml").write_text("<package><name>arm</name></package>")
+    (arm / "arm.urdf").write_text(ROBOT)
+    return tmp_path / "ws"
+
+
+@pytest.mark.parametrize("here", [".", "build/arm", "devel", "src", "src/robots/arm", "src/robots/arm/src/arm"])
+def test_packages_are_found_from_wherever_in_it(workspace: Path, here: str) -> None:
+    packages = Packages({"HOME": "/nobody"}, start=workspace / here)
+
+    assert packages.find_package("arm") == workspace / "src/robots/arm"
+
+
+def test_a_description_is_found_by_its_package(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(workspace)
+    monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
+
+    assert main(["check", "package://arm/arm.urdf"]) == 0
+    assert f"package://arm/arm.urdf: info: using the workspace {workspace}" in capsys.readouterr().out
+    assert main(["run", "package://arm/arm.urdf", "--headless", "--no-ros", "--duration", "0.01"]) == 0
+    assert f"using the workspace {workspace}\n" in capsys.readouterr().err
+
+
+def test_a_folder_whose_src_holds_programs_is_none(workspace: Path, tmp_path: Path) -> None:
+    (tmp_path / "program/src/deep").mkdir(parents=True)
+
+    assert Packages({"HOME": "/nobody"}, start=tmp_path / "program").find_package("arm") is None
