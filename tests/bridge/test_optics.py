@@ -1,13 +1,10 @@
 """What is inside <camera>, from the file to the messages that others hear."""
 
 import math
-import tempfile
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from PIL import Image
 
 from trundle.description import write_sdf, written_uri
 from trundle.diagnostics import Diagnostics
@@ -141,58 +138,6 @@ def test_the_same_seed_makes_the_same_noise(described: Any) -> None:
 
     assert taken(1) == taken(1)
     assert taken(1) != taken(2)
-
-
-def test_pictures_are_saved_under_gazebo_s_names(described: Any) -> None:
-    with tempfile.TemporaryDirectory() as folder:
-        sim = described(eye("camera", inside=f'<save enabled="true"><path>{folder}/shots</path></save>') + WALL)
-        (camera,) = mount_cameras(sim, NativeRenderer)
-        camera.start(sim)
-        sim.run(0.1)
-
-        files = sorted(Path(folder, "shots").iterdir())
-        assert [file.name for file in files] == [f"w_bot_head_eye(1)-000{i}.jpg" for i in range(2)]
-        with Image.open(files[0]) as picture:
-            assert picture.size == (64, 48)
-        assert sim.report.warnings == []
-
-
-def test_a_link_that_waits_at_a_picture_s_name_is_not_written_through(described: Any, tmp_path: Path) -> None:
-    """The names are Gazebo's, known to every user of a machine who can write to /tmp."""
-    ours = tmp_path / "ours"
-    ours.write_text("precious")
-    with tempfile.TemporaryDirectory() as folder:
-        Path(folder, "w_bot_head_eye(1)-0000.jpg").symlink_to(ours)
-        sim = described(eye("camera", inside=f'<save enabled="true"><path>{folder}</path></save>') + WALL)
-        (camera,) = mount_cameras(sim, NativeRenderer)
-        camera.start(sim)
-        sim.run(0.1)
-
-        files = list(Path(folder).iterdir())
-        assert len(files) == 2
-        assert not any(file.is_symlink() for file in files)
-    assert ours.read_text() == "precious"
-
-
-def test_a_file_does_not_choose_where_in_the_system_pictures_are_saved(described: Any) -> None:
-    sim = described(eye("camera", inside='<save enabled="true"><path>/etc/shots</path></save>'))
-    (camera,) = mount_cameras(sim, NativeRenderer)
-
-    assert not camera.wanted()
-    (warning,) = sim.report.warnings
-    assert "w.sdf:1: warning: sensor 'eye': pictures are saved below the working directory or" in warning
-
-
-def test_a_folder_that_cannot_be_made_ends_the_saving_with_one_warning(described: Any) -> None:
-    with tempfile.NamedTemporaryFile() as file:
-        sim = described(eye("camera", inside=f'<save enabled="true"><path>{file.name}/shots</path></save>'))
-        (camera,) = mount_cameras(sim, NativeRenderer)
-        camera.start(sim)
-        sim.run(0.2)
-
-    assert camera.images == 1
-    (warning,) = sim.report.warnings
-    assert "Not a directory; no more pictures are saved" in warning
 
 
 BROKEN = [

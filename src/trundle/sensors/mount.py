@@ -1,8 +1,9 @@
 """Mounts the cameras of a world."""
 
-import tempfile
+import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from .formats import FORMATS
 from .lens import fits
 from .mount_measuring import MEASURING
 from .mounted import Spot
-from .saving import PictureSaver, folder_for
+from .saving import PictureSaver, folder_for, quota_of
 from .scenery import Scenery
 from .segmentation_camera import SegmentationCameraSensor
 from .thermal_camera import ThermalCameraSensor
@@ -82,7 +83,7 @@ def mount_cameras(
                     camera = kind(Spot(owner, link, sensor, index, random), optics, scenery=sceneries[mask])
                     camera.follow(simulation[owner.name].link(link.name))
                     camera.together = together
-                    _save(camera, world.name, report)
+                    _save(camera, simulation, world.name, report)
                     together.append(camera)
                 _doubt_labels(together, report)
                 cameras += together
@@ -110,16 +111,16 @@ def _made(sensor: Sensor, report: Diagnostics) -> Iterator[CameraOptics]:
             yield replace(optics, format="R8G8B8")
 
 
-def _save(camera: CameraSensor, world: str, report: Diagnostics) -> None:
+def _save(camera: CameraSensor, simulation: Simulation, world: str, report: Diagnostics) -> None:
     path = camera.optics.save_path
     if path is None:
         return
     folder = folder_for(path)
-    if folder is None:
-        what = f"pictures are saved below the working directory or {tempfile.gettempdir()} only; <path> {path} is not"
-        report.warn(camera.sensor.at, f"sensor {camera.name!r}: {what}, and they are not saved")
-        return
-    saver = PictureSaver(camera, folder, world, report)
+    if folder == Path(os.path.abspath(path)):
+        report.info(camera.sensor.at, f"sensor {camera.name!r}: pictures are saved in {folder}")
+    else:
+        report.warn(camera.sensor.at, f"sensor {camera.name!r}: pictures are saved in {folder} in place of {path}")
+    saver = PictureSaver(camera, folder, world, report, quota_of(simulation))
     camera.listen(saver.save, wanted=saver.wanted)
 
 
