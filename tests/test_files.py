@@ -79,6 +79,14 @@ def test_a_stream_without_end_is_bounded(monkeypatch: pytest.MonkeyPatch) -> Non
     assert refused(lambda: files.read_stream("/dev/zero")) == "larger than 100000 bytes, the largest file read"
 
 
+def test_what_this_process_has_open_is_a_stream_even_where_it_is_a_file(tmp_path: Path) -> None:
+    """`trundle check /dev/stdin < robot.urdf`: what that names lies beside the user, not in /dev."""
+    (tmp_path / "robot.urdf").write_text("<robot/>")
+    with (tmp_path / "robot.urdf").open() as file:
+        name = f"/dev/fd/{file.fileno()}"
+        assert (files.is_stream(name), files.read_input(name)) == (True, b"<robot/>")
+
+
 def test_files_folders_and_nothing_are_no_streams(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
 

@@ -22,7 +22,7 @@ MOST_BYTES = 64 * 1024 * 1024
 _CHUNK_BYTES = 64 * 1024
 _TIMEOUT_S = 60.0
 """For a pipe to come to its end; `<param command>` has as long."""
-_DESCRIPTOR = re.compile(r"(?:/dev|/proc/self)/fd/(\d+)")
+_DESCRIPTOR = re.compile(r"/dev/stdin|(?:/dev|/proc/self)/fd/(\d{1,9})")
 _STREAMS = {stat.S_IFIFO: "a pipe", stat.S_IFCHR: "a device", stat.S_IFSOCK: "a socket"}
 _FLAGS = ("O_NONBLOCK", "O_NOCTTY", "O_BINARY", "O_CLOEXEC")
 _OPEN = os.O_RDONLY | sum(getattr(os, flag, 0) for flag in _FLAGS)
@@ -81,9 +81,10 @@ def read_input(path: AnyPath, /) -> bytes:
 
 
 def is_stream(path: AnyPath, /) -> bool:
-    """Tell a pipe, a device or a socket from files and folders, and from what is not there."""
+    """Tell a pipe, a device, a socket or what this process has open from files and folders, and from nothing."""
     try:
-        return stat.S_IFMT(os.stat(path).st_mode) in _STREAMS
+        is_open_here = _DESCRIPTOR.fullmatch(os.fspath(path)) is not None
+        return stat.S_IFMT(os.stat(path).st_mode) in _STREAMS or is_open_here
     except (OSError, ValueError):
         return False
 
@@ -95,11 +96,9 @@ def read_stream(path: AnyPath, /) -> bytes:
         OSError: it has no end within a minute or `MOST_BYTES`, or cannot be read.
     """
     name = os.fspath(path)
-    if name == "/dev/stdin":
-        return read_standard_input()
     given = _DESCRIPTOR.fullmatch(name)
     # An end of a pipe that is here is not opened once more: that one would not see that the writer has gone.
-    descriptor = os.dup(int(given[1])) if given else os.open(path, _OPEN)
+    descriptor = os.open(path, _OPEN) if given is None else os.dup(int(given[1] or 0))
     try:
         return _joined(_arriving(descriptor, name), MOST_BYTES, name)
     finally:

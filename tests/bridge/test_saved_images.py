@@ -46,7 +46,7 @@ def test_they_go_below_one_folder_under_gazebo_s_names(described: Any, tmp_path:
     assert sorted(each.name for each in place.iterdir()) == [NAME.format(1, i) for i in range(2)]
     with Image.open(place / NAME.format(1, 0)) as picture:
         assert picture.size == (64, 48)
-    said = [each for each in sim.report.findings if "pictures are saved in" in each.what]
+    said = [each for each in sim.report.findings if "<save> writes into" in each.what]
     assert [each.severity for each in said] == ["info" if "saved_images/shots" in path else "warning"]
     assert str(place) in said[0].what
 

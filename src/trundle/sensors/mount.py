@@ -117,9 +117,9 @@ def _save(camera: CameraSensor, simulation: Simulation, world: str, report: Diag
         return
     folder = folder_for(path)
     if folder == Path(os.path.abspath(path)):
-        report.info(camera.sensor.at, f"sensor {camera.name!r}: pictures are saved in {folder}")
+        report.info(camera.sensor.at, f"sensor {camera.name!r}: <save> writes into {folder}")
     else:
-        report.warn(camera.sensor.at, f"sensor {camera.name!r}: pictures are saved in {folder} in place of {path}")
+        report.warn(camera.sensor.at, f"sensor {camera.name!r}: <save> writes into {folder} in place of {path}")
     saver = PictureSaver(camera, folder, world, report, quota_of(simulation))
     camera.listen(saver.save, wanted=saver.wanted)
 
