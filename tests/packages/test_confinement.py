@@ -83,9 +83,13 @@ def test_packages_and_models_below_a_home_folder_are_open(home: Path) -> None:
     assert resolve("model://cup/extra/cup.sdf", start, home) == sdf
 
 
-def test_without_a_manifest_a_file_reads_its_folder_and_the_packages_other_ones(tmp_path: Path, home: Path) -> None:
+@pytest.mark.parametrize("folder", ["urdf", "robots"])
+def test_without_a_manifest_a_file_reads_its_folder_and_what_packages_have(
+    tmp_path: Path, home: Path, folder: str
+) -> None:
     """A published tutorial has often no package.xml; the folder it was put into is not it."""
-    start = write(tmp_path / "arm/urdf/arm.urdf")
+    start = write(tmp_path / f"arm/{folder}/arm.urdf")
+    (tmp_path / "arm/meshes").mkdir()
     texture = write(tmp_path / "arm/textures/red.png")
     common = write(tmp_path / "arm/common.xacro")
     write(tmp_path / "arm/others/secret.stl")

@@ -123,7 +123,6 @@ def expand_xacro(
         if not os.path.exists(path):
             raise DescriptionError(Source(str(path)), "no such file")
         packages = packages.around(path)
-        packages.check_readable(path, Source(str(path)), told="xacro")
         data = _data(path)
     with _LOCK, _ours(packages, report, path, data):
         try:

@@ -29,15 +29,15 @@ def own_package(start: Path, wide: WideFolders) -> Path | None:
 def own_confinement(start: Path, wide: WideFolders) -> Confinement:
     """What a file may read as its own: all of the package or model folder it is in.
 
-    Without a manifest or model.config that is its own folder, and those beside one such as `urdf` or `meshes`.
+    Without a manifest or model.config that is its own folder, and those such as `meshes` of the package as published.
     """
-    folders = list(_above(start))
+    folders = list(_above(start)) or [start.parent]
     for folder in folders:
         if any(os.path.isfile(folder / name) for name in (*MANIFESTS, "model.config")) and folder not in wide:
             return Confinement([folder], wide=wide)
-    own = folders[:1]
-    around = next((folder.parent for folder in folders if folder.name in PARTS), folders[0] if own else start.parent)
-    return Confinement([*own, *(around / name for name in _CONTENTS)], wide=wide, beside=[around])
+    own = folders[0]
+    around = next((folder for folder in folders if any(os.path.isdir(folder / part) for part in PARTS)), own)
+    return Confinement([own, *(around / name for name in _CONTENTS)], wide=wide, beside=[own, around])
 
 
 def workspaces(start: Path) -> Iterator[Path]:
