@@ -288,6 +288,33 @@ def test_an_argument_that_the_file_does_not_have_is_an_error() -> None:
         plan_of('<arg name="speed" default="1"/>', sped="2")
 
 
+def test_an_argument_that_is_used_and_not_declared_may_be_set() -> None:
+    """The SolidWorks exporter writes such files; roslaunch takes `gui:=1` for them."""
+    plan = plan_of(
+        '<param name="use_gui" value="$(arg gui)"/><param name="b" value="$(eval rate * 2)"/>', gui="1", rate="3"
+    )
+    assert {p.name: p.value for p in plan.params} == {"/use_gui": 1, "/b": 6}
+    unused = '<arg name="q" default="0"/><group if="$(arg q)"><param name="a" value="$(arg gui)"/></group>'
+    assert plan_of(unused, gui="1").params == ()
+    with pytest.raises(DescriptionError, match="no argument 'gui'; none is declared so far"):
+        plan_of('<param name="use_gui" value="$(arg gui)"/>')
+    with pytest.raises(DescriptionError, match="no argument 'gu' to set; the file's arguments: none"):
+        plan_of('<param name="use_gui" value="$(arg gui)"/>', gui="1", gu="1")
+
+
+def test_an_argument_may_be_set_that_an_included_file_is_passed(tmp_path: Path) -> None:
+    write(tmp_path, "sub.launch", WITH_ARGS)
+    passing = write(tmp_path, "top.launch", '<include file="$(dirname)/sub.launch" pass_all_args="true"/>')
+    arguments = {"q": "4"}
+    plan = read_launch(passing, packages=Folders(), report=Diagnostics(), arguments=arguments)
+    assert {p.name: p.value for p in plan.params} == {"/r": "4x"}
+
+    body = '<include file="$(dirname)/sub.launch"><arg name="q" value="1"/></include>'
+    keeping = write(tmp_path, "top.launch", body)
+    with pytest.raises(DescriptionError, match="no argument 'q' to set"):
+        read_launch(keeping, packages=Folders(), report=Diagnostics(), arguments=arguments)
+
+
 def write(folder: Path, name: str, body: str) -> Path:
     path = folder / name
     path.write_text(f"<launch>{body}</launch>")

@@ -4,11 +4,12 @@ import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.names import anonymous_name, canonical_name
 from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
 from .attributes import Attributes
+from .command_line import CommandLine
 from .draft import Draft
 from .machines import read_machine
 from .nodes import read_node
@@ -50,12 +51,13 @@ def read_launch(
     Raises:
         DescriptionError: with file and line, where roslaunch would refuse the file too.
     """
-    reader = _Reader(packages=packages, report=report, env=env or {})
+    command_line = CommandLine(arguments or {})
+    reader = _Reader(packages=packages, report=report, env=env or {}, command_line=command_line)
     for file in [files] if isinstance(files, Path) else files:
-        reader.read_root(_read(file, report), file, arguments or {}, namespace)
+        reader.read_root(_read(file, report), file, namespace)
     for name, text in texts:
-        reader.read_root(parse_xml(text, name=name), Path(name), arguments or {}, namespace)
-    reader.refuse_unknown(arguments or {})
+        reader.read_root(parse_xml(text, name=name), Path(name), namespace)
+    command_line.refuse_unknown()
     return reader.draft.plan()
 
 
@@ -92,38 +94,32 @@ def read_arguments(
     Raises:
         DescriptionError: the file is no launch file, or an argument cannot be read.
     """
-    reader = _Reader(packages=packages, report=report, env=env or {})
-    reader.read_declared(read_xml(file), file, arguments or {})
+    command_line = CommandLine(arguments or {})
+    reader = _Reader(packages=packages, report=report, env=env or {}, command_line=command_line)
+    reader.read_declared(read_xml(file), file)
     return tuple(reader.draft.arguments)
 
 
 class _Reader:
     """Walks launch files; what it finds goes into the draft."""
 
-    def __init__(self, *, packages: PackageFinder, report: Diagnostics, env: Mapping[str, str]) -> None:
+    def __init__(
+        self, *, packages: PackageFinder, report: Diagnostics, env: Mapping[str, str], command_line: CommandLine
+    ) -> None:
         self.draft = Draft(report)
         self._report = report
-        self._declared: set[str] = set()
-        self._last: Source | None = None
+        self._command_line = command_line
         self._substitution = Substitution(packages=packages, env=env, anonymous=anonymous_name)
 
-    def read_root(self, root: XmlNode, file: Path, arguments: Mapping[str, str], namespace: str) -> None:
+    def read_root(self, root: XmlNode, file: Path, namespace: str) -> None:
         """Read a file of the command line."""
-        scope = Scope(namespace=canonical_name(namespace) or "/", file=str(file), arguments=dict(arguments))
+        arguments = dict(self._command_line.arguments)
+        scope = Scope(namespace=canonical_name(namespace) or "/", file=str(file), arguments=arguments)
         self._launch(root, scope, depth=0)
-        self._declared |= scope.declared
-        self._last = root.at
 
-    def refuse_unknown(self, arguments: Mapping[str, str]) -> None:
-        """Refuse an argument that no file has: roslaunch says nothing, and a misspelt one silently does nothing."""
-        unknown = sorted(set(arguments) - self._declared)
-        if unknown and self._last is not None:
-            known = ", ".join(map(repr, sorted(self._declared))) or "none"
-            raise DescriptionError(self._last, f"no argument {unknown[0]!r} to set; the file's arguments: {known}")
-
-    def read_declared(self, root: XmlNode, file: Path, arguments: Mapping[str, str]) -> None:
+    def read_declared(self, root: XmlNode, file: Path) -> None:
         """Read the arguments of a file; one that is required and was not given counts as empty."""
-        scope = Scope(namespace="/", file=str(file), arguments=dict(arguments))
+        scope = Scope(namespace="/", file=str(file), arguments=dict(self._command_line.arguments))
         for node in _launch_of(root).all("arg"):
             self._arg(node, scope, scope, top=True)
             for name in scope.declared:
@@ -131,6 +127,8 @@ class _Reader:
 
     def _launch(self, root: XmlNode, scope: Scope, *, depth: int) -> None:
         root = _launch_of(root)
+        if depth == 0 or scope.lenient_arguments:
+            self._command_line.shown_to(root)
         self.draft.add_file(Path(scope.file))
         for name in root.attributes():
             if name != "deprecated":
