@@ -340,6 +340,31 @@ def test_an_included_file_sees_only_the_arguments_it_is_passed(tmp_path: Path) -
         included(tmp_path, '<arg name="q" value="1"/><include file="$(dirname)/sub.launch"/>')
 
 
+def test_missing_packages_are_named_together(tmp_path: Path) -> None:
+    """Also those that come behind the first, and the packages of nodes that can be read."""
+    write(
+        tmp_path,
+        "sub.launch",
+        '<include file="$(find one)/a.launch"/>\n<param name="a" textfile="$(find two)/a.txt"/>\n'
+        '<group if="false"><param name="b" value="$(find unwanted)"/></group>',
+    )
+    with pytest.raises(DescriptionError) as caught:
+        included(
+            tmp_path,
+            '<include file="$(dirname)/sub.launch"/>\n<node pkg="turtlebot3_gazebo" type="t" name="n" ns="s"/>\n'
+            "<arg name=\"model\" default=\"$(eval find('three') + '/x')\"/>"
+            '<include file="$(find two)/b.launch"><arg name="x" value="$(find one)"/></include>',
+        )
+    sub, top = tmp_path / "sub.launch", tmp_path / "top.launch"
+    assert str(caught.value).splitlines() == [
+        f"{sub}:1: error: no package 'one'; included at {top}:1",
+        f"{sub}:2: error: no package 'two'",
+        f"{top}:2: error: no package 'turtlebot3_gazebo' for the node /s/n; it is published at "
+        "https://github.com/ROBOTIS-GIT/turtlebot3_simulations",
+        f"{top}:3: error: no package 'three'",
+    ]
+
+
 def test_all_arguments_are_passed_when_asked_for(tmp_path: Path) -> None:
     write(tmp_path, "sub.launch", WITH_ARGS)
     plan = included(tmp_path, '<arg name="q" value="4"/><include file="$(dirname)/sub.launch" pass_all_args="true"/>')

@@ -13,7 +13,7 @@ from trundle.packages import Packages
 if TYPE_CHECKING:
     from trundle.diagram import TreeNode
 
-_LAUNCH = (".launch", ".test")
+_LAUNCH = (".launch", ".launch.py", ".launch.xml", ".test")
 
 
 class Found(Protocol):

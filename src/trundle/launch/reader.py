@@ -2,16 +2,19 @@
 
 import os
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.names import anonymous_name, canonical_name
-from trundle.xmlnode import XmlNode, parse_xml, read_xml
+from trundle.xmlnode import XmlNode, parse_xml
 
 from .attributes import Attributes
 from .command_line import CommandLine
 from .draft import Draft
+from .launch_file import read_launch_file
 from .machines import read_machine
+from .missing import MissingPackageError, MissingPackages
 from .nodes import read_node
 from .packages import PackageFinder
 from .params import read_param, read_rosparam
@@ -52,13 +55,24 @@ def read_launch(
         DescriptionError: with file and line, where roslaunch would refuse the file too.
     """
     command_line = CommandLine(arguments or {})
-    reader = _Reader(packages=packages, report=report, env=env or {}, command_line=command_line)
-    for file in [files] if isinstance(files, Path) else files:
-        reader.read_root(_read(file, report), file, namespace)
-    for name, text in texts:
-        reader.read_root(parse_xml(text, name=name), Path(name), namespace)
+
+    def read(report: Diagnostics, missing: MissingPackages | None = None) -> LaunchPlan:
+        reader = _Reader(packages=packages, report=report, env=env or {}, command_line=command_line, missing=missing)
+        for file in [files] if isinstance(files, Path) else files:
+            reader.read_root(read_launch_file(file, report), file, namespace)
+        for name, text in texts:
+            reader.read_root(parse_xml(text, name=name), Path(name), namespace)
+        return reader.draft.plan()
+
+    try:
+        plan = read(report)
+    except MissingPackageError as error:
+        missing = MissingPackages()
+        with suppress(DescriptionError):
+            missing.add_nodes(read(Diagnostics(), missing).nodes, packages)
+        raise missing.after(error) from None
     command_line.refuse_unknown()
-    return reader.draft.plan()
+    return plan
 
 
 def read_launch_text(
@@ -96,7 +110,7 @@ def read_arguments(
     """
     command_line = CommandLine(arguments or {})
     reader = _Reader(packages=packages, report=report, env=env or {}, command_line=command_line)
-    reader.read_declared(read_xml(file), file)
+    reader.read_declared(read_launch_file(file, Diagnostics()), file)
     return tuple(reader.draft.arguments)
 
 
@@ -104,12 +118,20 @@ class _Reader:
     """Walks launch files; what it finds goes into the draft."""
 
     def __init__(
-        self, *, packages: PackageFinder, report: Diagnostics, env: Mapping[str, str], command_line: CommandLine
+        self,
+        *,
+        packages: PackageFinder,
+        report: Diagnostics,
+        env: Mapping[str, str],
+        command_line: CommandLine,
+        missing: MissingPackages | None = None,
     ) -> None:
+        """With `missing`, go on behind whatever cannot be read: only what is missing is of interest."""
         self.draft = Draft(report)
         self._report = report
         self._command_line = command_line
-        self._substitution = Substitution(packages=packages, env=env, anonymous=anonymous_name)
+        self._goes_on = missing is not None
+        self._substitution = Substitution(packages=packages, env=env, anonymous=anonymous_name, missing=missing)
 
     def read_root(self, root: XmlNode, file: Path, namespace: str) -> None:
         """Read a file of the command line."""
@@ -142,39 +164,44 @@ class _Reader:
 
     def _children(self, parent: XmlNode, scope: Scope, *, depth: int) -> None:
         for node in parent.children:
-            match node.tag:
-                case "arg":
-                    self._arg(node, scope, scope, top=depth == 0)
-                case "group":
-                    self._group(node, scope, depth=depth)
-                case "include":
-                    self._include(node, scope, depth=depth)
-                case "node" | "test":
-                    read_node(node, scope, self._substitution, self.draft, self._report)
-                case "param":
-                    attributes = self._attributes(
-                        node, scope, "name", "value", "type", "textfile", "binfile", "command"
-                    )
-                    if attributes.apply:
-                        name, value = read_param(attributes)
-                        if name.startswith("~"):
-                            scope.set_private_param(name[1:], (value, node.at))
-                        else:
-                            self.draft.set_param(scope.join(name), value, node.at)
-                case "rosparam":
-                    read_rosparam(node, scope, self._substitution, self.draft, self._report)
-                case "remap":
-                    read_remap(node, scope, scope, self._substitution, self._report)
-                case "env":
-                    read_env(node, scope, scope, self._substitution, self._report)
-                case "machine":
-                    read_machine(node, scope, self._substitution, self.draft, self._report)
-                case "launch":
-                    raise DescriptionError(node.at, "<launch> within <launch>; a file has one")
-                case "master":
-                    self._report.warn(node.at, "<master> has no effect since ROS 0.7; it is ignored")
-                case tag:
-                    self._report.warn(node.at, f"<{tag}> is no tag of launch files; it is ignored")
+            try:
+                self._child(node, scope, depth=depth)
+            except DescriptionError:
+                if not self._goes_on:
+                    raise
+
+    def _child(self, node: XmlNode, scope: Scope, *, depth: int) -> None:
+        match node.tag:
+            case "arg":
+                self._arg(node, scope, scope, top=depth == 0)
+            case "group":
+                self._group(node, scope, depth=depth)
+            case "include":
+                self._include(node, scope, depth=depth)
+            case "node" | "test":
+                read_node(node, scope, self._substitution, self.draft, self._report)
+            case "param":
+                attributes = self._attributes(node, scope, "name", "value", "type", "textfile", "binfile", "command")
+                if attributes.apply:
+                    name, value = read_param(attributes)
+                    if name.startswith("~"):
+                        scope.set_private_param(name[1:], (value, node.at))
+                    else:
+                        self.draft.set_param(scope.join(name), value, node.at)
+            case "rosparam":
+                read_rosparam(node, scope, self._substitution, self.draft, self._report)
+            case "remap":
+                read_remap(node, scope, scope, self._substitution, self._report)
+            case "env":
+                read_env(node, scope, scope, self._substitution, self._report)
+            case "machine":
+                read_machine(node, scope, self._substitution, self.draft, self._report)
+            case "launch":
+                raise DescriptionError(node.at, "<launch> within <launch>; a file has one")
+            case "master":
+                self._report.warn(node.at, "<master> has no effect since ROS 0.7; it is ignored")
+            case tag:
+                self._report.warn(node.at, f"<{tag}> is no tag of launch files; it is ignored")
 
     def _group(self, node: XmlNode, scope: Scope, *, depth: int) -> None:
         attributes = self._attributes(node, scope, "ns", "clear_params")
@@ -239,22 +266,15 @@ class _Reader:
         if not os.path.exists(file):
             raise DescriptionError(node.at, f"no launch file {file!r} to include")
         try:
-            self._launch(_read(Path(file), self._report), passed, depth=depth + 1)
+            self._launch(read_launch_file(Path(file), self._report), passed, depth=depth + 1)
         except DescriptionError as error:
             way = f"; included at {node.at}"
             if depth >= _MOST_TOLD or error.what.endswith(way):
                 raise
-            raise DescriptionError(error.at, error.what + way) from None
+            raise type(error)(error.at, error.what + way) from None
         if unused := sorted(given - passed.declared):
             known = ", ".join(map(repr, sorted(passed.declared))) or "none"
             raise DescriptionError(node.at, f"{file!r} has no argument {unused[0]!r}; its arguments: {known}")
-
-
-def _read(file: Path, report: Diagnostics) -> XmlNode:
-    root = read_xml(file)
-    if root.is_declared_late:
-        report.warn(Source(str(file), 1), "blank lines before <?xml …?>, for which roslaunch refuses the file")
-    return root
 
 
 def _launch_of(root: XmlNode) -> XmlNode:

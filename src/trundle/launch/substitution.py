@@ -11,6 +11,7 @@ from trundle.diagnostics import DescriptionError, Source
 
 from .bounded import BASE_NAMES, ExpressionError
 from .expression import evaluate
+from .missing import MissingPackageError, MissingPackages
 from .packages import PackageFinder
 from .scope import Scope
 from .values import convert_value
@@ -27,6 +28,8 @@ class Substitution:
     env: Mapping[str, str]
     anonymous: Callable[[str], str]
     """Makes a name nobody else has."""
+    missing: MissingPackages | None = None
+    """Takes the packages that are not there; None: the first one is an error."""
 
     def resolve(self, text: str, scope: Scope, at: Source) -> str:
         """Replace every `$(…)` of an attribute.
@@ -105,7 +108,10 @@ class Substitution:
             return "xacro"
         if folder is not None:
             return str(folder)
-        raise DescriptionError(at, self.packages.why_not_found(name))
+        if self.missing is None:
+            raise MissingPackageError(at, self.packages.why_not_found(name))
+        self.missing.add(name, at)
+        return f"/no-package/{name}"
 
     def _eval(self, text: str, scope: Scope, at: Source) -> str:
         def arg(name: str) -> Any:

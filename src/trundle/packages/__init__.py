@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from .manifest import needs
     from .model_config import model_file, refuse_template
     from .packages import ALLOW_OUTSIDE, Packages
+    from .repositories import published_at
     from .rule_exports import exported_rules
     from .workspace import program_folders
 
@@ -20,6 +21,7 @@ _HOMES = {
     "model_file": "model_config",
     "needs": "manifest",
     "program_folders": "workspace",
+    "published_at": "repositories",
     "refuse_template": "model_config",
 }
 __getattr__ = opened_on_use(__name__, _HOMES)
@@ -32,5 +34,6 @@ __all__ = [
     "model_file",
     "needs",
     "program_folders",
+    "published_at",
     "refuse_template",
 ]

@@ -11,6 +11,7 @@ from trundle.files import is_stream
 
 from .confinement import Confinement, WideFolders
 from .gazebo_paths import SHIPPED, GazeboPaths, is_stand_in
+from .repositories import published_at
 from .ros_packages import RosPackages
 from .stock import STOCK
 from .workspace import own_confinement
@@ -77,7 +78,8 @@ class Packages:
         if passed_over:
             rest = f" and {len(passed_over) - _MOST_NAMED} more" if len(passed_over) > _MOST_NAMED else ""
             where += f", but not in {', '.join(passed_over[:_MOST_NAMED])}{rest}"
-        return f"no package {_shown(name)!r}; {where}; put the folder that holds it on ROS_PACKAGE_PATH"
+        where += "; put the folder that holds it on ROS_PACKAGE_PATH"
+        return f"no package {_shown(name)!r}; {where}{published_at(name)}"
 
     def find_model(self, name: str) -> Path:
         """The folder of `model://name`.
