@@ -126,3 +126,19 @@ def test_what_is_out_of_scope_is_named_with_a_way_out() -> None:
     found = find_node("move_base", "move_base", lambda _: None, env={})
     assert isinstance(found, Missing)
     assert "the real one can run in a container with ROS_MASTER_URI set to this master" in found.why
+
+
+def test_a_program_that_has_to_be_compiled_is_named_with_its_source(tmp_path: Path) -> None:
+    text = (
+        "project(arm)\nadd_executable(arm_node src/arm.cpp)\nset_target_properties(arm_node PROPERTIES OUTPUT_NAME arm)"
+    )
+    (tmp_path / "CMakeLists.txt").write_text(text)
+    missing = find_node("arm", "arm", lambda _: tmp_path, env={})
+    assert isinstance(missing, Missing)
+    assert missing.why.endswith(
+        f"; it is C++ that is not compiled yet: {tmp_path}/CMakeLists.txt:2 builds it (target 'arm_node') "
+        "from src/arm.cpp; catkin_make compiles it"
+    )
+    other = find_node("arm", "leg", lambda _: tmp_path, env={})
+    assert isinstance(other, Missing)
+    assert "C++" not in other.why

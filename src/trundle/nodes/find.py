@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias, cast
 
-from trundle.packages import program_folders
+from trundle.packages import cmake_programs, program_folders
 from trundle.ros import Node
 
 from .catalog import NODELETS, OURS_ALWAYS, STAND_INS
@@ -16,6 +16,7 @@ from .missing import WAYS_OUT
 from .scripts import can_run
 
 _NOT_SEARCHED = frozenset({"__pycache__", "node_modules", "build"})
+_SOURCES_NAMED = 2
 StandInClass: TypeAlias = Callable[[Node, list[str], Host], StandIn]
 FindPackage: TypeAlias = Callable[[str], Path | None]
 
@@ -88,10 +89,22 @@ def find_node(
         return Missing(f"{plain} is not executable; run chmod +x on it")
     way_out = f"; {WAYS_OUT[package]}" if package in WAYS_OUT else ""
     if folder is not None:
-        return Missing(f"no executable {type_name!r} in {folder}, and no stand-in for {package}/{type_name}{way_out}")
+        why = f"no executable {type_name!r} in {folder}, and no stand-in for {package}/{type_name}"
+        return Missing(f"{why}{_to_compile(folder, type_name)}{way_out}")
     known = sorted(name for owner, name in STAND_INS if owner == package)
     there_is = f"; stand-ins of that package: {', '.join(known)}" if known else way_out
     return Missing(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
+
+
+def _to_compile(folder: Path, name: str) -> str:
+    """Continue a sentence about a program that is not there, where its package builds it."""
+    program = next((each for each in cmake_programs(folder) if each.name == name), None)
+    if program is None:
+        return ""
+    sources = ", ".join(program.sources[:_SOURCES_NAMED]) + (", …" if len(program.sources) > _SOURCES_NAMED else "")
+    target = f" (target {program.target!r})" if program.target != name else ""
+    where = f"{program.file}:{program.line}"
+    return f"; it is C++ that is not compiled yet: {where} builds it{target} from {sources}; catkin_make compiles it"
 
 
 def missing_nodelet(name: str) -> str:

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from trundle.doors import opened_on_use
 
 if TYPE_CHECKING:
+    from .cmake import CMakeProgram, cmake_programs
     from .gazebo_paths import is_stand_in
     from .manifest import needs
     from .model_config import model_file, refuse_template
@@ -15,7 +16,9 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "ALLOW_OUTSIDE": "packages",
+    "CMakeProgram": "cmake",
     "Packages": "packages",
+    "cmake_programs": "cmake",
     "exported_rules": "rule_exports",
     "is_stand_in": "gazebo_paths",
     "model_file": "model_config",
@@ -28,7 +31,9 @@ __getattr__ = opened_on_use(__name__, _HOMES)
 
 __all__ = [
     "ALLOW_OUTSIDE",
+    "CMakeProgram",
     "Packages",
+    "cmake_programs",
     "exported_rules",
     "is_stand_in",
     "model_file",

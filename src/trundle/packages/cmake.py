@@ -1,0 +1,95 @@
+"""Programs that a package's CMakeLists.txt builds, as far as it says so plainly."""
+
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from trundle.files import read_text
+
+_COMMENT = re.compile(r"#\[\[.*?\]\]|#[^\n]*", re.DOTALL)
+_COMMAND = re.compile(r"\b(\w+)\s*\(([^()]*)\)")
+_WORD = re.compile(r'"([^"]*)"|([^\s";]+)')
+_VARIABLE = re.compile(r"\$\{(\w+)\}")
+_ADDS = re.compile(r"(\w+_)?add_executable")
+"""rosbuild, catkin_simple and CUDA have commands of their own for it."""
+_NO_SOURCES = frozenset({"EXCLUDE_FROM_ALL", "MACOSX_BUNDLE", "WIN32"})
+_MOST_FOLDERS = 20
+"""A CMakeLists.txt may add itself."""
+_MOST_CHARACTERS, _LONGEST = 1_000_000, 1000
+"""Of what variables stand for, all in all and each: a few lines of `set(A ${A}${A})` can stand for anything."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CMakeProgram:
+    """A program that is to be compiled."""
+
+    name: str
+    """Of the file that is built."""
+    target: str
+    sources: tuple[str, ...]
+    """As written, with the variables replaced that are known."""
+    file: Path
+    line: int
+
+
+def cmake_programs(folder: Path) -> list[CMakeProgram]:
+    """Read the programs of a package, those of its subdirectories included."""
+    reader = _Reader(folder.name)
+    reader.read(folder)
+    return [replace(program, name=reader.output_names.get(program.target, program.name)) for program in reader.programs]
+
+
+class _Reader:
+    """Goes through commands in order, as CMake does, without conditions and loops."""
+
+    def __init__(self, package: str) -> None:
+        self.programs: list[CMakeProgram] = []
+        self.output_names: dict[str, str] = {}
+        """Target → what its file is called instead."""
+        self._variables: dict[str, list[str]] = {"PROJECT_NAME": [package], "CMAKE_PROJECT_NAME": [package]}
+        self._folders = 0
+        self._budget = _MOST_CHARACTERS
+
+    def read(self, folder: Path) -> None:
+        """Read a folder's CMakeLists.txt; one that is not there says nothing."""
+        self._folders += 1
+        file = folder / "CMakeLists.txt"
+        try:
+            text = read_text(file)
+        except OSError:
+            return
+        text = _COMMENT.sub(lambda match: "\n" * match[0].count("\n"), text)
+        for match in _COMMAND.finditer(text):
+            words = [word for quoted, plain in _WORD.findall(match[2]) for word in self._expanded(quoted or plain)]
+            if words:
+                self._run(match[1].lower(), words, file, text.count("\n", 0, match.start()) + 1)
+
+    def _run(self, command: str, words: list[str], file: Path, line: int) -> None:
+        match command, words:
+            case "project", [name, *_]:
+                self._variables["PROJECT_NAME"] = [name]
+            case "set", [name, *values]:
+                self._variables[name] = values
+            case "file", ["GLOB" | "GLOB_RECURSE", name, *patterns]:
+                self._variables[name] = patterns
+            case "add_subdirectory", [inside, *_] if self._folders < _MOST_FOLDERS:
+                self.read(file.parent / inside)
+            case "set_target_properties", [target, *properties] if "OUTPUT_NAME" in properties[:-1]:
+                self.output_names[target] = properties[properties.index("OUTPUT_NAME") + 1]
+            case _, [target, *rest] if _ADDS.fullmatch(command):
+                sources = tuple(word for word in rest if word not in _NO_SOURCES)
+                self.programs.append(CMakeProgram(name=target, target=target, sources=sources, file=file, line=line))
+            case _:
+                pass
+
+    def _expanded(self, word: str) -> list[str]:
+        """A word with known variables replaced; one that is a variable alone may stand for several."""
+        if self._budget < 0:
+            return [word]
+        whole = _VARIABLE.fullmatch(word)
+        if whole is not None:
+            words = self._variables.get(whole[1], [word])
+        else:
+            words = [_VARIABLE.sub(lambda match: ";".join(self._variables.get(match[1], [match[0]]))[:_LONGEST], word)]
+        self._budget -= sum(map(len, words))
+        return words
