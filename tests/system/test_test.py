@@ -148,6 +148,7 @@ def test_a_graph_that_runs_is_taken_and_cleared_when_asked(trundle, package: Pat
         said = alone.stdout + alone.stderr
         assert "the graph is at" in said
         assert f"the graph is at {graph.core.uri}" not in said
+        assert ":11311" not in said  # which the next roscore of a user wants
         assert set(master.call("getParamNames")) == at_first
 
         reused = trundle("test", "p", "a.test", "-t", "-r", **where)

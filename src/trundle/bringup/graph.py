@@ -1,6 +1,6 @@
 """The ROS graph that a run takes part in: the one there is, or one started here."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Self
 
@@ -26,7 +26,7 @@ class Graph:
         environment: Mapping[str, str],
         *,
         host: str,
-        any_port: bool,
+        ports: Sequence[int] = (),
         log_folder: Callable[[str], Path | None] | None = None,
     ) -> Self:
         """Join the master that ROS_MASTER_URI names, else the default one; start it where none answers.
@@ -34,8 +34,8 @@ class Graph:
         Args:
             environment: ROS_MASTER_URI is read from it.
             host: address that a master started here binds.
-            any_port: with no ROS_MASTER_URI, prefer a new master on a free port to joining the default one, so
-                that ten runs side by side do not meet.
+            ports: with no ROS_MASTER_URI, where to start a new master, the first that is free (0: any), rather than
+                join the default one, so that ten runs side by side do not meet.
             log_folder: makes the folder for the logs of a master that is started here, from the run_id.
 
         Raises:
@@ -50,13 +50,13 @@ class Graph:
         loop = GraphLoop()
         loop.start()
         try:
-            if (named or not any_port) and _answers(uri):
+            if (named or not ports) and _answers(uri):
                 return cls(loop, uri, None, host)
             if machine not in _LOCAL:
                 raise UsageError(
                     f"no ROS master answers at {uri} (ROS_MASTER_URI); start one there, or unset ROS_MASTER_URI"
                 )
-            core = _start_core(loop, port, host, or_any=any_port and not named, log_folder=log_folder)
+            core = _start_core(loop, (port,) if named or not ports else ports, host, log_folder=log_folder)
             return cls(loop, core.uri, core, host)
         except BaseException:
             loop.stop()
@@ -65,8 +65,7 @@ class Graph:
     @property
     def story(self) -> str:
         """One line that says which graph this is."""
-        how = "joined" if self.core is None else "started"
-        return f"ROS master {how}: {self.master_uri}"
+        return f"ROS master started: {self.master_uri}" if self.core is not None else _joined(self.master_uri)
 
     def close(self) -> None:
         """Shut down every node here, then the master if it is ours."""
@@ -83,6 +82,19 @@ class Graph:
         self.close()
 
 
+def named_master(environment: Mapping[str, str]) -> str | None:
+    """Say which graph ROS_MASTER_URI has `Graph.open` join, if a master answers there."""
+    uri = environment.get("ROS_MASTER_URI")
+    try:
+        return None if not uri or not _answers(uri) else f"{_joined(uri)}, which ROS_MASTER_URI names"
+    except RosError:  # `Graph.open` says what is wrong with it
+        return None
+
+
+def _joined(uri: str) -> str:
+    return f"ROS master joined: {uri}"
+
+
 def _answers(uri: str) -> bool:
     try:
         MasterProxy(uri, timeout_s=2.0).call("getPid")
@@ -92,15 +104,20 @@ def _answers(uri: str) -> bool:
 
 
 def _start_core(
-    loop: GraphLoop, port: int, host: str, *, or_any: bool, log_folder: Callable[[str], Path | None] | None
+    loop: GraphLoop, ports: Sequence[int], host: str, *, log_folder: Callable[[str], Path | None] | None
 ) -> Core:
-    for candidate in (port, 0) if or_any else (port,):
-        core = Core(loop, port=candidate, host=host, log_folder=log_folder)
+    """Start a master at the first port that is free.
+
+    Raises:
+        PortTakenError: none is.
+    """
+    for port in ports:
+        core = Core(loop, port=port, host=host, log_folder=log_folder)
         try:
             loop.run(core.start())
         except PortTakenError:
-            if candidate == 0 or not or_any:
+            if port == ports[-1]:
                 raise
             continue
         return core
-    raise AssertionError("a free port is always found")
+    raise AssertionError("there is a port to try")

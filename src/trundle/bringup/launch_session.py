@@ -47,7 +47,7 @@ class LaunchSession:
         read: ReadLaunch,
         options: LaunchOptions,
         *,
-        any_port: bool = False,
+        ports: Sequence[int] = (),
         listener: Listener = lambda _event, _text: None,
     ) -> None:
         """Join or start a graph and set the parameters.
@@ -55,7 +55,7 @@ class LaunchSession:
         Args:
             read: what to launch.
             options: how.
-            any_port: where no master is named, start one on a free port, as tests do.
+            ports: as `Graph.open`.
             listener: is told what happens to each node, on the graph's thread.
         """
         self._read = read
@@ -67,15 +67,15 @@ class LaunchSession:
         self._page: GraphPage | None = None
         self._world: GazeboWorld | None = None
         try:
-            self._open(any_port=any_port)
+            self._open(ports)
         except BaseException:
             self._open_things.close()
             raise
 
-    def _open(self, *, any_port: bool) -> None:
+    def _open(self, ports: Sequence[int]) -> None:
         read, options, show = self._read, self._options, self._read.show
         graph = self.graph = self._open_things.enter_context(
-            Graph.open(read.env, host=options.host, any_port=any_port, log_folder=partial(log_folder, read.env))
+            Graph.open(read.env, host=options.host, ports=ports, log_folder=partial(log_folder, read.env))
         )
         show.line(graph.story)
         launcher = Node("/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False)

@@ -84,7 +84,7 @@ def _run(
         started = time.monotonic()
         if how.clear:
             _clear_params(MasterProxy(read.env["ROS_MASTER_URI"]))
-        with LaunchSession(read, replace(options, summary=False), any_port=True) as session:
+        with LaunchSession(read, replace(options, summary=False), ports=(0,)) as session:
             session.start(read.plan.nodes)
             did_run, cases = session.graph.loop.run(
                 _attempt(session, test, folder / f"rosunit-{test.name}.xml", text=how.text), timeout_s=None

@@ -54,6 +54,8 @@ class Outcome:
     world: World
     snapshot: Snapshot
     steps: int
+    simulated_s: float
+    """Over all of the run, as are the steps; a reset sets the time of the snapshot back."""
     wall_s: float
     images: int
     """Camera pictures finished."""
@@ -69,7 +71,7 @@ class Outcome:
     @property
     def real_time_factor(self) -> float | None:
         """Simulated over wall time, from the first step to the last."""
-        return self.time_s / self.wall_s if self.wall_s > 0 else None
+        return self.simulated_s / self.wall_s if self.wall_s > 0 else None
 
     def as_json(self) -> OutcomeJson:
         """The final state; lists are in file order, poses and twists in the world frame."""
@@ -91,9 +93,9 @@ class Outcome:
         """A few lines for a person: time, speed, images, and where each model stands that can move."""
         factor = self.real_time_factor
         speed = "" if factor is None else f", {factor:.3g} times real time"
-        lines = [
-            f"{self.time_s:.3f} s simulated in {self.wall_s:.2f} s{speed}; {self.steps} steps, {self.images} images"
-        ]
+        spent = f"{self.simulated_s:.3f} s simulated in {self.wall_s:.2f} s{speed}"
+        since = "" if self.simulated_s == self.time_s else f"; the last reset was {self.time_s:.3f} s ago"
+        lines = [f"{spent}; {self.steps} steps, {self.images} images{since}"]
         for described, model in zip(self.world.models, self._models(), strict=True):
             if not described.static:
                 x, y, z, roll, pitch, yaw = model["pose"]

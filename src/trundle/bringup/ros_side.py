@@ -8,7 +8,7 @@ from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, MeasuringSensor
 from trundle.simulation import Simulation
 
-from .graph import Graph
+from .graph import DEFAULT_PORT, Graph
 from .plugins import attach_sensor_plugins
 from .stage import Stage
 
@@ -71,7 +71,7 @@ class RosSide:
         host: str,
     ) -> Self:
         """Join or start a graph and put the simulation on it."""
-        graph = Graph.open(environment, host=host, any_port=True)
+        graph = Graph.open(environment, host=host, ports=(DEFAULT_PORT, 0))
         try:
             return cls(graph, simulation, cameras, sensors, stage)
         except BaseException:
@@ -79,9 +79,9 @@ class RosSide:
             raise
 
     @property
-    def story(self) -> str:
-        """One line that says which graph this is."""
-        return self._graph.story
+    def graph(self) -> Graph:
+        """What the simulation takes part in."""
+        return self._graph
 
     def make_node(self, name: str) -> Node:
         """A node on simulation time, whose callbacks run on the simulation's thread between two steps."""

@@ -17,6 +17,7 @@ from trundle.simulation import Simulation, SimulationUnstableError, with_actors
 
 from .described_file import name_workspace
 from .exposure import warn_of_exposure
+from .graph import named_master
 from .outcome import Outcome
 from .pace import NS, Pacer, take_turns
 from .plugins import load_plugins, load_world_plugins
@@ -76,6 +77,8 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
     env = dict(os.environ if environment is None else environment)
     report = Diagnostics(strict=options.strict)
     show = Showing(sys.stderr, report)
+    if options.ros and (joined := named_master(env)):
+        show.line(f"{joined}: something else started it")
     warn_of_exposure(options.host, show.line)
     with stop_flag() as stop, ExitStack() as open_things:
         packages = Packages(env, start=Path.cwd())
@@ -95,7 +98,8 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             from .ros_side import RosSide
 
             ros = open_things.enter_context(RosSide.open(simulation, stage, cameras, sensors, env, host=options.host))
-            show.line(ros.story)
+            if ros.graph.core is not None:
+                show.line(ros.graph.story)
         if options.record is not None:
             from .state_logs import RunRecorder, begin_state_log
 
@@ -120,7 +124,8 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         return Outcome(
             world=with_actors(stage.written, report),
             snapshot=simulation.snapshot(),
-            steps=simulation.steps,
+            steps=simulation.simulated_steps,
+            simulated_s=simulation.simulated_ns / NS,
             wall_s=wall_s,
             images=sum(camera.images for camera in cameras),
             report=report,

@@ -60,6 +60,8 @@ class Simulation:
         """What handles have pushed."""
         self._timeline = Timeline(step_ns_of(world))
         self.steps = 0
+        self._before_resets = (0, 0)
+        """Time [ns] and steps that resets have taken back."""
         self.models = handles_of(self, self.world, {})
         self.joints = world_joints_of(self, self.world, {})
         """Between models, in file order."""
@@ -83,6 +85,16 @@ class Simulation:
     def time_ns(self) -> int:
         """Simulation time [ns]."""
         return self._timeline.time_ns(self.steps)
+
+    @property
+    def simulated_ns(self) -> int:
+        """How much has been simulated [ns], whatever resets have taken back."""
+        return self._before_resets[0] + self.time_ns
+
+    @property
+    def simulated_steps(self) -> int:
+        """In how many steps."""
+        return self._before_resets[1] + self.steps
 
     @property
     def step_ns(self) -> int:
@@ -205,6 +217,7 @@ class Simulation:
             self.engine.reset()
             self.pushes.clear()
         if time:
+            self._before_resets = (self.simulated_ns, self.simulated_steps)
             self.steps = 0
             self.pushes.shift(-steps)
             self._follow(Timeline(self.step_ns))
