@@ -1,8 +1,11 @@
 """`trundle bag record`: what is recorded until when, and under which name."""
 
+import os
+import shutil
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -68,3 +71,45 @@ def test_a_prefix_that_ends_in_bag_loses_that(graph: Any, original: Any, tmp_pat
     assert graph.trundle("bag", *words, str(tmp_path / "ours.bag"))[0] == 0
     original("rosbag", *words, str(tmp_path / "theirs.bag"))
     assert sorted(path.name.partition("_")[0] for path in tmp_path.glob("*.bag")) == ["ours", "theirs"]
+
+
+@pytest.mark.parametrize("cause", ["full", "removed"])
+def test_a_recording_that_breaks_off_fails(graph: Any, tmp_path: Path, cause: str) -> None:
+    """On a disk that is full (files of 512 or 1024 bytes times 20 are the largest), or without its folder."""
+    publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
+    folder = tmp_path / "bags"
+    folder.mkdir()
+    limit = 'ulimit -f 20 && exec "$@"' if cause == "full" else 'exec "$@"'
+    trundle = (sys.executable, "-m", "trundle", "bag", "record", "-q", "-O", str(folder / "x.bag"), "-a")
+    with subprocess.Popen(["sh", "-c", limit, "sh", *trundle], stderr=subprocess.PIPE, text=True) as process:
+        try:
+            graph.until(lambda: publisher.has_subscribers)
+            if cause == "removed":
+                shutil.rmtree(folder)
+            while process.poll() is None:
+                publisher.publish({"data": 1000 * "."})
+                time.sleep(0.005)
+            assert process.stderr is not None
+            said = process.stderr.read()
+        finally:
+            process.kill()
+    why = "File too large" if cause == "full" else "No such file or directory"
+    assert process.returncode == 1
+    assert f"recording broke off: {folder}/x.bag.active: {why}" in said
+    if cause == "full":
+        assert {message.connection.topic for message in recovered(folder / "x.bag.active")} >= {"/a"}
+
+
+@pytest.mark.slow
+def test_a_launch_whose_recording_breaks_off_fails(tmp_path: Path) -> None:
+    file = tmp_path / "a.launch"
+    file.write_text(
+        '<launch><node pkg="rostopic" type="rostopic" name="talk" '
+        f'args="pub -r 100 /a std_msgs/String {3000 * "."}"/></launch>'
+    )
+    command = [sys.executable, "-m", "trundle", "launch", str(file), "--headless", "--record", str(tmp_path / "x.bag")]
+    env = {**os.environ, "HOME": str(tmp_path), "ROS_MASTER_URI": "http://127.0.0.1:0"}
+    limited = ["sh", "-c", 'ulimit -f 2000 && exec "$@"', "sh", *command]
+    done = subprocess.run(limited, env=env, capture_output=True, text=True, check=False, timeout=PATIENCE_S)
+    assert done.returncode == 1
+    assert f"recording broke off: {tmp_path}/x.bag.active: File too large" in done.stderr

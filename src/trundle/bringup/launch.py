@@ -21,7 +21,7 @@ from .signals import StopFlag, stop_flag
 
 
 def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[str, str] | None = None) -> int:
-    """Launch; return the exit code: 0 when the time is over, 1 when a required node died.
+    """Launch; return the exit code: 0 when the time is over, 1 when a required node died or recording broke off.
 
     As roslaunch, it ends with its last node only where the master is another's.
 
@@ -125,7 +125,10 @@ def _run(read: ReadLaunch, options: LaunchOptions, stop: StopFlag) -> int:
             read.show.findings()
             silent.look()
             over = session.is_over or running.required_died or (running.over and not session.has_master)
+            over = over or session.recording_broke_off
         required_died = running.required_died
+    if session.recording_broke_off:  # as the bag was closed, too
+        return 1
     if stop.is_set():
         return 130
     return 1 if required_died else 0

@@ -63,6 +63,7 @@ class LaunchSession:
         self._listener = listener
         self._open_things = ExitStack()
         self._running: RunningNodes | None = None
+        self.recording_broke_off = False
         self._steps: Steps | None = None
         self._page: GraphPage | None = None
         self._world: GazeboWorld | None = None
@@ -134,7 +135,7 @@ class LaunchSession:
         """Write every topic into a bag; return who does it where that is done in step with the nodes."""
         graph = self.graph
         if in_step and not programs:
-            steps = StepRecorder(graph.loop, file, complain=self._read.show.line)
+            steps = StepRecorder(graph.loop, file, complain=self._complain)
             self._open_things.callback(steps.close)
             self._read.show.line(
                 f"{file} will be the same whenever this is run; /rosout and other programs are left out"
@@ -147,10 +148,14 @@ class LaunchSession:
         self._open_things.callback(lambda: graph.loop.run(node.shutdown(), timeout_s=_START_S))
         graph.loop.run(follow_time(node))
         options = RecordOptions(all_topics=True, path=file)
-        recorder = Recorder(node, options, say=node.log_debug, complain=self._read.show.line)
+        recorder = Recorder(node, options, say=node.log_debug, complain=self._complain)
         recorder.start()
         self._open_things.callback(recorder.stop)
         return None
+
+    def _complain(self, why: str) -> None:
+        self.recording_broke_off = True
+        self._read.show.line(why)
 
     def _may_tell_time(self, launcher: Node) -> bool:
         """Whether nobody else does: a simulation, a graph that was there, or a bag that will be played."""

@@ -62,6 +62,7 @@ class Outcome:
     report: Diagnostics
     interrupted: bool
     """By Ctrl-C or SIGTERM."""
+    recording_broke_off: bool
 
     @property
     def time_s(self) -> float:

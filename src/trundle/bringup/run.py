@@ -17,7 +17,6 @@ from trundle.simulation import Simulation, SimulationUnstableError, with_actors
 
 from .described_file import name_workspace
 from .exposure import warn_of_exposure
-from .graph import named_master
 from .outcome import Outcome
 from .pace import NS, Pacer, take_turns
 from .plugins import load_plugins, load_world_plugins
@@ -29,6 +28,7 @@ from .stage import set_stage
 if TYPE_CHECKING:  # a run without a page or a graph starts without their modules
     from .page import Page
     from .ros_side import RosSide
+    from .state_logs import RunRecorder
 
 OnInstability: TypeAlias = Literal["pause", "reset", "exit"]
 _MOST_RESETS = 10
@@ -77,8 +77,11 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
     env = dict(os.environ if environment is None else environment)
     report = Diagnostics(strict=options.strict)
     show = Showing(sys.stderr, report)
-    if options.ros and (joined := named_master(env)):
-        show.line(f"{joined}: something else started it")
+    if options.ros:
+        from .graph import named_master
+
+        if joined := named_master(env):
+            show.line(f"{joined}: something else started it")
     warn_of_exposure(options.host, show.line)
     with stop_flag() as stop, ExitStack() as open_things:
         packages = Packages(env, start=Path.cwd())
@@ -100,6 +103,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             ros = open_things.enter_context(RosSide.open(simulation, stage, cameras, sensors, env, host=options.host))
             if ros.graph.core is not None:
                 show.line(ros.graph.story)
+        recorder = None
         if options.record is not None:
             from .state_logs import RunRecorder, begin_state_log
 
@@ -119,7 +123,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             at = PageAddress(host=options.host, port=options.port, allowed=options.allowed)
             page = open_things.enter_context(Page.open(simulation, shown, ros, at))
             show.line(f"see it at {page.url}")
-        wall_s = _drive(simulation, ros, page, options, stop, show.line)
+        wall_s = _drive(simulation, ros, page, options, stop, show.line, recorder=recorder)
         show.findings()
         return Outcome(
             world=with_actors(stage.written, report),
@@ -130,6 +134,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             images=sum(camera.images for camera in cameras),
             report=report,
             interrupted=stop.is_set(),
+            recording_broke_off=recorder is not None and recorder.broke_off,
         )
 
 
@@ -140,8 +145,10 @@ def _drive(
     options: RunOptions,
     stop: StopFlag,
     say: Callable[[str], None],
+    *,
+    recorder: "RunRecorder | None",
 ) -> float:
-    """Step until the time is over or somebody asks to stop; return the wall time it took [s].
+    """Step until the time is over, recording breaks off or somebody asks to stop; return the wall time it took [s].
 
     Raises:
         SimulationUnstableError: the physics blew up, and that is to be the end.
@@ -170,6 +177,8 @@ def _drive(
             continue
         if ros is not None:
             ros.tick(wait=pacer.speed is None)
+        if recorder is not None and recorder.broke_off:
+            break
     return time.monotonic() - started
 
 

@@ -23,23 +23,25 @@ def begin_state_log(path: Path, simulation: Simulation, world: World, report: Di
 
 
 class RunRecorder:
-    """A hook that logs a run; where the log cannot go on, the run does."""
+    """A hook that logs a run, as far as it can be written."""
 
     period_ns = StateRecorder.period_ns
 
     def __init__(self, recorder: StateRecorder, say: Callable[[str], None]) -> None:
         self._recorder = recorder
-        self._say: Callable[[str], None] | None = say
+        self._say = say
+        self.broke_off = False
+        """Whether it could not be written; nothing is written any more."""
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Write where everything is, up to the first time that it cannot be."""
-        if self._say is None:
+        if self.broke_off:
             return
         try:
             self._recorder.after_step(snapshot)
         except OSError as error:
             self._say(f"recording broke off: {error.filename}: {error.strerror}; trundle play shows what it holds")
-            self._say = None
+            self.broke_off = True
 
     def close(self) -> None:
         """End the file."""

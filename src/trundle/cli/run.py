@@ -71,6 +71,8 @@ def main(args: argparse.Namespace) -> int:
         print()
     else:
         print(outcome.summary())
+    if outcome.recording_broke_off:
+        return 1
     return 130 if outcome.interrupted else 0
 
 

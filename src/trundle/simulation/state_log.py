@@ -69,6 +69,7 @@ class StateRecorder:
         try:
             self._file.write(data)
             self._file.flush()
+            self._path.stat()  # a file that was removed takes everything, and keeps nothing
         except OSError as error:
             with contextlib.suppress(OSError):  # what did not fit before does not now
                 self._file.close()

@@ -268,6 +268,7 @@ class Recorder:
                     return
             if time.monotonic() - flushed >= _FLUSH_S:
                 self._writer.flush()
+                self._active.stat()  # a file that was removed takes everything, and keeps nothing
                 flushed = time.monotonic()
             if is_last:
                 return
