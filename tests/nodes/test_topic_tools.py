@@ -155,3 +155,26 @@ def test_a_lazy_throttle_and_a_hidden_relay_listen_while_others_do(stage) -> Non
     source.publish({"data": "wanted"})
     stage.until(lambda: [m.data for m in heard] == ["wanted"])
     assert others
+
+
+def test_a_hidden_relay_waits_for_its_first_message_however_long_it_takes(stage) -> None:
+    """Nobody subscribes to a topic that is not there yet, so that it heard nothing, and was never there."""
+    looks: list[str] = []
+    stage.start("topic_tools/relay", "in copy", stealth=True, monitor_topic="other", monitor_rate=0.1)
+    (node,) = (node for _, node in stage._running)
+    ask = node.ask
+
+    def asked(method: str, *arguments: object):
+        looks.append(method)
+        return ask(method, *arguments)
+
+    node.ask = asked
+    stage.until(lambda: looks.count("getSystemState") >= 3)
+    source = stage.speak("/in", STRING)
+    source.publish({"data": "to learn the type"})
+    stage.until(lambda: not source.has_subscribers)
+    copies = stage.listen("/copy", STRING)
+    stage.listen("/other", STRING)
+    stage.until(lambda: source.has_subscribers)
+    stage.until(lambda: source.publish({"data": "wanted"}) or copies)
+    assert copies[0].data == "wanted"

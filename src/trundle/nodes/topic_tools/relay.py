@@ -31,18 +31,23 @@ class Relay:
         inlet.open()
         if settings.flag("stealth", default=False):
             monitored = node.resolve(settings.text("monitor_topic", source))
-            await self._hide(inlet, monitored, every_s=settings.number("monitor_rate", 1.0))
+            await self._hide(inlet, outlet, monitored, every_s=settings.number("monitor_rate", 1.0))
         elif settings.flag("lazy", default=False):
             await listen_lazily(node, outlet, lambda: [(inlet, True)])
         await node.closed.wait()
         return 0
 
-    async def _hide(self, inlet: Inlet, monitored: str, *, every_s: float) -> None:
-        """Listen only while another node subscribes to a topic; looks every so often: the original calls it a rate."""
+    async def _hide(self, inlet: Inlet, outlet: Outlet, monitored: str, *, every_s: float) -> None:
+        """Listen only while another node subscribes to a topic; looks every so often: the original calls it a rate.
+
+        Before the type is known nobody can subscribe to what is passed on: the first message is waited for.
+        """
         node = self._node
         while not node.closed.is_set():
             _, subscribers, _ = await node.ask("getSystemState")
-            if any(topic == monitored and set(nodes) - {node.name} for topic, nodes in subscribers):
+            if not outlet.is_typed or any(
+                topic == monitored and set(nodes) - {node.name} for topic, nodes in subscribers
+            ):
                 inlet.open()
             else:
                 inlet.close()
