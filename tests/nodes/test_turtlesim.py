@@ -42,6 +42,15 @@ def test_a_turtle_goes_sideways_and_tells_how_fast() -> None:
     assert (turtle.x, turtle.y, turtle.linear_velocity) == (pytest.approx(4.7), pytest.approx(5.4), 5.0)
 
 
+def test_a_command_that_comes_late_does_not_change_what_was_before_it() -> None:
+    turtle = Turtle(1.0, 1.0, 0.0, size=SIZE_M)
+    turtle.command(1.0, 0.0, 0.0, now_ns=0)
+    turtle.command(2.0, 0.0, 0.0, now_ns=400_000_000)
+    for tick in range(10):
+        turtle.move(0.1, now_ns=tick * 100_000_000)
+    assert turtle.x == pytest.approx(1.0 + 4 * 0.1 + 6 * 0.2)
+
+
 def test_walls_hold_a_turtle() -> None:
     turtle = Turtle(SIZE_M - 0.1, 1.0, 0.0, size=SIZE_M)
     turtle.command(5.0, 0.0, 0.0, now_ns=0)
@@ -92,6 +101,23 @@ def test_a_turtle_follows_commands_and_another_mimics_it(stage) -> None:
 
     stage.until(moved)
     assert poses[-1].y == pytest.approx(2.0)
+
+
+def test_a_turtle_gets_as_far_as_the_time_allows_though_passes_come_late(stage) -> None:
+    """As on a busy machine; here simulated time passes in large steps."""
+    stage.set_params({"/use_sim_time": True})
+    stage.start("turtlesim/turtlesim_node")
+    clock = stage.speak("/clock", "rosgraph_msgs/Clock")
+    commands = stage.speak("/turtle1/cmd_vel", "geometry_msgs/Twist")
+    poses = stage.listen("/turtle1/pose", "turtlesim/Pose")
+    stage.until(lambda: stage.connected("/turtle1/pose"))
+    for seconds, x in ((10.0, 0.0), (10.5, 0.5), (11.5, 1.0), (13.0, 1.0), (2.0, 1.0), (3.0, 1.0)):
+        before = len(poses)
+        clock.publish({"clock": round(seconds * 1e9)})
+        stage.until(lambda before=before: len(poses) > before)
+        assert poses[-1].x == pytest.approx(SIZE_M / 2.0 + x, abs=0.033)
+        if seconds == 10.0:
+            commands.publish({"linear": {"x": 1.0}})  # holds for a second
 
 
 def test_draw_square_sets_off(stage) -> None:

@@ -10,8 +10,11 @@ from ..rate import Rate
 from .picture import SIZE_M, SIZE_PX, Picture
 from .turtle import Colour, Turtle
 
-_RATE_HZ = 62.5
-"""The original's window timer, 16 ms."""
+_NS = 1_000_000_000
+_TICK_NS = 16_000_000
+"""The original's window timer."""
+_MOST_BEHIND_NS = 2_000_000_000
+"""By then every turtle stands: a command holds for a second."""
 _PICTURE_EVERY = 6
 """Passes between two pictures: ten a second."""
 _BACKGROUND: Colour = (0x45, 0x56, 0xFF)
@@ -79,11 +82,22 @@ class TurtleSim:
                 window.cancel()
 
     async def _move_all(self, image: Publisher) -> int:
-        rate, count = Rate(self._node, _RATE_HZ), 0
+        clock = self._node.clock
+        rate, count = Rate(self._node, _NS / _TICK_NS), 0
+        moved_ns = clock.now_ns()
         while True:
             await rate.sleep()
-            for name, registered in list(self._turtles.items()):
-                self._move(name, registered)
+            now_ns = clock.now_ns()
+            if moved_ns > now_ns:  # time went back
+                moved_ns = now_ns - _TICK_NS
+            # A pass that comes late makes up for it: as far as a turtle gets is a matter of time, not of passes.
+            moved_ns = max(moved_ns, now_ns - _MOST_BEHIND_NS)
+            while moved_ns + _TICK_NS <= now_ns:
+                moved_ns += _TICK_NS
+                for name, registered in self._turtles.items():
+                    self._move(name, registered.turtle, moved_ns)
+            for registered in list(self._turtles.values()):
+                self._publish(registered)
             count += 1
             if count % _PICTURE_EVERY == 0 and image.has_subscribers:
                 image.publish(self._image())
@@ -119,12 +133,15 @@ class TurtleSim:
         self._turtles[name] = registered
         node.log_info(f"Spawning turtle [{name}] at x=[{turtle.x:f}], y=[{turtle.y:f}], theta=[{turtle.theta:f}]")
 
-    def _move(self, name: str, registered: _Registered) -> None:
-        turtle = registered.turtle
+    def _move(self, name: str, turtle: Turtle, now_ns: int) -> None:
         before = (turtle.x, turtle.y)
-        turtle.move(1.0 / _RATE_HZ, now_ns=self._node.clock.now_ns())
+        turtle.move(_TICK_NS / _NS, now_ns=now_ns)
         if turtle.hit_wall:
             self._node.log_warn(f"Oh no! I hit the wall! ({name} is held at x=[{turtle.x:f}], y=[{turtle.y:f}])")
+        self._draw(turtle, before)
+
+    def _publish(self, registered: _Registered) -> None:
+        turtle = registered.turtle
         red, green, blue = self._picture.colour_at(turtle.x, turtle.y)
         registered.colour.publish({"r": red, "g": green, "b": blue})
         registered.pose.publish(
@@ -136,7 +153,6 @@ class TurtleSim:
                 "angular_velocity": turtle.angular_velocity,
             }
         )
-        self._draw(turtle, before)
 
     def _draw(self, turtle: Turtle, before: tuple[float, float]) -> None:
         if turtle.pen.on and before != (turtle.x, turtle.y):

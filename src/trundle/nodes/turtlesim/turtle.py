@@ -1,11 +1,15 @@
 """One turtle: where it is, how it moves, and the pen it holds."""
 
 import math
+from collections import deque
 from dataclasses import dataclass
 
 Colour = tuple[int, int, int]
 _COMMAND_HOLDS_NS = 1_000_000_000
 """A turtle that hears nothing for a second stops."""
+_MOST_COMING = 100
+_Velocity = tuple[float, float, float]
+_REST: _Velocity = (0.0, 0.0, 0.0)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -28,18 +32,21 @@ class Turtle:
         self.hit_wall = False
         """Whether the last move ended at a wall."""
         self._size = size
-        self._command = (0.0, 0.0, 0.0)
-        self._command_ns: int | None = None
+        self._command = _REST
+        self._command_ns = 0
+        self._coming: deque[tuple[int, _Velocity]] = deque(maxlen=_MOST_COMING)
+        """Commands, each with when it came [ns]."""
 
     def command(self, x: float, y: float, turn: float, *, now_ns: int) -> None:
         """Take a velocity [m/s, m/s, rad/s], for one second."""
-        self._command = (x, y, turn)
-        self._command_ns = now_ns
+        self._coming.append((now_ns, (x, y, turn)))
 
     def move(self, dt_s: float, *, now_ns: int) -> None:
-        """Move for a time."""
-        if self._command_ns is None or now_ns - self._command_ns > _COMMAND_HOLDS_NS:
-            self._command = (0.0, 0.0, 0.0)
+        """Move for a time, by the last command that had come by then."""
+        while self._coming and self._coming[0][0] <= now_ns:
+            self._command_ns, self._command = self._coming.popleft()
+        if abs(now_ns - self._command_ns) > _COMMAND_HOLDS_NS:  # or time went back
+            self._command = _REST
         forwards, sideways, turn = self._command
         self.theta = _wrapped(self.theta + turn * dt_s)
         cos, sin = math.cos(self.theta), math.sin(self.theta)
