@@ -95,3 +95,12 @@ def test_a_tool_takes_its_words_as_they_are(graph: Any) -> None:
     assert graph.trundle("exec", "rosparam", "rosparam", "set", "/a", "5") == (0, "", "")
     assert graph.trundle("exec", "rosparam", "rosparam", "get", "/a", "__name:=me") == (0, "5\n", "")
     assert graph.trundle("exec", "rosparam", "rosparam", "get", "/none")[0] == 1
+
+
+def test_a_script_whose_python_has_no_rospy_is_told_the_way_out(programs: list[Path]) -> None:
+    programs[1].unlink()
+    programs[0].write_text(f"#!{sys.executable} -s\nimport rospy\n")
+    done = subprocess.run(COMMAND, capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+    assert done.returncode == 1
+    first, *_ = done.stderr.splitlines()
+    assert first.startswith(f"trundle exec: {programs[0]}: its Python has no rospy, which a ROS has")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.nodes import interpreter
+from trundle.nodes import interpreter, lacks_rospy, module_of_ros
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="only POSIX systems read a script's first line")
 
@@ -76,3 +76,27 @@ def test_what_needs_no_rospy_or_says_where_it_is_goes_by_its_first_line(
 @pytest.mark.parametrize("first", ["#!/usr/bin/env python", "#!/nowhere/bin/python"])
 def test_where_there_is_no_python_this_one_runs_it(tmp_path: Path, first: str) -> None:
     assert _asked(tmp_path, first, tmp_path, imports="math") == [sys.executable]
+
+
+@pytest.mark.parametrize(
+    ("output", "module"),
+    [
+        ("  File x\n    ModuleNotFoundError: No module named 'rospy'", "rospy"),
+        ("ImportError: No module named rospy", "rospy"),
+        ("ModuleNotFoundError: No module named 'geometry_msgs'", "geometry_msgs"),
+        ("ModuleNotFoundError: No module named 'std_msgs.msg'", "std_msgs"),
+        ("ModuleNotFoundError: No module named 'rospyx'", None),
+        ("ModuleNotFoundError: No module named 'numpy'", None),
+        ("it said: No module named 'rospy'", None),
+    ],
+)
+def test_the_module_of_ros_that_a_script_died_for_is_found(output: str, module: str | None) -> None:
+    assert module_of_ros(f"Traceback:\n{output}\n") == module
+
+
+@pytest.mark.parametrize(("imports", "lacks"), [("rospy", True), ("math", False)])
+def test_the_python_that_a_script_names_is_asked_for_rospy(tmp_path: Path, imports: str, lacks: bool) -> None:
+    script = _program(tmp_path / "node.py", f"#!{sys.executable} -s\nimport {imports}\n")
+    assert lacks_rospy(script, {"PATH": os.defpath}) is lacks
+    (tmp_path / "rospy").mkdir()
+    assert not lacks_rospy(script, {"PATH": os.defpath, "PYTHONPATH": str(tmp_path)})

@@ -581,3 +581,13 @@ def test_a_launch_that_is_killed_takes_its_nodes_with_it(start, package: Path, t
             "its end",
             lambda pid=pid: not (status := Path(f"/proc/{pid}/status")).exists() or "Z (z" in status.read_text(),
         )
+
+
+def test_a_node_whose_python_has_no_rospy_is_told_the_way_out(launch: Launch, package: Path) -> None:
+    script = package / "asks.py"
+    script.write_text(f"#!{sys.executable} -s\nimport rospy\n")
+    script.chmod(0o755)
+    (package / "main.launch").write_text('<launch><node pkg="p" type="asks.py" name="asks"/></launch>')
+    done = launch("p", "main.launch", "--headless")
+    assert "[asks-1] process has died [exit code 1]" in done.stdout
+    assert "\n[asks-1] its Python has no rospy, which a ROS has" in done.stdout

@@ -5,7 +5,7 @@ from collections.abc import Awaitable, Callable, Sequence
 from typing import TypeAlias
 
 from trundle.launch import LaunchNode
-from trundle.nodes import WORLDS
+from trundle.nodes import WORLDS, module_of_ros, without_rospy
 from trundle.supervisor import Event, Patience, Supervisor
 
 from .launch_nodes import Launched, NodeStarter
@@ -89,6 +89,8 @@ class RunningNodes:
             case "finished" | "died":
                 log = self._logs[name]
                 text = f"[{name}] process {event.text}{log and f'{chr(10)}log file: {log}'}"
+                if module := module_of_ros(event.text):
+                    text = f"{text}\n[{name}] {without_rospy(module)}"
             case "required":
                 text = f"{_RULE}\nREQUIRED process [{name}] has died!\nInitiating shutdown!\n{_RULE}"
             case _:

@@ -46,7 +46,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Become the program; or run the stand-in for a stock node here, until Ctrl-C."""
-    from trundle.nodes import Executable, Missing, Replacement, find_node, interpreter, namesakes
+    from trundle.nodes import (
+        Executable,
+        Missing,
+        Replacement,
+        find_node,
+        interpreter,
+        lacks_rospy,
+        namesakes,
+        without_rospy,
+    )
     from trundle.packages import Packages
 
     packages = Packages(os.environ, start=Path.cwd())
@@ -67,6 +76,8 @@ def main(args: argparse.Namespace) -> int:
             if args.debug:
                 print(f"[rosrun] Running {args.prefix} {path}")
             sys.stdout.flush()
+            if lacks_rospy(path, os.environ):
+                print(f"trundle exec: {path}: {without_rospy('rospy')}", file=sys.stderr, flush=True)
             try:
                 os.execvp(command[0], command)
             except OSError as error:

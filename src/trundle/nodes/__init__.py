@@ -5,7 +5,7 @@ from .find import Executable, Missing, Replacement, find_node, namesakes, progra
 from .host import Display, Host, Simulator, Slider, StandIn
 from .node_names import default_name
 from .run import run_stand_in
-from .scripts import interpreter
+from .scripts import interpreter, lacks_rospy, module_of_ros, without_rospy
 
 __all__ = [
     "CLIENTS",
@@ -24,7 +24,10 @@ __all__ = [
     "default_name",
     "find_node",
     "interpreter",
+    "lacks_rospy",
+    "module_of_ros",
     "namesakes",
     "program_names",
     "run_stand_in",
+    "without_rospy",
 ]

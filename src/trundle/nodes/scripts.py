@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+import subprocess
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -14,6 +15,13 @@ _WANTED = re.compile(rb"^\s*(?:import|from)\s+(rospy|roslib|\w+(?=\.(?:msg|srv)\
 """Modules that only a ROS has, or a workspace that was built."""
 _ASKS = re.compile(rb"#!\s*(?:/usr/bin/env\s+(?=python)|(?=/))(python3?|\S*/python)\s*$", re.MULTILINE)
 """A first line that leaves open which Python is meant."""
+_FIRST_LINE = re.compile(rb"#!\s*(?:/usr/bin/env\s+)?(\S+)")
+_NOT_FOUND = re.compile(
+    r"^\s*(?:ModuleNotFoundError|ImportError): No module named '?"
+    r"(rospy|roslib|rosgraph|actionlib|cv_bridge|dynamic_reconfigure|message_filters|tf|tf2_\w+|\w+_(?:msgs|srvs))\b",
+    re.MULTILINE,
+)
+_NO_ROSPY, _ASKING_S = 79, 10.0
 _DEBIAN_PYTHON, _DEBIAN_MODULES = "/usr/bin/python3", "/usr/lib/python3/dist-packages"
 
 
@@ -22,6 +30,38 @@ def can_run(program: Path, env: Mapping[str, str]) -> bool:
     wanted = {os.fsdecode(name) for name in _WANTED.findall(_beginning(program))}
     folders = [_DEBIAN_MODULES, *_told(env)]
     return all(any(os.path.isdir(os.path.join(folder, name)) for folder in folders) for name in wanted)
+
+
+def lacks_rospy(program: Path, env: Mapping[str, str]) -> bool:
+    """Tell whether a script imports rospy, and the Python that is to run it, which is asked, has none."""
+    beginning = _beginning(program)
+    written = _FIRST_LINE.match(beginning)
+    if written is None or not _IMPORTS_ROSPY.search(beginning):
+        return False
+    python = shutil.which(next(iter(interpreter(program, env)), os.fsdecode(written[1])), path=env.get("PATH"))
+    if python is None or not Path(python).name.startswith("python"):
+        return False
+    ask = f"import importlib.util as u, sys; sys.exit({_NO_ROSPY} if u.find_spec('rospy') is None else 0)"
+    try:
+        done = subprocess.run([python, "-c", ask], env=dict(env), capture_output=True, timeout=_ASKING_S, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return done.returncode == _NO_ROSPY
+
+
+def module_of_ros(output: str) -> str | None:
+    """The module of ROS for want of which a Python program died, as its last output says; None: it did not."""
+    found = _NOT_FOUND.findall(output)
+    return found[-1] if found else None
+
+
+def without_rospy(module: str) -> str:
+    """Say what can be done about a Python that has none of ROS' modules."""
+    return (
+        f"its Python has no {module}, which a ROS has, or a workspace that was built: where one is installed (Debian's "
+        "python3-rospy is enough) its Python runs the node; Trundle brings no rospy yet, but runs the nodes of "
+        "`trundle exec --list` without ROS"
+    )
 
 
 def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
@@ -50,7 +90,7 @@ def _beginning(program: Path) -> bytes:
 
 def _brings_rospy(python: Path) -> bool:
     """Whether a Python is Debian's, or has a rospy of its own."""
-    if python.resolve().parent == Path(_DEBIAN_PYTHON).parent:
+    if python.parent.resolve() == Path(_DEBIAN_PYTHON).parent:  # a virtual environment's leads there, too
         return True
     return any(_has_rospy(folder) for folder in python.parent.parent.glob("lib/python3*/site-packages"))
 
