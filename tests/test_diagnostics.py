@@ -1,6 +1,6 @@
 """Findings as they are printed."""
 
-from trundle.diagnostics import Diagnostics, Source
+from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError
 
 
 def test_what_is_said_of_many_lines_is_printed_once_worst_first() -> None:
@@ -19,3 +19,16 @@ def test_what_is_said_of_many_lines_is_printed_once_worst_first() -> None:
         "c.urdf: info: grey",
     ]
     assert len(report.findings) == 9
+
+
+def test_an_error_that_ends_nothing_is_said_once_and_where_it_is() -> None:
+    """A rendered error within a warning would name the place and the severity twice."""
+    report = Diagnostics()
+
+    report.warn_of(DescriptionError(Source("b.urdf", 3), "no mesh"), Source("a.urdf", 1), "it is left out")
+    report.warn_of(UsageError("no joint"), Source("a.urdf", 1), "it is left out", who="plugin 'p'")
+
+    assert report.warnings == [
+        "b.urdf:3: warning: no mesh; it is left out",
+        "a.urdf:1: warning: plugin 'p': no joint; it is left out",
+    ]

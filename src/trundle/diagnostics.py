@@ -86,6 +86,15 @@ class Diagnostics:
             raise DescriptionError(at, what)
         self._add(Diagnostic("warning", at, what))
 
+    def warn_of(self, error: TrundleError, at: Source, otherwise: str, *, who: str = "") -> None:
+        """Name an error that ends nothing, where it says itself or else at `at`; `otherwise` states what is done.
+
+        Raises:
+            DescriptionError: in strict mode.
+        """
+        where, what = (error.at, error.what) if isinstance(error, DescriptionError) else (at, str(error))
+        self.warn(where, f"{who}: {what}; {otherwise}" if who else f"{what}; {otherwise}")
+
     def info(self, at: Source, what: str) -> None:
         """Name a rule that fired and that a reader of the file may not expect."""
         self._add(Diagnostic("info", at, what))

@@ -85,6 +85,7 @@ def test_a_mesh_that_is_not_there_is_named_at_its_line(packages: Packages) -> No
     assert warning.startswith("car.urdf:4: warning: ")
     assert "package://car/hub.stl: no such file" in warning
     assert warning.endswith("; this shape is not drawn")
+    assert ": error: " not in warning
 
 
 def test_a_mesh_is_found_in_its_package_and_stretched(packages: Packages, tmp_path: Path) -> None:

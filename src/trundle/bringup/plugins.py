@@ -94,7 +94,7 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diag
                 attach(sensor, node, tag, report)
                 attached += 1
             except TrundleError as error:
-                report.warn(tag.at, f"{who}: {error}; the sensor has topics without")
+                report.warn_of(error, tag.at, "the sensor has topics without", who=who)
         if not attached:
             silent.append(sensor)
     return silent
@@ -113,10 +113,9 @@ def _named(owner: str, tags: Sequence[PluginTag]) -> list[tuple[PluginTag, str]]
 def _loaded(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _Kind | None:
     try:
         return load()
-    except DescriptionError as error:
-        report.warn(error.at, f"{error.what}; the run goes on without it")
     except TrundleError as error:
-        report.warn(tag.at, f"plugin {tag.name!r}: {error}; the run goes on without it")
+        who = "" if isinstance(error, DescriptionError) else f"plugin {tag.name!r}"
+        report.warn_of(error, tag.at, "the run goes on without it", who=who)
     except Exception as error:  # a user's code may raise anything
         report.warn(tag.at, f"plugin {tag.name!r}: {type(error).__name__}: {error}; the run goes on without it")
     return None

@@ -108,7 +108,7 @@ def _tree(data: bytes, path: Path) -> XmlNode:
     try:
         return parse_xml(data, name=str(path))
     except DescriptionError as error:
-        raise MeshError(str(error)) from None
+        raise MeshError(f"{error.at}: {error.what}") from None
 
 
 def _padded(values: NDArray[Any], width: int) -> NDArray[Any]:

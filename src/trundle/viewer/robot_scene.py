@@ -46,7 +46,7 @@ def _seen_from_afar(shape: RobotShape, packages: Packages, report: Diagnostics) 
     try:
         image = packages.resolve(shape.texture, beside=Path(shape.at.file).parent, at=shape.at)
     except TrundleError as error:
-        report.warn(shape.at, f"{error}; the texture is left out")
+        report.warn_of(error, shape.at, "the texture is left out")
         return None
     return mean_colour(image)
 
@@ -63,6 +63,6 @@ def _geometry(shape: RobotShape, packages: Packages, report: Diagnostics) -> Sha
             try:
                 mesh = load_mesh(packages.resolve(uri, beside=Path(shape.at.file).parent, at=shape.at))
             except TrundleError as error:
-                report.warn(shape.at, f"{error}; this shape is not drawn")
+                report.warn_of(error, shape.at, "this shape is not drawn")
                 return None
             return mesh.scaled(scale)

@@ -42,10 +42,8 @@ def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | N
         file = model_file(path, report) if path.is_dir() else path
         return _root(file, node, context)
     except (DescriptionError, UsageError) as error:
-        at = error.at if isinstance(error, DescriptionError) else node.at
-        what = error.what if isinstance(error, DescriptionError) else str(error)
-        where = "" if at == node.at else f" (what line {node.at.line} includes)"
-        report.warn(at, f"{what}{where}; the <include> is left out")
+        elsewhere = isinstance(error, DescriptionError) and error.at != node.at
+        report.warn_of(error, node.at, f"the <include>{f' on line {node.at.line}' if elsewhere else ''} is left out")
         return None
 
 
