@@ -149,7 +149,7 @@ def _whole(world: World) -> Model:
 
 
 def _urdf(robot: Robot) -> dict[str, object]:
-    poses = root_from_links(robot, {})
+    poses = root_from_links(robot, {joint.name: 0.0 for joint in robot.joints})
     return {
         "name": robot.name,
         "root": robot.root,

@@ -14,6 +14,7 @@ from pathlib import Path
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import (
     GREY,
+    UNLIMITED,
     Box,
     Collision,
     Cylinder,
@@ -98,7 +99,8 @@ class _Lowering:
 
     def model(self) -> Model:
         """The robot as one model."""
-        poses = root_from_links(self.robot, {})
+        # All at zero: Gazebo's conversion knows no mimics, whose offsets are no part of where a link's frame is.
+        poses = root_from_links(self.robot, {joint.name: 0.0 for joint in self.robot.joints})
         dropped = massless_lumps(self.robot, self.lumps, self.report)
         links = tuple(
             self._link(lump, poses[lump.name])
@@ -281,8 +283,8 @@ class _Lowering:
     def _axis(self, joint: RobotJoint, root_from_joint: Pose) -> JointAxis:
         limit = joint.limit
         bounded = limit is not None and joint.type not in ("continuous", "planar")
-        lower = limit.lower if limit is not None and bounded else -math.inf
-        upper = limit.upper if limit is not None and bounded else math.inf
+        lower = limit.lower if limit is not None and bounded and limit.lower > -UNLIMITED else -math.inf
+        upper = limit.upper if limit is not None and bounded and limit.upper < UNLIMITED else math.inf
         if lower > upper:
             what = f"joint {joint.name!r}: lower {lower:g} is above upper {upper:g}; swapped, as in Gazebo"
             self.report.warn(joint.at, what)
