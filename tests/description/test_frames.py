@@ -361,10 +361,10 @@ def test_a_pose_has_a_frame_until_1_6(tmp_path: Path, version: str, x: float, sa
 
 
 def test_a_mimic_s_offset_moves_no_link_of_a_converted_urdf(tmp_path: Path) -> None:
-    """As in libsdformat 9, whose conversion knows no mimics; limits of 1e16 are none there."""
+    """As in libsdformat 9, whose conversion knows no mimics; limits of 1e16 are none there, nor are those of −1."""
     body = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
     links = "".join(f'<link name="{name}">{body}</link>' for name in "abc")
-    limit = '<limit lower="-1e16" upper="1e16" effort="1" velocity="1"/><axis xyz="1 0 0"/>'
+    limit = '<limit lower="-1e16" upper="1e16" effort="-1" velocity="-1"/><axis xyz="1 0 0"/>'
     (tmp_path / "r.urdf").write_text(
         f'<robot name="r">{links}<joint name="j" type="prismatic"><parent link="a"/><child link="b"/>{limit}</joint>'
         f'<joint name="k" type="prismatic"><parent link="b"/><child link="c"/>{limit}<origin xyz="1 0 0"/>'
@@ -376,6 +376,6 @@ def test_a_mimic_s_offset_moves_no_link_of_a_converted_urdf(tmp_path: Path) -> N
     assert built.link("c").model_from_link.position == (1.0, 0.0, 0.0)
     axis = built.joints[1].axis
     assert axis is not None
-    assert (axis.lower, axis.upper) == (-math.inf, math.inf)
+    assert (axis.lower, axis.upper, axis.effort, axis.velocity) == (-math.inf, math.inf, math.inf, math.inf)
     assert axis.mimic is not None
     assert axis.mimic.offset == 0.5

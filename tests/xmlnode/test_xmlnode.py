@@ -136,3 +136,12 @@ def test_utf_16_is_read_with_a_warning() -> None:
 
     assert parse_xml("<a>1</a>".encode("utf-16"), name="x.sdf", report=report).text == "1"
     assert report.warnings == ["x.sdf:1: warning: UTF-16 text, which Gazebo and urdfdom refuse; save it as UTF-8"]
+
+
+def test_a_fault_is_one_line_though_the_text_it_quotes_is_several() -> None:
+    report = Diagnostics()
+
+    parse_xml("<!--\n two\n -- lines --><a/>", name="x.sdf", report=report)
+
+    (warning,) = report.warnings
+    assert "\n" not in warning

@@ -50,7 +50,7 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
         root = etree.fromstring(data.lstrip(), parser)
     except etree.XMLSyntaxError as error:
         line = (error.lineno or 1) + _blank_lines(data)
-        what = _POSITION.sub("", error.msg or "no element found")
+        what = " ".join(_POSITION.sub("", error.msg or "no element found").split())
         at = Source(name, line)
         if deepest > _DEEPEST and any(entry.type == _TOO_MUCH for entry in parser.error_log):
             root = _deep(data.lstrip(), deepest)

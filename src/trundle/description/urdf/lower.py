@@ -293,10 +293,15 @@ class _Lowering:
             direction=root_from_joint.direction(normalized(joint.axis) or (1.0, 0.0, 0.0)),
             lower=lower,
             upper=upper,
-            effort=math.inf if limit is None else limit.effort,
-            velocity=math.inf if limit is None else limit.velocity,
+            effort=math.inf if limit is None else _bound(limit.effort),
+            velocity=math.inf if limit is None else _bound(limit.velocity),
             damping=joint.damping,
             friction=joint.friction,
             spring_reference=self.tags.number(joint.name, "springReference", 0.0),
             spring_stiffness=self.tags.number(joint.name, "springStiffness", 0.0),
         )
+
+
+def _bound(value: float) -> float:
+    """An effort or velocity limit; the SDF that it becomes takes a negative one for none."""
+    return math.inf if value < 0 or value >= UNLIMITED else value
