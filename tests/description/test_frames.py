@@ -379,3 +379,23 @@ def test_a_mimic_s_offset_moves_no_link_of_a_converted_urdf(tmp_path: Path) -> N
     assert (axis.lower, axis.upper, axis.effort, axis.velocity) == (-math.inf, math.inf, math.inf, math.inf)
     assert axis.mimic is not None
     assert axis.mimic.offset == 0.5
+
+
+def test_an_include_in_a_gazebo_block_nests_a_model_in_a_urdf(tmp_path: Path) -> None:
+    """How rovers carry lamps: libsdformat 9 keeps the <include>, and joints name its links."""
+    read(tmp_path, '<model name="m"/>')
+    body = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    include = "<include><uri>model://arm</uri><name>lamp</name><pose>1 0 0 0 0 0</pose></include>"
+    joint = '<joint name="j" type="fixed"><parent>base</parent><child>lamp::upper</child></joint>'
+    (tmp_path / "r.urdf").write_text(
+        f'<robot name="r"><link name="base">{body}</link><gazebo>{include}{joint}</gazebo></robot>'
+    )
+    report = Diagnostics()
+    packages = Packages({"GAZEBO_MODEL_PATH": str(tmp_path)}, start=tmp_path)
+
+    (built,) = load(str(tmp_path / "r.urdf"), report, packages=packages).world.models
+
+    (lamp,) = built.models
+    assert (lamp.name, lamp.world_from_model.position) == ("lamp", (1.0, 0.0, 0.0))
+    assert [(each.parent, each.child) for each in built.joints] == [("base", "lamp::upper")]
+    assert report.warnings == []

@@ -17,7 +17,9 @@ from ..sdf.required import name_missing_attributes
 from .lump import Lump
 
 if TYPE_CHECKING:
-    from trundle.model import Joint, Light, Link, Material, PluginTag, Sensor
+    from trundle.model import Joint, Light, Link, Material, Model, PluginTag, Sensor
+
+    from ..sdf.part import Part
 
 _TUNING = frozenset(
     {
@@ -163,6 +165,26 @@ class GazeboTags:
 
         placed = placed_links(nodes, graph, self._context)
         return tuple(read_link(node, name, graph, self._context) for name, node in placed.items())
+
+    def models(self, graph: FrameGraph) -> "tuple[Model, ...]":
+        """Models that an <include> for the whole robot nests in it, such as its lamps."""
+        nodes = self._all("", "include")
+        if not nodes:
+            return ()
+        from ..sdf.include import open_include, read_included_model
+        from ..sdf.model import read_model
+
+        parts: list[Part] = []
+        for node in nodes:
+            opened = open_include(node, self._context)
+            part = opened and read_included_model(node, *opened, self._context, read_model)
+            if part and part.model.name not in graph:
+                part.add_to(graph)
+                parts.append(part)
+            elif opened:
+                what = f"a second {part.model.name!r} in the robot" if part else "no <model> in what <include> leads to"
+                self._context.report.warn(node.at, f"{what}; it is left out")
+        return tuple(replace(part.model, world_from_model=graph.pose(part.model.name)) for part in parts)
 
     def joints(self, graph: FrameGraph) -> "tuple[Joint, ...]":
         """<joint> elements for the whole robot, which are SDF: how a URDF closes a loop."""

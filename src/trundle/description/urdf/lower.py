@@ -121,6 +121,7 @@ class _Lowering:
             for part, pose in self.lumps[link.name].parts[1:]:
                 graph.add(part, RawPose(pose, link.name), self.links[part].at, attached_to=link.name)
         links = (*links, *self.tags.links(graph))
+        models = self.tags.models(graph)
         joints = (*joints, *self.tags.joints(graph))
         self.tags.name_tuning()
         for plugin in plugins:
@@ -139,6 +140,7 @@ class _Lowering:
             enable_wind=wind,
             links=links,
             joints=joints,
+            models=models,
             plugins=plugins,
             canonical_link=canonical,
         )
