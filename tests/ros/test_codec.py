@@ -285,8 +285,9 @@ def test_a_long_list_of_nothing_is_refused() -> None:
 
 def test_a_type_that_contains_itself_is_refused() -> None:
     messages = Messages()
-    messages.add("x_msgs/Self", "x_msgs/Self[] inner")
-    with pytest.raises(MessageError, match="x_msgs/Self contains itself"):
+    with pytest.raises(MessageError, match="x_msgs/Self has itself inside"):
+        messages.add("x_msgs/Self", "x_msgs/Self[] inner")
+    with pytest.raises(MessageError, match="x_msgs/Self has itself inside"):
         messages.codec("x_msgs/Self")
 
 

@@ -20,7 +20,8 @@ ODD: list[Any] = [
 def messages() -> Messages:
     messages = Messages()
     messages.add("x_msgs/Word", "uint8 from\nuint8 None\nbool[] flags\nbyte[2] bytes\nchar[] chars")
-    messages.add("x_msgs/Tree", "string name\nx_msgs/Tree[] leaves")
+    messages.add("x_msgs/Leaf", "string name")
+    messages.add("x_msgs/Tree", "string name\nx_msgs/Leaf[] leaves")
     return messages
 
 
@@ -115,9 +116,8 @@ def test_an_array_given_as_a_list_shares_nothing_with_it(messages: Messages) -> 
     assert message.data.flags.writeable
 
 
-def test_a_type_may_be_a_list_of_itself(messages: Messages) -> None:
-    tree = messages.new("x_msgs/Tree", {"name": "a", "leaves": [{"name": "b"}, ["c", []]]})
+def test_what_is_wrong_within_a_list_is_named(messages: Messages) -> None:
+    tree = messages.new("x_msgs/Tree", {"name": "a", "leaves": [{"name": "b"}, ["c"]]})
     assert [leaf.name for leaf in tree.leaves] == ["b", "c"]
-    assert tree.leaves[0].leaves == []
     with pytest.raises(MessageError, match=r"field 'leaves\[0\].name' is a string, got 5"):
         messages.new("x_msgs/Tree", {"leaves": [{"name": 5}]})

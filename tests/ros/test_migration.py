@@ -190,7 +190,7 @@ def test_a_text_is_quoted_so_that_it_reads_the_same(migrator: Any, text: str) ->
         ("\nimport sys\nsys.exit(0)\n", "rules.bmr:3: SystemExit: 0"),
         ("def f():\n    return 1 / 0\nf()\n", "rules.bmr:2: ZeroDivisionError"),
         (rule("a", ("A", ""), ("B", "")), "rules.bmr:6: a: old_type is a type such as std_msgs/String, got 'A'"),
-        (rule("a", ("a/A", "x y z"), ("a/B", "")), "rules.bmr:6: a: no message type 'a/msg/x'"),
+        (rule("a", ("a/A", "x y z"), ("a/B", "")), "a/A cannot be read: line 1: not a field: 'x y z'"),
         (rule("a", ("a/A", ""), ("a/B", ""), more="migrated_types = ['x']"), "a list of pairs of types, got 'x' in it"),
         (rule("a", ("a/A", ""), ("a/B", ""), more="order = 'x'"), "order is a number, got 'x'"),
         (rule("a", ("a/A", ""), ("a/B", ""), more="valid = False"), "rules.bmr:6: a: valid is False"),

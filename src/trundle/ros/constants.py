@@ -1,9 +1,9 @@
 """Constants of message types, read as genmsg reads them."""
 
 import re
-from typing import Any, TypeAlias, cast
+from typing import TypeAlias
 
-from .errors import MessageError
+from .errors import DefinitionError, MessageError
 
 Constant: TypeAlias = tuple[str, str, bool | int | float | str]
 """Name, type and value."""
@@ -26,24 +26,23 @@ def constant_texts(text: str) -> dict[str, str]:
     return {match["name"]: _text(match) for match in _LINE.finditer(text)}
 
 
-def read_type(text: str, key: str) -> tuple[list[Constant], list[tuple[str, Any]]]:
-    """Read a type's own text, without those it depends on: its constants, and its fields as rosbags has them.
+def read_constant(line: str, number: int) -> Constant | None:
+    """Read a line of a type's text; None: it holds no constant.
 
     Args:
-        text: of a .msg file.
-        key: the type's name as rosbags writes it.
+        line: without its end.
+        number: of the line.
 
     Raises:
-        MessageError: it cannot be read; the text says why.
+        DefinitionError: the value is not of its type.
     """
-    from rosbags.typesys import TypesysError, get_types_from_msg
-
-    constants = [(match["name"], match["type"], _value(match["type"], _text(match))) for match in _LINE.finditer(text)]
+    match = _LINE.match(line)
+    if match is None:
+        return None
     try:
-        fields = get_types_from_msg(_LINE.sub("", text), key)[key][1]
-    except (TypesysError, KeyError) as error:
-        raise MessageError(str(error)) from None
-    return constants, cast("list[tuple[str, Any]]", fields)
+        return match["name"], match["type"], _value(match["type"], _text(match))
+    except MessageError as error:
+        raise DefinitionError(number, str(error)) from None
 
 
 def _text(match: re.Match[str]) -> str:
@@ -63,7 +62,7 @@ def _value(kind: str, text: str) -> bool | int | float | str:
         low, high = _range(kind)
         value = int(text, 0) if text[:2].lower() == "0x" else int(text)
     except (KeyError, ValueError):
-        raise MessageError(f"{text!r} is no constant of type {kind}") from None
+        raise MessageError(f"{text[:80]!r} is no constant of type {kind[:80]}") from None
     if not low <= value <= high:
         raise MessageError(f"{value} is no {kind}, which is from {low} to {high}")
     return value

@@ -7,6 +7,7 @@ TrundleError
     ├── PortTakenError           another program listens where a server was asked for
     ├── ParameterError           no such parameter, or a value parameters cannot hold
     ├── MessageError             no such type or field, or a value that does not fit it
+    │   └── DefinitionError      the text of a type cannot be read
     ├── ServiceError             a service said no, or could not be reached
     ├── TransformError           no such frame, or no transform at that time
     └── WireError                bytes from a peer that are not the protocol; never leaves this room
@@ -50,6 +51,14 @@ class ParameterError(RosError):
 
 class MessageError(RosError):
     """A message type or field that does not exist, or a value that does not fit it."""
+
+
+class DefinitionError(MessageError):
+    """The text of a message type that cannot be read."""
+
+    def __init__(self, line: int, what: str) -> None:
+        super().__init__(what)
+        self.line = line
 
 
 class ServiceError(RosError):

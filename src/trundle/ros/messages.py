@@ -9,12 +9,12 @@ import time
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from .codec import Codec
-from .constants import read_type
 from .errors import MessageError
 from .sources import Definitions, split_service
+from .type_registry import TypeRegistry, UnknownTypeError
 from .type_texts import BUILTIN, TypeTexts, ros_name
 
 if TYPE_CHECKING:
@@ -70,6 +70,7 @@ class Messages:
         """Held while types are added: nodes of several threads share one store."""
         self._store_: Typestore | None = None
         self._texts_: TypeTexts | None = None
+        self._registry_: TypeRegistry | None = None
         self._filling_: Filling | None = None
 
     # -- types
@@ -120,8 +121,9 @@ class Messages:
     def add(self, type_name: str, text: str) -> None:
         """Add a message type from its .msg text; a type that is already known stays as it is."""
         if not self.has(type_name):
-            self._definitions.messages[type_name] = text
-            self._register(type_name)
+            with self._lock:
+                self._definitions.messages[type_name] = text
+                self._registry.add(type_name)
 
     def add_service(self, type_name: str, text: str) -> None:
         """Add a service type from its .srv text."""
@@ -225,6 +227,12 @@ class Messages:
             return self._texts_
 
     @property
+    def _registry(self) -> TypeRegistry:
+        if self._registry_ is None:
+            self._registry_ = TypeRegistry(self._store, self._definitions, self._texts, self._key)
+        return self._registry_
+
+    @property
     def _filling(self) -> "Filling":
         if self._filling_ is None:
             from .filling import Filling
@@ -242,19 +250,21 @@ class Messages:
             for load in (self._definitions.load_package, self._definitions.load_from_path):
                 load(package)
                 if key not in self._store.types and ros_name(key) in self._definitions.messages:
-                    self._register(ros_name(key))
+                    self._registry.add(ros_name(key))
                 service = ros_name(key).removesuffix("Request").removesuffix("Response")
                 if service != ros_name(key) and service in self._definitions.services and service not in self._services:
                     self.service(service)
                 if key in self._store.types:
                     return key
         if key not in self._store.types:
+            if why := self._definitions.unreadable.get(f"{ros_name(key)}.msg"):
+                raise MessageError(why)
             if not slash:
-                raise MessageError(
+                raise UnknownTypeError(
                     f"{type_name!r} is no message type; types are written package/Name, like std_msgs/String"
                 )
             known = [other for other in self._names() if other.startswith(f"{package}/")]
-            raise MessageError(f"no message type {type_name!r}{_instead('messages', package, known)}")
+            raise UnknownTypeError(f"no message type {ros_name(key)!r}{_instead('messages', package, known)}")
         return key
 
     def _names(self) -> list[str]:
@@ -269,30 +279,17 @@ class Messages:
             self._definitions.load_from_path(package)
         text = self._definitions.services.get(type_name)
         if text is None:
+            if why := self._definitions.unreadable.get(f"{type_name}.srv"):
+                raise MessageError(why)
             known = sorted(name for name in self._definitions.services if name.startswith(f"{package}/"))
             raise MessageError(f"no service type {type_name!r}{_instead('services', package, known)}")
         request, response = f"{type_name}Request", f"{type_name}Response"
-        for name, half in zip((request, response), split_service(text), strict=True):
-            self._definitions.messages[name] = half
-            self._register(name)
+        for name, (line, half) in zip((request, response), split_service(text), strict=True):
+            self._definitions.add_part(name, half, line, of=type_name)
+            self._registry.add(name)
         md5sum = self._texts.service_md5(self._key(request), self._key(response))
         self._services[type_name] = ServiceType(type=type_name, md5sum=md5sum, request=request, response=response)
         return self._services[type_name]
-
-    def _register(self, type_name: str) -> None:
-        from rosbags.typesys import TypesysError
-
-        text = self._definitions.messages[type_name]
-        package, _, name = type_name.partition("/")
-        key = f"{package}/msg/{name}"
-        try:
-            constants, fields = read_type(text, key)
-            self._store.register({key: (cast("Any", constants), fields)})
-        except (TypesysError, MessageError) as error:
-            raise MessageError(f"the definition of {type_name} cannot be read: {error}") from None
-        self._texts.own[key] = text
-        for depends in self._texts.direct(key):
-            self._key(depends)
 
 
 def _instead(what: str, package: str, known: list[str]) -> str:

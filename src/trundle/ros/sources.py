@@ -2,14 +2,27 @@
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from trundle.files import read_text
+
 _SHIPPED = Path(__file__).parent / "definitions"
+MOST_CHARACTERS = 1_000_000
+"""Of a text; the longest of a desktop installation has below 100,000. Texts of peers have the same bound."""
+_SEPARATOR = re.compile(r"^\s*---[^\n]*$", re.MULTILINE)
 DEBIAN_SHARE = "/usr/share"
 """Debian's rospkg looks here last, whatever ROS_PACKAGE_PATH says."""
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """Where a text begins."""
+
+    path: Path
+    line: int = 1
 
 
 @dataclass(slots=True)
@@ -22,6 +35,10 @@ class Definitions:
     """Package → the folder that holds its `msg/`, `srv/` and `action/`; those not read yet."""
     _on_path: Mapping[str, Path] | None = None
     _looked_up: set[str] = field(default_factory=set[str])
+    origins: dict[str, Origin] = field(default_factory=dict[str, Origin])
+    """Where texts stand, of those that came from files."""
+    unreadable: dict[str, str] = field(default_factory=dict[str, str])
+    """Type, with `.msg` or `.srv` → why its file cannot be read, in a sentence."""
 
     @classmethod
     def shipped(cls) -> "Definitions":
@@ -64,7 +81,7 @@ class Definitions:
             path = Path(share, package, kind, f"{name}.{kind}")
             if share and path.is_file():
                 with suppress(OSError):
-                    return _text(path)
+                    return read_text(path, most=MOST_CHARACTERS)
         return None
 
     def load_all(self) -> None:
@@ -74,45 +91,71 @@ class Definitions:
         for package in self.on_path:
             self.load_from_path(package)
 
+    def add_part(self, name: str, text: str, line: int, *, of: str) -> None:
+        """Add the text of a half of a service."""
+        self.messages[name] = text
+        if (whole := self.origins.get(of)) is not None:
+            self.origins[name] = Origin(whole.path, line)
+
     def _read(self, package: str, folder: Path) -> None:
-        for path in sorted(folder.glob("msg/*.msg")):
-            self.messages.setdefault(f"{package}/{path.stem}", _text(path))
-        for path in sorted(folder.glob("action/*.action")):
-            for name, text in split_action(f"{package}/{path.stem}", _text(path)).items():
-                self.messages.setdefault(name, text)
-        for path in sorted(folder.glob("srv/*.srv")):
-            self.services.setdefault(f"{package}/{path.stem}", _text(path))
+        for name, path, text in self._files(package, folder, "msg"):
+            self._add(self.messages, name, text, Origin(path))
+        for name, path, text in self._files(package, folder, "action"):
+            for part, (line, part_text) in split_action(name, text).items():
+                self._add(self.messages, part, part_text, Origin(path, line))
+        for name, path, text in self._files(package, folder, "srv"):
+            self._add(self.services, name, text, Origin(path))
+
+    def _files(self, package: str, folder: Path, kind: str) -> Iterator[tuple[str, Path, str]]:
+        """Read the files of a kind; one that cannot be read takes nothing from the others."""
+        for path in sorted(folder.glob(f"{kind}/*.{kind}")):
+            name = f"{package}/{path.stem}"
+            try:
+                yield name, path, read_text(path, most=MOST_CHARACTERS)
+            except OSError as error:
+                asked = f"{name}Action.msg" if kind == "action" else f"{name}.{kind}"
+                self.unreadable.setdefault(asked, f"{path}:1: it cannot be read: {error.strerror}")
+
+    def _add(self, texts: dict[str, str], name: str, text: str, origin: Origin) -> None:
+        if name not in texts:
+            texts[name] = text
+            self.origins[name] = origin
 
 
-def split_service(text: str) -> tuple[str, str]:
-    """Split a .srv text into request and response."""
-    request, separator, response = re.sub(r"^\s*---[^\n]*$", "\0", text, count=1, flags=re.MULTILINE).partition("\0")
-    return (request, response.lstrip("\n")) if separator else (text, "")
+def split_service(text: str, line: int = 1) -> tuple[tuple[int, str], tuple[int, str]]:
+    """Split a .srv text into request and response, each with the line it begins in; `line` is that of the text."""
+    separator = _SEPARATOR.search(text)
+    if separator is None:
+        return (line, text), (line, "")
+    response = text[separator.end() :].lstrip("\n")
+    return (line, text[: separator.start()]), (line + text[: len(text) - len(response)].count("\n"), response)
 
 
-def split_action(name: str, text: str) -> dict[str, str]:
-    """Write the seven messages that an action stands for, from its text: goal, result and feedback."""
-    goal, rest = split_service(text)
-    result, feedback = split_service(rest)
+def split_action(name: str, text: str) -> dict[str, tuple[int, str]]:
+    """Write the seven messages that an action stands for, from its text: goal, result and feedback.
+
+    Returns:
+        name → the line of the text that it begins in, and its own text.
+    """
+    goal, (line, rest) = split_service(text)
+    result, feedback = split_service(rest, line)
     package, _, base = name.partition("/")
     texts = {
-        "Action": f"{base}ActionGoal action_goal\n{base}ActionResult action_result\n"
-        f"{base}ActionFeedback action_feedback\n",
-        "ActionGoal": f"Header header\nactionlib_msgs/GoalID goal_id\n{base}Goal goal\n",
-        "ActionResult": f"Header header\nactionlib_msgs/GoalStatus status\n{base}Result result\n",
-        "ActionFeedback": f"Header header\nactionlib_msgs/GoalStatus status\n{base}Feedback feedback\n",
+        "Action": (
+            1,
+            f"{base}ActionGoal action_goal\n{base}ActionResult action_result\n{base}ActionFeedback action_feedback\n",
+        ),
+        "ActionGoal": (1, f"Header header\nactionlib_msgs/GoalID goal_id\n{base}Goal goal\n"),
+        "ActionResult": (1, f"Header header\nactionlib_msgs/GoalStatus status\n{base}Result result\n"),
+        "ActionFeedback": (1, f"Header header\nactionlib_msgs/GoalStatus status\n{base}Feedback feedback\n"),
         "Goal": goal,
         "Result": result,
         "Feedback": feedback,
     }
-    return {f"{package}/{base}{part}": part_text for part, part_text in texts.items()}
+    return {f"{package}/{base}{part}": placed for part, placed in texts.items()}
 
 
 def _bare(text: str) -> list[str]:
     """What a text says beside its comments."""
     lines = (" ".join(line.partition("#")[0].split()) for line in text.splitlines())
     return [line for line in lines if line]
-
-
-def _text(path: Path) -> str:
-    return path.read_text(encoding="utf-8", errors="replace").replace("\r\n", "\n")

@@ -8,9 +8,10 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, cast
 
-from .constants import constant_texts, read_type
+from .constants import constant_texts
 from .errors import MessageError
 from .sources import Definitions
+from .type_reader import read_type
 
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
@@ -92,8 +93,8 @@ class TypeTexts:
     def direct(self, key: str) -> Iterator[str]:
         """Types that the fields of a type are of."""
         for _, desc in fields_of(self._store, key):
-            name = _reference(desc)
-            if name is not None and name not in BUILTIN:
+            name = type_referred_to(desc)
+            if name is not None:
                 yield name
 
     def _within(self, key: str) -> list[str]:
@@ -111,9 +112,8 @@ class TypeTexts:
         """Write the text the md5 sum is taken of: constants, then fields, with types replaced by their own sums."""
         lines = [f"{kind} {name}={text}" for name, (kind, text) in self.constants(key).items()]
         for name, desc in fields_of(self._store, key):
-            reference = _reference(desc)
-            is_own = reference is not None and reference not in BUILTIN
-            lines.append(f"{self.md5(cast(str, reference)) if is_own else _type_text(desc)} {name}")
+            reference = type_referred_to(desc)
+            lines.append(f"{_type_text(desc) if reference is None else self.md5(reference)} {name}")
         return "\n".join(lines)
 
 
@@ -131,12 +131,12 @@ def _sum(text: str) -> str:
     return hashlib.md5(text.encode()).hexdigest()
 
 
-def _reference(desc: Any) -> str | None:
-    """Name the message type a field refers to, itself or as an element."""
+def type_referred_to(desc: Any) -> str | None:
+    """Name the message type a field refers to, itself or as an element; None: numbers, texts and times."""
     kind, detail = desc
     if kind >= 3:
         kind, detail = detail[0]
-    return cast(str, detail) if kind == 2 else None
+    return cast(str, detail) if kind == 2 and detail not in BUILTIN else None
 
 
 def _type_text(desc: Any) -> str:
