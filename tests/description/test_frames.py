@@ -387,15 +387,17 @@ def test_an_include_in_a_gazebo_block_nests_a_model_in_a_urdf(tmp_path: Path) ->
     body = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
     include = "<include><uri>model://arm</uri><name>lamp</name><pose>1 0 0 0 0 0</pose></include>"
     joint = '<joint name="j" type="fixed"><parent>base</parent><child>lamp::upper</child></joint>'
+    box = '<model name="box"><link name="l"/></model>'
     (tmp_path / "r.urdf").write_text(
-        f'<robot name="r"><link name="base">{body}</link><gazebo>{include}{joint}</gazebo></robot>'
+        f'<robot name="r"><link name="base">{body}</link><gazebo>{include}{joint}{box}</gazebo></robot>'
     )
     report = Diagnostics()
     packages = Packages({"GAZEBO_MODEL_PATH": str(tmp_path)}, start=tmp_path)
 
     (built,) = load(str(tmp_path / "r.urdf"), report, packages=packages).world.models
 
-    (lamp,) = built.models
+    own, lamp = built.models
+    assert [link.name for link in own.links] == ["l"]
     assert (lamp.name, lamp.world_from_model.position) == ("lamp", (1.0, 0.0, 0.0))
     assert [(each.parent, each.child) for each in built.joints] == [("base", "lamp::upper")]
     assert report.warnings == []

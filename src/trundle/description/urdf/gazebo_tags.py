@@ -167,8 +167,8 @@ class GazeboTags:
         return tuple(read_link(node, name, graph, self._context) for name, node in placed.items())
 
     def models(self, graph: FrameGraph) -> "tuple[Model, ...]":
-        """Models that an <include> for the whole robot nests in it, such as its lamps."""
-        nodes = self._all("", "include")
+        """Models that a <model> or <include> for the whole robot nests in it, such as its lamps."""
+        nodes = [*self._all("", "model"), *self._all("", "include")]
         if not nodes:
             return ()
         from ..sdf.include import open_include, read_included_model
@@ -176,8 +176,11 @@ class GazeboTags:
 
         parts: list[Part] = []
         for node in nodes:
-            opened = open_include(node, self._context)
-            part = opened and read_included_model(node, *opened, self._context, read_model)
+            if node.tag == "model":
+                opened, part = True, read_model(node, self._context, 1)
+            else:
+                opened = open_include(node, self._context)
+                part = opened and read_included_model(node, *opened, self._context, read_model)
             if part and part.model.name not in graph:
                 part.add_to(graph)
                 parts.append(part)
