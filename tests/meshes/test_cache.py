@@ -116,3 +116,16 @@ def test_the_longest_unused_go_first(large: Path, cache_folder: Path, monkeypatc
     assert cache.load_kept("key00") is None
     assert cache.load_kept("key11") is not None
     assert not list(cache_folder.glob("*.tmp"))
+
+
+def test_what_is_interrupted_leaves_nothing_behind(
+    large: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    parts = load._read(large.read_bytes(), ".obj", large)
+    monkeypatch.setattr(cache.os, "replace", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        cache.keep("key", parts)
+    assert not list(cache_folder.iterdir())

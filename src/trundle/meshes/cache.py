@@ -58,12 +58,22 @@ def keep(key: str, parts: Sequence[RawPart]) -> None:
         folder().mkdir(mode=0o700, parents=True, exist_ok=True)
         if not is_ours(folder()):
             return
-        with tempfile.NamedTemporaryFile(dir=folder(), suffix=".tmp", delete=False) as file:
-            file.write(packed)
-        os.replace(file.name, folder() / f"{key}.npz")
+        _write(folder() / f"{key}.npz", packed)
         _trim()
     except OSError:
         return
+
+
+def _write(path: Path, data: bytes) -> None:
+    """Whole or not at all, also where Ctrl-C comes in between."""
+    with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".tmp", delete=False) as file:
+        try:
+            file.write(data)
+            file.close()
+            os.replace(file.name, path)
+        except BaseException:
+            os.unlink(file.name)
+            raise
 
 
 def _packed(parts: Sequence[RawPart]) -> bytes:
