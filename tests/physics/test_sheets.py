@@ -9,9 +9,9 @@ import pytest
 from numpy.typing import NDArray
 
 import trundle
-from trundle.physics import pieces
+from trundle.physics import decomposition
+from trundle.physics.decomposition import convex_pieces
 from trundle.physics.hulls import Hull, hull_of, off
-from trundle.physics.pieces import convex_pieces
 from trundle.simulation import Simulation
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.intp]]
@@ -68,7 +68,7 @@ def solid(corners: NDArray[np.float64]) -> Hull:
 @pytest.fixture(autouse=True)
 def _cut_anew(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(pieces, "_known", {})
+    decomposition.forget()
 
 
 @pytest.mark.parametrize(

@@ -67,13 +67,14 @@ class CheckOutcome:
         return "\n".join([*lines, f"{self.file}: {verdict}; {', '.join(told) or 'nothing to remark'}"])
 
 
-def check(file: str, environment: Mapping[str, str], *, start: Path) -> CheckOutcome:
+def check(file: str, environment: Mapping[str, str], *, start: Path, collisions: bool = False) -> CheckOutcome:
     """Read a file as far as it can be read, physics included.
 
     Args:
         file: a path, a folder with model.config, model://NAME, a launch file, or "-" for standard input.
         environment: says where packages and models are.
         start: packages are looked for around it too.
+        collisions: cut hollow meshes as physics does, which may take a minute.
     """
     report = Diagnostics()
     packages = Packages(environment, start=start)
@@ -86,7 +87,7 @@ def check(file: str, environment: Mapping[str, str], *, start: Path) -> CheckOut
         else:
             from .check_description import check_description
 
-            found = check_description(file, packages=packages, start=start, report=report)
+            found = check_description(file, packages=packages, start=start, report=report, collisions=collisions)
     except DescriptionError as error:
         report.error(error)
     except UsageError as error:

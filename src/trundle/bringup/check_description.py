@@ -51,7 +51,9 @@ class FoundDescription:
         return f"{what}{version}: {counts}{f'; {unseen}' if unseen else ''}"
 
 
-def check_description(file: str, *, packages: Packages, start: Path, report: Diagnostics) -> FoundDescription:
+def check_description(
+    file: str, *, packages: Packages, start: Path, report: Diagnostics, collisions: bool = False
+) -> FoundDescription:
     """Read a description and put it to use as far as shows what is wrong with it.
 
     Args:
@@ -59,6 +61,7 @@ def check_description(file: str, *, packages: Packages, start: Path, report: Dia
         packages: where URIs lead.
         start: relative URIs in standard input start here.
         report: takes everything worth saying.
+        collisions: cut hollow meshes as physics does, which may take a minute.
 
     Raises:
         DescriptionError: of which nothing sensible can be made.
@@ -68,16 +71,16 @@ def check_description(file: str, *, packages: Packages, start: Path, report: Dia
     flat = flattened(loaded.world)
     name_doubts(loaded, report)
     _name_silent_sensors(flat, report)
-    _name_what_physics_does(flat, report)
+    _name_what_physics_does(flat, report, collisions=collisions)
     return FoundDescription(loaded, flat)
 
 
-def _name_what_physics_does(flat: World, report: Diagnostics) -> None:
+def _name_what_physics_does(flat: World, report: Diagnostics, *, collisions: bool) -> None:
     try:
         if not is_unremarkable(flat):
             from trundle.physics import compile_world  # slow to load, and most robots need none of its mending
 
-            compile_world(flat, report)
+            compile_world(flat, report, cut_meshes=collisions)
         name_wheels(flat, report)
     except DescriptionError as error:
         report.error(error)

@@ -83,11 +83,11 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         if joined := named_master(env):
             show.line(f"{joined}: something else started it")
     warn_of_exposure(options.host, show.line)
+    packages = Packages(env, start=Path.cwd())
+    name_workspace(file, packages, show.line)
+    stage = set_stage(file, packages, report, seed=options.seed)
+    simulation = Simulation(stage.world, report, seed=options.seed)  # nothing is open yet: Ctrl-C ends it at once
     with stop_flag() as stop, ExitStack() as open_things:
-        packages = Packages(env, start=Path.cwd())
-        name_workspace(file, packages, show.line)
-        stage = set_stage(file, packages, report, seed=options.seed)
-        simulation = Simulation(stage.world, report, seed=options.seed)
         cameras = mount_cameras(simulation, RENDERERS[options.renderer])
         sensors = mount_sensors(simulation)
         if not options.sensors:

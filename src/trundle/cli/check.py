@@ -11,6 +11,7 @@ EXAMPLES = """
   trundle check model.sdf                             everything worth knowing, worst first
   trundle check robot.urdf.xacro --strict             exit 1 on a warning, for continuous integration
   trundle check world.sdf --json                      the resolved model as one JSON object
+  trundle check robot.urdf --collisions               how near physics comes to its hollow meshes, too
   trundle check robot.urdf --tree                     links and joints as a tree
   trundle check robot.urdf --graph robot.svg          the same as a picture
 """
@@ -21,6 +22,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE|DIR|model://NAME|-", help="what to read; no command in it is run")
     parser.add_argument("--strict", action="store_true", help="a warning is an error")
     parser.add_argument("--json", action="store_true", help="print what was understood as one JSON object")
+    cut = "cut hollow collision meshes as physics does, and say how near that is; the first time may take a minute"
+    parser.add_argument("--collisions", action="store_true", help=cut)
     add_allow_outside(parser)
     parser.add_argument("--tree", action="store_true", help="draw the kinematic tree in the terminal")
     parser.add_argument("--graph", metavar="OUT.svg", type=Path, help="write the kinematic tree as a picture")
@@ -36,7 +39,7 @@ def _check(args: argparse.Namespace) -> int:
     with quiet_imports():
         from trundle.bringup.check import check
 
-    outcome = check(args.file, dict(os.environ), start=Path.cwd())
+    outcome = check(args.file, dict(os.environ), start=Path.cwd(), collisions=args.collisions)
     warned = any(finding.severity == "warning" for finding in outcome.report.findings)
     if args.graph is not None:
         from trundle.diagram import tree_svg

@@ -6,20 +6,25 @@ holds. A joint whose limits leave no freedom (the 0..0 of many published robots)
 
 import warnings
 from collections import Counter
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 
 import mujoco
 
 from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.meshes import MeshError
 from trundle.model import Collision, Heightmap, Plane, World, flattened
 from trundle.spatial import Pose
 
 from .contacts import add_contacts, soften
+from .decomposition import Decomposition, MeshRequest
+from .engine_words import muted
 from .index import CompiledWorld, index_world
 from .inertia import principal_inertia
 from .joints import JointMaker, soften_stops
 from .settings import apply_settings
-from .shapes import Meets, ShapeEntry, add_shape
+from .shapes import Meets, ShapeEntry, add_shape, collision_mesh, mesh_arrays
 from .starting import start_positions
 from .surfaces import Touch
 from .thin import look_ahead
@@ -30,19 +35,25 @@ _KINEMATIC_MASS = 1e6
 """How many times heavier a kinematic link is than written: nothing that the file has moves it."""
 
 
-def compile_world(world: World, report: Diagnostics) -> CompiledWorld:
+def compile_world(world: World, report: Diagnostics, *, cut_meshes: bool = True) -> CompiledWorld:
     """Compile; what the engine cannot use as written is mended, aloud.
+
+    Args:
+        world: what there is.
+        report: takes what is mended.
+        cut_meshes: cut hollow meshes into convex pieces; else each mesh is its hull.
 
     Raises:
         DescriptionError: the engine refuses what is left.
     """
-    return Compiler(flattened(world), report).compile()
+    return Compiler(flattened(world), report, cut_meshes=cut_meshes).compile()
 
 
 class Compiler:
     """A specification that grows from a world without nested models."""
 
-    def __init__(self, world: World, report: Diagnostics) -> None:
+    def __init__(self, world: World, report: Diagnostics, *, cut_meshes: bool = True) -> None:
+        self.decomposition = Decomposition() if cut_meshes else None
         self.world = world
         self.report = report
         self.spec = mujoco.MjSpec()
@@ -80,6 +91,8 @@ class Compiler:
             self._place(place)
         for hold in self.tree.loops:
             self._close(hold)
+        if self.decomposition is not None:
+            self.decomposition.cut_ahead(self._meshes())
         for place in self.tree.places.values():
             for collision in place.link.collisions:
                 self._add_collision(place, collision)
@@ -93,7 +106,7 @@ class Compiler:
 
     def compile_spec(self) -> mujoco.MjModel:
         """Hand the world to MuJoCo; its own checks speak in its own words."""
-        with warnings.catch_warnings(record=True) as caught:
+        with muted(), warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             try:
                 compiled = self.spec.compile()
@@ -103,6 +116,15 @@ class Compiler:
         for warning in caught:
             self.report.warn(self.world.at, f"the engine is in doubt: {' '.join(str(warning.message).split())}")
         return compiled
+
+    def _meshes(self) -> Iterator[MeshRequest]:
+        """Those of collisions, in file order; what cannot be read is named where it is added."""
+        for place in self.tree.places.values():
+            for collision in place.link.collisions:
+                with suppress(MeshError):
+                    mesh = collision_mesh(collision)
+                    if mesh is not None:
+                        yield (*mesh_arrays(mesh), place.name in self.tree.still)
 
     def _place(self, place: Place) -> None:
         """Add a link's body, after those that it hangs from."""
@@ -169,7 +191,9 @@ class Compiler:
             parts = [(rolling, f"{name}::tread", on), (without_tread(collision), name, Meets.ALL)]
         for part, part_name, on in parts:
             body = self.bodies[place.name]
-            for geom, meets in add_shape(self.spec, body, part, part_name, self.report, fixed=fixed):
+            for geom, meets in add_shape(
+                self.spec, body, part, part_name, self.report, fixed=fixed, decomposition=self.decomposition
+            ):
                 self._keep(geom, geom.name, place, collision, meets & on)
 
     def _keep(

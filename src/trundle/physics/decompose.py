@@ -1,26 +1,23 @@
-"""Hollow bodies that move, as a few convex pieces: V-HACD's, or sheets along the surface; kept on disk.
+"""Hollow bodies that move, as a few convex pieces: sheets along the surface, or V-HACD's.
 
 K. Mamou: Volumetric Hierarchical Approximate Convex Decomposition. Game Engine Gems 3, 2016. One thread and no limit of
 time, so that the same mesh has the same pieces everywhere; a few tenths of a second each.
 """
 
-import hashlib
-import logging
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.meshes import RawPart, keep, load_kept
-
+from .engine_words import muted
 from .hulls import Hull, area_of, hull_of, off, volume_of
 from .sheets import sheets_of
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
-_VERSION = 3
-"""Raised where the same mesh becomes other pieces."""
-_MOST_FACES = 100_000
-_SETTINGS = {
+MOST_FACES = 100_000
+"""Of what is cut."""
+_FULL: Mapping[str, object] = {
     "maxConvexHulls": 16,
     "resolution": 20_000,
     "minimumVolumePercentErrorAllowed": 2.0,
@@ -31,17 +28,19 @@ _SETTINGS = {
     "minEdgeLength": 2,
     "findBestPlane": False,
 }
+_COARSE: Mapping[str, object] = {**_FULL, "maxConvexHulls": 8, "resolution": 5_000, "maxRecursionDepth": 3}
 _NEAR = 0.01
 """Part of the mesh's size: pieces nearer to it than this are good."""
-_MOST_SHEETED = 20_000
+_FEW = 96
+"""Faces of a thin surface that sheets are tried on first: they take a hundredth of a second."""
+MOST_SHEETED = 20_000
 """Faces."""
 _THIN = 0.03
 """Part of its size that half a wall's thickness is at most where sheets may do better than voxels."""
 _SWEEPS = 4
-_log = logging.getLogger(__name__)
 
 
-def cut_up(points: _Points, faces: _Faces, hull: Hull, *, closed: bool) -> list[_Points] | None:
+def cut_up(points: _Points, faces: _Faces, hull: Hull, *, closed: bool, coarse: bool = False) -> list[_Points] | None:
     """Cut a mesh into convex pieces, whose corners come back; None where that makes nothing better.
 
     The pieces together have every corner of the mesh's hull, and nothing outside: it stands as the mesh would.
@@ -51,44 +50,46 @@ def cut_up(points: _Points, faces: _Faces, hull: Hull, *, closed: bool) -> list[
         faces: (M, 3) indices into them.
         hull: around all of it.
         closed: whether the surface has an inside; what has none becomes a wall of a few hundredths of its size.
+        coarse: into fewer pieces, which takes a fraction of the time.
     """
-    if len(faces) > _MOST_FACES:
+    if len(faces) > MOST_FACES:
         return None
-    settings = f"vhacd {_VERSION} {closed} {sorted(_SETTINGS.items())}".encode()
-    key = hashlib.sha256(settings + points.tobytes() + faces.astype(np.int64).tobytes()).hexdigest()
-    kept = load_kept(key)
-    if kept is None:
-        _log.warning("cutting a hollow mesh of %d triangles into convex pieces; that is done once", len(faces))
-        none = np.zeros((0, 3), dtype=np.int64)
-        kept = [RawPart(names=("piece",), vertices=piece, faces=none) for piece in _cut(points, faces, hull, closed)]
-        keep(key, kept)
-    return [part.vertices for part in kept] or None
+    return _cut(points, faces, hull, closed, coarse) or None
 
 
-def _cut(points: _Points, faces: _Faces, hull: Hull, closed: bool) -> list[_Points]:
+def _cut(points: _Points, faces: _Faces, hull: Hull, closed: bool, coarse: bool) -> list[_Points]:
     """Whichever is nearer to the mesh; voxels, which leave no hollow in a wall, unless sheets are so by far."""
     size = float(np.ptp(points, axis=0).max())
-    voxels = _solids(_voxels(points, faces, size, closed=closed), hull)
-    from_voxels = off(points[faces], voxels, closed=closed) if len(voxels) > 1 else np.inf
-    if from_voxels > _NEAR * size and len(faces) <= _MOST_SHEETED and (not closed or _is_thin(points[faces], size)):
+    triangles = points[faces]
+    is_shell = not closed or is_thin(triangles, size)
+    if is_shell and len(faces) <= _FEW:
         sheets = _solids(sheets_of(points, faces, closed=closed), hull)
-        if 2 * off(points[faces], sheets, closed=closed) < from_voxels:
+        if off(triangles, sheets, closed=closed) < _NEAR * size:
+            return _covering(hull, sheets)
+    voxels = _solids(_voxels(points, faces, size, closed=closed, coarse=coarse), hull)
+    from_voxels = off(triangles, voxels, closed=closed) if len(voxels) > 1 else np.inf
+    if is_shell and not coarse and from_voxels > _NEAR * size and len(faces) <= MOST_SHEETED:
+        sheets = _solids(sheets_of(points, faces, closed=closed), hull)
+        if 2 * off(triangles, sheets, closed=closed) < from_voxels:
             return _covering(hull, sheets)
     return _covering(hull, voxels) if len(voxels) > 1 else []
 
 
-def _is_thin(triangles: _Points, size: float) -> bool:
+def is_thin(triangles: _Points, size: float) -> bool:
+    """Whether a closed surface (F, 3, 3) of some size [m] is a wall around something hollow."""
     return volume_of(triangles) < _THIN * size * area_of(triangles)
 
 
-def _voxels(points: _Points, faces: _Faces, size: float, *, closed: bool) -> list[_Points]:
+def _voxels(points: _Points, faces: _Faces, size: float, *, closed: bool, coarse: bool) -> list[_Points]:
     from vhacdx import compute_vhacd  # few worlds need it
 
     # Its grid is made for bodies about as large as one.
     middle = points.mean(axis=0)
     numbered = np.column_stack([np.full(len(faces), 3), faces]).astype(np.uint32)
-    # A wall without thickness must not be shrunk onto its surface: nothing would be left of it.
-    found = compute_vhacd((points - middle) / size, numbered.ravel(), shrinkWrap=closed, **_SETTINGS)
+    settings = _COARSE if coarse else _FULL
+    with muted():
+        # A wall without thickness must not be shrunk onto its surface: nothing would be left of it.
+        found = compute_vhacd((points - middle) / size, numbered.ravel(), shrinkWrap=closed, **settings)
     return [corners * size + middle for corners, _ in found]
 
 

@@ -6,6 +6,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from .engine_words import muted
+
 _Points = NDArray[np.float64]
 _Numbers = NDArray[np.intp]
 _SAMPLES = 4000
@@ -14,8 +16,10 @@ _PROBES = 250
 _SURVEY = 1000
 _TOUCH = 1e-9
 """[m]"""
-_FLAT = 1e-9
-"""Part of its size that something flat is thick."""
+_FLAT = 1e-7
+"""Part of its size, or of how far out it is, that something flat is thick: MuJoCo's corners have 24 bits."""
+_FEW = 48
+"""Triangles that are all looked at closely."""
 _NEAREST = 8
 """Points of a surface whose triangles are looked at closely."""
 
@@ -45,14 +49,15 @@ class Hull:
 
 def hull_of(points: _Points) -> Hull | None:
     """The hull of points (N, 3) [m]; None where they are flat, or as good as that."""
-    if np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[-1] <= _FLAT * float(np.ptp(points, axis=0).max()):
-        return None  # of which Qhull would print pages before it refuses
+    if is_flat(points):
+        return None  # of which Qhull would make an error
     spec = mujoco.MjSpec()
     spec.add_mesh(name="hull", uservert=points.reshape(-1), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
     geom = spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, contype=1)
     geom.meshname = "hull"
     try:
-        model = spec.compile()
+        with muted():
+            model = spec.compile()
     except ValueError:
         return None
     count, faces = model.mesh_graph[:2].tolist()
@@ -65,6 +70,14 @@ def hull_of(points: _Points) -> Hull | None:
     solid = lengths > 1e-6 * lengths.max()
     offsets = np.einsum("ij,ij->i", normals, triangles[:, 0])
     return Hull(points[np.unique(numbers)], triangles, normals[solid], offsets[solid], volume_of(triangles))
+
+
+def is_flat(points: _Points) -> bool:
+    """Whether points (N, 3) [m] are in a plane, on a line, or one; or not all finite."""
+    if len(points) < 4 or not np.isfinite(points).all():
+        return True
+    thickness = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[-1]
+    return bool(thickness <= _FLAT * max(float(np.ptp(points, axis=0).max()), float(np.abs(points).max())))
 
 
 def volume_of(triangles: _Points) -> float:
@@ -96,6 +109,8 @@ def distance(
 
 def _distances_to(probes: _Points, triangles: _Points, count: int = _SAMPLES) -> _Points:
     """(N,) [m] from points (N, 3) to a surface; about so."""
+    if len(triangles) <= _FEW:
+        return _distances(probes[:, None], triangles[None]).min(axis=1)
     samples, owners = spread(triangles, count)
     squares = (samples * samples).sum(axis=1) - 2 * probes @ samples.T
     nearest = np.argpartition(squares, min(_NEAREST, len(samples)) - 1, axis=1)[:, :_NEAREST]

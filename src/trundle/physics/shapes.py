@@ -27,8 +27,9 @@ from trundle.model import (
 )
 from trundle.spatial import Pose, Vector3, upright
 
+from .decomposition import FULL, CutMesh, Decomposition
 from .hulls import hull_of
-from .pieces import Pieces, convex_pieces
+from .pieces import split
 from .terrain import add_terrain
 
 _CONE_SIDES = 32
@@ -36,6 +37,8 @@ _MOST_CORNERS = 1000
 """Of a polyline: cutting it up takes time by their cube."""
 THINNEST = 1e-4
 """[m] What a thickness of zero becomes: 0.1 mm."""
+_COARSEST = 2e-6
+"""Part of how far from its origin a mesh is that it must be thick: MuJoCo's corners have 24 bits."""
 
 
 class Meets(Flag):
@@ -72,23 +75,66 @@ class ShapeEntry:
         return Meets.PLANES if self.geom.type == mujoco.mjtGeom.mjGEOM_PLANE else Meets.STANDING
 
 
+def mesh_arrays(mesh: Mesh) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+    """Vertices (N, 3) [m] and faces (M, 3) of a mesh."""
+    return mesh.vertices.astype(float), mesh.faces.astype(np.intp)
+
+
+def collision_mesh(collision: Collision) -> Mesh | None:
+    """Read the mesh of a collision, as large as it says; None where it has none.
+
+    Raises:
+        MeshError: it cannot be read.
+    """
+    geometry = collision.geometry
+    if not isinstance(geometry, MeshFile) or geometry.path is None:
+        return None
+    mesh = load_mesh(geometry.path, submesh=geometry.submesh, center=geometry.center_submesh)
+    return mesh.scaled(geometry.scale)
+
+
 def add_shape(
-    spec: mujoco.MjSpec, body: mujoco.MjsBody, collision: Collision, name: str, report: Diagnostics, *, fixed: bool
+    spec: mujoco.MjSpec,
+    body: mujoco.MjsBody,
+    collision: Collision,
+    name: str,
+    report: Diagnostics,
+    *,
+    fixed: bool,
+    decomposition: Decomposition | None,
 ) -> list[tuple[mujoco.MjsGeom, Meets]]:
-    """Add a collision to a body, in pieces where it takes several; none after a warning where it cannot be one."""
+    """Add a collision to a body, in pieces where it takes several; none after a warning where it cannot be one.
+
+    Args:
+        spec: of the world.
+        body: that has it.
+        collision: as written.
+        name: of the geom, or of each piece up to a number.
+        report: takes what is not as written.
+        fixed: it never moves.
+        decomposition: cuts meshes; None: each is its convex hull.
+    """
     geometry = _mended(collision, report)
     pose = collision.link_from_collision
     match geometry:
         case MeshFile(path=None) | Empty():
             return []
-        case MeshFile(path=path):
-            assert path is not None  # caught above
+        case MeshFile():
             try:
-                mesh = load_mesh(path, submesh=geometry.submesh, center=geometry.center_submesh)
+                mesh = collision_mesh(collision)
             except MeshError as error:
                 report.warn(collision.at, f"{error}; the collision is left out")
                 return []
-            return _add_pieces(spec, body, collision, name, report, mesh.scaled(geometry.scale), fixed=fixed)
+            assert mesh is not None  # caught above
+            if decomposition is None:
+                if not fixed and split(*mesh_arrays(mesh), fixed=False).hollow:
+                    what = f"a mesh of {len(mesh.faces)} triangles that is not convex; how physics cuts it was not"
+                    report.info(collision.at, f"collision {collision.name!r}: {what} looked at (check --collisions)")
+                corners = _thick_hull(mesh.vertices.astype(float), collision, report)
+                return [(_add_hull(spec, body, collision, name, corners), Meets.ALL)]
+            cut = decomposition.pieces_of(*mesh_arrays(mesh), fixed=fixed)
+            _report_cut(cut, mesh, collision, report)
+            return _add_pieces(spec, body, collision, name, report, cut.pieces.corners, fixed=fixed)
         case Cone(radius, length):
             turns = np.linspace(0.0, 2 * np.pi, _CONE_SIDES, endpoint=False)
             base = np.column_stack([radius * np.cos(turns), radius * np.sin(turns), np.full(_CONE_SIDES, -length / 2)])
@@ -128,15 +174,11 @@ def _add_pieces(
     collision: Collision,
     name: str,
     report: Diagnostics,
-    mesh: Mesh,
+    pieces: list[NDArray[np.float64]],
     *,
     fixed: bool,
 ) -> list[tuple[mujoco.MjsGeom, Meets]]:
-    pieces = convex_pieces(mesh.vertices.astype(float), mesh.faces.astype(np.intp), fixed=fixed)
-    if pieces.misfits:
-        what = f"a hollow mesh of {len(mesh.faces)} triangles; physics {_said(pieces)}"
-        report.info(collision.at, f"collision {collision.name!r}: {what}")
-    corners = [_thick_hull(piece, collision, report) for piece in pieces.corners]
+    corners = [_thick_hull(piece, collision, report) for piece in pieces]
     if len(corners) == 1:
         return [(_add_hull(spec, body, collision, name, corners[0]), Meets.ALL)]
     geoms = [_add_hull(spec, body, collision, f"{name}#{i}", piece) for i, piece in enumerate(corners)]
@@ -148,13 +190,23 @@ def _add_pieces(
     return [(hull, Meets.PLANES), *((geom, Meets.STANDING | Meets.MOVING) for geom in geoms)]
 
 
-def _said(pieces: Pieces) -> str:
-    """What stands for a hollow mesh, and how well."""
-    worst = max(pieces.misfits, key=lambda misfit: misfit.away)
-    is_filled = any(misfit.is_filled for misfit in pieces.misfits)
-    how = "fills it" if is_filled else f"takes it for {len(pieces.corners)} convex pieces"
+def _report_cut(cut: CutMesh, mesh: Mesh, collision: Collision, report: Diagnostics) -> None:
+    """Say what stands for a hollow mesh, and how well."""
+    misfits = cut.pieces.misfits
+    if not misfits:
+        return
+    worst = max(misfits, key=lambda misfit: misfit.away)
+    is_filled = any(misfit.is_filled for misfit in misfits)
+    how = "fills it" if is_filled else f"takes it for {len(cut.pieces.corners)} convex pieces"
     times = "" if worst.times is None else f"{round(worst.times, 2):g} times its volume, "
-    return f"{how}: {times}a surface up to {worst.away:.2g} m away"
+    what = f"a hollow mesh of {len(mesh.faces)} triangles; physics {how}"
+    said = f"collision {collision.name!r}: {what}: {times}a surface up to {worst.away:.2g} m away"
+    if cut.is_failed:
+        report.warn(collision.at, f"{said}; it could not be cut into convex pieces")
+    elif cut.is_coarse:
+        report.warn(collision.at, f"{said}; fewer pieces than could be, to save time: {FULL}=1 has them all")
+    else:
+        report.info(collision.at, said)
 
 
 def _add_prisms(
@@ -191,15 +243,16 @@ def _add_hull(
 
 def _thick_hull(corners: NDArray[np.float64], collision: Collision, report: Diagnostics) -> NDArray[np.float64]:
     """A mesh's corners (N, 3) [m]; across what is flat or a line, a second layer of them, as a hull needs a volume."""
+    thinnest = max(THINNEST, _COARSEST * float(np.abs(corners).max()))
     centred = corners - corners.mean(axis=0)
     axes = np.linalg.eigh(centred.T @ centred)[1].T
-    thin = [axis for axis in axes if np.ptp(centred @ axis) < THINNEST]
+    thin = [axis for axis in axes if np.ptp(centred @ axis) < thinnest]
     for axis in thin:
-        corners = np.concatenate([corners - axis * THINNEST / 2, corners + axis * THINNEST / 2])
+        corners = np.concatenate([corners - axis * thinnest / 2, corners + axis * thinnest / 2])
     if thin:
         report.warn(
             collision.at,
-            f"collision {collision.name!r}: a mesh of zero thickness; physics uses {THINNEST * 1000:g} mm",
+            f"collision {collision.name!r}: a mesh of zero thickness; physics uses {thinnest * 1000:.2g} mm",
         )
     return corners
 

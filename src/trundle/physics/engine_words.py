@@ -1,0 +1,44 @@
+"""Words that Qhull and V-HACD print from C, kept off the screen."""
+
+import os
+import tempfile
+import threading
+from collections.abc import Generator
+from contextlib import ExitStack, contextmanager
+
+_THEIRS = (b"qhull", b"vhacd")
+_swap = threading.Lock()
+
+
+@contextmanager
+def muted() -> Generator[None]:
+    """Hold back what is printed, and print afterwards what another thread wrote meanwhile."""
+    with _swap, ExitStack() as streams:
+        for number in (1, 2):
+            streams.enter_context(_held_back(number))
+        yield
+
+
+@contextmanager
+def _held_back(number: int) -> Generator[None]:
+    try:
+        screen = os.dup(number)
+    except OSError:  # it was closed: `trundle … 2>&-`
+        yield
+        return
+    with tempfile.TemporaryFile() as caught:
+        os.dup2(caught.fileno(), number)
+        try:
+            yield
+        finally:
+            os.dup2(screen, number)
+            os.close(screen)
+            caught.seek(0)
+            words = caught.read()
+            if not any(name in words.lower() for name in _THEIRS):
+                _write_all(number, words)
+
+
+def _write_all(number: int, words: bytes) -> None:
+    while words:
+        words = words[os.write(number, words) :]
