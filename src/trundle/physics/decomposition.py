@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from .decomposition_cache import find_pieces, keep_pieces
 from .decomposition_jobs import cut_parts
-from .pieces import Detail, HollowPart, Pieces, Split, filled, split
+from .pieces import MOST_PIECES, MOST_SLABS, Detail, HollowPart, Pieces, Split, filled, in_one, split
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
@@ -52,10 +52,11 @@ class Decomposition:
     """How the meshes of one world are cut."""
 
     def __init__(self) -> None:
-        self._plans: dict[bytes, list[HollowPart]] = {}
+        self._plans: dict[bytes, tuple[Split, list[HollowPart]]] = {}
         self._chosen: dict[str, HollowPart] = {}
         """How a part is cut, by how it would be if there were time."""
         self._seconds = 0.0
+        self._slabs = 0
         self._failed: dict[str, Pieces] = {}
 
     def cut_ahead(self, meshes: Iterable[MeshRequest]) -> None:
@@ -88,23 +89,31 @@ class Decomposition:
         return CutMesh(pieces, is_coarse, any(part.key in self._failed for part in parts))
 
     def _plan(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> tuple[Split, list[HollowPart]]:
+        """Find what a mesh consists of, and how its hollow parts are cut."""
         digest = hashlib.sha256(b"%d %d " % (fixed, len(vertices)) + vertices.tobytes() + faces.tobytes()).digest()
-        whole = _splits.get(digest) or split(vertices, faces, fixed=fixed)
-        _remember(_splits, digest, whole)
         if digest not in self._plans:
-            in_mesh = 0.0
-            for _, part in whole.hollow:
-                if part.key in self._chosen:
-                    continue
-                chosen = part
-                most = min(MOST_SECONDS - self._seconds, MOST_SECONDS_A_MESH - in_mesh)
-                if part.detail is Detail.FULL and part.seconds > most and FULL not in os.environ:
-                    chosen = replace(part, detail=Detail.COARSE)
-                self._chosen[part.key] = chosen
-                self._seconds += chosen.seconds
-                in_mesh += chosen.seconds
-            self._plans[digest] = [self._chosen[part.key] for _, part in whole.hollow]
-        return whole, self._plans[digest]
+            whole = _splits.get(digest) or split(vertices, faces, fixed=fixed)
+            _remember(_splits, digest, whole)
+            if len(whole.corners) > MOST_PIECES and len(whole.corners) > MOST_SLABS - self._slabs:
+                whole = in_one(vertices, faces)
+            self._slabs += len(whole.corners)
+            self._plans[digest] = whole, self._chosen_parts([part for _, part in whole.hollow])
+        return self._plans[digest]
+
+    def _chosen_parts(self, parts: Iterable[HollowPart]) -> list[HollowPart]:
+        """Choose how the parts of a mesh are cut, while there is time."""
+        before_s = self._seconds
+        chosen: list[HollowPart] = []
+        for part in parts:
+            key = part.key
+            if key not in self._chosen:
+                left_s = min(MOST_SECONDS - self._seconds, MOST_SECONDS_A_MESH - (self._seconds - before_s))
+                if part.detail is Detail.FULL and part.seconds > left_s and FULL not in os.environ:
+                    part = replace(part, detail=Detail.COARSE)
+                self._chosen[key] = part
+                self._seconds += part.seconds
+            chosen.append(self._chosen[key])
+        return chosen
 
     def _find(self, part: HollowPart) -> Pieces | None:
         pieces = _known.get(part.key)

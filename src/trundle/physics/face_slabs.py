@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from .convex_patches import convex_patches
 from .hulls import area_around
 from .surface_parts import WELD, islands_of
 
@@ -21,28 +22,44 @@ def is_layer(own: _Points) -> bool:
 
 
 def slabs_of(points: _Points, faces: _Faces, own: _Points) -> list[_Points]:
-    """A slab behind each flat face; faces that make one convex polygon share one."""
+    """Corners (N, 3) of slabs behind all faces [m]; faces that make one convex polygon, or a bulge, share one.
+
+    Args:
+        points: (N, 3) [m].
+        faces: (M, 3) indices into them, none without area.
+        own: those of the points that faces use.
+    """
     sides = np.ptp(own, axis=0)
     thickness = float(np.clip(sides[sides > WELD].min(initial=_THICKEST) / 4, 1e-3, _THICKEST))
     a, b, c = (points[faces[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)
     areas = np.linalg.norm(normals, axis=1)
     normals /= areas[:, None]
-    keys = np.round(np.column_stack([normals, np.einsum("ij,ij->i", normals, a)]), 4)
     slabs: list[_Points] = []
-    _, planes = np.unique(keys, axis=0, return_inverse=True)
-    planes = planes.reshape(-1)
-    for plane in range(int(planes.max()) + 1):
-        chosen = np.flatnonzero(planes == plane)
-        flat = faces[chosen]
-        islands = islands_of(len(points), flat)[flat[:, 0]]
-        for island in np.unique(islands):
-            members = chosen[islands == island]
-            normal = normals[members[0]]
-            corners = points[np.unique(faces[members])]
-            if area_around(corners, normal) <= areas[members].sum() / 2 * 1.01:
-                slabs.append(np.concatenate([corners, corners - normal * thickness]))
-            else:
-                triangles = points[faces[members]]
-                slabs += [np.concatenate([triangle, triangle - normal * thickness]) for triangle in triangles]
+    is_left = np.ones(len(faces), dtype=bool)
+    for members in _polygons(faces, normals, np.einsum("ij,ij->i", normals, a)):
+        normal = normals[members[0]]
+        corners = points[np.unique(faces[members])]
+        if area_around(corners, normal) <= areas[members].sum() / 2 * 1.01:
+            slabs.append(np.concatenate([corners, corners - normal * thickness]))
+            is_left[members] = False
+    patches = convex_patches(points, faces[is_left], depth=thickness)
+    lengths = np.linalg.norm(patches.normals, axis=1, keepdims=True)
+    inward = patches.normals / np.maximum(lengths, np.finfo(float).tiny) * thickness
+    for loop, size, depth in zip(patches.loops, patches.sizes.tolist(), inward, strict=True):
+        corners = points[loop[:size]]
+        slabs.append(np.concatenate([corners, corners - depth]))
     return slabs
+
+
+def _polygons(faces: _Faces, normals: _Points, offsets: _Points) -> list[_Faces]:
+    """Numbers of the faces of each plane that hang together in it, where these are several."""
+    keys = np.round(np.column_stack([normals, offsets]), 4)
+    planes = np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
+    # A corner is another one in each plane: what hangs together over an edge between planes does not count.
+    corners, numbered = np.unique(faces + planes[:, None] * (int(faces.max()) + 1), return_inverse=True)
+    numbered = numbered.reshape(faces.shape)
+    labels = islands_of(len(corners), numbered)[numbered[:, 0]]
+    order = np.argsort(labels, kind="stable")
+    starts = np.flatnonzero(np.diff(labels[order])) + 1
+    return [members for members in np.split(order, starts) if len(members) > 1]

@@ -22,8 +22,10 @@ _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
 MOST_PIECES = 1000
 """Beyond so many, a mesh that moves is one convex hull."""
-MOST_SLABS = 60_000
-"""Beyond so many, a mesh that stands is one."""
+MOST_SLABS = 50_000
+"""Of all that stands in a world; what has over 1000 and comes then is one hull."""
+_CLOSE = 0.02
+"""[m] Where its hull is nearer, what stands and takes over 1000 slabs is its hull."""
 _VERSION = 4
 """Raised where the same mesh becomes other pieces."""
 _HOLLOW = 0.05
@@ -132,10 +134,23 @@ def split(vertices: _Points, faces: _Faces, *, fixed: bool) -> Split:
         else:
             hollow.append(island)
         if len(corners) + len(hollow) > (MOST_SLABS if fixed else MOST_PIECES):
-            return Split([], [_hollow(points, faces, Detail.HULL)])
+            return in_one(points, faces)
+    if len(corners) > MOST_PIECES and _hull_is_close(points, faces):
+        return in_one(points, faces)
     hollow.sort(key=lambda island: -float(np.prod(np.ptp(points[np.unique(island)], axis=0))))
     details = [Detail.FULL if i < _MOST_CUT else Detail.HULL for i in range(len(hollow))]
     return Split(corners, [_hollow(points, island, detail) for island, detail in zip(hollow, details, strict=True)])
+
+
+def in_one(vertices: _Points, faces: _Faces) -> Split:
+    """Leave a mesh whole, which fills it."""
+    points, faces = welded(vertices, faces)
+    return Split([], [_hollow(points, faces, Detail.HULL)])
+
+
+def _hull_is_close(points: _Points, faces: _Faces) -> bool:
+    hull = hull_of(points[np.unique(faces)])
+    return hull is not None and distance(hull.triangles, points[faces]) < _CLOSE
 
 
 def _hollow(points: _Points, faces: _Faces, detail: Detail) -> tuple[_Points, HollowPart]:

@@ -1,5 +1,6 @@
 """Collisions as MuJoCo geoms."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Flag, auto
 
@@ -27,6 +28,7 @@ from trundle.model import (
 )
 from trundle.spatial import Pose, Vector3, upright
 
+from .convex_geoms import THINNEST, add_hull, add_hulls, thick_hulls
 from .decomposition import FULL, CutMesh, Decomposition
 from .hulls import hull_of
 from .pieces import split
@@ -35,10 +37,6 @@ from .terrain import add_terrain
 _CONE_SIDES = 32
 _MOST_CORNERS = 1000
 """Of a polyline: cutting it up takes time by their cube."""
-THINNEST = 1e-4
-"""[m] What a thickness of zero becomes: 0.1 mm."""
-_COARSEST = 2e-6
-"""Part of how far from its origin a mesh is that it must be thick: MuJoCo's corners have 24 bits."""
 
 
 class Meets(Flag):
@@ -130,8 +128,8 @@ def add_shape(
                 if not fixed and split(*mesh_arrays(mesh), fixed=False).hollow:
                     what = f"a mesh of {len(mesh.faces)} triangles that is not convex; how physics cuts it was not"
                     report.info(collision.at, f"collision {collision.name!r}: {what} looked at (check --collisions)")
-                corners = _thick_hull(mesh.vertices.astype(float), collision, report)
-                return [(_add_hull(spec, body, collision, name, corners), Meets.ALL)]
+                (corners,) = _thick([mesh.vertices.astype(float)], collision, report)
+                return [(add_hull(spec, body, pose, name, corners), Meets.ALL)]
             cut = decomposition.pieces_of(*mesh_arrays(mesh), fixed=fixed)
             _report_cut(cut, mesh, collision, report)
             return _add_pieces(spec, body, collision, name, report, cut.pieces.corners, fixed=fixed)
@@ -142,7 +140,7 @@ def add_shape(
             away = radius * (1 - np.cos(np.pi / _CONE_SIDES))
             what = f"a cone; physics has it with {_CONE_SIDES} sides, a surface up to {away:.2g} m away"
             report.info(collision.at, f"collision {collision.name!r}: {what}")
-            return [(_add_hull(spec, body, collision, name, corners), Meets.ALL)]
+            return [(add_hull(spec, body, pose, name, corners), Meets.ALL)]
         case Polyline(outlines, height):
             prisms = _add_prisms(spec, body, collision, name, report, outlines, height)
             return [(geom, Meets.ALL) for geom in prisms]
@@ -178,15 +176,15 @@ def _add_pieces(
     *,
     fixed: bool,
 ) -> list[tuple[mujoco.MjsGeom, Meets]]:
-    corners = [_thick_hull(piece, collision, report) for piece in pieces]
+    pose = collision.link_from_collision
+    corners = _thick(pieces, collision, report)
     if len(corners) == 1:
-        return [(_add_hull(spec, body, collision, name, corners[0]), Meets.ALL)]
-    geoms = [_add_hull(spec, body, collision, f"{name}#{i}", piece) for i, piece in enumerate(corners)]
-    around = np.concatenate(corners)
-    if fixed or hull_of(around) is None:
+        return [(add_hull(spec, body, pose, name, corners[0]), Meets.ALL)]
+    geoms = add_hulls(spec, body, pose, name, corners)
+    if fixed or hull_of(np.concatenate(corners)) is None:
         return [(geom, Meets.ALL) for geom in geoms]
     # On a plane pieces stand as the hull around them all does, which touches it in far fewer points.
-    hull = _add_hull(spec, body, collision, f"{name}#hull", around)
+    hull = add_hull(spec, body, pose, f"{name}#hull", np.concatenate(corners))
     return [(hull, Meets.PLANES), *((geom, Meets.STANDING | Meets.MOVING) for geom in geoms)]
 
 
@@ -223,38 +221,19 @@ def _add_prisms(
         what = f"a polyline of more than {_MOST_CORNERS} corners, or without height; it is left out"
         report.warn(collision.at, f"collision {collision.name!r}: {what}")
         return []
-    geoms: list[mujoco.MjsGeom] = []
-    for i, triangle in enumerate(triangles_of(outlines)):
-        corners = np.array([(x, y, z) for z in (0.0, height) for x, y in triangle])
-        geoms.append(_add_hull(spec, body, collision, f"{name}#{i}", _thick_hull(corners, collision, report)))
-    return geoms
+    prisms = [np.array([(x, y, z) for z in (0.0, height) for x, y in triangle]) for triangle in triangles_of(outlines)]
+    return add_hulls(spec, body, collision.link_from_collision, name, _thick(prisms, collision, report))
 
 
-def _add_hull(
-    spec: mujoco.MjSpec, body: mujoco.MjsBody, collision: Collision, name: str, corners: NDArray[np.float64]
-) -> mujoco.MjsGeom:
-    """Add the convex hull of some corners (N, 3) [m], which MuJoCo makes of a mesh without faces."""
-    spec.add_mesh(name=name, uservert=corners.reshape(-1), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
-    pose = collision.link_from_collision
-    geom = body.add_geom(name=name, pos=pose.position, quat=pose.quaternion, group=3)
-    geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, name
-    return geom
-
-
-def _thick_hull(corners: NDArray[np.float64], collision: Collision, report: Diagnostics) -> NDArray[np.float64]:
-    """A mesh's corners (N, 3) [m]; across what is flat or a line, a second layer of them, as a hull needs a volume."""
-    thinnest = max(THINNEST, _COARSEST * float(np.abs(corners).max()))
-    centred = corners - corners.mean(axis=0)
-    axes = np.linalg.eigh(centred.T @ centred)[1].T
-    thin = [axis for axis in axes if np.ptp(centred @ axis) < thinnest]
-    for axis in thin:
-        corners = np.concatenate([corners - axis * thinnest / 2, corners + axis * thinnest / 2])
-    if thin:
-        report.warn(
-            collision.at,
-            f"collision {collision.name!r}: a mesh of zero thickness; physics uses {thinnest * 1000:.2g} mm",
-        )
-    return corners
+def _thick(
+    pieces: Sequence[NDArray[np.float64]], collision: Collision, report: Diagnostics
+) -> list[NDArray[np.float64]]:
+    """Pieces (N, 3) [m] that a hull can be made of."""
+    thick, thickest = thick_hulls(pieces)
+    if thickest:
+        what = f"a mesh of zero thickness; physics uses {thickest * 1000:.2g} mm"
+        report.warn(collision.at, f"collision {collision.name!r}: {what}")
+    return thick
 
 
 def _mended(collision: Collision, report: Diagnostics) -> Geometry:

@@ -1,0 +1,166 @@
+"""Neighbouring faces joined to convex patches: where a surface bulges, one convex body has all of them exactly."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Points = NDArray[np.float64]
+_Numbers = NDArray[np.intp]
+_TOLERANCE = 1e-4
+"""[m] By which a patch's hull may be off its faces."""
+_STRAIGHT = 1e-4
+"""Sine of the angle by which an outline may turn the wrong way."""
+_MOST_CORNERS = 12
+_MOST_FACES = 16
+_ROUNDS = 6
+
+
+@dataclass(frozen=True, slots=True)
+class Patches:
+    """Convex patches of a surface."""
+
+    loops: _Numbers
+    """(P, K) corners of each in order, counter-clockwise from outside; behind its last one anything."""
+    sizes: _Numbers
+    """(P,) how many corners each has."""
+    normals: _Points
+    """(P, 3) sum of its faces' normals, each as long as twice its area."""
+    planes: _Points
+    """(P, M, 4) unit normal and offset of each of its faces; the first one again behind the last."""
+    counts: _Numbers
+    """(P,) how many faces each has."""
+
+
+def convex_patches(points: _Points, faces: _Numbers, *, depth: float) -> Patches:
+    """Join faces two by two, those joined once more, and so on.
+
+    Args:
+        points: (N, 3) [m].
+        faces: (M, 3) indices into them, none without area.
+        depth: how far behind the plane of one of its faces a patch may go at most [m].
+    """
+    a, b, c = (points[faces[:, i]] for i in range(3))
+    normals = np.cross(b - a, c - a)
+    units = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    planes = np.column_stack([units, np.einsum("ij,ij->i", units, a)])[:, None]
+    count = len(faces)
+    patches = Patches(faces, np.full(count, 3, dtype=np.intp), normals, planes, np.ones(count, dtype=np.intp))
+    for _ in range(_ROUNDS if count else 0):
+        pairs = _matched(*_joinable(points, patches, depth), len(patches.sizes))
+        if not len(pairs):
+            break
+        patches = _joined(patches, pairs)
+    return patches
+
+
+def _joinable(points: _Points, patches: Patches, depth: float) -> tuple[_Numbers, _Points]:
+    """(E, 4) patch, number of the edge, other patch and its edge; and (E,) how much is won by joining them."""
+    pairs = _neighbours(patches)
+    first, edge, second, other = pairs.T
+    pairs = pairs[
+        (patches.sizes[first] + patches.sizes[second] - 2 <= _MOST_CORNERS)
+        & (patches.counts[first] + patches.counts[second] <= _MOST_FACES)
+    ]
+    first, edge, second, other = pairs.T
+    # … p, u, v, q … and … s, v, u, t …
+    p, u, v, q = (_corner(patches, first, edge + step) for step in (-1, 0, 1, 2))
+    s, t = _corner(patches, second, other - 1), _corner(patches, second, other + 2)
+    normals = patches.normals[first] + patches.normals[second]
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
+    turns = [_turn(points, corners, normals) for corners in ((p, u, t), (s, v, q))]
+    is_good = (t != p) & (s != q) & (turns[0] >= -_STRAIGHT) & (turns[1] >= -_STRAIGHT)
+    pairs = pairs[is_good]
+    first, _, second, _ = pairs.T
+    top, bottom = _heights(points, patches, first, second)
+    other_top, other_bottom = _heights(points, patches, second, first)
+    is_good = (np.maximum(top, other_top) <= _TOLERANCE) & (np.minimum(bottom, other_bottom) >= -depth)
+    gain = np.minimum(bottom, other_bottom)[is_good]
+    return pairs[is_good], gain
+
+
+def _neighbours(patches: Patches) -> _Numbers:
+    """(E, 4) patch, number of the edge, other patch and its edge: what two patches have in common, once each."""
+    width = patches.loops.shape[1]
+    owner = np.repeat(np.arange(len(patches.sizes)), width)
+    number = np.tile(np.arange(width), len(patches.sizes))
+    is_there = number < patches.sizes[owner]
+    owner, number = owner[is_there], number[is_there]
+    start, end = _corner(patches, owner, number), _corner(patches, owner, number + 1)
+    most = int(patches.loops.max()) + 1
+    keys, back = start * most + end, end * most + start
+    order = np.argsort(keys, kind="stable")
+    found = np.searchsorted(keys, back, sorter=order)
+    found = order[np.minimum(found, len(keys) - 1)]
+    _, index, times = np.unique(keys, return_inverse=True, return_counts=True)
+    is_once = times[index] == 1
+    is_pair = (keys[found] == back) & is_once & is_once[found] & (owner < owner[found])
+    return np.column_stack([owner, number, owner[found], number[found]])[is_pair]
+
+
+def _corner(patches: Patches, patch: _Numbers, number: _Numbers) -> _Numbers:
+    return patches.loops[patch, number % patches.sizes[patch]]
+
+
+def _turn(points: _Points, corners: tuple[_Numbers, _Numbers, _Numbers], normals: _Points) -> _Points:
+    """(E,) sine of the angle by which an outline turns left at the second of three corners."""
+    p, u, t = (points[corner] for corner in corners)
+    one, two = u - p, t - u
+    lengths = np.linalg.norm(one, axis=1) * np.linalg.norm(two, axis=1)
+    return np.einsum("ij,ij->i", np.cross(one, two), normals) / np.maximum(lengths, np.finfo(float).tiny)
+
+
+def _heights(points: _Points, patches: Patches, of: _Numbers, above: _Numbers) -> tuple[_Points, _Points]:
+    """(E,) the highest and the lowest corner of some patches above the faces of others [m]."""
+    width = patches.loops.shape[1]
+    numbers = np.minimum(np.arange(width), patches.sizes[of][:, None] - 1)
+    corners = points[patches.loops[of[:, None], numbers]]
+    planes = patches.planes[above]
+    heights = np.einsum("eki,emi->ekm", corners, planes[..., :3]) - planes[:, None, :, 3]
+    return heights.max(axis=(1, 2), initial=-np.inf), heights.min(axis=(1, 2), initial=np.inf)
+
+
+def _matched(pairs: _Numbers, gain: _Points, count: int) -> _Numbers:
+    """Those pairs that are joined, each patch in one at most: again and again, those that are best for both."""
+    order = np.argsort(-gain, kind="stable")
+    pairs = pairs[order]
+    chosen: list[_Numbers] = []
+    while len(pairs):
+        rank = np.arange(len(pairs))
+        best = np.full(count, len(pairs))
+        np.minimum.at(best, pairs[:, 0], rank)
+        np.minimum.at(best, pairs[:, 2], rank)
+        is_best = (best[pairs[:, 0]] == rank) & (best[pairs[:, 2]] == rank)
+        chosen.append(pairs[is_best])
+        taken = np.zeros(count, dtype=bool)
+        taken[chosen[-1][:, [0, 2]]] = True
+        pairs = pairs[~(taken[pairs[:, 0]] | taken[pairs[:, 2]])]
+    return np.concatenate(chosen) if chosen else np.zeros((0, 4), dtype=np.intp)
+
+
+def _joined(patches: Patches, pairs: _Numbers) -> Patches:
+    first, edge, second, other = pairs.T
+    one, two = patches.sizes[first], patches.sizes[second]
+    sizes, counts = one + two - 2, patches.counts[first] + patches.counts[second]
+    step = np.arange(max(int(sizes.max()), patches.loops.shape[1]))
+    # From v on around the first to before u, from u on around the second to before v.
+    in_first = patches.loops[first[:, None], (edge[:, None] + 1 + step) % one[:, None]]
+    in_second = patches.loops[second[:, None], (other[:, None] + 2 + step - one[:, None]) % two[:, None]]
+    loops = np.where(step < one[:, None] - 1, in_first, in_second)
+    face = np.arange(max(int(counts.max()), patches.planes.shape[1]))
+    count = patches.counts[first][:, None]
+    from_first = patches.planes[first[:, None], np.minimum(face, count - 1)]
+    most = patches.counts[second][:, None] - 1
+    from_second = patches.planes[second[:, None], np.clip(face - count, 0, most)]
+    planes = np.where((face < count)[..., None], from_first, from_second)
+    rest = np.setdiff1d(np.arange(len(patches.sizes)), pairs[:, [0, 2]])
+    more = [(0, 0), (0, len(step) - patches.loops.shape[1])]
+    return Patches(
+        np.concatenate([loops, np.pad(patches.loops[rest], more)]),
+        np.concatenate([sizes, patches.sizes[rest]]),
+        np.concatenate([patches.normals[first] + patches.normals[second], patches.normals[rest]]),
+        np.concatenate(
+            [planes, np.pad(patches.planes[rest], [(0, 0), (0, len(face) - patches.planes.shape[1]), (0, 0)], "edge")]
+        ),
+        np.concatenate([counts, patches.counts[rest]]),
+    )
