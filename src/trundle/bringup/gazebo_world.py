@@ -122,7 +122,15 @@ class GazeboWorld:
                 self._build(loaded.world)
             except TrundleError as failure:
                 error = failure
-            self._graph.loop.call_soon(lambda: built.set_exception(error) if error else built.set_result(None))
+            self._graph.loop.call_soon(lambda: settle(error))
+
+        def settle(error: TrundleError | None) -> None:
+            if built.done():  # the launch ended meanwhile
+                return
+            if error is None:
+                built.set_result(None)
+            else:
+                built.set_exception(error)
 
         self.post(build)
         self._thread.start()
