@@ -17,6 +17,7 @@ from trundle.nodes import ROSCPP, Executable, Host, Missing, Replacement, find_n
 from trundle.packages import Packages
 from trundle.ros import Loggers, Node
 from trundle.supervisor import Command, Job, Policy, ProcessJob, ProcessTree, TaskJob
+from trundle.yaml_loader import load_yaml
 
 from .graph import Graph
 from .launch_logs import ros_home
@@ -165,7 +166,7 @@ def _split(text: str, node: LaunchNode) -> list[str]:
 def _value(text: str) -> bool | int | float | str | list[object] | dict[str, object]:
     """A `_name:=value` of a node's arguments: YAML where it is YAML, else the text."""
     try:
-        value = yaml.safe_load(text)
+        value = load_yaml(text)
     except yaml.YAMLError:
         return text
     return text if value is None else value

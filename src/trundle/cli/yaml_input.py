@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 from trundle.diagnostics import UsageError
@@ -11,8 +12,10 @@ def yaml_value(text: str) -> Any:
     """Read one YAML value from the command line."""
     import yaml
 
+    from trundle.yaml_loader import load_yaml
+
     try:
-        return yaml.safe_load(text)
+        return load_yaml(text)
     except yaml.YAMLError as error:
         raise UsageError(f"Argument error: {error}") from None
 
@@ -21,9 +24,11 @@ def yaml_file(path: str) -> Iterator[Any]:
     """Yield the documents of a file that are not empty."""
     import yaml
 
+    from trundle.yaml_loader import BoundedLoader
+
     try:
-        with open(path, encoding="utf-8") as file:
-            yield from (document for document in yaml.safe_load_all(file) if document is not None)
+        text = Path(path).read_text(encoding="utf-8")
+        yield from (document for document in yaml.load_all(text, BoundedLoader) if document is not None)
     except OSError as error:
         raise UsageError(f"file cannot be read: {path}: {error.strerror}") from None
     except yaml.YAMLError as error:

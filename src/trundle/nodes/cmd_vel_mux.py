@@ -7,6 +7,7 @@ import yaml
 
 from trundle.files import read_file
 from trundle.ros import Message, Node, SettingError, Settings
+from trundle.yaml_loader import load_yaml
 
 from .host import Host
 
@@ -83,7 +84,7 @@ def _read(path: str) -> tuple[list[Source], str]:
         SettingError: there is none, or it is of no use.
     """
     try:
-        tree = yaml.safe_load(read_file(path))
+        tree = load_yaml(read_file(path).decode())
     except (OSError, ValueError, yaml.YAMLError) as error:
         raise SettingError(f"yaml_cfg_file {path!r} cannot be read: {error}") from None
     settings = Settings(tree, path)

@@ -10,6 +10,7 @@ import yaml
 from trundle.files import read_input
 from trundle.outputs import write_whole
 from trundle.ros import Node, Options, ServiceError, find_reconfigurable, read_options, set_options
+from trundle.yaml_loader import BoundedLoader, load_yaml
 
 from .host import Host
 
@@ -84,13 +85,13 @@ def _mapping(text: str) -> Mapping[str, object]:
     Raises:
         ValueError: it is none.
     """
-    value = yaml.load(text, _Loader)
+    value = load_yaml(text, _Loader)
     if not isinstance(value, dict):
         raise ValueError(f"options are given as NAME VALUE, or as '{{name: value}}'; {text[:60]!r} is neither")
     return {str(name): item for name, item in cast("dict[object, object]", value).items()}
 
 
-class _Loader(yaml.SafeLoader):
+class _Loader(BoundedLoader):
     """Takes what the original dumps, an object of Python, for the mapping that it is."""
 
 

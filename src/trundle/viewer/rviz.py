@@ -11,6 +11,7 @@ import yaml
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.files import read_text
 from trundle.model import Rgba
+from trundle.yaml_loader import BoundedLoader
 
 DisplayKind: TypeAlias = Literal["Grid", "Image", "Odometry", "RobotModel", "TF"]
 _TOPIC_KEYS: dict[str, tuple[str, ...]] = {
@@ -99,7 +100,7 @@ def read_rviz_config(path: Path | None, report: Diagnostics) -> RvizConfig:
         report.warn(here, "rviz configurations of before Groovy (.vcg) are not supported; showing the usual displays")
         return DEFAULT_CONFIG
     try:
-        root = yaml.compose(read_text(path), Loader=yaml.SafeLoader)
+        root = yaml.compose(read_text(path), Loader=BoundedLoader)
     except OSError as error:
         raise DescriptionError(here, f"cannot be read: {error.strerror}") from None
     except yaml.MarkedYAMLError as error:

@@ -13,6 +13,7 @@ from PIL import Image
 
 from trundle.diagnostics import UsageError
 from trundle.files import read_file
+from trundle.yaml_loader import load_yaml
 
 _FREE, _OCCUPIED, _UNKNOWN = 0, 100, -1
 _MOST_BYTES = 256 * 1024 * 1024
@@ -37,7 +38,7 @@ def read_map(file: Path) -> OccupancyMap:
         UsageError: a file or a key is missing, or is of no use.
     """
     try:
-        described: Any = yaml.safe_load(read_file(file))
+        described: Any = load_yaml(read_file(file).decode())
     except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
         raise UsageError(f"map {file}: {error}") from None
     if not isinstance(described, dict):

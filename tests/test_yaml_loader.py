@@ -1,0 +1,69 @@
+"""YAML of files: plain data, bounded, and one kind of error whatever is wrong."""
+
+from pathlib import Path
+
+import pytest
+import yaml
+
+from trundle.diagnostics import DescriptionError, Diagnostics, UsageError
+from trundle.nodes.map_server.occupancy import read_map
+from trundle.viewer import read_rviz_config
+from trundle.yaml_loader import BoundedLoader, load_yaml, one_line
+
+
+def billions(first: str, again: str) -> str:
+    """Lines each of which stands for ten times the one before."""
+    lines = [f"a0: &a0 {first}"]
+    return "\n".join([*lines, *(f"a{n}: &a{n} {again.format(', '.join([f'*a{n - 1}'] * 10))}" for n in range(1, 12))])
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (billions("[x, x]", "[{0}]"), "its aliases stand for more than 500000 values"),
+        (billions("{x: 1}", "{{<<: [{0}]}}"), "its aliases stand for more than 500000 values"),
+        (billions("{x: 1}", "{{k: [{0}]}}"), "its aliases stand for more than 500000 values"),
+        ("a: &a [*a]", "line 1: a value contains itself"),
+        ("a: &a {b: *a}", "line 1: a value contains itself"),
+        ("[" * 10_000 + "]" * 10_000, "nested too deeply"),
+        ("".join(f"{' ' * depth}a:\n" for depth in range(900)), "nested too deeply"),
+        ("!!python/object/apply:os.system [id]", "could not determine a constructor for the tag"),
+        ("a: " + "9" * 5000, "Exceeds the limit"),
+        ("2001-13-45", "month must be in 1..12"),
+        ("!!bool maybe", "line 1: 'maybe' is not a value of its type"),
+        ("!!timestamp x", "NoneType"),
+        ("{[1]: 2}", "line 1, column 2: found unhashable key"),
+        ("[1", "line 1, column 3"),
+        ("\x00", "special characters are not allowed"),
+        ("x" * (16 * 1024 * 1024 + 1), "characters of YAML; the most read is 16777216"),
+    ],
+)
+def test_what_cannot_be_loaded_is_a_sentence(text: str, words: str) -> None:
+    with pytest.raises(yaml.YAMLError) as error:
+        load_yaml(text)
+    assert words in one_line(error.value)
+
+
+def test_many_values_are_refused_before_they_are_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("trundle.yaml_loader._MOST_NODES", 100)
+    with pytest.raises(yaml.YAMLError, match="more than 100 values"):
+        load_yaml("[" + "0, " * 200 + "0]")
+
+
+def test_plain_data_and_aliases_are_loaded() -> None:
+    assert load_yaml("a: &a [1, 2.5, x, null, true]\nb: *a\nc: {<<: {d: 1}}") == {
+        "a": [1, 2.5, "x", None, True],
+        "b": [1, 2.5, "x", None, True],
+        "c": {"d": 1},
+    }
+    assert load_yaml("") is None
+    assert list(yaml.load_all("1\n---\n2", BoundedLoader)) == [1, 2]
+
+
+def test_other_readers_of_yaml_are_bounded_too(tmp_path: Path) -> None:
+    bomb = tmp_path / "bomb.yaml"
+    bomb.write_text(billions("[x, x]", "[{0}]"))
+    with pytest.raises(UsageError, match="its aliases stand for more than"):
+        read_map(bomb)
+    with pytest.raises(DescriptionError, match="not YAML: its aliases stand for more than"):
+        read_rviz_config(bomb, Diagnostics())
