@@ -1,15 +1,13 @@
 """Read and write the parameter server, as rosparam does."""
 
 import argparse
-import ast
 import math
-import operator
 import os
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trundle.diagnostics import UsageError
 from trundle.files import read_input, read_standard_input
@@ -19,6 +17,9 @@ from trundle.ros import set_leaves
 
 from .running import global_name, master, original_errors
 
+if TYPE_CHECKING:
+    from trundle.expressions import Interpreter
+
 EXAMPLES = """
   trundle param list
   trundle param set /robot/rate 20
@@ -26,12 +27,6 @@ EXAMPLES = """
   trundle param load robot.yaml /robot
 """
 _SCRIPT = "rosparam"
-_OPERATORS: dict[type[ast.operator], Callable[[float, float], float]] = {
-    ast.Add: operator.add,
-    ast.Sub: operator.sub,
-    ast.Mult: operator.mul,
-    ast.Div: operator.truediv,
-}
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -209,11 +204,16 @@ def _documents(text: str, where: str) -> Iterator[Any]:
     """Read YAML as rosparam does, with its `deg(90)` and `rad(pi/2)`."""
     import yaml
 
-    class Loader(yaml.SafeLoader):
+    from trundle.expressions import Interpreter
+    from trundle.yaml_loader import BoundedLoader
+
+    interpreter = Interpreter()
+
+    class Loader(BoundedLoader):
         """YAML with rosparam's angles; a class of its own, so that nobody else's YAML has them."""
 
     def angle(loader: yaml.SafeLoader, node: yaml.ScalarNode) -> float:
-        return _angle(str(loader.construct_scalar(node)))
+        return _angle(str(loader.construct_scalar(node)), interpreter)
 
     for tag, start in (("!degrees", "deg"), ("!radians", "rad")):
         Loader.add_constructor(tag, angle)
@@ -224,26 +224,14 @@ def _documents(text: str, where: str) -> Iterator[Any]:
         raise UsageError(f"{where} is no YAML: {error}") from None
 
 
-def _angle(text: str) -> float:
-    """`deg(n)` in radians, or `rad(…)` with numbers, pi, + - * / and brackets."""
+def _angle(text: str, interpreter: "Interpreter") -> float:
+    """`deg(n)` in radians, or `rad(…)` with an expression of numbers and what `math` has."""
+    from trundle.expressions import MATH_NAMES
+
     inner = text[4:-1]
     try:
         if text.startswith("deg("):
             return math.radians(float(inner))
-        return _arithmetic(ast.parse(inner, mode="eval").body)
-    except (ValueError, SyntaxError, ZeroDivisionError, RecursionError):
+        return float(interpreter.evaluate(inner, MATH_NAMES))
+    except Exception:  # the expression may raise whatever Python raises
         raise UsageError(f"not an angle: {text!r}") from None
-
-
-def _arithmetic(node: ast.expr) -> float:
-    match node:
-        case ast.Constant(value=int() | float() as value):
-            return float(value)
-        case ast.Name(id="pi"):
-            return math.pi
-        case ast.UnaryOp(op=ast.USub(), operand=operand):
-            return -_arithmetic(operand)
-        case ast.BinOp(left=left, op=op, right=right) if type(op) in _OPERATORS:
-            return _OPERATORS[type(op)](_arithmetic(left), _arithmetic(right))
-        case _:
-            raise ValueError

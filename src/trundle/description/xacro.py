@@ -7,7 +7,6 @@ the output as plain XML, without a word, and a robot has no links. The pass rewr
 import io
 import itertools
 import os
-import re
 import sys
 import threading
 import xml.dom.minidom
@@ -20,10 +19,12 @@ from typing import Any, TextIO
 from xml.parsers.expat import ExpatError
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.expressions import PYTHON_NAMES, Budget
 from trundle.files import read_file
 from trundle.packages import Packages
 
-from .xacro_expression import BOUNDED, Evaluator
+from .xacro_error import error_of
+from .xacro_symbols import SubstitutedNames, new_interpreter, offer_symbols
 
 
 class _Yaml(ModuleType):
@@ -53,16 +54,7 @@ def _import_xacro() -> tuple[Any, Any]:
 xacro, substitution_args = _import_xacro()
 
 
-def _bound_symbols(symbols: Any) -> None:
-    """Put what cannot grow without end in place of what can; `vars` would open every door that a name may not."""
-    spaces = (symbols, symbols["math"], symbols["python"])
-    for space, name in itertools.product(spaces, BOUNDED):
-        if name in space:
-            dict.__setitem__(space, name, BOUNDED[name])
-    dict.pop(symbols["python"], "vars")
-
-
-_bound_symbols(xacro._global_symbols)
+offer_symbols(xacro)
 
 
 def _collect_args_for(original: Callable[[str], list[str]]) -> Callable[[str], list[str]]:
@@ -77,12 +69,10 @@ def _collect_args_for(original: Callable[[str], list[str]]) -> Callable[[str], l
 substitution_args._collect_args = _collect_args_for(substitution_args._collect_args)
 
 
-_REPEATED = r"<class '[\w.]+'>: (.*?) \1"
-"""How the package words an error of $(…): its class, then what it says, twice."""
-_LONGEST = 400
-"""Characters of an error: it quotes the expression, and each that this one was part of."""
 _MOST_ELEMENTS = 50_000
 """What macros may expand to; the largest published robot has some 5,000."""
+_LONG = 200
+"""Characters of a text that is counted, each time it is put somewhere."""
 _LOCK = threading.Lock()
 """The package keeps its state in module globals."""
 _CORE = {
@@ -137,13 +127,7 @@ def expand_xacro(
         except ExpatError as error:
             raise DescriptionError(Source(_where(path).file, error.lineno), f"not well-formed XML: {error}") from None
         except Exception as error:  # xacro evaluates the file's own Python: anything may come out of it
-            inner: object = error
-            while (inner := getattr(inner, "exc", None)) is not None:  # what was refused amid an expression
-                if isinstance(inner, DescriptionError):
-                    raise inner from None
-            what = re.sub(_REPEATED, r"\1", " ".join(str(error).split())) or type(error).__name__
-            what = what if len(what) <= _LONGEST else f"{what[:_LONGEST]} …"
-            raise DescriptionError(_where(path), what) from None
+            raise error_of(error, _where(path), map(str, xacro.all_includes)) from None
 
 
 def _where(path: Path) -> Source:
@@ -168,21 +152,24 @@ def _ours(packages: Packages, report: Diagnostics, path: Path, data: bytes) -> G
         packages.check_readable(Path(name), _where(path), told="load_yaml")
         return io.StringIO(read_file(name).decode())
 
+    def substitution_eval(text: str, _: object, symbols: object) -> object:
+        return interpreter.evaluate(text, SubstitutedNames(symbols, {**PYTHON_NAMES, "range": range}))
+
     package, arguments = xacro, substitution_args
+    interpreter = new_interpreter(package)
     names = ("parse", "eval_all", "handle_macro_call", "warning", "print_location", "safe_eval", "eval_text")
     kept = {name: getattr(package, name) for name in names}
     own_find = arguments._eval_find
     package.parse = _parse_for(kept["parse"], packages, report, {str(path): data})
     package.eval_all = _eval_all_for(kept["eval_all"], path)
     package.handle_macro_call = _call_for(kept["handle_macro_call"], report, path)
-    evaluate = Evaluator()
-    package.safe_eval = evaluate
-    package.eval_text = _eval_text_for(kept["eval_text"])
+    package.safe_eval = interpreter.evaluate
+    package.eval_text = _eval_text_for(kept["eval_text"], interpreter.budget)
     package.warning = warn
     package.open = open_readable  # shadows the builtin that its load_yaml would open any file with
     package.print_location = lambda: None  # it writes to stderr where a warning was; `_where` says it
     arguments._eval_find = arguments._eval_dict["find"] = find
-    arguments.eval = _substitution_eval(evaluate)  # in its module, in place of the builtin one
+    arguments.eval = substitution_eval  # in its module, in place of the builtin one
     package.all_includes.clear()
     try:
         yield
@@ -195,22 +182,16 @@ def _ours(packages: Packages, report: Diagnostics, path: Path, data: bytes) -> G
         del package.open
 
 
-def _eval_text_for(original: Callable[..., object]) -> Callable[..., object]:
+def _eval_text_for(original: Callable[..., object], budget: Budget) -> Callable[..., object]:
     """Most text of a file holds nothing to evaluate, and the package's lexer costs as much as all the rest."""
 
     def eval_text(text: str, symbols: object) -> object:
-        return original(text, symbols) if "$" in text else text
+        found = original(text, symbols) if "$" in text else text
+        if isinstance(found, str) and len(found) > _LONG:
+            budget.hold(len(found))  # a thousand elements may hold it, and the output has it a thousand times
+        return found
 
     return eval_text
-
-
-_HARMLESS = (abs, bool, dict, float, int, len, list, max, min, round, sorted, str, sum, tuple)
-
-
-def _substitution_eval(evaluate: Evaluator) -> Callable[[str, object, Any], object]:
-    """What `$(eval …)` means: the original lets it have every builtin."""
-    names = {**{function.__name__: function for function in _HARMLESS}, "range": BOUNDED["range"]}
-    return lambda expression, _, symbols: evaluate(expression, dict(names), symbols)
 
 
 def _parse_for(

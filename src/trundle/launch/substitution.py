@@ -3,20 +3,26 @@
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from trundle.diagnostics import DescriptionError, Source
+from trundle.expressions import MATH_NAMES, PYTHON_NAMES, ExpressionError, Interpreter, function_of
 
-from .bounded import BASE_NAMES, ExpressionError
-from .expression import evaluate
 from .missing import MissingPackageError, MissingPackages
 from .packages import PackageFinder
 from .scope import Scope
 from .values import convert_value
 
 _COMMAND = re.compile(r"\$+\(([^)]+)\)")
+_LONGEST = 400
+"""Characters of an expression, and of what is wrong with it, in an error."""
+_BASE_NAMES: Mapping[str, Any] = {"true": True, "false": False, **PYTHON_NAMES, **MATH_NAMES}
+"""The names roslaunch gives every expression, beside the functions that depend on the file.
+
+It does not mean some of Python's to be there; Python gives them to its expressions, and files use them.
+"""
 _COMMANDS = ("find", "env", "optenv", "dirname", "anon", "arg")
 
 
@@ -30,6 +36,8 @@ class Substitution:
     """Makes a name nobody else has."""
     missing: MissingPackages | None = None
     """Takes the packages that are not there; None: the first one is an error."""
+    interpreter: Interpreter = field(default_factory=Interpreter)
+    """Evaluates every `$(eval …)` of the launch."""
 
     def resolve(self, text: str, scope: Scope, at: Source) -> str:
         """Replace every `$(…)` of an attribute.
@@ -132,11 +140,18 @@ class Substitution:
         def dirname() -> str:
             return _folder(scope)
 
-        functions = {f.__name__: f for f in (arg, env, optenv, find, anon, dirname)}
+        functions = {f.__name__: function_of(f) for f in (arg, env, optenv, find, anon, dirname)}
         try:
-            return str(evaluate(text, _Names(scope.arguments, functions)))
-        except (ExpressionError, ValueError) as error:  # ValueError: a number of thousands of digits has no text
-            raise DescriptionError(at, f"$(eval {text}): {error}") from None
+            if "__" in text:  # roslaunch's own rule, and its own words
+                raise ExpressionError("may not contain double underscores")
+            return str(self.interpreter.evaluate(text, _Names(scope.arguments, functions)))
+        except DescriptionError:
+            raise
+        except Exception as error:  # the expression may raise whatever Python raises
+            what = f"not a Python expression: {error.msg}" if isinstance(error, SyntaxError) else str(error)
+            raise DescriptionError(
+                at, f"$(eval {text[:_LONGEST]}): {what[:_LONGEST] or type(error).__name__}"
+            ) from None
 
 
 class _Names(Mapping[str, Any]):
@@ -144,7 +159,7 @@ class _Names(Mapping[str, Any]):
 
     def __init__(self, arguments: Mapping[str, str], functions: Mapping[str, Any]) -> None:
         self._arguments = arguments
-        self._known = {**BASE_NAMES, **functions}
+        self._known = {**_BASE_NAMES, **functions}
 
     def __getitem__(self, name: str) -> Any:
         return self._known[name] if name in self._known else convert_value(self._arguments[name], "auto")

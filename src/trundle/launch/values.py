@@ -7,13 +7,11 @@ from typing import Any
 
 import yaml
 
-from .bounded import MATH_NAMES, ExpressionError
-from .expression import evaluate
-from .plan import ParamType, ParamValue
+from trundle.expressions import MATH_NAMES, Interpreter
+from trundle.yaml_loader import BoundedLoader, one_line
+from trundle.yaml_loader import load_yaml as load_plain_yaml
 
-_MAX_YAML_BYTES = 16 * 1024 * 1024
-_MAX_YAML_NODES = 500_000
-"""Counted with aliases followed: a few lines of `&a [*b, *b]` can stand for billions of values."""
+from .plan import ParamType, ParamValue
 
 
 def convert_value(text: str, kind: ParamType) -> ParamValue:
@@ -72,16 +70,20 @@ def read_flag(text: str) -> bool:
             raise ValueError(f"{text!r} is neither true, false, 1 nor 0")
 
 
-class _Loader(yaml.SafeLoader):
+class _Loader(BoundedLoader):
     """Plain YAML data and rosparam's angles; no Python objects."""
 
+    def __init__(self, stream: str) -> None:
+        super().__init__(stream)
+        self.interpreter = Interpreter()
 
-def _radians(loader: yaml.SafeLoader, node: yaml.ScalarNode) -> float:
+
+def _radians(loader: _Loader, node: yaml.ScalarNode) -> float:
     text = str(loader.construct_scalar(node)).strip()
     inner = text[4:-1] if text.startswith("rad(") else text
     try:
-        return float(evaluate(inner, MATH_NAMES))
-    except (ExpressionError, TypeError, ValueError):
+        return float(loader.interpreter.evaluate(inner, MATH_NAMES))
+    except Exception:  # the expression may raise whatever Python raises
         raise ValueError(f"{text!r} is no angle in radians") from None
 
 
@@ -106,54 +108,10 @@ def load_yaml(text: str) -> ParamValue:
     Raises:
         ValueError: not YAML, too large, or something that is no plain data; the message is one sentence.
     """
-    if len(text) > _MAX_YAML_BYTES:
-        raise ValueError(f"{len(text)} characters of YAML; the most read is {_MAX_YAML_BYTES}")
     try:
-        loader = _Loader(text)  # looks at every character
+        return _plain(load_plain_yaml(text, _Loader))
     except yaml.YAMLError as error:
-        raise ValueError(f"invalid YAML: {_one_line(error)}") from None
-    try:
-        node = loader.get_single_node()
-        if node is None:
-            return None
-        if _expanded_size(node, {}) > _MAX_YAML_NODES:
-            raise ValueError(f"invalid YAML: its aliases stand for more than {_MAX_YAML_NODES} values")
-        return _plain(loader.construct_document(node))
-    except yaml.YAMLError as error:
-        raise ValueError(f"invalid YAML: {_one_line(error)}") from None
-    except RecursionError:
-        raise ValueError("invalid YAML: nested too deeply") from None
-    except (TypeError, AttributeError) as error:  # an unhashable key, a merge of something that is no mapping
-        raise ValueError(f"invalid YAML: {error}") from None
-    finally:
-        loader.dispose()
-
-
-def _expanded_size(node: yaml.Node, known: dict[int, int]) -> int:
-    """Count values with aliases followed; a node within itself is an error."""
-    size = known.get(id(node))
-    if size == 0:
-        raise ValueError(f"invalid YAML: line {node.start_mark.line + 1}: a value contains itself")
-    if size is not None:
-        return size
-    known[id(node)] = 0
-    match node:
-        case yaml.MappingNode(value=pairs):
-            size = 1 + sum(_expanded_size(k, known) + _expanded_size(v, known) for k, v in pairs)
-        case yaml.SequenceNode(value=items):
-            size = 1 + sum(_expanded_size(item, known) for item in items)
-        case _:
-            size = 1
-    known[id(node)] = size
-    return size
-
-
-def _one_line(error: yaml.YAMLError) -> str:
-    if not isinstance(error, yaml.MarkedYAMLError):
-        return " ".join(str(error).split())
-    mark = error.problem_mark or error.context_mark
-    what = error.problem or error.context or "unreadable"
-    return what if mark is None else f"line {mark.line + 1}, column {mark.column + 1}: {what}"
+        raise ValueError(f"invalid YAML: {one_line(error)}") from None
 
 
 def _plain(value: Any) -> ParamValue:

@@ -1,0 +1,40 @@
+"""Makes and looks into containers, as the syntax of an expression asks for."""
+
+from collections.abc import Iterable
+from typing import Any
+
+from .values import Caller
+
+
+def set_of(caller: Caller, items: Iterable[Any]) -> set[Any]:
+    """Make a set."""
+    found: set[Any] = set()
+    caller.budget.hold(200)
+    for item in items:
+        caller.budget.hold(60)
+        found.add(caller.budget.key(item, len(found)))
+    return found
+
+
+def mapping_of(caller: Caller, value: Any) -> dict[str, Any]:
+    """What `**value` stands for."""
+    if not isinstance(value, dict):
+        raise TypeError(f"argument after ** must be a mapping, not {type(value).__name__}")
+    caller.budget.spend(len(value))
+    caller.budget.hold(100 * len(value))
+    return {caller.budget.key(key, 0): each for key, each in dict.items(value)}
+
+
+def item_of(caller: Caller, owner: Any, index: Any) -> Any:
+    """Find `owner[index]`."""
+    if not isinstance(owner, str | list | tuple | dict | range):
+        raise TypeError(f"{type(owner).__name__!r} object is not subscriptable")
+    if isinstance(owner, dict):
+        return owner[caller.budget.key(index, len(owner))]
+    found = owner[index]
+    if isinstance(index, slice) and isinstance(found, str):
+        caller.budget.hold_text(found)
+    elif isinstance(index, slice):
+        caller.budget.spend(len(found) >> 5)
+        caller.budget.hold(60 if isinstance(found, range) else 60 + 8 * len(found))
+    return found

@@ -1,0 +1,133 @@
+"""Frames of lambdas and comprehensions: their names, and how values get there."""
+
+import ast
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, Protocol
+
+from .budget import ExpressionError
+from .values import Callee, Caller
+
+Frame = dict[Any, Any] | None
+"""Values of the names that a lambda or a comprehension has; under None, the frame around it."""
+Scopes = tuple[frozenset[str], ...]
+"""Names of every frame, the innermost first."""
+
+
+class Running(Caller, Protocol):
+    """An evaluation, as seen by its operations."""
+
+    def look_up(self, name: str) -> Any:
+        """The value of a name of the document."""
+        ...
+
+    def attribute(self, owner: Any, name: str) -> Any:
+        """The attribute of a value."""
+        ...
+
+
+Code = Callable[[Running, Frame], Any]
+Assignment = Callable[[Running, dict[Any, Any], Any], None]
+
+
+def local(name: str, depth: int) -> Code:
+    """Look a name up in a frame, so many frames out."""
+
+    def code(_running: Running, frame: Frame) -> Any:
+        for _ in range(depth):
+            frame = frame[None] if frame is not None else None
+        if frame is None or name not in frame:
+            raise NameError(f"name {name!r} is not defined")
+        return frame[name]
+
+    return code
+
+
+def targets(target: ast.expr) -> Iterator[str]:
+    """Names that `for TARGET in …` sets."""
+    match target:
+        case ast.Name(id=name):
+            yield name
+        case ast.Tuple(elts=items) | ast.List(elts=items):
+            for item in items:
+                yield from targets(item)
+        case ast.Starred(value=value):
+            yield from targets(value)
+        case _:
+            raise ExpressionError(f"{ast.unparse(target)[:100]!r} cannot be set in an expression")
+
+
+def assignment(target: ast.expr) -> Assignment:
+    """Compile what `for TARGET in …` does with an item."""
+    if isinstance(target, ast.Name):
+        name = target.id
+
+        def set_one(_running: Running, frame: dict[Any, Any], item: Any) -> None:
+            frame[name] = item
+
+        return set_one
+    if not isinstance(target, ast.Tuple | ast.List):
+        raise ExpressionError(f"{ast.unparse(target)[:100]!r} cannot be set in an expression")
+    stars = [index for index, each in enumerate(target.elts) if isinstance(each, ast.Starred)]
+    parts = [assignment(each.value if isinstance(each, ast.Starred) else each) for each in target.elts]
+
+    def set_several(running: Running, frame: dict[Any, Any], item: Any) -> None:
+        values = running.budget.collect(item)
+        if stars and len(values) >= len(parts) - 1:
+            after = len(values) - (len(parts) - 1 - stars[0])
+            values[stars[0] : after] = [values[stars[0] : after]]
+        if len(values) < len(parts):
+            raise ValueError(f"not enough values to unpack (expected {len(parts)}, got {len(values)})")
+        if len(values) > len(parts):
+            raise ValueError(f"too many values to unpack (expected {len(parts)})")
+        for part, value in zip(parts, values, strict=True):
+            part(running, frame, value)
+
+    return set_several
+
+
+_STEPS_OF_A_CALL = 15
+
+
+class Lambda(Callee):
+    """A function that an expression made."""
+
+    __slots__ = ("_around", "_body", "_cost", "_defaults", "_running", "_signature")
+
+    def __init__(
+        self,
+        signature: ast.arguments,
+        defaults: Mapping[str, Any],
+        body: Code,
+        cost: int,
+        running: Running,
+        around: Frame,
+    ) -> None:
+        self._signature, self._defaults, self._body, self._cost = signature, defaults, body, cost
+        self._running, self._around = running, around
+
+    def call(self, _caller: Caller, values: Sequence[Any], named: Mapping[str, Any], /) -> Any:
+        self._running.budget.spend(_STEPS_OF_A_CALL + self._cost + len(values))
+        frame: dict[Any, Any] = {None: self._around, **self._defaults}
+        arguments = self._signature
+        positional = [each.arg for each in (*arguments.posonlyargs, *arguments.args)]
+        frame.update(zip(positional, values, strict=False))
+        more = tuple(values[len(positional) :])
+        if arguments.vararg:
+            frame[arguments.vararg.arg] = more
+        elif more:
+            raise TypeError(f"<lambda>() takes {len(positional)} positional arguments but {len(values)} were given")
+        by_name = {each.arg for each in (*arguments.args, *arguments.kwonlyargs)} - set(positional[: len(values)])
+        extra = {name: value for name, value in named.items() if name not in by_name}
+        if arguments.kwarg:
+            frame[arguments.kwarg.arg] = extra
+        elif extra:
+            raise TypeError(f"<lambda>() got an unexpected or second argument {min(extra)!r}")
+        frame.update((name, value) for name, value in named.items() if name in by_name)
+        if missing := [
+            name for name in (*positional, *(each.arg for each in arguments.kwonlyargs)) if name not in frame
+        ]:
+            raise TypeError(f"<lambda>() missing the argument {missing[0]!r}")
+        return self._body(self._running, frame)
+
+    def __repr__(self) -> str:
+        return "<function <lambda>>"

@@ -1,0 +1,303 @@
+"""Python's functions and those of `math`, as an expression calls them: no result grows without bound."""
+
+import ast
+import builtins
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import reduce
+from typing import Any
+
+from .budget import Budget, bound_bits, bound_length
+from .formats import repr_of, text_of
+from .operators import BINARY, held, spend_product
+from .values import Caller, Guarded
+
+_MOST_DIGITS = 100
+"""That an integer is rounded by."""
+
+
+def _natural(function: Callable[..., Any]) -> Guarded:
+    """Call a function that does no more than its values are long, after it went through what iterates."""
+
+    def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+        given = [each if each.__class__ is float else _plain(caller.budget, each) for each in values]
+        return held(caller.budget, function(*given, **named))
+
+    return call
+
+
+def _plain(budget: Budget, value: Any) -> Any:
+    """A value that goes through no code of the file when it is iterated."""
+    match value:
+        case str():
+            budget.spend(len(value) >> 4)
+        case int():
+            spend_product(budget, value, value)
+        case list() | tuple() | set() | frozenset() | dict() | range() | Iterator():
+            return [_plain(budget, each) for each in budget.collect(value)]
+        case _:
+            pass
+    return value
+
+
+def _at_once(function: Callable[..., Any]) -> Guarded:
+    """Call a function that takes the same time for every value."""
+    return lambda _caller, values, named: function(*values, **named)
+
+
+def _converted(kind: type) -> Guarded:
+    """Make a number of a text or another number."""
+
+    def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+        for each in values:
+            if isinstance(each, str):
+                caller.budget.spend(len(each) >> 2)
+        return held(caller.budget, kind(*values, **named))
+
+    return call
+
+
+def _text(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> str:
+    if len(values) > 1 or named:
+        raise TypeError("str() takes one value here")
+    return text_of(caller.budget, values[0]) if values else ""
+
+
+def _repr(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> str:
+    (value,) = _only(values, named, "repr", 1)
+    return repr_of(caller.budget, value)
+
+
+def _only(values: Sequence[Any], named: Mapping[str, Any], name: str, count: int) -> Sequence[Any]:
+    if named or len(values) != count:
+        raise TypeError(f"{name}() takes {count} argument(s) here ({len(values) + len(named)} given)")
+    return values
+
+
+def _sequence(kind: type) -> Guarded:
+    def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+        if not values and not named:
+            return kind()
+        (items,) = _only(values, named, kind.__name__, 1)
+        found = caller.budget.collect(items)
+        return found if kind is list else kind(found)
+
+    return call
+
+
+def _set(kind: type) -> Guarded:
+    def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+        found: set[Any] = set()
+        for item in caller.budget.collect(_only(values, named, kind.__name__, 1)[0]) if values else ():
+            found.add(caller.budget.key(item, len(found)))
+            caller.budget.hold(60)
+        caller.budget.hold(200)
+        return found if kind is set else frozenset(found)
+
+    return call
+
+
+def dictionary(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> dict[Any, Any]:
+    """Make a dictionary of another, or of pairs."""
+    found: dict[Any, Any] = {}
+    pairs: Iterable[Any] = ()
+    if values:
+        (given,) = _only(values, {}, "dict", 1)
+        pairs = dict.items(given) if isinstance(given, dict) else caller.budget.collect(given)  # type: ignore[reportUnknownArgumentType]
+    for pair in (*pairs, *named.items()):
+        key, value = caller.budget.collect(pair)
+        found[caller.budget.key(key, len(found))] = value
+        caller.budget.hold(100)
+    caller.budget.hold(64)
+    return found
+
+
+def _kind(_caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> type:
+    (value,) = _only(values, named, "type", 1)
+    return type(value)
+
+
+def _is_kind(function: Callable[[Any, Any], bool]) -> Guarded:
+    def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> bool:
+        value, kinds = _only(values, named, function.__name__, 2)
+        caller.budget.weigh(kinds)
+        return function(value, kinds)
+
+    return call
+
+
+def _hash(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> int:
+    (value,) = _only(values, named, "hash", 1)
+    return hash(caller.budget.key(value, 0))
+
+
+def _range(_caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> range:
+    turns = range(*_only(values, named, "range", max(len(values), 1)))
+    bound_length(len(turns))
+    return turns
+
+
+def _map(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Iterator[Any]:
+    if len(values) < 2 or named:
+        raise TypeError("map() must have at least two arguments.")
+    function, *sequences = values
+    turns = zip(*map(iter, sequences), strict=False)
+    return caller.budget.iterate(
+        caller.call(function, items, {}) for items in _turns(caller.budget, turns, len(sequences))
+    )
+
+
+def _filter(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Iterator[Any]:
+    function, items = _only(values, named, "filter", 2)
+    turns = caller.budget.each(iter(items))
+    return caller.budget.iterate(
+        item for item in turns if (item if function is None else caller.call(function, [item], {}))
+    )
+
+
+def _iterating(function: Callable[..., Iterable[Any]]) -> Guarded:
+    """Call a function that gives the items of others one by one."""
+
+    def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Iterator[Any]:
+        return caller.budget.iterate(_turns(caller.budget, function(*values, **named), len(values) + 1))
+
+    return call
+
+
+def _turns(budget: Budget, items: Iterable[Any], width: int) -> Iterator[Any]:
+    """Iterate over tuples of that many values."""
+    for item in items:
+        budget.spend(width)
+        budget.hold(40 + 8 * width)
+        yield item
+
+
+def sort(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> list[Any]:
+    """Sort as sorted() does."""
+    (items,) = _only(values, {}, "sorted", 1)
+    found = caller.budget.collect(items)
+    key, rest = _key_and_rest(named, ("reverse",))
+    keys = found if key is None else [caller.call(key, [item], {}) for item in found]
+    _spend_comparisons(caller.budget, keys)
+    order = sorted(range(len(found)), key=keys.__getitem__, **rest)
+    return [found[index] for index in order]
+
+
+def _spend_comparisons(budget: Budget, keys: list[Any]) -> None:
+    size = budget.weigh(keys)
+    budget.hold(size)
+    budget.spend((size >> 4) * len(keys).bit_length())
+
+
+def _key_and_rest(named: Mapping[str, Any], known: Sequence[str]) -> tuple[Any, dict[str, Any]]:
+    unknown = [name for name in named if name not in ("key", *known)]
+    if unknown:
+        raise TypeError(f"{unknown[0]!r} is an invalid keyword argument")
+    return named.get("key"), {name: value for name, value in named.items() if name != "key"}
+
+
+def _extreme(function: Callable[..., Any]) -> Guarded:
+    def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+        if not named and len(values) == 2 and all(isinstance(each, int | float) for each in values):
+            return function(*values)
+        key, rest = _key_and_rest(named, ("default",))
+        found = caller.budget.collect(values[0]) if len(values) == 1 else list(values)
+        if not found or (rest and len(values) > 1):
+            return function(*([found] if len(values) == 1 else values), **rest)
+        keys = found if key is None else [caller.call(key, [item], {}) for item in found]
+        caller.budget.weigh(keys)
+        return found[function(range(len(found)), key=keys.__getitem__)]
+
+    return call
+
+
+def _sum(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+    items, *more = values
+    start = more[0] if more else named.get("start", 0)
+    if len(more) > 1 or named.keys() - {"start"}:
+        raise TypeError("sum() takes a sequence and a start")
+    if isinstance(start, str):
+        raise TypeError("sum() can't sum strings [use ''.join(seq) instead]")
+    found = caller.budget.collect(items)
+    caller.budget.weigh(found)
+    if all(isinstance(each, float | int) for each in found) and isinstance(start, int | float):
+        return held(caller.budget, sum(found, start))  # in one go: newer Pythons add floats more exactly
+    return reduce(lambda a, b: _add(caller.budget, a, b), found, start)
+
+
+_add, _multiply = BINARY[ast.Add], BINARY[ast.Mult]
+
+
+def _round(_caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+    digits = values[1] if len(values) > 1 else named.get("ndigits")
+    if isinstance(digits, int) and abs(digits) > _MOST_DIGITS:
+        raise ValueError(f"it rounds to at most {_MOST_DIGITS} digits")
+    return round(*values, **named)
+
+
+def _truth(function: Callable[[Iterable[Any]], bool]) -> Guarded:
+    def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> bool:
+        (items,) = _only(values, named, function.__name__, 1)
+        return function(caller.budget.each(items))
+
+    return call
+
+
+def _of_small(function: Callable[..., int]) -> Guarded:
+    """Call a function whose result has some sixteen bits for each of its number."""
+
+    def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> int:
+        bits = max((abs(each) * 16 for each in values if isinstance(each, int)), default=0)
+        bound_bits(bits)
+        caller.budget.spend(bits * bits >> 18)
+        return held(caller.budget, function(*values, **named))
+
+    return call
+
+
+def _common_multiple(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> int:
+    bound_bits(sum(each.bit_length() for each in values if isinstance(each, int)))
+    return _natural(math.lcm)(caller, values, named)
+
+
+def _product(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+    items = caller.budget.collect(*values)
+    if set(named) - {"start"}:
+        raise TypeError("prod() takes a sequence and a start")
+    return reduce(lambda a, b: _multiply(caller.budget, a, b), items, named.get("start", 1))
+
+
+MATH_NAMES: Mapping[str, Any] = {name: value for name, value in vars(math).items() if not name.startswith("_")}
+"""What `from math import *` gives."""
+
+GUARDED: Mapping[Callable[..., Any], Guarded] = {
+    **{function: _natural(function) for function in MATH_NAMES.values() if callable(function)},
+    **{function: _of_small(function) for function in (math.factorial, math.comb, math.perm)},
+    math.lcm: _common_multiple,
+    math.prod: _product,
+    **{function: _natural(function) for function in (abs, divmod)},
+    **{function: _at_once(function) for function in (bool, len, ord, slice)},
+    **{kind: _converted(kind) for kind in (int, float, complex)},
+    **{kind: _sequence(kind) for kind in (list, tuple)},
+    **{kind: _set(kind) for kind in (set, frozenset)},
+    **{function: _iterating(function) for function in (enumerate, reversed, zip)},
+    **{function: _extreme(function) for function in (min, max)},
+    **{function: _truth(function) for function in (all, any)},
+    **{function: _is_kind(function) for function in (isinstance, issubclass)},
+    str: _text,
+    repr: _repr,
+    dict: dictionary,
+    type: _kind,
+    hash: _hash,
+    range: _range,
+    map: _map,
+    filter: _filter,
+    sorted: sort,
+    sum: _sum,
+    round: _round,
+}
+"""What may be called, and what is called in its place."""
+
+_PLAIN = "abs all any bool dict float int len list map max min round sorted str sum tuple"
+PYTHON_NAMES: Mapping[str, Any] = {name: getattr(builtins, name) for name in _PLAIN.split()}
+"""The builtins that need no prefix anywhere."""

@@ -1,0 +1,258 @@
+"""Methods and attributes that an expression may use, by the type of the object."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from .budget import bound_length
+from .formats import format_text
+from .functions import sort
+from .values import Callee, Caller, Function
+
+_Guarded = Callable[[Caller, Any, Sequence[Any], Mapping[str, Any]], Any]
+"""Calls a method of the object given second."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Method(Callee):
+    """A method of one object."""
+
+    name: str
+    owner: object
+    guard: _Guarded
+
+    def call(self, caller: Caller, values: Sequence[Any], named: Mapping[str, Any], /) -> Any:
+        return self.guard(caller, self.owner, values, named)
+
+    def __repr__(self) -> str:
+        return f"<method {self.name}>"
+
+
+def attribute(owner: Any, name: str) -> Any:
+    """Find an attribute.
+
+    Raises:
+        AttributeError: there is none, or none that an expression may use.
+    """
+    if isinstance(owner, type):
+        if name in _METHODS_OF.get(owner, ()):
+            return Function(name, _of_first(owner, name))
+        what = f"type object {owner.__name__!r}"
+    else:
+        kind = next((kind for kind in type(owner).__mro__ if kind in _METHODS_OF), object)
+        if name in _METHODS_OF.get(kind, ()):
+            return Method(name, owner, _METHODS_OF[kind][name])
+        if name in _DATA_OF.get(kind, ()):
+            return getattr(owner, name)
+        what = f"{type(owner).__name__!r} object"
+    kept_back = " that an expression may use" if name.startswith("_") or hasattr(type(owner), name) else ""
+    raise AttributeError(f"{what} has no attribute {name!r}{kept_back}")
+
+
+def _of_first(kind: type, name: str) -> Callable[..., Any]:
+    """Call a method of a type with its object first, as in `map(str.upper, texts)`."""
+
+    def body(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+        if not values or not isinstance(values[0], kind):
+            raise TypeError(f"{kind.__name__}.{name}() needs a {kind.__name__} first")
+        return _METHODS_OF[kind][name](caller, values[0], values[1:], named)
+
+    return body
+
+
+def is_method(kind: type, name: str) -> bool:
+    """Whether a type has a method that an expression may use."""
+    return name in _METHODS_OF.get(kind, ())
+
+
+def _as_it_is(name: str, *, product: bool = False, cost_of_keys: bool = False, deep: bool = False) -> _Guarded:
+    """Call Python's own method, whose result is no longer than what it is given, or no more than three times.
+
+    Args:
+        name: the method's.
+        product: it may go through its values once for each character of the text.
+        cost_of_keys: its first value is looked for as a key.
+        deep: it compares its values with the items.
+    """
+
+    def call(caller: Caller, owner: Any, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+        budget = caller.budget
+        if isinstance(owner, str):
+            lengths = [len(each) for each in values if isinstance(each, str | tuple)]
+            budget.spend(1 + (len(owner) + sum(lengths) >> 4))
+            if product:
+                budget.spend(len(owner) * max(lengths, default=0) >> 8)
+        elif hasattr(type(owner), "__len__"):
+            budget.spend(1 + (len(owner) >> 5))
+        if cost_of_keys and values:
+            budget.key(values[0], len(owner))
+        if deep:
+            budget.weigh(owner)
+            budget.weigh(values)
+        found = getattr(owner, name)(*values, **named)
+        if isinstance(found, str):
+            budget.hold_text(found)
+        elif isinstance(found, list | tuple | dict | set | frozenset):
+            budget.spend(len(found))
+            budget.hold(sum(50 + len(each) if isinstance(each, str) else 50 for each in found))
+        return found
+
+    return call
+
+
+def _padded(name: str) -> _Guarded:
+    def call(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
+        width = max((each for each in (*values, *named.values()) if isinstance(each, int)), default=8)
+        bound_length(width * (owner.count("\t") if name == "expandtabs" else 1))
+        return caller.budget.hold_text(getattr(owner, name)(*values, **named))
+
+    return call
+
+
+def _replace(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
+    old, new = ([*values, "", ""])[:2]
+    if isinstance(old, str) and isinstance(new, str):
+        caller.budget.spend(len(owner) + len(old) >> 4)
+        count = owner.count(old) if old else len(owner) + 1
+        bound_length(len(owner) + count * max(len(new) - len(old), 0))
+    return caller.budget.hold_text(owner.replace(*values, **named))
+
+
+def _join(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
+    if len(values) != 1 or named:
+        raise TypeError(f"str.join() takes exactly one argument ({len(values) + len(named)} given)")
+    items = caller.budget.collect(values[0])
+    bound_length(sum(len(each) + len(owner) for each in items if isinstance(each, str)))
+    return caller.budget.hold_text(owner.join(items))
+
+
+def _translate(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
+    table = values[0] if len(values) == 1 and isinstance(values[0], dict) else None
+    if table is None or named:
+        raise TypeError("str.translate() takes one argument, a dictionary")
+    plain: dict[Any, Any] = dict(table)
+    caller.budget.spend(len(owner) + len(plain))
+    bound_length(len(owner) * max((len(each) for each in plain.values() if isinstance(each, str)), default=1))
+    return caller.budget.hold_text(owner.translate(plain))
+
+
+def _format(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
+    return format_text(caller.budget, owner, values, named)
+
+
+def _format_map(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
+    if len(values) != 1 or named or not isinstance(values[0], dict):
+        raise TypeError("str.format_map() takes one argument, a dictionary")
+    return format_text(caller.budget, owner, (), values[0])
+
+
+def _growing(name: str) -> _Guarded:
+    """Call Python's own method, which makes a list, dictionary or set longer by what it is given."""
+
+    def call(caller: Caller, owner: Any, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+        budget = caller.budget
+        many = name in ("extend", "update")
+        given: list[Any] = [_copied(caller, each) for each in values] if many else list(values)
+        length = sum(map(len, given)) + len(named) if many else 1
+        if not isinstance(owner, list):
+            keys = [key for each in given for key in each] if many else given[:1]
+            for key in keys:
+                budget.key(
+                    key[0] if many and isinstance(key, list | tuple) and isinstance(owner, dict) else key, len(owner)
+                )
+        bound_length(len(owner) + length)
+        budget.spend(len(owner) >> 8)
+        budget.hold(100 * length)
+        return getattr(owner, name)(*given, **named)
+
+    return call
+
+
+def _copied(caller: Caller, items: Any) -> Any:
+    return dict(items) if isinstance(items, dict) else caller.budget.collect(items)
+
+
+def _sort(caller: Caller, owner: list[Any], values: Sequence[Any], named: Mapping[str, Any]) -> None:
+    owner[:] = sort(caller, [owner, *values], named)
+
+
+def _combined(name: str) -> _Guarded:
+    """Call Python's own method of sets with sets."""
+
+    def call(caller: Caller, owner: Any, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+        given: list[set[Any]] = [_set_of(caller, each) for each in values]
+        caller.budget.spend(len(owner))
+        caller.budget.hold(60 * len(owner))
+        return getattr(owner, name)(*given, **named)
+
+    return call
+
+
+def _set_of(caller: Caller, items: Iterable[Any]) -> set[Any]:
+    found: set[Any] = set()
+    for item in caller.budget.collect(items):
+        found.add(caller.budget.key(item, len(found)))
+    caller.budget.hold(60 * len(found))
+    return found
+
+
+def _named(names: str, make: Callable[[str], _Guarded]) -> dict[str, _Guarded]:
+    return {name: make(name) for name in names.split()}
+
+
+_LENGTH = _named("__len__", _as_it_is)
+"""Asked for before xacro 1.13.13 refused all such names: xArm's description has robot_sn.__len__()."""
+_SET = {
+    **_LENGTH,
+    **_named("difference intersection isdisjoint issubset issuperset symmetric_difference union", _combined),
+    "copy": _as_it_is("copy"),
+}
+_METHODS_OF: dict[type, dict[str, _Guarded]] = {
+    str: {
+        **_LENGTH,
+        **_named("capitalize casefold count endswith find index isalnum isalpha isascii isdecimal isdigit", _as_it_is),
+        **_named("isidentifier islower isnumeric isprintable isspace istitle isupper lower partition", _as_it_is),
+        **_named("removeprefix removesuffix split splitlines startswith swapcase title upper", _as_it_is),
+        **_named(
+            "lstrip rfind rindex rpartition rsplit rstrip strip",  # Python looks from behind without a table
+            lambda name: _as_it_is(name, product=True),
+        ),
+        **_named("center expandtabs ljust rjust zfill", _padded),
+        "format": _format,
+        "format_map": _format_map,
+        "join": _join,
+        "replace": _replace,
+        "translate": _translate,
+    },
+    list: {
+        **_LENGTH,
+        **_named("count index remove", lambda name: _as_it_is(name, deep=True)),
+        **_named("clear copy pop reverse", _as_it_is),
+        **_named("append extend insert", _growing),
+        "sort": _sort,
+    },
+    tuple: {**_LENGTH, **_named("count index", lambda name: _as_it_is(name, deep=True))},
+    dict: {
+        **_LENGTH,
+        **_named("clear copy items keys popitem values", _as_it_is),
+        **_named("get pop", lambda name: _as_it_is(name, cost_of_keys=True)),
+        **_named("setdefault update", _growing),
+    },
+    set: {
+        **_SET,
+        **_named("clear pop", _as_it_is),
+        **_named("discard remove", lambda name: _as_it_is(name, cost_of_keys=True)),
+        **_named("add update", _growing),
+    },
+    frozenset: _SET,
+    range: {**_LENGTH, **_named("count index", _as_it_is)},
+    int: _named("as_integer_ratio bit_length conjugate is_integer", _as_it_is),
+    float: _named("as_integer_ratio conjugate hex is_integer", _as_it_is),
+    complex: _named("conjugate", _as_it_is),
+}
+_DATA_OF: dict[type, frozenset[str]] = {
+    range: frozenset({"start", "stop", "step"}),
+    int: frozenset({"real", "imag", "numerator", "denominator"}),
+    float: frozenset({"real", "imag"}),
+    complex: frozenset({"real", "imag"}),
+}

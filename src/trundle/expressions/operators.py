@@ -1,0 +1,190 @@
+"""Operators of expressions: those of Python, each result bounded before it is made."""
+
+import ast
+import operator
+from collections.abc import Callable
+from typing import Any, cast
+
+from .budget import Budget, bound_bits, bound_length
+from .formats import percent_text
+
+Operation = Callable[[Budget, Any, Any], Any]
+
+_MACHINE_WORD = 1 << 62
+_SEQUENCES: Any = (str, list, tuple)
+_CONTAINERS: Any = (list, tuple, dict, set, frozenset)
+
+
+def is_short(number: int) -> bool:
+    """Whether an integer is of a size that costs nothing."""
+    return -_MACHINE_WORD < number < _MACHINE_WORD
+
+
+def held(budget: Budget, value: Any) -> Any:
+    """Take the memory of an integer; refuse one that is too long."""
+    if isinstance(value, int) and not is_short(value):
+        bits = value.bit_length()
+        bound_bits(bits)
+        budget.hold(bits >> 3)
+        budget.spend(bits >> 10)
+    return value
+
+
+def _add(budget: Budget, left: Any, right: Any) -> Any:
+    if isinstance(left, _SEQUENCES) and isinstance(right, _SEQUENCES):
+        wider = right if isinstance(left, str) and left.isascii() else left
+        _hold_sequence(budget, wider, len(left) + len(right))
+    return held(budget, left + right)
+
+
+def _multiply(budget: Budget, left: Any, right: Any) -> Any:
+    for many, number in ((left, right), (right, left)):
+        if isinstance(number, int) and isinstance(many, _SEQUENCES):
+            _hold_sequence(budget, many, len(many) * max(number, 0))
+    if isinstance(left, int) and isinstance(right, int):
+        bound_bits(left.bit_length() + right.bit_length())
+        spend_product(budget, left, right)
+    return left * right
+
+
+def _hold_sequence(budget: Budget, example: Any, length: int) -> None:
+    """Take the memory of a text, list or tuple of that length, of the kind of the example."""
+    bound_length(length)
+    octets = (1 if example.isascii() else 4) if isinstance(example, str) else 8
+    budget.hold(56 + octets * length)
+    budget.spend(length >> 5)
+
+
+def spend_product(budget: Budget, left: int, right: int) -> None:
+    """Spend what multiplying or dividing two integers takes."""
+    if not (is_short(left) and is_short(right)):
+        budget.spend(left.bit_length() * right.bit_length() >> 16)
+        budget.hold((left.bit_length() + right.bit_length()) >> 3)
+
+
+def _power(budget: Budget, base: Any, exponent: Any) -> Any:
+    if isinstance(base, int) and isinstance(exponent, int) and base not in (-1, 0, 1):
+        bits = base.bit_length() * abs(exponent)
+        bound_bits(bits)
+        budget.spend(bits * bits >> 16)
+        budget.hold(bits >> 3)
+    return base**exponent
+
+
+def _shift(budget: Budget, left: Any, right: Any) -> Any:
+    if isinstance(left, int) and isinstance(right, int):
+        bound_bits(left.bit_length() + right)
+        budget.hold(max(right, 0) >> 3)
+    return left << right
+
+
+def _modulo(budget: Budget, left: Any, right: Any) -> Any:
+    if isinstance(left, str):
+        return percent_text(budget, left, right)
+    return _division(operator.mod)(budget, left, right)
+
+
+def _division(function: Callable[[Any, Any], Any]) -> Operation:
+    def divide(budget: Budget, left: Any, right: Any) -> Any:
+        if isinstance(left, int) and isinstance(right, int):
+            spend_product(budget, left, right)
+        return function(left, right)
+
+    return divide
+
+
+def _merging(function: Callable[[Any, Any], Any]) -> Operation:
+    def merge(budget: Budget, left: Any, right: Any) -> Any:
+        for each in (left, right):
+            if isinstance(each, dict | set | frozenset):
+                budget.spend(len(each))
+                budget.hold(100 * len(each))
+        value = function(left, right)
+        if isinstance(value, dict | set | frozenset):
+            bound_length(len(value))
+        return held(budget, value)
+
+    return merge
+
+
+BINARY: dict[type[ast.operator], Operation] = {
+    ast.Add: _add,
+    ast.Sub: _merging(operator.sub),
+    ast.Mult: _multiply,
+    ast.Div: _division(operator.truediv),
+    ast.FloorDiv: _division(operator.floordiv),
+    ast.Mod: _modulo,
+    ast.Pow: _power,
+    ast.LShift: _shift,
+    ast.RShift: lambda budget, a, b: held(budget, a >> b),
+    ast.BitAnd: _merging(operator.and_),
+    ast.BitOr: _merging(operator.or_),
+    ast.BitXor: _merging(operator.xor),
+}
+"""All but the product of matrices."""
+OF_FRACTIONS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
+"""What may be done at once where one of both is a float."""
+
+UNARY: dict[type[ast.unaryop], Callable[[Budget, Any], Any]] = {
+    ast.Not: lambda _, a: not a,
+    ast.USub: lambda budget, a: held(budget, -a),
+    ast.UAdd: lambda budget, a: held(budget, +a),
+    ast.Invert: lambda budget, a: held(budget, ~a),
+}
+
+
+def _ordered(function: Callable[[Any, Any], Any]) -> Operation:
+    def compare(budget: Budget, left: Any, right: Any) -> Any:
+        spend_comparison(budget, left, right)
+        return function(left, right)
+
+    return compare
+
+
+def spend_comparison(budget: Budget, left: Any, right: Any) -> None:
+    """Spend what comparing two values takes."""
+    if isinstance(left, _CONTAINERS):
+        if isinstance(right, _CONTAINERS):
+            budget.weigh(left)
+            budget.weigh(right)
+    elif isinstance(left, str):
+        budget.spend(len(left) >> 6)
+
+
+def contains(budget: Budget, item: Any, among: Any) -> bool:
+    """Whether a value is in a container."""
+    if isinstance(among, str):
+        budget.spend(len(among) >> 4)
+    elif isinstance(among, dict | set | frozenset):
+        budget.key(item, len(cast("set[object]", among)))
+    elif isinstance(among, list | tuple):
+        spend_comparison(budget, item, among)
+        budget.weigh(cast(object, among))
+    elif not isinstance(among, range) or not isinstance(item, int):
+        return any(item is each or equal(budget, each, item) for each in budget.each(among, 3))
+    return operator.contains(among, item)
+
+
+def equal(budget: Budget, left: Any, right: Any) -> bool:
+    """Whether two values are equal."""
+    spend_comparison(budget, left, right)
+    return bool(left == right)
+
+
+COMPARISONS: dict[type[ast.cmpop], Operation] = {
+    ast.Eq: _ordered(operator.eq),
+    ast.NotEq: _ordered(operator.ne),
+    ast.Lt: _ordered(operator.lt),
+    ast.LtE: _ordered(operator.le),
+    ast.Gt: _ordered(operator.gt),
+    ast.GtE: _ordered(operator.ge),
+    ast.Is: lambda _, a, b: a is b,
+    ast.IsNot: lambda _, a, b: a is not b,
+    ast.In: contains,
+    ast.NotIn: lambda budget, a, b: not contains(budget, a, b),
+}

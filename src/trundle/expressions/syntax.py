@@ -1,0 +1,316 @@
+"""Compiles an expression into functions, one for each of its operations; syntax that is not listed is refused."""
+
+import ast
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any, TypeVar
+
+from .budget import ExpressionError, bound_bits, bound_length
+from .containers import item_of, mapping_of, set_of
+from .formats import converted, formatted
+from .frames import Code, Frame, Lambda, Running, Scopes, assignment, local, targets
+from .loops import Loop, Turns
+from .operators import BINARY, COMPARISONS, OF_FRACTIONS, UNARY
+
+_Part = TypeVar("_Part")
+
+
+def compile_expression(text: str) -> tuple[Code, int, list[str]]:
+    """Compile an expression: its code, the number of its operations, and the names in it that no file may use.
+
+    Raises:
+        SyntaxError: it is no expression.
+        ExpressionError: it holds syntax that is refused.
+        RecursionError, MemoryError: it is nested too deeply.
+    """
+    with warnings.catch_warnings():  # "1or 2" is legal, and Python says what it thinks of it
+        warnings.simplefilter("ignore", SyntaxWarning)
+        tree = ast.parse(text, "<expression>", "eval")
+    compiler = _Compiler()
+    code = compiler.visit(tree.body)
+    return code, compiler.count, sorted(compiler.hidden)
+
+
+class _Compiler(ast.NodeVisitor):
+    """A method for each kind of syntax that is allowed."""
+
+    def __init__(self) -> None:
+        self._scopes: Scopes = ()
+        self.count = 0
+        """Operations so far."""
+        self.hidden: set[str] = set()
+
+    def visit(self, node: ast.AST) -> Any:
+        """Compile a node."""
+        self.count += 1
+        return super().visit(node)
+
+    def generic_visit(self, node: ast.AST) -> Any:
+        """Refuse what has no method here."""
+        raise ExpressionError(f"{ast.unparse(node)[:100]!r} is not allowed in an expression")
+
+    def _all(self, nodes: Sequence[ast.expr]) -> list[Code]:
+        return [self.visit(node) for node in nodes]
+
+    def _optional(self, node: ast.expr | None) -> Code:
+        return _nothing if node is None else self.visit(node)
+
+    def _within(self, names: Iterable[str], compile_part: Callable[[], _Part]) -> tuple[_Part, int]:
+        """Compile a part that runs many times, in a frame of its own, and count its operations."""
+        scopes, before = self._scopes, self.count
+        self._scopes = (frozenset(map(self._visible, names)), *scopes)
+        try:
+            return compile_part(), self.count - before + 1
+        finally:
+            self._scopes = scopes
+
+    def _visible(self, name: str) -> str:
+        if name.startswith("__") and name != "__len__":
+            self.hidden.add(name)
+        return name
+
+    def visit_Constant(self, node: ast.Constant) -> Code:
+        value = node.value
+        if not (value is None or isinstance(value, str | int | float | complex)):
+            raise ExpressionError(f"{ast.unparse(node)[:100]!r} is not allowed in an expression")
+        bound_bits(value.bit_length() if isinstance(value, int) else 0)
+        return lambda _running, _frame: value
+
+    def visit_Name(self, node: ast.Name) -> Code:
+        name = self._visible(node.id)
+        for depth, names in enumerate(self._scopes):
+            if name in names:
+                return local(name, depth)
+        return lambda running, _frame: running.look_up(name)
+
+    def visit_UnaryOp(self, node: ast.UnaryOp) -> Code:
+        operand, operation = self.visit(node.operand), UNARY[type(node.op)]
+        return lambda running, frame: operation(running.budget, operand(running, frame))
+
+    def visit_BinOp(self, node: ast.BinOp) -> Code:
+        left, right = self.visit(node.left), self.visit(node.right)
+        operation, of_fractions = BINARY.get(type(node.op)), OF_FRACTIONS.get(type(node.op))
+        if operation is None:
+            raise ExpressionError("products of matrices are not allowed in an expression")
+        if of_fractions is None:
+            return lambda running, frame: operation(running.budget, left(running, frame), right(running, frame))
+
+        def code(running: Running, frame: Frame) -> Any:
+            a, b = left(running, frame), right(running, frame)
+            if a.__class__ is float or b.__class__ is float:
+                return of_fractions(a, b)
+            return operation(running.budget, a, b)
+
+        return code
+
+    def visit_BoolOp(self, node: ast.BoolOp) -> Code:
+        conjunction, values = isinstance(node.op, ast.And), self._all(node.values)
+
+        def code(running: Running, frame: Frame) -> Any:
+            value: Any = conjunction
+            for item in values:
+                value = item(running, frame)
+                if bool(value) is not conjunction:
+                    break
+            return value
+
+        return code
+
+    def visit_Compare(self, node: ast.Compare) -> Code:
+        first = self.visit(node.left)
+        rest = [(COMPARISONS[type(op)], self.visit(item)) for op, item in zip(node.ops, node.comparators, strict=True)]
+
+        def code(running: Running, frame: Frame) -> Any:
+            left, result = first(running, frame), True
+            for comparison, item in rest:
+                right = item(running, frame)
+                result = comparison(running.budget, left, right)
+                if not result:
+                    break
+                left = right
+            return result
+
+        return code
+
+    def visit_IfExp(self, node: ast.IfExp) -> Code:
+        test, body, orelse = self._all([node.test, node.body, node.orelse])
+        return lambda running, frame: body(running, frame) if test(running, frame) else orelse(running, frame)
+
+    def visit_Attribute(self, node: ast.Attribute) -> Code:
+        owner, name = self.visit(node.value), self._visible(node.attr)
+        return lambda running, frame: running.attribute(owner(running, frame), name)
+
+    def visit_Subscript(self, node: ast.Subscript) -> Code:
+        owner, index = self.visit(node.value), self.visit(node.slice)
+        return lambda running, frame: item_of(running, owner(running, frame), index(running, frame))
+
+    def visit_Slice(self, node: ast.Slice) -> Code:
+        parts = [self._optional(part) for part in (node.lower, node.upper, node.step)]
+        return lambda running, frame: slice(*(part(running, frame) for part in parts))
+
+    def _items(self, nodes: Sequence[ast.expr]) -> Callable[[Running, Frame], list[Any]]:
+        """Compile the items of a list or the values of a call, some of which may be `*several`."""
+        if not any(isinstance(node, ast.Starred) for node in nodes):
+            codes = self._all(nodes)
+            return lambda running, frame: [code(running, frame) for code in codes]
+        parts = [
+            (isinstance(node, ast.Starred), self.visit(node.value if isinstance(node, ast.Starred) else node))
+            for node in nodes
+        ]
+
+        def code(running: Running, frame: Frame) -> list[Any]:
+            found: list[Any] = []
+            for several, part in parts:
+                value = part(running, frame)
+                found += running.budget.collect(value) if several else [value]
+                bound_length(len(found))
+            return found
+
+        return code
+
+    def visit_List(self, node: ast.List) -> Code:
+        return self._display(node.elts, list)
+
+    def visit_Tuple(self, node: ast.Tuple) -> Code:
+        return self._display(node.elts, tuple)
+
+    def visit_Set(self, node: ast.Set) -> Code:
+        return self._display(node.elts, set)
+
+    def _display(self, nodes: Sequence[ast.expr], kind: type) -> Code:
+        items = self._items(nodes)
+
+        def code(running: Running, frame: Frame) -> Any:
+            found = items(running, frame)
+            running.budget.hold(60 + 8 * len(found))
+            return found if kind is list else tuple(found) if kind is tuple else set_of(running, found)
+
+        return code
+
+    def visit_Dict(self, node: ast.Dict) -> Code:
+        pairs = [
+            (key is not None, self._optional(key), self.visit(value))
+            for key, value in zip(node.keys, node.values, strict=True)
+        ]
+
+        def code(running: Running, frame: Frame) -> dict[Any, Any]:
+            found: dict[Any, Any] = {}
+            running.budget.hold(64 + 100 * len(pairs))
+            for single, key, value in pairs:
+                if single:
+                    found[running.budget.key(key(running, frame), len(found))] = value(running, frame)
+                else:
+                    found.update(mapping_of(running, value(running, frame)))
+                    bound_length(len(found))
+            return found
+
+        return code
+
+    def visit_Call(self, node: ast.Call) -> Code:
+        callee, values = self.visit(node.func), self._items(node.args)
+        if not node.keywords:
+            return lambda running, frame: running.call(callee(running, frame), values(running, frame), {})
+        words = [(word.arg, self.visit(word.value)) for word in node.keywords]
+
+        def code(running: Running, frame: Frame) -> Any:
+            function, given, named = callee(running, frame), values(running, frame), dict[str, Any]()
+            for name, word in words:
+                more = {name: word(running, frame)} if name else mapping_of(running, word(running, frame))
+                if twice := named.keys() & more.keys():
+                    raise TypeError(f"got multiple values for keyword argument {min(twice)!r}")
+                named.update(more)
+            return running.call(function, given, named)
+
+        return code
+
+    def visit_Lambda(self, node: ast.Lambda) -> Code:
+        arguments = node.args
+        every = (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs, arguments.vararg, arguments.kwarg)
+        names = [each.arg for each in every if each]
+        defaults = {each.arg: self.visit(value) for each, value in _defaults(arguments)}
+        body, cost = self._within(names, lambda: self.visit(node.body))
+
+        def code(running: Running, frame: Frame) -> Lambda:
+            values = {name: default(running, frame) for name, default in defaults.items()}
+            running.budget.hold(200 + 100 * len(values))
+            return Lambda(arguments, values, body, cost, running, frame)
+
+        return code
+
+    def visit_ListComp(self, node: ast.ListComp) -> Code:
+        turns = self._turns([node.elt], node.generators)
+        return lambda running, frame: [value for (value,) in turns.begin(running, frame)]
+
+    def visit_SetComp(self, node: ast.SetComp) -> Code:
+        turns = self._turns([node.elt], node.generators)
+        return lambda running, frame: set_of(running, (value for (value,) in turns.begin(running, frame)))
+
+    def visit_GeneratorExp(self, node: ast.GeneratorExp) -> Code:
+        turns = self._turns([node.elt], node.generators)
+
+        def code(running: Running, frame: Frame) -> Iterator[Any]:
+            each = turns.begin(running, frame)
+            return running.budget.iterate(value for (value,) in each)
+
+        return code
+
+    def visit_DictComp(self, node: ast.DictComp) -> Code:
+        turns = self._turns([node.key, node.value], node.generators)
+
+        def code(running: Running, frame: Frame) -> dict[Any, Any]:
+            found: dict[Any, Any] = {}
+            for key, value in turns.begin(running, frame):
+                running.budget.hold(100)
+                found[running.budget.key(key, len(found))] = value
+            return found
+
+        return code
+
+    def _turns(self, elements: list[ast.expr], generators: list[ast.comprehension]) -> Turns:
+        if any(each.is_async for each in generators):
+            raise ExpressionError("'async' is not allowed in an expression")
+        names = {name for each in generators for name in targets(each.target)}
+        first = self.visit(generators[0].iter)  # outside of the frame, as in Python
+
+        def compile_parts() -> tuple[list[Loop], list[Code]]:
+            loops = [
+                Loop(self.visit(each.iter) if index else first, assignment(each.target), self._all(each.ifs))
+                for index, each in enumerate(generators)
+            ]
+            return loops, self._all(elements)
+
+        (loops, codes), cost = self._within(names, compile_parts)
+        return Turns(loops, codes, cost)
+
+    def visit_JoinedStr(self, node: ast.JoinedStr) -> Code:
+        parts = self._all(node.values)
+
+        def code(running: Running, frame: Frame) -> str:
+            texts = [part(running, frame) for part in parts]
+            bound_length(sum(map(len, texts)))
+            return running.budget.hold_text("".join(texts))
+
+        return code
+
+    def visit_FormattedValue(self, node: ast.FormattedValue) -> Code:
+        value, spec = self.visit(node.value), self._optional(node.format_spec)
+        conversion = None if node.conversion < 0 else chr(node.conversion)
+
+        def code(running: Running, frame: Frame) -> str:
+            shown = converted(running.budget, value(running, frame), conversion)
+            return formatted(running.budget, shown, spec(running, frame) or "")
+
+        return code
+
+
+def _nothing(*_: object) -> None:
+    return None
+
+
+def _defaults(arguments: ast.arguments) -> Iterable[tuple[ast.arg, ast.expr]]:
+    """The arguments of a lambda that have a default, with it."""
+    positional = [*arguments.posonlyargs, *arguments.args]
+    last = positional[len(positional) - len(arguments.defaults) :]
+    by_name = zip(arguments.kwonlyargs, arguments.kw_defaults, strict=True)
+    yield from zip(last, arguments.defaults, strict=True)
+    yield from ((each, value) for each, value in by_name if value is not None)
