@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.physics import ContactPoint, Grip
+from trundle.physics import Grip, TrackGrip
 from trundle.simulation import Simulation
 from trundle.spatial import Wrench
 
@@ -31,7 +31,7 @@ def sim(tmp_path: Path) -> Simulation:
 
 def test_a_belt_carries_a_block_against_its_own_motion(sim: Simulation) -> None:
     """Friction of 0.8 brings it to 0.5 m/s in 62.5 ms; the block beside stays."""
-    sim["block"].link("l").set_grip(lambda _: Grip(along=X, speed=-0.5))
+    sim["block"].link("l").set_grip(Grip(along=X, speed=-0.5))
     sim.run(1.0)
 
     assert sim["block"].link("l").twist.linear == pytest.approx((0.5, 0, 0), abs=1e-5)
@@ -42,18 +42,23 @@ def test_a_belt_carries_a_block_against_its_own_motion(sim: Simulation) -> None:
     assert sim["block"].link("l").twist.linear == pytest.approx((0, 0, 0), abs=1e-5)
 
 
-def test_the_law_is_asked_where_and_how_the_link_touches(sim: Simulation) -> None:
-    asked: list[ContactPoint] = []
+def test_a_track_runs_its_robot_forwards_and_skids_about_the_point_it_turns_about(tmp_path: Path) -> None:
+    """Straight on it drives at the belt's speed; turning, friction acts across the way to that point alone."""
+    file = tmp_path / "w.sdf"
+    slippery = BLOCK.format("block", 0).replace(f"<mu2>{MU}</mu2>", "<mu2>0.001</mu2>")
+    file.write_text(f'<sdf version="1.6"><world name="w"><gravity>0 0 -10</gravity>{FLOOR}{slippery}</world></sdf>')
+    sim = trundle.load(str(file))
+    link = sim["block"].link("l")
+    link.set_grip(TrackGrip(axis=Y, speed=0.5))
+    sim.run(1.0)
+    assert link.twist.linear == pytest.approx((0.5, 0, 0), abs=1e-3)
 
-    def law(point: ContactPoint) -> None:
-        asked.append(point)
-
-    sim["block"].link("l").set_grip(law)
-    sim.run(0.01)
-
-    corners = {(round(point.position[0], 2), round(point.position[1], 2)) for point in asked}
-    assert corners == {(x, y) for x in (-0.2, 0.2) for y in (-0.2, 0.2)}
-    assert all(point.normal == pytest.approx((0, 0, 1)) for point in asked)
+    # From far along y, the belt's way is across x: friction along y, which the belt does not move along, holds on.
+    link.set_grip(TrackGrip(axis=Y, speed=0.5, centre=(link.pose.position[0], 500.0, 0.1)))
+    link.apply_wrench(Wrench(force=(0.0, 10.0, 0.0)))
+    sim.run(0.5)
+    assert link.twist.linear[1] > 1.0, "along the way to the point nothing holds"
+    assert link.twist.linear[0] == pytest.approx(0.5, abs=0.05), "across it the belt does"
 
 
 @pytest.mark.parametrize("along", [X, Y])
@@ -62,7 +67,7 @@ def test_slip_grows_with_the_force_and_across_it_friction_holds(sim: Simulation,
     slip = 0.1
     link = sim["block"].link("l")
     sideways = along == Y
-    link.set_grip(lambda _: Grip(along=Y, slip_across=slip) if sideways else Grip(along=(1.0, 0.0, 0.4), slip=slip))
+    link.set_grip(Grip(along=Y, slip_across=slip) if sideways else Grip(along=(1.0, 0.0, 0.4), slip=slip))
     sim.run(0.1)
     link.apply_wrench(Wrench(force=(5.0, 5.0, 0.0)))
     sim.run(0.3)
@@ -74,7 +79,7 @@ def test_slip_grows_with_the_force_and_across_it_friction_holds(sim: Simulation,
 
 def test_beyond_friction_a_slipping_surface_slides(sim: Simulation) -> None:
     link = sim["block"].link("l")
-    link.set_grip(lambda _: Grip(along=X, slip=0.001))
+    link.set_grip(Grip(along=X, slip=0.001))
     sim.run(0.1)
     link.apply_wrench(Wrench(force=(MU * MASS * 10 + 4.0, 0.0, 0.0)))
     sim.run(0.2)
@@ -86,7 +91,7 @@ def test_beyond_friction_a_slipping_surface_slides(sim: Simulation) -> None:
 
 def test_laws_outlive_what_comes_and_goes_and_saved_states_repeat(sim: Simulation) -> None:
     link = sim["block"].link("l")
-    link.set_grip(lambda _: Grip(along=X, speed=-0.5, slip=0.01))
+    link.set_grip(Grip(along=X, speed=-0.5, slip=0.01))
     sim.delete("floor")
     sim.spawn(replace(sim["other"].model, name="third"))
     sim.delete("third")

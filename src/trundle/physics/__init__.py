@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from .compile import compile_world
     from .egl_renderer import EglRenderer
     from .engine import Engine, EngineState, SimulationUnstableError
-    from .grip import ContactPoint, Grip, GripLaw
+    from .grip import Grip, TrackGrip
     from .index import CompiledWorld
     from .instant import Instant
     from .mjcf import compile_mjcf
@@ -19,15 +19,14 @@ if TYPE_CHECKING:
 _HOMES = {
     "CompiledWorld": "index",
     "Contact": "touching",
-    "ContactPoint": "grip",
     "EglRenderer": "egl_renderer",
     "Engine": "engine",
     "EngineState": "engine",
     "Grip": "grip",
-    "GripLaw": "grip",
     "Instant": "instant",
     "Runaway": "postmortem",
     "SimulationUnstableError": "engine",
+    "TrackGrip": "grip",
     "compile_mjcf": "mjcf",
     "compile_world": "compile",
     "name_wheels": "wheels",
@@ -37,15 +36,14 @@ __getattr__ = opened_on_use(__name__, _HOMES)
 __all__ = [
     "CompiledWorld",
     "Contact",
-    "ContactPoint",
     "EglRenderer",
     "Engine",
     "EngineState",
     "Grip",
-    "GripLaw",
     "Instant",
     "Runaway",
     "SimulationUnstableError",
+    "TrackGrip",
     "compile_mjcf",
     "compile_world",
     "name_wheels",

@@ -23,6 +23,7 @@ from .engine_words import muted
 from .index import CompiledWorld, index_world
 from .inertia import principal_inertia
 from .joints import JointMaker, soften_stops
+from .law_tables import fill_tables, reserve_tables
 from .settings import apply_settings
 from .shapes import Meets, ShapeEntry, add_shape, collision_mesh, mesh_arrays
 from .starting import start_positions
@@ -77,12 +78,14 @@ class Compiler:
             DescriptionError: the engine refuses it.
         """
         touches = self.fill()
+        reserve_tables(self.spec, touches, self.shapes, self.world)
         collisions = {shape.name: shape.collision for shape in self.shapes}
         compiled = self.compile_spec()
         soften(compiled, touches)
         look_ahead(compiled, self.shapes)
         soften_stops(compiled, (axis for axes in self.joints.axes.values() for axis in axes))
-        world = index_world(self.world, self.tree, self.joints.axes, touches, collisions, compiled)
+        world = index_world(self.world, self.tree, self.joints.axes, collisions, compiled)
+        fill_tables(compiled, touches, self.shapes, world.link_bodies.tolist(), self.world)
         return replace(world, start=start_positions(compiled, self.tree, self.joints.axes, self.report))
 
     def fill(self) -> dict[tuple[str, str], Touch]:

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.spatial import Pose, Twist, Wrench
 
-from .between import Between
+from .contact_laws import ContactLaws
 from .feeling import Feeling
-from .grip import GripLaw
-from .index import CompiledWorld, GeomPair
+from .grip import Grip, TrackGrip
+from .index import CompiledWorld
 from .instant import Instant, Looker
 from .motors import Motors
 from .postmortem import Runaway, find_runaway
@@ -53,7 +53,6 @@ class EngineState:
     taken: int
     sleeps: bool
     leapt: bool
-    parting: frozenset[GeomPair]
     gains: NDArray[np.float64]
     biases: NDArray[np.float64]
     ranges: NDArray[np.float64]
@@ -70,7 +69,8 @@ class Engine:
         self._rest = Rest(compiled, self._data)
         self.reader = StateReader(compiled, self._data)
         self.motors = Motors(compiled, self._data, self._rest.wake)
-        self._between = Between(compiled, self._data)
+        self._laws = ContactLaws(compiled, self._data)
+        self.motors.keep_on = self._laws.acts
         self._looker = Looker(compiled)
         self._feeling = Feeling(compiled, self._data, self._looker)
         self._good = np.empty(mujoco.mj_stateSize(self._model, STATE))
@@ -102,28 +102,25 @@ class Engine:
         mujoco.mj_getState(self._model, self._data, self._good, STATE)
         if self._leapt:
             self._look_for_depth()
-        efforts, taken, parting = self._data.qfrc_actuator.copy(), self._taken, self._between.parting.pairs
+        if self._laws.acts:
+            self._laws.install()
+        efforts, taken = self._data.qfrc_actuator.copy(), self._taken
         self._advance(count)
         self.reader.changed()
         if self._is_unstable():
-            self._go_back(efforts, taken, parting)
+            self._go_back(efforts, taken)
             runaway = self._find_runaway(count)
-            self._go_back(efforts, taken, parting)
+            self._go_back(efforts, taken)
             raise SimulationUnstableError(runaway)
 
     def _advance(self, count: int) -> None:
-        """In C, unless the world needs something that MuJoCo does not have."""
+        """In C, up to each step at which it is decided who may sleep."""
         while count > 0 and not self._is_unstable():
-            if self._between:
-                self._between.step()
-                self._taken += 1
-                count -= 1
-                continue
             some = min(count, EVERY - self._taken % EVERY)
             self._rest.step(some)
             self._taken += some
             count -= some
-            if self._taken % EVERY == 0 and not self._is_unstable():
+            if self._taken % EVERY == 0 and not self._laws.is_watched and not self._is_unstable():
                 self._rest.decide()
 
     def _is_unstable(self) -> bool:
@@ -135,15 +132,18 @@ class Engine:
 
     def _look_for_depth(self) -> None:
         self._leapt = False
-        parting = self._between.parting
-        parting.pairs = self._looker.deep_pairs(self._state(), parting)
-        if parting:
+        self._data.userdata[:] = self._looker.deep_marks(self._state())
+        self._watch()
+
+    def _watch(self) -> None:
+        """Wake everybody while a law acts on what might sleep."""
+        self.motors.keep_on = self._laws.acts
+        if self._laws.is_watched:
             self._rest.forbid()
 
-    def _go_back(self, efforts: NDArray[np.float64], taken: int, parting: frozenset[GeomPair]) -> None:
+    def _go_back(self, efforts: NDArray[np.float64], taken: int) -> None:
         self._rest.put(self._good, efforts)
         self._taken = taken
-        self._between.parting.pairs = parting
         self.reader.changed()
 
     def _find_runaway(self, count: int) -> Runaway:
@@ -171,10 +171,10 @@ class Engine:
         fx, fy, fz, tx, ty, tz = self._data.xfrc_applied[self.compiled.link_bodies[link]].tolist()
         return Wrench((fx, fy, fz), (tx, ty, tz))
 
-    def set_grips(self, laws: Mapping[int, GripLaw]) -> None:
-        """Have contacts of these links, by index, follow laws from now on; all others are ordinary."""
-        self._between.grips.set_laws({int(self.compiled.link_bodies[link]): law for link, law in laws.items()})
-        self._rest.forbid()
+    def set_grips(self, grips: Mapping[int, Grip | TrackGrip]) -> None:
+        """Have the surfaces of these links, by index, move and slip from now on; all others are ordinary."""
+        self._laws.set_grips({int(self.compiled.link_bodies[link]): grip for link, grip in grips.items()})
+        self._watch()
 
     def set_axis_position(self, axis: int, position: float) -> None:
         """Put an axis to a position [rad or m], at rest."""
@@ -282,7 +282,6 @@ class Engine:
             self._taken,
             self._rest.is_on,
             self._leapt,
-            self._between.parting.pairs,
             model.actuator_gainprm.copy(),
             model.actuator_biasprm.copy(),
             model.actuator_forcerange.copy(),
@@ -299,7 +298,8 @@ class Engine:
         self._rest.allow(state.sleeps)
         mujoco.mj_copyData(self._data, self._model, state.data)
         self._taken = state.taken
-        self._leapt, self._between.parting.pairs = state.leapt, state.parting
+        self._leapt = state.leapt
+        self.motors.keep_on = self._laws.acts
         self._model.actuator_gainprm[:] = state.gains
         self._model.actuator_biasprm[:] = state.biases
         self._model.actuator_forcerange[:] = state.ranges

@@ -1,8 +1,7 @@
 """What was what: the way from a world's names to the engine's numbers."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TypeAlias
+from dataclasses import dataclass
 
 import mujoco
 import numpy as np
@@ -12,12 +11,9 @@ from trundle.model import JointAxis, World
 from trundle.spatial import ZERO, Vector3
 
 from .joints import Axis
-from .surfaces import Touch
 from .tree import Hold, Tree
 
 _Indices = NDArray[np.intp]
-GeomPair: TypeAlias = tuple[int, int]
-"""Two geoms, the smaller number first."""
 _WIDTH = {int(mujoco.mjtJoint.mjJNT_BALL): 3}
 
 
@@ -55,8 +51,6 @@ class CompiledWorld:
     """(axes, 2) [rad or m] Limits."""
     balls: tuple[int, ...]
     """The first axis of each ball joint."""
-    touches: Mapping[GeomPair, Touch]
-    """How two shapes touch that have a pair of their own."""
     geom_collisions: tuple[str, ...]
     """`model::link::collision` of each geom."""
     start: NDArray[np.float64] | None = None
@@ -67,7 +61,6 @@ def index_world(
     world: World,
     tree: Tree,
     axes: Mapping[str, Sequence[Axis]],
-    touches: Mapping[tuple[str, str], Touch],
     collisions: Mapping[str, str],
     model: mujoco.MjModel,
 ) -> CompiledWorld:
@@ -113,7 +106,6 @@ def index_world(
         axis_velocity=np.array(velocity),
         axis_range=np.array(limits).reshape(-1, 2),
         balls=tuple(balls),
-        touches=dict(_touch(model, names, touch) for names, touch in touches.items()),
         geom_collisions=tuple(collisions.get(model.geom(i).name, "") for i in range(model.ngeom)),
     )
 
@@ -130,9 +122,3 @@ def _hang(hold: Hold, tree: Tree) -> tuple[int, Vector3, float]:
 def _limits(axis: JointAxis | None) -> list[float]:
     """Of a ball, and of one that follows another against limits that would hold it: none."""
     return [-np.inf, np.inf] if axis is None or axis.is_rigid else sorted((axis.lower, axis.upper))
-
-
-def _touch(model: mujoco.MjModel, names: tuple[str, str], touch: Touch) -> tuple[GeomPair, Touch]:
-    """By number; where the two change places, so do their parts in it."""
-    a, b = (int(model.geom(name).id) for name in names)
-    return ((a, b), touch) if a < b else ((b, a), replace(touch, fdir1_of=1 - touch.fdir1_of))

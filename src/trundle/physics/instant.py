@@ -9,8 +9,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from .index import CompiledWorld, GeomPair
-from .parting import Parting
+from . import _contact_laws
+from .index import CompiledWorld
+from .law_tables import switch_off
 from .reader import StateReader
 from .touching import Contact, contacts_of
 
@@ -30,6 +31,7 @@ class Looker:
         model = copy.copy(self._compiled.model)
         model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_ISLAND)
+        switch_off(model)
         data = mujoco.MjData(model)
         return model, data, StateReader(replace(self._compiled, model=model), data)
 
@@ -47,14 +49,19 @@ class Looker:
             chosen = np.flatnonzero(~apart[data.contact.geom].any(axis=1))
             return contacts_of(self._compiled, model, data, chosen)
 
-    def deep_pairs(self, state: _Array, parting: Parting) -> frozenset[GeomPair]:
-        """See `Parting.deep_pairs`; of a state, as mjSTATE_INTEGRATION has it."""
+    def deep_marks(self, state: _Array) -> _Array:
+        """The userdata that marks what is deeper in something than it may come out of at once.
+
+        Args:
+            state: as mjSTATE_INTEGRATION has it.
+        """
         with self._lock:
             model, data, reader = self._second
             mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
             mujoco.mj_fwdPosition(model, data)
             reader.changed()
-            return parting.deep_pairs(data)
+            _contact_laws.mark_deep(model._address, data._address)
+            return data.userdata.copy()
 
     def reactions(self, state: _Array) -> _Array:
         """(links, 6) force [N] and torque [N·m] on each link by what it hangs from, at its frame's origin, world axes.

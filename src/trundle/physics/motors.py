@@ -32,6 +32,7 @@ class Motors:
         self._data = data
         self._wake = wake
         self._orders: dict[int, tuple[float, ...]] = {}
+        self._keep_on = False
         self._plug()
 
     def set_effort(self, axis: int, effort: float) -> None:
@@ -101,6 +102,17 @@ class Motors:
         self._plug()
         self._wake(dof)
 
+    @property
+    def keep_on(self) -> bool:
+        """Whether the engine has to work the motors though none does anything: with them go its contact laws."""
+        return self._keep_on
+
+    @keep_on.setter
+    def keep_on(self, value: bool) -> None:
+        if value != self._keep_on:
+            self._keep_on = value
+            self._plug()
+
     def forget(self) -> None:
         """The arrays were changed by somebody else: the next order is a new one."""
         self._orders.clear()
@@ -115,6 +127,6 @@ class Motors:
     def _plug(self) -> None:
         """Spare the engine the motors while none does anything: a seventh of a step of what is at rest."""
         model = self._model
-        is_on = bool(model.actuator_gainprm[:, 0].any() or model.actuator_biasprm[:, 1:3].any())
+        is_on = self._keep_on or bool(model.actuator_gainprm[:, 0].any() or model.actuator_biasprm[:, 1:3].any())
         flags = model.opt.disableflags
         model.opt.disableflags = flags & ~_NO_MOTORS if is_on else flags | _NO_MOTORS

@@ -1,13 +1,12 @@
 """libSimpleTrackedVehiclePlugin.so: tracks as surfaces that run."""
 
-import math
 from typing import Self
 
 from trundle.model import PluginTag
-from trundle.physics import ContactPoint, Grip
+from trundle.physics import TrackGrip
 from trundle.ros import Node
-from trundle.simulation import LinkHandle, ModelHandle, Simulation
-from trundle.spatial import Pose, Vector3, cross, normalized
+from trundle.simulation import ModelHandle, Simulation
+from trundle.spatial import Vector3
 
 from .plugin import Plugin
 from .tracked_vehicle import Tracks
@@ -36,11 +35,7 @@ class SimpleTrackedVehicle(Plugin):
         parameters.find("collide_without_contact_bitmask")
         parameters.report_unread(sim.report)
         self._tracks.grease(sim, [*links[0], *links[1]])
-        self._speeds = (0.0, 0.0)
-        self._pose = Pose()
-        for side, belts in enumerate(links):
-            for link in belts:
-                self._cover(link, side)
+        self._links = links
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
@@ -50,32 +45,23 @@ class SimpleTrackedVehicle(Plugin):
     def before_step(self, sim: Simulation) -> None:
         """Have the tracks run as fast as they are told to."""
         del sim
-        self._speeds, self._pose = self._tracks.speeds, self._body.pose
+        speeds, left = self._tracks.speeds, self._body.pose.direction((0.0, 1.0, 0.0))
+        centre = self._centre(speeds, left)
+        for links, speed in zip(self._links, speeds, strict=True):
+            for link in links:
+                link.set_grip(TrackGrip(axis=left, speed=speed, centre=centre))
 
     def reset(self) -> None:
         """Stand still."""
         self._tracks.command.stop()
 
-    def _cover(self, link: LinkHandle, side: int) -> None:
-        link.set_grip(lambda point: self._grip(point, self._speeds[side]))
-
-    def _grip(self, point: ContactPoint, speed: float) -> Grip | None:
-        left = self._pose.direction((0.0, 1.0, 0.0))
-        backwards = cross(point.normal, left)
-        along = self._direction(point, left) or normalized(backwards)
-        if along is None:
-            return None
-        return Grip(along=along, speed=speed * sum(a * b for a, b in zip(along, backwards, strict=True)))
-
-    def _direction(self, point: ContactPoint, left: Vector3) -> Vector3 | None:
-        """Across the way from the point that the robot turns about; None: straight on."""
-        one, other = self._speeds
+    def _centre(self, speeds: tuple[float, float], left: Vector3) -> Vector3 | None:
+        """The point that the robot turns about; None: it goes straight on."""
+        one, other = speeds
         turning = (one - other) * self._tracks.efficiency / self._tracks.separation
         forwards = (one + other) / 2
         if abs(turning) < _SLOWEST:
             return None
         away = 0.0 if abs(forwards) < _SLOWEST else -forwards / turning
-        centre = [p + away * y for p, y in zip(self._pose.position, left, strict=True)]
-        x, y, z = (p - c for p, c in zip(point.position, centre, strict=True))
-        assert math.isfinite(away)
-        return normalized(cross(point.normal, (x, y, z)))
+        x, y, z = (p + away * y for p, y in zip(self._body.pose.position, left, strict=True))
+        return (x, y, z)

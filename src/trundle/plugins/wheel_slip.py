@@ -6,7 +6,7 @@ from typing import Self
 from trundle.diagnostics import UsageError
 from trundle.model import Cylinder, Joint, JointType, PluginTag, Sphere
 from trundle.names import ros_name
-from trundle.physics import ContactPoint, Grip
+from trundle.physics import Grip
 from trundle.ros import Message, Node, Publisher
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Vector3, cross, normalized
@@ -28,13 +28,6 @@ class _Wheel:
     longitudinal: float
     """Slip ratio over force ratio."""
     topic: Publisher | None = None
-    grip: Grip | None = None
-    """For the coming step."""
-
-    def at(self, point: ContactPoint) -> Grip | None:
-        """How it holds on, wherever it touches."""
-        del point
-        return self.grip
 
 
 class WheelSlip(Plugin):
@@ -57,8 +50,6 @@ class WheelSlip(Plugin):
             except UsageError as error:
                 sim.report.warn(wheel.at, f"<wheel>: {error}; it holds on as before")
         tag.node.report_unread(sim.report)
-        for wheel in self._wheels:
-            wheel.link.set_grip(wheel.at)
         if node is not None:
             base = f"/{ros_name(model.name)}/wheel_slip"
             for wheel in self._wheels:
@@ -80,7 +71,8 @@ class WheelSlip(Plugin):
             axis = pose.direction(wheel.axis)
             tread = wheel.radius * _dot(twist.angular, axis)
             per_newton = abs(tread) / wheel.normal_force
-            wheel.grip = Grip(along=axis, slip=per_newton * wheel.lateral, slip_across=per_newton * wheel.longitudinal)
+            slip, across = per_newton * wheel.lateral, per_newton * wheel.longitudinal
+            wheel.link.set_grip(Grip(along=axis, slip=slip, slip_across=across))
             if wheel.topic is not None and wheel.topic.has_subscribers:
                 along = self._model.pose.direction(
                     cross(self._down, self._model.pose.inverse().direction(axis)),

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from trundle.diagnostics import UsageError
 from trundle.model import Link, Model, World
-from trundle.physics import GripLaw
+from trundle.physics import Grip, TrackGrip
 from trundle.spatial import Pose, Twist, Vector3, Wrench, cross
 
 from .changing import placed
@@ -91,13 +91,13 @@ class LinkHandle(Handle):
             wrench = wrench + Wrench(torque=turning)
         self._simulation.pushes.add_wrench(self.index, wrench)
 
-    def set_grip(self, law: GripLaw | None) -> None:
-        """Have a law say, at every step and for every contact, how the link's surface moves and slips there.
+    def set_grip(self, grip: Grip | TrackGrip | None) -> None:
+        """Have the link's surface move and slip where it touches, from now on.
 
         Args:
-            law: asked with where the link touches; None: contacts are ordinary ones again.
+            grip: None: contacts are ordinary ones again.
         """
-        self._simulation.pushes.set_grip(self.index, law)
+        self._simulation.pushes.set_grip(self.index, grip)
 
 
 _Named = TypeVar("_Named", LinkHandle, JointHandle)

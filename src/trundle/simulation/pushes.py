@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from trundle.physics import Engine, GripLaw
+from trundle.physics import Engine, Grip, TrackGrip
 from trundle.spatial import Wrench
 
 from .joint_handle import JointHandle
@@ -32,7 +32,7 @@ class Pushes:
         self.ends = Ends()
         self._added_to: dict[int, Wrench] = {}
         """Link → its lasting wrench, below what was added for the coming step."""
-        self._grips: dict[int, GripLaw] = {}
+        self._grips: dict[int, Grip | TrackGrip] = {}
 
     def clear(self) -> None:
         """Nothing pushes any more; grips stay."""
@@ -78,12 +78,14 @@ class Pushes:
         if until is not None:
             self.ends.efforts[joint, axis] = until
 
-    def set_grip(self, link: int, law: GripLaw | None) -> None:
-        """Have a link's contacts follow a law, or none."""
-        if law is None:
-            self._grips.pop(link, None)
+    def set_grip(self, link: int, grip: Grip | TrackGrip | None) -> None:
+        """Have a link's surface move and slip, or hold on as any other."""
+        if self._grips.get(link) == grip:
+            return
+        if grip is None:
+            del self._grips[link]
         else:
-            self._grips[link] = law
+            self._grips[link] = grip
         self._engine.set_grips(self._grips)
 
     def next_ends(self) -> Iterator[int]:
@@ -116,6 +118,6 @@ class Pushes:
         wrenches = {links[link]: end for link, end in self.ends.wrenches.items() if link in links}
         self.ends = Ends(wrenches, self.ends.efforts)
         self._added_to = {links[link]: wrench for link, wrench in self._added_to.items() if link in links}
-        self._grips = {links[link]: law for link, law in self._grips.items() if link in links}
+        self._grips = {links[link]: grip for link, grip in self._grips.items() if link in links}
         if self._grips:
             self._engine.set_grips(self._grips)

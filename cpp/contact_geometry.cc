@@ -1,0 +1,52 @@
+#include "contact_geometry.h"
+
+namespace trundle {
+
+namespace {
+
+constexpr double kShortest = 1e-6;  // part of a direction that lies in the surface: where less does, it has none
+
+}  // namespace
+
+double approach_speed(const mjModel* m, const mjData* d, const mjContact& contact) {
+  double speeds[2];
+  for (int side = 0; side < 2; ++side) {
+    const int body = m->geom_bodyid[contact.geom[side]];
+    const double* velocity = d->cvel + 6 * body;  // at the tree's centre of mass: rotation, translation
+    const double* centre = d->subtree_com + 3 * m->body_rootid[body];
+    const double arm[3] = {contact.pos[0] - centre[0], contact.pos[1] - centre[1], contact.pos[2] - centre[2]};
+    double turning[3];
+    cross(turning, velocity, arm);
+    const double there[3] = {velocity[3] + turning[0], velocity[4] + turning[1], velocity[5] + turning[2]};
+    speeds[side] = dot(contact.frame, there);
+  }
+  return speeds[0] - speeds[1];
+}
+
+void ContactJacobian::find(const mjModel* m, const mjData* d, const mjContact& contact, double* rows) {
+  const int nv = m->nv;
+  first_.resize(3 * nv);
+  second_.resize(3 * nv);
+  mujoco.mj_jac(m, d, first_.data(), nullptr, contact.pos, m->geom_bodyid[contact.geom[0]]);
+  mujoco.mj_jac(m, d, second_.data(), nullptr, contact.pos, m->geom_bodyid[contact.geom[1]]);
+  for (int i = 0; i < 3 * nv; ++i) second_[i] -= first_[i];
+  for (int row = 0; row < 3; ++row) {
+    const double* axis = contact.frame + 3 * row;
+    for (int i = 0; i < nv; ++i) {
+      rows[row * nv + i] = axis[0] * second_[i] + axis[1] * second_[nv + i] + axis[2] * second_[2 * nv + i];
+    }
+  }
+}
+
+bool align_tangents(mjContact& contact, const double along[3]) {
+  const double* normal = contact.frame;
+  const double out = dot(along, normal);
+  const double within[3] = {along[0] - out * normal[0], along[1] - out * normal[1], along[2] - out * normal[2]};
+  const double length = std::sqrt(dot(within, within));
+  if (!(length > kShortest * std::sqrt(dot(along, along)))) return false;
+  for (int i = 0; i < 3; ++i) contact.frame[3 + i] = within[i] / length;
+  cross(contact.frame + 6, normal, contact.frame + 3);
+  return true;
+}
+
+}  // namespace trundle

@@ -1,0 +1,119 @@
+// The Python module `_contact_laws`: what MuJoCo's contacts lack, done in C between finding contacts and solving them.
+//
+// MuJoCo calls `apply_laws` there by mjcb_control, in every step of every model; one without tables of laws costs a
+// comparison. mjcb_sensor says when the constraints are solved. Whoever set these callbacks before is called first.
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <atomic>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "depenetration.h"
+#include "law_tables.h"
+#include "mujoco_api.h"
+#include "restitution.h"
+#include "surface_motion.h"
+#include "velocity_damping.h"
+
+namespace nb = nanobind;
+
+namespace trundle {
+
+MujocoApi mujoco;
+
+namespace {
+
+std::atomic<mjfGeneric> previous = nullptr;
+std::atomic<mjfSensor> previous_sensor = nullptr;
+
+void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
+  bool turned = align_friction(laws, m, d);
+  turned |= move_surfaces(laws, m, d);
+  turned |= limit_depth(laws, m, d);
+  if (turned) {
+    mujoco.mj_makeConstraint(m, d);
+    mujoco.mj_island(m, d);
+    mujoco.mj_projectConstraint(m, d);
+  }
+  const bool bounced = !laws.restitution.empty() && apply_restitution(laws, m, d);
+  if (bounced || turned) mujoco.mj_fwdVelocity(m, d);
+  resist_slip(laws, m, d);
+  apply_damping(laws, m, d);
+}
+
+thread_local bool busy = false;  // whoever is called first may call us in turn
+
+void on_control(const mjModel* m, mjData* d) {
+  if (busy) return;
+  busy = true;
+  if (const mjfGeneric first = previous.load()) first(m, d);
+  LawTables laws;
+  if (LawTables::find(m, d, laws) && laws.on) apply_laws(laws, m, d);
+  busy = false;
+}
+
+void on_sensor(const mjModel* m, mjData* d, int stage) {
+  if (busy) return;
+  busy = true;
+  if (const mjfSensor first = previous_sensor.load()) first(m, d, stage);
+  LawTables laws;
+  if (stage == mjSTAGE_ACC && LawTables::find(m, d, laws) && laws.on) weigh_surfaces(laws, m, d);
+  busy = false;
+}
+
+// Have MuJoCo call the laws, behind whoever it calls now.
+void install() {
+  busy = false;  // where an exception left the last step
+  if (*mujoco.control != on_control) {
+    previous = *mujoco.control;
+    *mujoco.control = on_control;
+  }
+  if (*mujoco.sensor != on_sensor) {
+    previous_sensor = *mujoco.sensor;
+    *mujoco.sensor = on_sensor;
+  }
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> found{"mjcb_control", "mjcb_sensor"};
+#define TRUNDLE_NAME(name) found.push_back(#name);
+  TRUNDLE_MUJOCO_FUNCTIONS(TRUNDLE_NAME)
+#undef TRUNDLE_NAME
+  return found;
+}
+
+void bind(const std::vector<std::uintptr_t>& addresses) {
+  if (addresses.size() != names().size()) throw std::invalid_argument("one address for each of names()");
+  const std::uintptr_t* next = addresses.data();
+  mujoco.control = reinterpret_cast<mjfGeneric*>(*next++);
+  mujoco.sensor = reinterpret_cast<mjfSensor*>(*next++);
+#define TRUNDLE_BIND(name) mujoco.name = reinterpret_cast<decltype(mujoco.name)>(*next++);
+  TRUNDLE_MUJOCO_FUNCTIONS(TRUNDLE_BIND)
+#undef TRUNDLE_BIND
+}
+
+// Mark what is deep in something else, of a model and its data by their addresses; return whether anything is.
+bool mark(std::uintptr_t model, std::uintptr_t data) {
+  const auto* m = reinterpret_cast<const mjModel*>(model);
+  auto* d = reinterpret_cast<mjData*>(data);
+  LawTables laws;
+  if (!LawTables::find(m, d, laws)) throw std::invalid_argument("this model has no laws");
+  mark_deep(laws, m, d);
+  return d->userdata[0] > 0.0;
+}
+
+}  // namespace
+
+}  // namespace trundle
+
+NB_MODULE(_contact_laws, module) {
+  module.attr("VERSION") = mjVERSION_HEADER;
+  module.def("names", trundle::names);
+  module.def("bind", trundle::bind, nb::arg("addresses"));
+  module.def("install", trundle::install);
+  module.def("mark_deep", trundle::mark, nb::arg("model"), nb::arg("data"));
+}

@@ -1,0 +1,78 @@
+// What a compiled model says of its contact laws: tables in its custom numbers, which physics/law_tables.py writes.
+//
+// They lie in mjModel, and what changes from step to step in mjData, so that copies of both, threads, saved states and
+// MuJoCo's own batches of simulations each have theirs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <mujoco/mujoco.h>
+
+namespace trundle {
+
+// A pair of geoms as one number; the smaller first.
+inline double pair_key(const mjModel* m, const int geom[2]) {
+  const std::int64_t low = geom[0] < geom[1] ? geom[0] : geom[1], high = geom[0] < geom[1] ? geom[1] : geom[0];
+  return static_cast<double>(low * m->ngeom + high);
+}
+
+struct RestitutionRow {
+  double pair, restitution;
+  double slowest;  // [m/s] what approaches slower, does not bounce
+};
+
+struct DirectionRow {
+  double pair, geom;
+  double along[3];  // first friction direction in that geom's frame
+};
+
+struct DampingRow {
+  double body, linear, angular;  // parts of a velocity that one step takes away
+};
+
+struct GeomRow {
+  double max_vel;  // [m/s] at which what begins deep comes out
+  double motion;   // its body's row of motions
+  double flag;     // its place in mjData's userdata, where 1 says that it began deep; -1: it stands
+};
+
+struct MotionRow {
+  double kind;           // MotionKind
+  double axis[3];        // world: first friction direction, or the axis that a track's belt turns about
+  double speed;          // [m/s] of the surface past its link
+  double slip[2];        // [m/s/N] along the first direction and across it
+  double has_centre;     // a track's robot turns
+  double centre[3];      // about this point of the world [m]
+};
+
+enum class MotionKind { kNone = 0, kDirection = 1, kTrack = 2 };
+
+struct LawTables {
+  std::span<const RestitutionRow> restitution;
+  std::span<const DirectionRow> directions;
+  std::span<const DampingRow> damping;
+  std::span<const GeomRow> geoms;
+  std::span<const MotionRow> motions;
+  int marks;   // numbers at the front of userdata, which mark what began deep; behind them, each body's load [N]
+  bool on;     // they act
+  bool moves;  // some row of motions is of a kind
+  bool parts;  // something that began deep is deep still
+
+  // Those of a model; false: it has none.
+  static bool find(const mjModel* m, const mjData* d, LawTables& found);
+};
+
+// The row of a contact's pair; null: none. Rows are in order of their pairs.
+template <typename Row>
+const Row* find_pair(std::span<const Row> rows, double pair) {
+  std::size_t first = 0, last = rows.size();
+  while (first < last) {
+    const std::size_t middle = (first + last) / 2;
+    if (rows[middle].pair < pair) first = middle + 1;
+    else last = middle;
+  }
+  return first < rows.size() && rows[first].pair == pair ? &rows[first] : nullptr;
+}
+
+}  // namespace trundle

@@ -1,0 +1,14 @@
+from collections.abc import Sequence
+
+VERSION: int
+"""Of the MuJoCo whose headers this was compiled with, as `mujoco.mj_version()` has it."""
+
+def names() -> list[str]:
+    """What `bind` takes the addresses of."""
+
+def bind(addresses: Sequence[int]) -> None: ...
+def install() -> None:
+    """Have MuJoCo call the laws in every step, behind whoever it calls now."""
+
+def mark_deep(model: int, data: int) -> bool:
+    """Mark in userdata what is deep in something else; return whether anything is. Both by their addresses."""

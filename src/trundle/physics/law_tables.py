@@ -1,0 +1,139 @@
+"""The tables by which a compiled model says what contact laws it has, for the C++ beside it.
+
+They are custom numbers of the model, so that every copy of it has them; `cpp/law_tables.h` reads them row by row.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TypeAlias
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import Link, World
+from trundle.spatial import ZERO
+
+from .shapes import ShapeEntry
+from .surfaces import Touch
+
+_WIDTHS = {"laws": 4, "restitution": 3, "directions": 5, "damping": 3, "geoms": 3, "motions": 11}
+"""Numbers in a row of each table; the first is a single row: a magic number, on or off, whether surfaces
+move, and how many numbers at the front of userdata mark what began deep."""
+_MAGIC = 7.2751
+_SLOWEST = 3.0
+"""Steps' worth of falling: what comes slower than that is at rest, and does not bounce."""
+_Table: TypeAlias = NDArray[np.float64]
+_Pair: TypeAlias = tuple[int, int, Touch]
+Touches: TypeAlias = Mapping[tuple[str, str], Touch]
+
+
+def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[ShapeEntry], world: World) -> None:
+    """Give a model room for its tables before it is compiled."""
+    rows = {
+        "laws": 1,
+        "restitution": sum(map(_bounces, touches.values())),
+        "directions": sum(map(_has_grain, touches.values())),
+        "damping": sum(map(_decays, _links(world))),
+        "geoms": len(spec.geoms),
+        "motions": len(spec.bodies),
+    }
+    for name, width in _WIDTHS.items():
+        # MuJoCo takes no custom number of size zero; less than a row is none.
+        size = max(rows[name] * width, 1)
+        spec.add_numeric(name=f"trundle::{name}", data=[0.0] * size, size=size)
+    spec.nuserdata = _marks(shapes) + len(spec.bodies)
+    # What brings MuJoCo to call mjcb_sensor.
+    stage = mujoco.mjtStage.mjSTAGE_ACC
+    spec.add_sensor(name="trundle::laws", type=mujoco.mjtSensor.mjSENS_USER, dim=1, needstage=stage)
+
+
+def _marks(shapes: Sequence[ShapeEntry]) -> int:
+    return 1 + sum(not shape.fixed for shape in shapes)
+
+
+def find_table(model: mujoco.MjModel, name: str) -> _Table:
+    """(rows, width) A table of a compiled model, to read and write."""
+    number = list(_WIDTHS).index(name)
+    first, size, width = int(model.numeric_adr[number]), int(model.numeric_size[number]), _WIDTHS[name]
+    return model.numeric_data[first : first + size // width * width].reshape(-1, width)
+
+
+def fill_tables(
+    model: mujoco.MjModel, touches: Touches, shapes: Sequence[ShapeEntry], bodies: Sequence[int], world: World
+) -> None:
+    """Write the tables of a compiled model.
+
+    Args:
+        model: to be written.
+        touches: how two shapes touch, by their names.
+        shapes: all of them.
+        bodies: number of each link's body, in the order of the world's links.
+        world: without nested models.
+    """
+    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, _marks(shapes)
+    pairs = [(int(model.geom(a).id), int(model.geom(b).id), touch) for (a, b), touch in touches.items()]
+    pairs.sort(key=lambda pair: _key(model, pair[0], pair[1]))
+    _write(model, "restitution", _restitution(model, pairs))
+    _write(model, "directions", _directions(model, pairs))
+    _write(model, "damping", _damping(model, bodies, world))
+    geoms = find_table(model, "geoms")
+    geoms[:, 0], geoms[:, 1], geoms[:, 2] = np.inf, model.geom_bodyid, -1.0
+    moving = 0
+    for shape in shapes:
+        geom = int(model.geom(shape.name).id)
+        geoms[geom, 0] = max(shape.surface.max_vel, 0.0)
+        if not shape.fixed:
+            moving += 1
+            geoms[geom, 2] = moving
+
+
+def switch_off(model: mujoco.MjModel) -> None:
+    """Have a copy of a model go without its laws."""
+    find_table(model, "laws")[0, 1] = 0.0
+
+
+def _write(model: mujoco.MjModel, name: str, rows: Iterator[tuple[float, ...]]) -> None:
+    for place, row in zip(find_table(model, name), rows, strict=True):
+        place[:] = row
+
+
+def _key(model: mujoco.MjModel, a: int, b: int) -> int:
+    return min(a, b) * int(model.ngeom) + max(a, b)
+
+
+def _bounces(touch: Touch) -> bool:
+    return touch.restitution > 0 and touch.is_felt
+
+
+def _has_grain(touch: Touch) -> bool:
+    return touch.fdir1 != ZERO and touch.mu != touch.mu2 and min(touch.mu, touch.mu2) > 0
+
+
+def _decays(link: Link) -> bool:
+    return link.linear_decay > 0 or link.angular_decay > 0
+
+
+def _links(world: World) -> Iterator[Link]:
+    return (link for model in world.models for link in model.links)
+
+
+def _restitution(model: mujoco.MjModel, pairs: Sequence[_Pair]) -> Iterator[tuple[float, ...]]:
+    slowest = _SLOWEST * math.hypot(*model.opt.gravity) * model.opt.timestep
+    for a, b, touch in pairs:
+        if _bounces(touch):
+            yield _key(model, a, b), touch.restitution, max(touch.threshold, slowest)
+
+
+def _directions(model: mujoco.MjModel, pairs: Sequence[_Pair]) -> Iterator[tuple[float, ...]]:
+    for a, b, touch in pairs:
+        if _has_grain(touch):
+            yield _key(model, a, b), (a, b)[touch.fdir1_of], *touch.fdir1
+
+
+def _damping(model: mujoco.MjModel, bodies: Sequence[int], world: World) -> Iterator[tuple[float, ...]]:
+    """Rows of the world's body, which never moves, where a link has no freedom to lose speed in."""
+    for body, link in zip(bodies, _links(world), strict=True):
+        if _decays(link):
+            parts = (min(max(part, 0.0), 1.0) for part in (link.linear_decay, link.angular_decay))
+            yield body if model.body_dofnum[body] > 0 else 0, *parts

@@ -1,0 +1,93 @@
+"""What acts between finding contacts and solving them: in every step of whoever steps, in C."""
+
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import mujoco
+import pytest
+from mujoco.batch import Batch
+
+import trundle
+from trundle.diagnostics import TrundleError
+from trundle.physics import _contact_laws, contact_laws
+from trundle.simulation import Simulation
+
+BALL = """<model name="ball"><pose>{} 0 0.6 0 0 0</pose><link name="l"><inertial><mass>2</mass><inertia><ixx>0.01</ixx>
+<iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><collision name="c"><geometry><sphere><radius>0.1</radius></sphere>
+</geometry>{}</collision></link></model>"""
+FLOOR = """<model name="floor"><static>true</static><link name="l"><collision name="c"><geometry><plane><normal>0 0 1
+</normal></plane></geometry>{}</collision></link></model>"""
+BOUNCY = """<surface><bounce><restitution_coefficient>0.8</restitution_coefficient><threshold>0.01</threshold></bounce>
+</surface>"""
+APEX_STEP = 570
+
+
+@pytest.fixture
+def ball(tmp_path: Path) -> Simulation:
+    """A ball of e 0.8, half a metre up."""
+    return _load(tmp_path, BALL.format(0, BOUNCY) + FLOOR.format(BOUNCY))
+
+
+@pytest.fixture
+def foreign() -> Iterator[list[float]]:
+    """The times at which somebody else's callback is called; it is set after Trundle's."""
+    calls: list[float] = []
+
+    def note(_: mujoco.MjModel, data: mujoco.MjData) -> None:
+        calls.append(data.time)
+
+    mujoco.set_mjcb_control(note)
+    yield calls
+    mujoco.set_mjcb_control(None)
+
+
+def _load(folder: Path, models: str) -> Simulation:
+    file = folder / "w.sdf"
+    file.write_text(f'<sdf version="1.6"><world name="w"><gravity>0 0 -10</gravity>{models}</world></sdf>')
+    return trundle.load(str(file))
+
+
+def test_laws_act_in_mujoco_s_own_batches_of_simulations(ball: Simulation) -> None:
+    """To the same bits, on two threads, of a copy of the model."""
+    simulations = Batch(ball.engine.compiled.model, nsim=4, nthread=2)
+    heights = simulations.bind("qpos")
+
+    simulations.step(nstep=APEX_STEP)
+    ball.step(APEX_STEP)
+
+    assert ball["ball"].pose.position[2] == pytest.approx(0.1 + 0.64 * 0.5, rel=0.01), "at its apex"
+    assert set(heights[:, 2].tolist()) == {ball["ball"].pose.position[2]}
+
+
+def test_worlds_in_two_threads_do_not_disturb_each_other(tmp_path: Path) -> None:
+    sims = [_load(tmp_path, BALL.format(x, BOUNCY) + FLOOR.format(BOUNCY)) for x in (0, 0, 3)]
+    sims[0].step(900)
+    threads = [threading.Thread(target=sim.step, args=(900,)) for sim in sims[1:]]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+    assert len({sim["ball"].pose.position[2] for sim in sims}) == 1
+
+
+def test_a_callback_of_somebody_else_is_called_as_well(ball: Simulation, foreign: list[float]) -> None:
+    ball.step(APEX_STEP)
+
+    assert len(foreign) == APEX_STEP
+    assert ball["ball"].pose.position[2] > 0.4, "it bounced"
+
+
+def test_another_release_of_mujoco_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(mujoco, "mj_version", lambda: 4_001_000)
+    built = ".".join(str(_contact_laws.VERSION // n % 1000) for n in (1_000_000, 1000, 1))
+
+    with pytest.raises(TrundleError, match=f"built for MuJoCo {built}, and mujoco-core 4.1.0 .*mujoco-core=={built}"):
+        contact_laws.bind()
+
+
+def test_a_bouncing_ball_falls_asleep_in_the_end(ball: Simulation) -> None:
+    ball.step(8192)
+
+    assert ball.engine.asleep == 1
