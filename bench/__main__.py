@@ -6,7 +6,18 @@ import sys
 from bench.peers import TABLE
 from bench.table import Row, print_table
 
-BENCHES = ("graph", "descriptions", "commands", "step", "robots", "images", "renderer", "startup", "launches")
+BENCHES = (
+    "graph",
+    "descriptions",
+    "commands",
+    "step",
+    "robots",
+    "contacts",
+    "images",
+    "renderer",
+    "startup",
+    "launches",
+)
 
 
 def main() -> int:

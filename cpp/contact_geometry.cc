@@ -1,10 +1,28 @@
 #include "contact_geometry.h"
 
+#include <algorithm>
+
 namespace trundle {
 
 namespace {
 
 constexpr double kShortest = 1e-6;  // part of a direction that lies in the surface: where less does, it has none
+
+// Turn the two rows of a contact's constraint that are along its tangents; what follows from them, MuJoCo works out after
+// its control callback.
+void turn_rows(const mjModel* m, mjData* d, const mjContact& contact, double cosine, double sine) {
+  if (contact.efc_address < 0) return;
+  const int row = contact.efc_address + 1;
+  const bool sparse = mujoco.mj_isSparse(m);
+  double* first = d->efc_J + (sparse ? d->efc_J_rowadr[row] : row * m->nv);
+  double* second = d->efc_J + (sparse ? d->efc_J_rowadr[row + 1] : (row + 1) * m->nv);
+  const int count = sparse ? d->efc_J_rownnz[row] : m->nv;  // both rows have the same columns
+  for (int i = 0; i < count; ++i) {
+    const double before = first[i];
+    first[i] = cosine * before + sine * second[i];
+    second[i] = cosine * second[i] - sine * before;
+  }
+}
 
 }  // namespace
 
@@ -38,14 +56,16 @@ void ContactJacobian::find(const mjModel* m, const mjData* d, const mjContact& c
   }
 }
 
-bool align_tangents(mjContact& contact, const double along[3]) {
-  const double* normal = contact.frame;
-  const double out = dot(along, normal);
-  const double within[3] = {along[0] - out * normal[0], along[1] - out * normal[1], along[2] - out * normal[2]};
+bool align_tangents(const mjModel* m, mjData* d, mjContact& contact, const double along[3]) {
+  double* frame = contact.frame;
+  const double out = dot(along, frame);
+  double within[3] = {along[0] - out * frame[0], along[1] - out * frame[1], along[2] - out * frame[2]};
   const double length = std::sqrt(dot(within, within));
   if (!(length > kShortest * std::sqrt(dot(along, along)))) return false;
-  for (int i = 0; i < 3; ++i) contact.frame[3 + i] = within[i] / length;
-  cross(contact.frame + 6, normal, contact.frame + 3);
+  for (double& each : within) each /= length;
+  turn_rows(m, d, contact, dot(within, frame + 3), dot(within, frame + 6));
+  std::copy(within, within + 3, frame + 3);
+  cross(frame + 6, frame, frame + 3);
   return true;
 }
 

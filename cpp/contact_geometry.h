@@ -29,7 +29,8 @@ class ContactJacobian {
   std::vector<double> first_, second_;
 };
 
-// Lay a contact's first tangent along a direction, less what is normal; false where nothing is left of it.
-bool align_tangents(mjContact& contact, const double along[3]);
+// Lay a contact's first tangent along a direction, less what is normal, and its constraint with it; false where nothing
+// is left of it.
+bool align_tangents(const mjModel* m, mjData* d, mjContact& contact, const double along[3]);
 
 }  // namespace trundle

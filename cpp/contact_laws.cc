@@ -31,16 +31,16 @@ std::atomic<mjfGeneric> previous = nullptr;
 std::atomic<mjfSensor> previous_sensor = nullptr;
 
 void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
-  bool turned = align_friction(laws, m, d);
-  turned |= move_surfaces(laws, m, d);
-  turned |= limit_depth(laws, m, d);
-  if (turned) {
+  align_friction(laws, m, d);
+  bool changed = move_surfaces(laws, m, d);
+  changed |= limit_depth(laws, m, d);
+  if (changed) {
     mujoco.mj_makeConstraint(m, d);
     mujoco.mj_island(m, d);
     mujoco.mj_projectConstraint(m, d);
   }
   const bool bounced = !laws.restitution.empty() && apply_restitution(laws, m, d);
-  if (bounced || turned) mujoco.mj_fwdVelocity(m, d);
+  if (bounced || changed) mujoco.mj_fwdVelocity(m, d);
   resist_slip(laws, m, d);
   apply_damping(laws, m, d);
 }

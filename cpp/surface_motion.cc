@@ -121,39 +121,35 @@ std::pair<const MotionRow*, int> motion_at(const LawTables& laws, const mjContac
 
 }  // namespace
 
-bool align_friction(const LawTables& laws, const mjModel* m, mjData* d) {
-  if (laws.directions.empty()) return false;
-  bool any = false;
+void align_friction(const LawTables& laws, const mjModel* m, mjData* d) {
+  if (laws.directions.empty()) return;
   for (int i = 0; i < d->ncon; ++i) {
     mjContact& contact = d->contact[i];
     const DirectionRow* row = find_pair(laws.directions, pair_key(m, contact.geom));
     if (!row) continue;
     const double* axes = d->geom_xmat + 9 * static_cast<int>(row->geom);
     const double along[3] = {dot(axes, row->along), dot(axes + 3, row->along), dot(axes + 6, row->along)};
-    any |= align_tangents(contact, along);
+    align_tangents(m, d, contact, along);
   }
-  return any;
 }
 
 bool move_surfaces(const LawTables& laws, const mjModel* m, mjData* d) {
   slipping.clear();
   if (!laws.moves) return false;
-  bool any = false;
   for (int i = 0; i < d->ncon; ++i) {
     mjContact& contact = d->contact[i];
     const auto [motion, second] = motion_at(laws, contact);
     if (!motion) continue;
     const double side = 2.0 * second - 1.0;  // the normal points out of the first
     double along[3], speed;
-    if (!first_direction(*motion, contact, side, along, speed) || !align_tangents(contact, along)) continue;
-    any = true;
+    if (!first_direction(*motion, contact, side, along, speed) || !align_tangents(m, d, contact, along)) continue;
     contact.surfacevel[0] = side * speed;
     contact.surfacevel[1] = 0.0;
     if (motion->slip[0] > 0 || motion->slip[1] > 0) {
       let_slip(m, d, i, m->geom_bodyid[contact.geom[second]], motion->slip);
     }
   }
-  return any;
+  return !slipping.empty();
 }
 
 void resist_slip(const LawTables& laws, const mjModel* m, mjData* d) {

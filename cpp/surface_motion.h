@@ -9,10 +9,11 @@
 
 namespace trundle {
 
-// Lay the first tangents of contacts along the directions of their pairs; return whether any was laid.
-bool align_friction(const LawTables& laws, const mjModel* m, mjData* d);
+// Lay the first tangents of contacts along the directions of their pairs.
+void align_friction(const LawTables& laws, const mjModel* m, mjData* d);
 
-// Lay the first tangents of contacts along the motion of their surfaces; return whether any was laid.
+// Lay the first tangents of contacts along the motion of their surfaces; return whether constraints are to be made again,
+// for some friction is another.
 bool move_surfaces(const LawTables& laws, const mjModel* m, mjData* d);
 
 // Push against what slips in this step, once the constraints are made: force = -speed / slip, within the ellipse of
