@@ -18,6 +18,7 @@
 #include "restitution.h"
 #include "surface_motion.h"
 #include "velocity_damping.h"
+#include "velocity_motor.h"
 
 namespace nb = nanobind;
 
@@ -52,7 +53,10 @@ void on_control(const mjModel* m, mjData* d) {
   busy = true;
   if (const mjfGeneric first = previous.load()) first(m, d);
   LawTables laws;
-  if (LawTables::find(m, d, laws) && laws.on) apply_laws(laws, m, d);
+  if (LawTables::find(m, d, laws)) {
+    if (laws.on) apply_laws(laws, m, d);
+    drive_motors(laws, m, d);
+  }
   busy = false;
 }
 
@@ -61,7 +65,10 @@ void on_sensor(const mjModel* m, mjData* d, int stage) {
   busy = true;
   if (const mjfSensor first = previous_sensor.load()) first(m, d, stage);
   LawTables laws;
-  if (stage == mjSTAGE_ACC && LawTables::find(m, d, laws) && laws.on) weigh_surfaces(laws, m, d);
+  if (stage == mjSTAGE_ACC && LawTables::find(m, d, laws)) {
+    if (laws.on) weigh_surfaces(laws, m, d);
+    report_efforts(laws, m, d);
+  }
   busy = false;
 }
 

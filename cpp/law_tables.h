@@ -46,6 +46,12 @@ struct MotionRow {
   double centre[3];      // about this point of the world [m]
 };
 
+struct MotorRow {  // of the tendon of the same number
+  double actuator;   // whose ctrl is the speed to keep, or the position to hold
+  double rate;       // [1/s] at which it closes in on the position; 0: it keeps a speed
+  double qpos, dof;  // of its joint
+};
+
 enum class MotionKind { kNone = 0, kDirection = 1, kTrack = 2 };
 
 struct LawTables {
@@ -54,8 +60,10 @@ struct LawTables {
   std::span<const DampingRow> damping;
   std::span<const GeomRow> geoms;
   std::span<const MotionRow> motions;
+  std::span<const MotorRow> motors;
   int marks;   // numbers at the front of userdata, which mark what began deep; behind them, each body's load [N]
-  bool on;     // they act
+  int motor_equality;  // whose spring and damper motors' constraints have
+  bool on;     // contact laws act
   bool moves;  // some row of motions is of a kind
   bool parts;  // something that began deep is deep still
 

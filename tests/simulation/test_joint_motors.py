@@ -24,11 +24,11 @@ def test_a_strong_motor_of_a_light_wheel_does_not_chatter(tmp_path, speed: float
     simulation = Simulation(load(str(path), report, packages=Packages({}, start=tmp_path)).world, report)
     axle = simulation["m"].joint("axle")
     for _ in range(50):
-        axle.set_velocity(speed, often=True)
+        axle.set_velocity(speed)
         simulation.step()
     speeds: list[float] = []
     for _ in range(5):
-        axle.set_velocity(speed, often=True)
+        axle.set_velocity(speed)
         simulation.step()
         speeds.append(axle.velocity)
     assert speeds == pytest.approx([speed] * 5, rel=1e-3)

@@ -19,7 +19,7 @@ from .feeling import Feeling
 from .grip import Grip, TrackGrip
 from .index import CompiledWorld
 from .instant import Instant, Looker
-from .motors import Motors
+from .motors import MotorOrders, Motors
 from .postmortem import Runaway, find_runaway
 from .reader import StateReader
 from .rest import EVERY, STATE, Rest
@@ -53,9 +53,7 @@ class EngineState:
     taken: int
     sleeps: bool
     leapt: bool
-    gains: NDArray[np.float64]
-    biases: NDArray[np.float64]
-    ranges: NDArray[np.float64]
+    motors: MotorOrders
 
 
 class Engine:
@@ -275,16 +273,13 @@ class Engine:
 
     def save(self) -> EngineState:
         """Everything that decides how the world goes on."""
-        model = self._model
         return EngineState(
             self.compiled,
             copy.copy(self._data),
             self._taken,
             self._rest.is_on,
             self._leapt,
-            model.actuator_gainprm.copy(),
-            model.actuator_biasprm.copy(),
-            model.actuator_forcerange.copy(),
+            MotorOrders.of(self._model),
         )
 
     def restore(self, state: EngineState) -> None:
@@ -300,8 +295,6 @@ class Engine:
         self._taken = state.taken
         self._leapt = state.leapt
         self.motors.keep_on = self._laws.acts
-        self._model.actuator_gainprm[:] = state.gains
-        self._model.actuator_biasprm[:] = state.biases
-        self._model.actuator_forcerange[:] = state.ranges
+        state.motors.put(self._model)
         self.motors.forget()
         self.reader.changed()

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from . import _contact_laws
 from .index import CompiledWorld
 from .law_tables import switch_off
+from .motors import MotorOrders
 from .reader import StateReader
 from .touching import Contact, contacts_of
 
@@ -80,10 +81,8 @@ class Looker:
 
     def _solve(self, state: _Array) -> tuple[mujoco.MjModel, mujoco.MjData]:
         model, data, reader = self._second
-        motors = self._compiled.model
-        model.actuator_gainprm[:] = motors.actuator_gainprm
-        model.actuator_biasprm[:] = motors.actuator_biasprm
-        model.actuator_forcerange[:] = motors.actuator_forcerange
+        MotorOrders.of(self._compiled.model).put(model)
+        model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
         mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
         mujoco.mj_forward(model, data)
         reader.changed()

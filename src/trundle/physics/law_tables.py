@@ -17,12 +17,15 @@ from trundle.spatial import ZERO
 from .shapes import ShapeEntry
 from .surfaces import Touch
 
-_WIDTHS = {"laws": 4, "restitution": 3, "directions": 5, "damping": 3, "geoms": 3, "motions": 11}
+_WIDTHS = {"laws": 5, "restitution": 3, "directions": 5, "damping": 3, "geoms": 3, "motions": 11, "motors": 4}
 """Numbers in a row of each table; the first is a single row: a magic number, on or off, whether surfaces
-move, and how many numbers at the front of userdata mark what began deep."""
+move, how many numbers at the front of userdata mark what began deep, and the equality that motors take after."""
 _MAGIC = 7.2751
 _SLOWEST = 3.0
 """Steps' worth of falling: what comes slower than that is at rest, and does not bounce."""
+_EQUALITY = "trundle::motor"
+_MOTOR_SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
+"""As stiff as MuJoCo lets a constraint be."""
 _Table: TypeAlias = NDArray[np.float64]
 _Pair: TypeAlias = tuple[int, int, Touch]
 Touches: TypeAlias = Mapping[tuple[str, str], Touch]
@@ -37,15 +40,29 @@ def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[Shape
         "damping": sum(map(_decays, _links(world))),
         "geoms": len(spec.geoms),
         "motions": len(spec.bodies),
+        "motors": len(spec.actuators),
     }
     for name, width in _WIDTHS.items():
         # MuJoCo takes no custom number of size zero; less than a row is none.
         size = max(rows[name] * width, 1)
         spec.add_numeric(name=f"trundle::{name}", data=[0.0] * size, size=size)
     spec.nuserdata = _marks(shapes) + len(spec.bodies)
+    _reserve_motors(spec)
     # What brings MuJoCo to call mjcb_sensor.
     stage = mujoco.mjtStage.mjSTAGE_ACC
     spec.add_sensor(name="trundle::laws", type=mujoco.mjtSensor.mjSENS_USER, dim=1, needstage=stage)
+
+
+def _reserve_motors(spec: mujoco.MjSpec) -> None:
+    """Add a tendon for each motor, whose friction is the motor, and an equality that never acts."""
+    for motor in spec.actuators:
+        tendon = spec.add_tendon(name=motor.name)
+        tendon.wrap_joint(motor.target, 1.0)
+        tendon.solimp_friction = _MOTOR_SOLIMP
+    if spec.actuators:
+        equality = spec.add_equality(name=_EQUALITY, type=mujoco.mjtEq.mjEQ_JOINT, name1=spec.actuators[0].target)
+        equality.objtype, equality.active = mujoco.mjtObj.mjOBJ_JOINT, False
+        equality.solref, equality.solimp = (-1.0, -1.0 / spec.option.timestep), _MOTOR_SOLIMP
 
 
 def _marks(shapes: Sequence[ShapeEntry]) -> int:
@@ -71,12 +88,16 @@ def fill_tables(
         bodies: number of each link's body, in the order of the world's links.
         world: without nested models.
     """
-    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, _marks(shapes)
+    equality = model.equality(_EQUALITY).id if model.nu else -1
+    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, _marks(shapes), equality
     pairs = [(int(model.geom(a).id), int(model.geom(b).id), touch) for (a, b), touch in touches.items()]
     pairs.sort(key=lambda pair: _key(model, pair[0], pair[1]))
     _write(model, "restitution", _restitution(model, pairs))
     _write(model, "directions", _directions(model, pairs))
     _write(model, "damping", _damping(model, bodies, world))
+    for motor, row in enumerate(find_table(model, "motors")):
+        joint = model.actuator_trnid[motor, 0]
+        row[:] = motor, 0.0, model.jnt_qposadr[joint], model.jnt_dofadr[joint]
     geoms = find_table(model, "geoms")
     geoms[:, 0], geoms[:, 1], geoms[:, 2] = np.inf, model.geom_bodyid, -1.0
     moving = 0

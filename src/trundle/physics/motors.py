@@ -1,19 +1,41 @@
-"""Drives joints: efforts, speeds and positions, within their limits."""
+"""Drives joints: efforts, speeds and positions, within their limits.
+
+A motor is a constraint that keeps a speed with a force up to a limit, as ODE's; `cpp/velocity_motor.cc` has how.
+"""
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import mujoco
+import numpy as np
+from numpy.typing import NDArray
 
 from .index import CompiledWorld
+from .law_tables import find_table
 
 HOLD_RATE = 3.0
 """[1/s] How fast a held joint closes in: a first-order lag of a third of a second, as its motor's torque allows."""
-MOTOR_STIFFNESS = 10.0
-"""1 would stop a joint by itself in one step, and droops under the robot's weight: a turn of 2.44 rad came out as 2.13.
-10 gives 2.41; 100 gives 2.44 and chatters where the effort limit is met (measured on the RP2W at 1 ms)."""
 _HUGE = 1e10
 _NO_MOTORS = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MotorOrders:
+    """What the motors of a model are told, but for the speeds and positions, which are in its data."""
+
+    most: NDArray[np.float64]
+    rates: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, model: mujoco.MjModel) -> "MotorOrders":
+        """Those of a model now."""
+        return cls(model.tendon_frictionloss.copy(), find_table(model, "motors")[:, 1].copy())
+
+    def put(self, model: mujoco.MjModel) -> None:
+        """Tell them a model."""
+        model.tendon_frictionloss[:] = self.most
+        find_table(model, "motors")[:, 1] = self.rates
 
 
 class Motors:
@@ -32,6 +54,7 @@ class Motors:
         self._data = data
         self._wake = wake
         self._orders: dict[int, tuple[float, ...]] = {}
+        self._rates = find_table(compiled.model, "motors")[:, 1]
         self._keep_on = False
         self._plug()
 
@@ -41,63 +64,39 @@ class Motors:
         As in Gazebo, an axis that is faster than its limit is not pushed on: with such a limit the effort is a
         motor's, which wants that speed and pulls one way only.
         """
-        compiled = self._compiled
-        largest, fastest = float(compiled.axis_effort[axis]), float(compiled.axis_velocity[axis])
+        largest, fastest = float(self._compiled.axis_effort[axis]), float(self._compiled.axis_velocity[axis])
         effort = min(max(effort, -largest), largest)
         if math.isinf(fastest) or effort == 0.0 or not math.isfinite(effort):
-            self._motor(axis, gain=0.0, position=0.0, velocity=0.0, low=-1.0, high=1.0, command=0.0)
-            self._data.qfrc_applied[compiled.axis_dof[axis]] = effort
+            self._order(axis, command=0.0, most=0.0, effort=effort)
             return
-        gain, command = self._motor_gain(axis), math.copysign(fastest, effort)
-        low, high = min(effort, 0.0), max(effort, 0.0)
-        self._motor(axis, gain=gain, position=0.0, velocity=gain, low=low, high=high, command=command)
+        # Half of the effort, and a motor of the other half: together from nothing to all of it.
+        self._order(axis, command=math.copysign(fastest, effort), most=abs(effort) / 2, effort=effort / 2)
 
-    def set_velocity(self, axis: int, velocity: float, max_effort: float, *, often: bool = False) -> None:
-        """Have a motor keep a speed [rad/s or m/s] with at most so much effort.
-
-        Args:
-            axis: of the engine.
-            velocity: to keep.
-            max_effort: at most.
-            often: this is told anew at every few steps. Then the motor is soft while its effort limit is all that
-                keeps it from the speed: a stiff one would go past it, and back, for ever.
-        """
-        gain = self._motor_gain(axis)
-        if often:
-            missing = abs(velocity - float(self._data.qvel[self._compiled.axis_dof[axis]]))
-            if gain * missing > min(max_effort, float(self._compiled.axis_effort[axis])):
-                gain /= MOTOR_STIFFNESS
-        self._motor(axis, gain=gain, position=0.0, velocity=gain, low=-max_effort, high=max_effort, command=velocity)
+    def set_velocity(self, axis: int, velocity: float, max_effort: float) -> None:
+        """Have a motor keep a speed [rad/s or m/s] with at most so much effort."""
+        self._keep(axis, velocity, max_effort, rate=0.0)
 
     def hold(self, axis: int, position: float, max_effort: float) -> None:
         """Have a motor go to a position [rad or m] and stay there."""
-        damping = self._motor_gain(axis)
-        gain = HOLD_RATE * damping
-        self._motor(
-            axis, gain=gain, position=gain, velocity=damping, low=-max_effort, high=max_effort, command=position
-        )
+        self._keep(axis, position, max_effort, rate=HOLD_RATE)
 
-    def _motor_gain(self, axis: int) -> float:
-        """Effort per error of speed, by what the motor has to move with every joint at zero."""
-        inertia = float(self._model.dof_M0[self._compiled.axis_dof[axis]])
-        return MOTOR_STIFFNESS * inertia / self._model.opt.timestep
+    def _keep(self, axis: int, command: float, max_effort: float, *, rate: float) -> None:
+        most = min(max_effort, float(self._compiled.axis_effort[axis]), _HUGE)
+        self._order(axis, command=command, most=max(most, 0.0), rate=rate)
 
-    def _motor(
-        self, axis: int, *, gain: float, position: float, velocity: float, low: float, high: float, command: float
-    ) -> None:
-        """force = gain · command − position · q − velocity · q̇, from low to high."""
+    def _order(self, axis: int, *, command: float, most: float, rate: float = 0.0, effort: float = 0.0) -> None:
+        """Have the motor keep a command with an effort up to `most`, beside an effort that lasts."""
         dof, actuator = int(self._compiled.axis_dof[axis]), int(self._compiled.axis_actuator[axis])
-        self._data.qfrc_applied[dof] = 0.0
+        self._data.qfrc_applied[dof] = effort
         if actuator < 0:
             return
-        order = (gain, position, velocity, max(low, -_HUGE), min(high, _HUGE), command)
+        order = (command, most, rate)
         # The same order again, as controllers give it at every turn, wakes nobody.
         if self._orders.get(actuator) == order:
             return
         self._orders[actuator] = order
-        self._model.actuator_gainprm[actuator, 0] = gain
-        self._model.actuator_biasprm[actuator, 1:3] = (-position, -velocity)
-        self._model.actuator_forcerange[actuator] = order[3:5]
+        self._model.tendon_frictionloss[actuator] = most
+        self._rates[actuator] = rate
         self._data.ctrl[actuator] = command
         self._plug()
         self._wake(dof)
@@ -120,13 +119,12 @@ class Motors:
 
     def switch_off(self) -> None:
         """Every motor."""
-        self._model.actuator_gainprm[:] = 0
-        self._model.actuator_biasprm[:] = 0
+        self._model.tendon_frictionloss[:] = 0
         self.forget()
 
     def _plug(self) -> None:
         """Spare the engine the motors while none does anything: a seventh of a step of what is at rest."""
         model = self._model
-        is_on = self._keep_on or bool(model.actuator_gainprm[:, 0].any() or model.actuator_biasprm[:, 1:3].any())
+        is_on = self._keep_on or bool(model.tendon_frictionloss.any())
         flags = model.opt.disableflags
         model.opt.disableflags = flags & ~_NO_MOTORS if is_on else flags | _NO_MOTORS

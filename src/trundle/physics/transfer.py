@@ -5,6 +5,8 @@ from typing import Protocol
 
 import mujoco
 
+from .law_tables import find_table
+
 _ON = " on "
 _POSITIONS = {int(mujoco.mjtJoint.mjJNT_FREE): 7, int(mujoco.mjtJoint.mjJNT_BALL): 4}
 _SPEEDS = {int(mujoco.mjtJoint.mjJNT_FREE): 6, int(mujoco.mjtJoint.mjJNT_BALL): 3}
@@ -22,7 +24,6 @@ def carry_over(
     """
     (old_model, old_data), (new_model, new_data) = old, new
     new_data.time = old_data.time
-    stiffer = old_model.opt.timestep / new_model.opt.timestep  # a motor's stiffness is by the step
     for a, b in _both(_names(old_model.njnt, old_model.joint, renamed), _names(new_model.njnt, new_model.joint)):
         kind = int(new_model.jnt_type[b])
         if kind != int(old_model.jnt_type[a]):
@@ -34,11 +35,11 @@ def carry_over(
         n = _SPEEDS.get(kind, 1)
         for name in ("qvel", "qacc_warmstart", "qfrc_applied", "qfrc_actuator"):
             getattr(new_data, name)[q : q + n] = getattr(old_data, name)[p : p + n]
+    old_rates, new_rates = (find_table(model, "motors")[:, 1] for model in (old_model, new_model))
     for a, b in _both(_names(old_model.nu, old_model.actuator, renamed), _names(new_model.nu, new_model.actuator)):
         new_data.ctrl[b] = old_data.ctrl[a]
-        new_model.actuator_gainprm[b] = old_model.actuator_gainprm[a] * stiffer
-        new_model.actuator_biasprm[b] = old_model.actuator_biasprm[a] * stiffer
-        new_model.actuator_forcerange[b] = old_model.actuator_forcerange[a]
+        new_model.tendon_frictionloss[b] = old_model.tendon_frictionloss[a]
+        new_rates[b] = old_rates[a]
     for a, b in _both(_names(old_model.nbody, old_model.body, renamed), _names(new_model.nbody, new_model.body)):
         new_data.xfrc_applied[b] = old_data.xfrc_applied[a]
 

@@ -101,13 +101,10 @@ class JointHandle(Handle):
         self._simulation.engine.motors.set_effort(self._axis(axis), effort)
         self._simulation.pushes.hold_effort(self, axis, until=self._simulation.step_after(duration_s))
 
-    def set_velocity(
-        self, velocity: float, *, max_effort: float = math.inf, axis: int = 0, often: bool = False
-    ) -> None:
-        """Keep this speed [rad/s or m/s] with at most so much effort, as Gazebo's SetVelocity with fmax; `often`: see
-        `Motors.set_velocity`."""
+    def set_velocity(self, velocity: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
+        """Keep this speed [rad/s or m/s] with at most so much effort, as Gazebo's SetVelocity with fmax."""
         self._simulation.pushes.hold_effort(self, axis, until=None)
-        self._simulation.engine.motors.set_velocity(self._driven(axis), velocity, max_effort, often=often)
+        self._simulation.engine.motors.set_velocity(self._driven(axis), velocity, max_effort)
 
     def hold(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
         """Go to a position [rad or m] and stay, with at most so much effort; limits are respected."""

@@ -67,7 +67,7 @@ class DiffDrive(GraphPlugin):
             if self._acceleration > 0.0:
                 speed = approach(self._speeds[number], speed, most / self._drive.wheel_radius)
             self._speeds[number] = speed
-            wheel.set_velocity(speed, max_effort=self._torque, often=True)
+            wheel.set_velocity(speed, max_effort=self._torque)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell where that led."""

@@ -53,7 +53,7 @@ class SkidSteerDrive(GraphPlugin):
         speeds = self._drive.wheel_speeds(self._command.forward, self._command.turning)
         for side, speed in zip(self._sides, speeds, strict=True):
             for wheel in side:
-                wheel.set_velocity(speed, max_effort=self._torque, often=True)
+                wheel.set_velocity(speed, max_effort=self._torque)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell where that led."""

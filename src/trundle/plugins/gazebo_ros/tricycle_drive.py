@@ -68,12 +68,12 @@ class TricycleDrive(GraphPlugin):
         wanted = self._command.forward / self._radius
         change = self._faster if abs(wanted) > abs(self._speed) else self._slower
         self._speed = approach(self._speed, wanted, change * dt_s) if self._faster > 0.0 else wanted
-        self._wheel.set_velocity(self._speed, max_effort=self._torque, often=True)
+        self._wheel.set_velocity(self._speed, max_effort=self._torque)
         angle = min(max(self._command.turning, -math.pi / 2), math.pi / 2)
         if self._steering_speed > 0.0:
             angle = approach(self._angle, angle, self._steering_speed * dt_s)
         self._angle = angle
-        self._steering.set_velocity((angle - self._steering.position) / (_LAG * dt_s), often=True)
+        self._steering.set_velocity((angle - self._steering.position) / (_LAG * dt_s))
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell where that led."""

@@ -81,7 +81,7 @@ class JointHardware:
         if self._pid is not None:
             self.handle.set_effort(self._within_effort(self._pid.command(wanted - self.velocity, dt)))
         else:
-            self.handle.set_velocity(wanted, max_effort=self._most_effort, often=True)
+            self.handle.set_velocity(wanted, max_effort=self._most_effort)
 
     def _write_position(self, dt: float) -> None:
         if self._is_at_rest and self.velocity == 0.0 and self.error(self.command) != 0.0:
@@ -92,7 +92,7 @@ class JointHardware:
             self.handle.set_effort(self._within_effort(self._pid.command(error, dt)))
             return
         speed = error / self.lag_s
-        self.handle.set_velocity(min(max(speed, -self._most_speed), self._most_speed), often=True)
+        self.handle.set_velocity(min(max(speed, -self._most_speed), self._most_speed))
 
     def _within_effort(self, effort: float) -> float:
         return min(max(effort, -self._most_effort), self._most_effort)

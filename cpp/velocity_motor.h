@@ -1,0 +1,18 @@
+// Motors that keep a speed with a force up to a limit, as ODE's joint motors.
+//
+// MuJoCo's friction in a tendon of one joint is such a constraint, for the speed 0. Its reference is worked out after
+// mjcb_control, by the kind of constraint that a row says it is: as one of an equality, which has a position error, it
+// wants whatever speed that error is chosen for, and is bounded still, for the solver tells friction by the row's place.
+#pragma once
+
+#include "law_tables.h"
+
+namespace trundle {
+
+// Have the rows of motors want the speeds that ctrl says.
+void drive_motors(const LawTables& laws, const mjModel* m, mjData* d);
+
+// Add what motors exert to qfrc_actuator, once the constraints are solved.
+void report_efforts(const LawTables& laws, const mjModel* m, mjData* d);
+
+}  // namespace trundle
