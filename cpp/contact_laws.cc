@@ -65,10 +65,7 @@ void on_sensor(const mjModel* m, mjData* d, int stage) {
   busy = true;
   if (const mjfSensor first = previous_sensor.load()) first(m, d, stage);
   LawTables laws;
-  if (stage == mjSTAGE_ACC && LawTables::find(m, d, laws)) {
-    if (laws.on) weigh_surfaces(laws, m, d);
-    report_efforts(laws, m, d);
-  }
+  if (stage == mjSTAGE_ACC && LawTables::find(m, d, laws) && laws.on) weigh_surfaces(laws, m, d);
   busy = false;
 }
 
@@ -103,14 +100,26 @@ void bind(const std::vector<std::uintptr_t>& addresses) {
 #undef TRUNDLE_BIND
 }
 
-// Mark what is deep in something else, of a model and its data by their addresses; return whether anything is.
-bool mark(std::uintptr_t model, std::uintptr_t data) {
-  const auto* m = reinterpret_cast<const mjModel*>(model);
-  auto* d = reinterpret_cast<mjData*>(data);
+// A model and its data, by their addresses.
+struct Addressed {
+  const mjModel* m;
+  mjData* d;
   LawTables laws;
-  if (!LawTables::find(m, d, laws)) throw std::invalid_argument("this model has no laws");
-  mark_deep(laws, m, d);
-  return d->userdata[0] > 0.0;
+
+  Addressed(std::uintptr_t model, std::uintptr_t data)
+      : m(reinterpret_cast<const mjModel*>(model)), d(reinterpret_cast<mjData*>(data)) {
+    if (!LawTables::find(m, d, laws)) throw std::invalid_argument("this model has no laws");
+  }
+};
+
+void mark(std::uintptr_t model, std::uintptr_t data) {
+  const Addressed each(model, data);
+  mark_deep(each.laws, each.m, each.d);
+}
+
+void report(std::uintptr_t model, std::uintptr_t data) {
+  const Addressed each(model, data);
+  report_efforts(each.laws, each.m, each.d);
 }
 
 }  // namespace
@@ -123,4 +132,5 @@ NB_MODULE(_contact_laws, module) {
   module.def("bind", trundle::bind, nb::arg("addresses"));
   module.def("install", trundle::install);
   module.def("mark_deep", trundle::mark, nb::arg("model"), nb::arg("data"));
+  module.def("report_efforts", trundle::report, nb::arg("model"), nb::arg("data"));
 }

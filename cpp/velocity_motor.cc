@@ -32,7 +32,7 @@ void drive_motors(const LawTables& laws, const mjModel* m, mjData* d) {
 
 void report_efforts(const LawTables& laws, const mjModel* m, mjData* d) {
   for_each_motor(laws, m, d, [&](int row, const MotorRow& motor) {
-    d->qfrc_actuator[static_cast<int>(motor.dof)] += d->efc_force[row];
+    d->qfrc_actuator[static_cast<int>(motor.dof)] = d->efc_force[row];
   });
 }
 

@@ -12,7 +12,7 @@ namespace trundle {
 // Have the rows of motors want the speeds that ctrl says.
 void drive_motors(const LawTables& laws, const mjModel* m, mjData* d);
 
-// Add what motors exert to qfrc_actuator, once the constraints are solved.
+// Write what motors exert to qfrc_actuator, which nothing else does, after a step.
 void report_efforts(const LawTables& laws, const mjModel* m, mjData* d);
 
 }  // namespace trundle

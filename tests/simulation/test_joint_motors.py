@@ -1,4 +1,6 @@
-"""Motors told anew at every step, by loops that others close around them."""
+"""Motors that keep a speed with a force up to a limit, against v = F t / I."""
+
+from pathlib import Path
 
 import pytest
 
@@ -15,13 +17,17 @@ _LIGHT = """<sdf version="1.6"><world name="w"><model name="m"><link name="base"
 <limit><effort>10</effort></limit></axis></joint></model></world></sdf>"""
 
 
+def _load(folder: Path, text: str) -> Simulation:
+    path = folder / "w.world"
+    path.write_text(text)
+    report = Diagnostics()
+    return Simulation(load(str(path), report, packages=Packages({}, start=folder)).world, report)
+
+
 @pytest.mark.parametrize("speed", [0.5, 5.0, 50.0])
 def test_a_strong_motor_of_a_light_wheel_does_not_chatter(tmp_path, speed: float) -> None:
     """10 N·m on 0.001 kg·m² change the speed by 10 rad/s in a step, past what is wanted and back."""
-    path = tmp_path / "light.world"
-    path.write_text(_LIGHT)
-    report = Diagnostics()
-    simulation = Simulation(load(str(path), report, packages=Packages({}, start=tmp_path)).world, report)
+    simulation = _load(tmp_path, _LIGHT)
     axle = simulation["m"].joint("axle")
     for _ in range(50):
         axle.set_velocity(speed)
@@ -32,3 +38,50 @@ def test_a_strong_motor_of_a_light_wheel_does_not_chatter(tmp_path, speed: float
         simulation.step()
         speeds.append(axle.velocity)
     assert speeds == pytest.approx([speed] * 5, rel=1e-3)
+
+
+@pytest.mark.parametrize("inertia", [1e-6, 1e-2, 1e3])
+@pytest.mark.parametrize("most", [1e-3, 1.0, 1e6])
+def test_a_motor_is_as_fast_as_its_force_allows_and_keeps_the_speed(tmp_path, inertia: float, most: float) -> None:
+    """v = min(wanted, F t / I) from the first step on, as ODE's bounded motor has it, and no ripple."""
+    simulation = _load(tmp_path, _LIGHT.replace("0.001", f"{inertia}").replace("<effort>10</effort>", ""))
+    axle = simulation["m"].joint("axle")
+    axle.set_velocity(1.0, max_effort=most)
+    for step in range(1, 21):
+        simulation.step()
+        assert axle.velocity == pytest.approx(min(1.0, most * 1e-3 * step / inertia), rel=0.01)
+
+
+def test_a_platform_carries_what_stands_on_it_up_without_a_hop(tmp_path) -> None:
+    box = """<inertial><mass>{}</mass><inertia><ixx>5</ixx><iyy>5</iyy><izz>5</izz></inertia></inertial>
+    <collision name="c"><geometry><box><size>{}</size></box></geometry></collision>"""
+    large, small = box.format(200, "2 2 0.1"), box.format(10, "0.2 0.2 0.2")
+    models = f"""<model name="lift"><link name="l">{large}</link><joint name="up" type="prismatic"><parent>world</parent>
+    <child>l</child><axis><xyz>0 0 1</xyz></axis></joint></model>
+    <model name="box"><pose>0 0 0.15 0 0 0</pose><link name="l">{small}</link></model>"""
+    simulation = _load(tmp_path, f'<sdf version="1.6"><world name="w">{models}</world></sdf>')
+    lift = simulation["lift"].joint("up")
+    lift.set_velocity(0.0)
+    simulation.step(200)
+    lift.set_velocity(0.3, max_effort=1e4)
+    heights: list[float] = []
+    for _ in range(300):
+        simulation.step()
+        heights.append(simulation["box"].pose.position[2] - simulation["lift"].link("l").pose.position[2])
+
+    assert lift.velocity == pytest.approx(0.3, rel=1e-3)
+    assert lift.effort == pytest.approx(210 * 9.8, rel=1e-2)
+    assert heights == pytest.approx([0.15] * 300, abs=5e-4)
+
+
+def test_an_effort_pushes_up_to_its_speed_limit_only(tmp_path) -> None:
+    simulation = _load(tmp_path, _LIGHT.replace("<effort>10</effort>", "<velocity>2</velocity>"))
+    axle = simulation["m"].joint("axle")
+    axle.set_effort(0.01)
+    simulation.step(100)
+    assert axle.velocity == pytest.approx(1.0, rel=1e-2), "0.01 N·m on 0.001 kg·m² for 0.1 s"
+    simulation.step(200)
+    assert axle.velocity == pytest.approx(2.0, rel=1e-3)
+    axle.start(3.0)
+    simulation.step(100)
+    assert axle.velocity == pytest.approx(3.0, rel=1e-3), "nothing brakes what is faster"

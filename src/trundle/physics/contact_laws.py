@@ -16,7 +16,7 @@ from trundle.diagnostics import TrundleError
 from . import _contact_laws
 from .grip import Grip, TrackGrip
 from .index import CompiledWorld
-from .law_tables import find_table
+from .law_tables import find_table, set_needstage
 
 _LIBRARIES = {"win32": "mujoco.dll", "darwin": "libmujoco.*.dylib"}
 
@@ -71,3 +71,4 @@ class ContactLaws:
         for body, grip in grips.items():
             self._motions[body] = grip.row
         self._head[2] = self._model.flg_surfacevel = bool(grips)
+        set_needstage(self._model, solved=bool(grips))

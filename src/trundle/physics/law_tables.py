@@ -48,8 +48,8 @@ def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[Shape
         spec.add_numeric(name=f"trundle::{name}", data=[0.0] * size, size=size)
     spec.nuserdata = _marks(shapes) + len(spec.bodies)
     _reserve_motors(spec)
-    # What brings MuJoCo to call mjcb_sensor.
-    stage = mujoco.mjtStage.mjSTAGE_ACC
+    # What brings MuJoCo to call mjcb_sensor; see `set_needstage`.
+    stage = mujoco.mjtStage.mjSTAGE_POS
     spec.add_sensor(name="trundle::laws", type=mujoco.mjtSensor.mjSENS_USER, dim=1, needstage=stage)
 
 
@@ -107,6 +107,11 @@ def fill_tables(
         if not shape.fixed:
             moving += 1
             geoms[geom, 2] = moving
+
+
+def set_needstage(model: mujoco.MjModel, *, solved: bool) -> None:
+    """Have MuJoCo call mjcb_sensor when the constraints are solved, which costs a pass over all bodies, or not."""
+    model.sensor_needstage[0] = mujoco.mjtStage.mjSTAGE_ACC if solved else mujoco.mjtStage.mjSTAGE_POS
 
 
 def switch_off(model: mujoco.MjModel) -> None:

@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _contact_laws
 from .index import CompiledWorld
 from .law_tables import find_table
 
@@ -100,6 +101,11 @@ class Motors:
         self._data.ctrl[actuator] = command
         self._plug()
         self._wake(dof)
+
+    def report(self) -> None:
+        """Write what the motors exert where efforts are read, after a step."""
+        if not self._model.opt.disableflags & _NO_MOTORS:
+            _contact_laws.report_efforts(self._model._address, self._data._address)
 
     @property
     def keep_on(self) -> bool:
