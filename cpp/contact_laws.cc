@@ -14,6 +14,7 @@
 
 #include "depenetration.h"
 #include "law_tables.h"
+#include "midpoint.h"
 #include "mujoco_api.h"
 #include "restitution.h"
 #include "surface_motion.h"
@@ -55,6 +56,8 @@ void on_control(const mjModel* m, mjData* d) {
   LawTables laws;
   if (LawTables::find(m, d, laws)) {
     if (laws.on) apply_laws(laws, m, d);
+    apply_springs(laws, m, d);
+    center_bias(laws, m, d);
     drive_motors(laws, m, d);
   }
   busy = false;

@@ -52,6 +52,15 @@ struct MotorRow {  // of the tendon of the same number
   double qpos, dof;  // of its joint
 };
 
+struct ChainRow {  // links that hang from one another
+  double tree;
+};
+
+struct SpringRow {
+  double dof, qpos;
+  double stiffness, reference;  // [N·m/rad or N/m], [rad or m]
+};
+
 enum class MotionKind { kNone = 0, kDirection = 1, kTrack = 2 };
 
 struct LawTables {
@@ -61,6 +70,8 @@ struct LawTables {
   std::span<const GeomRow> geoms;
   std::span<const MotionRow> motions;
   std::span<const MotorRow> motors;
+  std::span<const ChainRow> chains;
+  std::span<const SpringRow> springs;
   int marks;   // numbers at the front of userdata, which mark what began deep; behind them, each body's load [N]
   int motor_equality;  // whose spring and damper motors' constraints have
   bool on;     // contact laws act

@@ -7,8 +7,9 @@
 namespace trundle {
 
 #define TRUNDLE_MUJOCO_FUNCTIONS(X)                                                                              \
-  X(mj_applyFT) X(mj_fwdVelocity) X(mj_island) X(mj_isSparse) X(mj_jac) X(mj_makeConstraint)            \
-  X(mj_mulJacVec) X(mj_objectVelocity) X(mj_projectConstraint) X(mj_solveM)
+  X(mj_applyFT) X(mj_comVel) X(mj_fwdVelocity) X(mj_island) X(mj_isSparse) X(mj_jac) X(mj_makeConstraint)            \
+  X(mj_mulJacVec) X(mj_objectVelocity) X(mj_projectConstraint) X(mj_rne)           \
+  X(mj_solveM)
 
 
 struct MujocoApi {

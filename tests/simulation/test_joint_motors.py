@@ -56,8 +56,8 @@ def test_a_platform_carries_what_stands_on_it_up_without_a_hop(tmp_path) -> None
     box = """<inertial><mass>{}</mass><inertia><ixx>5</ixx><iyy>5</iyy><izz>5</izz></inertia></inertial>
     <collision name="c"><geometry><box><size>{}</size></box></geometry></collision>"""
     large, small = box.format(200, "2 2 0.1"), box.format(10, "0.2 0.2 0.2")
-    models = f"""<model name="lift"><link name="l">{large}</link><joint name="up" type="prismatic"><parent>world</parent>
-    <child>l</child><axis><xyz>0 0 1</xyz></axis></joint></model>
+    models = f"""<model name="lift"><link name="l">{large}</link><joint name="up" type="prismatic"><child>l</child>
+    <parent>world</parent><axis><xyz>0 0 1</xyz></axis></joint></model>
     <model name="box"><pose>0 0 0.15 0 0 0</pose><link name="l">{small}</link></model>"""
     simulation = _load(tmp_path, f'<sdf version="1.6"><world name="w">{models}</world></sdf>')
     lift = simulation["lift"].joint("up")

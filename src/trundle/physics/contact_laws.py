@@ -49,7 +49,9 @@ class ContactLaws:
         self._data = data
         self._motions = find_table(compiled.model, "motions")
         self._head = find_table(compiled.model, "laws")[0]
-        self._always = any(find_table(compiled.model, name).any() for name in ("restitution", "directions", "damping"))
+        self._always = bool(self._head[5:].any()) or any(
+            find_table(compiled.model, name).any() for name in ("restitution", "directions", "damping")
+        )
 
     @property
     def acts(self) -> bool:

@@ -17,12 +17,25 @@ from trundle.spatial import ZERO
 from .shapes import ShapeEntry
 from .surfaces import Touch
 
-_WIDTHS = {"laws": 5, "restitution": 3, "directions": 5, "damping": 3, "geoms": 3, "motions": 11, "motors": 4}
+_WIDTHS = {
+    "laws": 7,
+    "restitution": 3,
+    "directions": 5,
+    "damping": 3,
+    "geoms": 3,
+    "motions": 11,
+    "motors": 4,
+    "chains": 1,
+    "springs": 4,
+}
 """Numbers in a row of each table; the first is a single row: a magic number, on or off, whether surfaces
-move, how many numbers at the front of userdata mark what began deep, and the equality that motors take after."""
+move, how many numbers at the front of userdata mark what began deep, the equality that motors take after, and how many
+rows of the tables of chains and springs are in use."""
 _MAGIC = 7.2751
 _SLOWEST = 3.0
 """Steps' worth of falling: what comes slower than that is at rest, and does not bounce."""
+_SLOW = 0.25
+"""(ω h)² up to which a spring is taken at the middle of a step, unstable from 4 on; stiffer ones MuJoCo damps."""
 _EQUALITY = "trundle::motor"
 _MOTOR_SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 """As stiff as MuJoCo lets a constraint be."""
@@ -41,6 +54,8 @@ def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[Shape
         "geoms": len(spec.geoms),
         "motions": len(spec.bodies),
         "motors": len(spec.actuators),
+        "chains": len(spec.bodies),
+        "springs": len(spec.joints),
     }
     for name, width in _WIDTHS.items():
         # MuJoCo takes no custom number of size zero; less than a row is none.
@@ -89,7 +104,7 @@ def fill_tables(
         world: without nested models.
     """
     equality = model.equality(_EQUALITY).id if model.nu else -1
-    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, _marks(shapes), equality
+    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, _marks(shapes), equality, 0.0, 0.0
     pairs = [(int(model.geom(a).id), int(model.geom(b).id), touch) for (a, b), touch in touches.items()]
     pairs.sort(key=lambda pair: _key(model, pair[0], pair[1]))
     _write(model, "restitution", _restitution(model, pairs))
@@ -98,6 +113,7 @@ def fill_tables(
     for motor, row in enumerate(find_table(model, "motors")):
         joint = model.actuator_trnid[motor, 0]
         row[:] = motor, 0.0, model.jnt_qposadr[joint], model.jnt_dofadr[joint]
+    _center(model)
     geoms = find_table(model, "geoms")
     geoms[:, 0], geoms[:, 1], geoms[:, 2] = np.inf, model.geom_bodyid, -1.0
     moving = 0
@@ -112,6 +128,32 @@ def fill_tables(
 def set_needstage(model: mujoco.MjModel, *, solved: bool) -> None:
     """Have MuJoCo call mjcb_sensor when the constraints are solved, which costs a pass over all bodies, or not."""
     model.sensor_needstage[0] = mujoco.mjtStage.mjSTAGE_ACC if solved else mujoco.mjtStage.mjSTAGE_POS
+
+
+def _center(model: mujoco.MjModel) -> None:
+    """List the chains of links, and take soft springs out of MuJoCo's hands."""
+    head, chains, springs = (find_table(model, name) for name in ("laws", "chains", "springs"))
+    chained = [tree for tree in range(model.ntree) if not _is_lone(model, tree)]
+    chains[: len(chained), 0] = chained
+    soft = [joint for joint in range(model.njnt) if _is_slow(model, joint)]
+    for row, joint in zip(springs, soft, strict=False):
+        qpos = int(model.jnt_qposadr[joint])
+        row[:] = model.jnt_dofadr[joint], qpos, model.jnt_stiffness[joint], model.qpos_spring[qpos]
+        model.jnt_stiffness[joint] = 0.0
+    head[0, 5:] = len(chained), len(soft)
+
+
+def _is_lone(model: mujoco.MjModel, tree: int) -> bool:
+    """Whether a tree is a single free body, whose gyroscopic forces MuJoCo takes implicitly by itself."""
+    first = int(model.tree_dofadr[tree])
+    is_free = model.jnt_type[model.dof_jntid[first]] == mujoco.mjtJoint.mjJNT_FREE
+    return bool(is_free and model.tree_dofnum[tree] == 6)
+
+
+def _is_slow(model: mujoco.MjModel, joint: int) -> bool:
+    """Whether a joint has a spring that steps which keep its energy can follow."""
+    inverse_inertia = float(model.dof_invweight0[model.jnt_dofadr[joint]])
+    return 0.0 < model.jnt_stiffness[joint] * inverse_inertia * model.opt.timestep**2 < _SLOW
 
 
 def switch_off(model: mujoco.MjModel) -> None:

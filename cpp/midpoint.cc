@@ -1,0 +1,69 @@
+#include "midpoint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "mujoco_api.h"
+
+namespace trundle {
+
+namespace {
+
+constexpr double kSlowest = 1e-3;  // [rad/s or m/s] what is slower has no Coriolis forces to speak of
+
+// Chains of links that move and touch nothing, which are to be centred, by their first freedom.
+void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<int>& chains) {
+  thread_local std::vector<char> touching;
+  touching.assign(m->ntree, 0);
+  for (int i = 0; i < d->ncon; ++i) {
+    for (const int geom : d->contact[i].geom) {
+      const int tree = m->body_treeid[m->geom_bodyid[geom]];
+      if (tree >= 0) touching[tree] = 1;
+    }
+  }
+  chains.clear();
+  for (const ChainRow& row : laws.chains) {
+    const int tree = static_cast<int>(row.tree);
+    const double* speeds = d->qvel + m->tree_dofadr[tree];
+    const auto moves = [](double speed) { return std::abs(speed) > kSlowest; };
+    if (!touching[tree] && std::any_of(speeds, speeds + m->tree_dofnum[tree], moves)) chains.push_back(tree);
+  }
+}
+
+}  // namespace
+
+void center_bias(const LawTables& laws, const mjModel* m, mjData* d) {
+  if (laws.chains.empty()) return;
+  thread_local std::vector<int> chains;
+  thread_local std::vector<double> speeds, velocities, axes, bias;
+  find_chains(laws, m, d, chains);
+  if (chains.empty()) return;
+  speeds.assign(d->qvel, d->qvel + m->nv);
+  velocities.assign(d->cvel, d->cvel + 6 * m->nbody);
+  axes.assign(d->cdof_dot, d->cdof_dot + 6 * m->nv);
+  bias.resize(m->nv);
+  for (const int tree : chains) {
+    for (int i = m->tree_dofadr[tree]; i < m->tree_dofadr[tree] + m->tree_dofnum[tree]; ++i) {
+      d->qvel[i] += 0.5 * m->opt.timestep * d->qacc_warmstart[i];
+    }
+  }
+  mujoco.mj_comVel(m, d);
+  mujoco.mj_rne(m, d, 0, bias.data());
+  for (const int tree : chains) {
+    const int first = m->tree_dofadr[tree];
+    std::copy(bias.begin() + first, bias.begin() + first + m->tree_dofnum[tree], d->qfrc_bias + first);
+  }
+  std::copy(speeds.begin(), speeds.end(), d->qvel);
+  std::copy(velocities.begin(), velocities.end(), d->cvel);
+  std::copy(axes.begin(), axes.end(), d->cdof_dot);
+}
+
+void apply_springs(const LawTables& laws, const mjModel* m, mjData* d) {
+  (void)m;
+  for (const SpringRow& row : laws.springs) {
+    d->qfrc_passive[static_cast<int>(row.dof)] -= row.stiffness * (d->qpos[static_cast<int>(row.qpos)] - row.reference);
+  }
+}
+
+}  // namespace trundle
