@@ -7,7 +7,7 @@ namespace {
 // Have a function called with each row of friction that is a motor's, and the motor.
 template <typename Function>
 void for_each_motor(const LawTables& laws, const mjModel* m, const mjData* d, Function&& function) {
-  if (laws.motors.empty()) return;
+  if (d->nf == 0) return;  // without constraints their arrays are not there
   for (int tendon = 0; tendon < m->ntendon; ++tendon) {
     if (m->tendon_frictionloss[tendon] > 0.0 && d->tendon_efcadr[tendon] >= 0) {
       function(d->tendon_efcadr[tendon], laws.motors[tendon]);

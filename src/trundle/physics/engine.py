@@ -52,6 +52,7 @@ class EngineState:
     """A copy: who sleeps is in no vector of numbers."""
     taken: int
     sleeps: bool
+    is_blank: bool
     leapt: bool
     motors: MotorOrders
 
@@ -104,7 +105,6 @@ class Engine:
             self._laws.install()
         efforts, taken = self._data.qfrc_actuator.copy(), self._taken
         self._advance(count)
-        self.motors.report()
         self.reader.changed()
         if self._is_unstable():
             self._go_back(efforts, taken)
@@ -117,6 +117,7 @@ class Engine:
         while count > 0 and not self._is_unstable():
             some = min(count, EVERY - self._taken % EVERY)
             self._rest.step(some)
+            self.motors.report()
             self._taken += some
             count -= some
             if self._taken % EVERY == 0 and not self._laws.is_watched and not self._is_unstable():
@@ -246,6 +247,8 @@ class Engine:
         Args:
             among: names of collisions that something touches; None: of all.
         """
+        if self._rest.is_blank and self._taken:
+            return self._feeling.contacts_beside(among, self._state())
         return self._feeling.contacts(among, self._state if self.asleep else None)
 
     def reactions(self) -> NDArray[np.float64]:
@@ -279,6 +282,7 @@ class Engine:
             copy.copy(self._data),
             self._taken,
             self._rest.is_on,
+            self._rest.is_blank,
             self._leapt,
             MotorOrders.of(self._model),
         )
@@ -293,7 +297,7 @@ class Engine:
             raise UsageError("models came or went since this state was saved; it cannot be restored")
         self._rest.allow(state.sleeps)
         mujoco.mj_copyData(self._data, self._model, state.data)
-        self._taken = state.taken
+        self._taken, self._rest.is_blank = state.taken, state.is_blank
         self._leapt = state.leapt
         self.motors.keep_on = self._laws.acts
         state.motors.put(self._model)

@@ -41,6 +41,11 @@ class Feeling:
         found = contacts_of(self._compiled, self._compiled.model, self._data, self._chosen(marks, awake))
         return found + [c for c in self._sleeping(awake, asleep) if among is None or among & set(c.collisions)]
 
+    def contacts_beside(self, among: frozenset[str] | None, state: NDArray[np.float64]) -> list[Contact]:
+        """Every contact of the engine's state, where its data holds none; as `contacts`."""
+        found = self._looker.contacts(state, np.zeros(len(self._bodies), dtype=bool))
+        return [c for c in found if among is None or among & set(c.collisions)]
+
     def _marked(self, collisions: frozenset[str]) -> _Marks:
         if collisions not in self._marks:
             self._marks[collisions] = np.array([name in collisions for name in self._compiled.geom_collisions])

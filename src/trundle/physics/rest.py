@@ -31,6 +31,8 @@ class Rest:
         self._data = data
         model = compiled.model
         self._trees = model.dof_treeid.copy()
+        self.is_blank = True
+        """Whether the data holds a state alone, and nothing that a step worked out, such as contacts."""
         model.opt.sleep_tolerance = TOLERANCE
         # MuJoCo multiplies an angular speed by the size of the shapes it moves, which of a bare link is nothing at all.
         model.dof_length[:] = 1.0
@@ -56,6 +58,7 @@ class Rest:
     def step(self, count: int) -> None:
         """Take so many steps; as long as everybody sleeps, one is like the other, and only the clock goes on."""
         model, data = self._model, self._data
+        self.is_blank = False
         if count > 1 and self._all_sleep():
             mujoco.mj_step(model, data)  # who was told something since the last one wakes
             count -= 1
@@ -95,6 +98,7 @@ class Rest:
         mujoco.mj_resetData(self._model, self._data)
         mujoco.mj_setState(self._model, self._data, state, STATE)
         self._data.qfrc_actuator[:] = efforts
+        self.is_blank = True
 
     def allow(self, sleep: bool) -> None:
         """Set the engine's flags; the data has to be reset or replaced with them."""
