@@ -86,7 +86,7 @@ void install() {
 }
 
 std::vector<std::string> names() {
-  std::vector<std::string> found{"mjcb_control", "mjcb_sensor"};
+  std::vector<std::string> found{"mjcb_control", "mjcb_sensor", "mjcb_time"};
 #define TRUNDLE_NAME(name) found.push_back(#name);
   TRUNDLE_MUJOCO_FUNCTIONS(TRUNDLE_NAME)
 #undef TRUNDLE_NAME
@@ -98,6 +98,8 @@ void bind(const std::vector<std::uintptr_t>& addresses) {
   const std::uintptr_t* next = addresses.data();
   mujoco.control = reinterpret_cast<mjfGeneric*>(*next++);
   mujoco.sensor = reinterpret_cast<mjfSensor*>(*next++);
+  mujoco.time = reinterpret_cast<mjfTime*>(*next++);
+  *mujoco.time = nullptr;  // looking at the clock some thirty times a step takes a fifteenth of a small robot's step
 #define TRUNDLE_BIND(name) mujoco.name = reinterpret_cast<decltype(mujoco.name)>(*next++);
   TRUNDLE_MUJOCO_FUNCTIONS(TRUNDLE_BIND)
 #undef TRUNDLE_BIND

@@ -18,6 +18,7 @@ struct MujocoApi {
 #undef TRUNDLE_FIELD
   mjfGeneric* control = nullptr;  // where mjcb_control is
   mjfSensor* sensor = nullptr;    // and mjcb_sensor
+  mjfTime* time = nullptr;        // and mjcb_time
 };
 
 extern MujocoApi mujoco;
