@@ -55,6 +55,7 @@ class OdometryTopic:
         variances: tuple[float, ...],
         with_tf: bool,
         base: str = "base_footprint",
+        twist_variances: tuple[float, ...] | None = None,
     ) -> Self:
         """By <odometryTopic>, <odometryFrame> and <robotBaseFrame>, as every drive of gazebo_ros has them."""
         return cls(
@@ -64,10 +65,11 @@ class OdometryTopic:
             base=tag.node.string("robotBaseFrame", default=base),
             variances=variances,
             with_tf=with_tf,
+            twist_variances=twist_variances,
         )
 
-    def publish(self, time_ns: int, pose: Pose, twist: Twist) -> None:
-        """Say it; `twist` is in the robot's axes."""
+    def publish(self, time_ns: int, pose: Pose, twist: Twist, *, yaw_variance: float | None = None) -> None:
+        """Say it; `twist` is in the robot's axes, `yaw_variance` takes the place of yaw's and its rate's for once."""
         (x, y, z), (qw, qx, qy, qz) = pose.position, pose.quaternion
         if self._broadcaster is not None:
             self._broadcaster.send(
@@ -89,12 +91,15 @@ class OdometryTopic:
             "linear": dict(zip("xyz", twist.linear, strict=True)),
             "angular": dict(zip("xyz", twist.angular, strict=True)),
         }
+        covariance, twist_covariance = self._covariance, self._twist_covariance
+        if yaw_variance is not None:
+            covariance, twist_covariance = [*covariance[:-1], yaw_variance], [*twist_covariance[:-1], yaw_variance]
         self._topic.publish(
             {
                 "header": {"stamp": time_ns, "frame_id": self._frame},
                 "child_frame_id": self._base,
-                "pose": {"pose": told, "covariance": self._covariance},
-                "twist": {"twist": speeds, "covariance": self._twist_covariance},
+                "pose": {"pose": told, "covariance": covariance},
+                "twist": {"twist": speeds, "covariance": twist_covariance},
             }
         )
 

@@ -1,0 +1,102 @@
+"""libgazebo_ros_force_based_move.so: a model that a force pushes to the velocity that cmd_vel asks for."""
+
+import math
+
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation, Snapshot
+from trundle.spatial import Pose, Twist, Wrench
+
+from ..gazebo_ros.odometry import WIDE, OdometryTopic
+from ..gazebo_ros.on_graph import GraphPlugin
+from ..gazebo_ros.place import namespace_of, period_of
+from ..gazebo_ros.twist_command import TwistCommand
+
+_VARIANCES = (1e-3, 1e-3, WIDE, WIDE, WIDE, 1e-2)
+_TWIST_VARIANCES = (1e-3, 1e-3, 1e-3, WIDE, WIDE, 1e-2)
+_TURNING_VARIANCE = 100.0
+"""Of yaw, while the model turns."""
+_STRAIGHT = 1e-4
+"""[rad/s] What turns more slowly drives straight."""
+
+
+class ForceBasedMove(GraphPlugin):
+    """Pushes <robotBaseFrame> at its centre of mass with gain · (asked − measured) along x and y, and about z.
+
+    Parameters, with hector_gazebo's defaults: <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,
+    <robotBaseFrame> base_footprint, <odometryRate> 20, <publishOdometryTf> true, <x_velocity_p_gain> and
+    <y_velocity_p_gain> 10000 [N·s/m], <yaw_velocity_p_gain> 100 [N·m·s/rad]. Odometry begins at zero and adds up the
+    velocities that the model has when it is told.
+    """
+
+    SIDEWAYS = True
+    """Whether the odometry knows of the motion to the side."""
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        namespace = namespace_of(tag, model.name)
+
+        def number(name: str, default: float) -> float:
+            return parameters.number(name, default=default, report=report)
+
+        self.model = model
+        self.command = TwistCommand.of(tag, namespace, node)
+        self._link = model.link(parameters.string("robotBaseFrame", default="base_footprint"))
+        self._gains = number("x_velocity_p_gain", 1e4), number("y_velocity_p_gain", 1e4)
+        self._yaw_gain = number("yaw_velocity_p_gain", 100.0)
+        rate_hz = number("odometryRate", 20.0)
+        self._period_ns = period_of(rate_hz) if rate_hz > 0.0 else None
+        self._odometry = OdometryTopic.of(
+            tag,
+            namespace,
+            node,
+            variances=_VARIANCES,
+            twist_variances=_TWIST_VARIANCES,
+            with_tf=parameters.flag("publishOdometryTf", default=True, report=report),
+        )
+        self._told_ns: int | None = None
+        self._place = Pose()
+
+    def before_step(self, sim: Simulation) -> None:
+        """Push."""
+        del sim
+        twist = self.model.twist
+        vx, vy, _ = self.model.pose.inverse().direction(twist.linear)
+        x_gain, y_gain = self._gains
+        force = (x_gain * (self.command.forward - vx), y_gain * (self.command.sideways - vy), 0.0)
+        torque = (0.0, 0.0, self._yaw_gain * (self.command.turning - twist.angular[2]))
+        self._link.add_wrench(Wrench(self._link.pose.direction(force), torque))
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell how far that led, now and then."""
+        if self._told_ns is None:
+            self._told_ns = snapshot.time_ns
+        elapsed_ns = snapshot.time_ns - self._told_ns
+        if self._period_ns is None or elapsed_ns <= self._period_ns:
+            return
+        elapsed_s, self._told_ns = elapsed_ns / 1e9, snapshot.time_ns
+        body_from_world = self.model.pose.inverse()
+        vx, vy, _ = body_from_world.direction(self.model.twist.linear)
+        rate = body_from_world.direction(self.model.twist.angular)[2]
+        vy = vy if self.SIDEWAYS else 0.0
+        self._place = self._place @ _arc(vx * elapsed_s, vy * elapsed_s, rate * elapsed_s if _turns(rate) else 0.0)
+        twist = Twist((vx, vy, 0.0), (0.0, 0.0, rate))
+        yaw_variance = _TURNING_VARIANCE if _turns(rate) else None
+        self._odometry.publish(snapshot.time_ns, self._place, twist, yaw_variance=yaw_variance)
+
+    def reset(self) -> None:
+        """Ask for nothing, at the origin of the odometry."""
+        self.command.stop()
+        self._told_ns, self._place = None, Pose()
+
+
+def _turns(rate: float) -> bool:
+    return abs(rate) >= _STRAIGHT
+
+
+def _arc(forward: float, sideways: float, turn: float) -> Pose:
+    """The pose after a constant body velocity [m, m, rad]."""
+    along = math.sin(turn) / turn if turn else 1.0
+    across = (1.0 - math.cos(turn)) / turn if turn else 0.0
+    x, y = along * forward - across * sideways, across * forward + along * sideways
+    return Pose.from_rpy(x, y, 0.0, yaw=turn)

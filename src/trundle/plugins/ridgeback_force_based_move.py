@@ -1,0 +1,23 @@
+"""libridgeback_ros_force_based_move.so: hector's force-based move, with commands that expire."""
+
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation
+
+from .hector_gazebo.force_based_move import ForceBasedMove
+
+
+class RidgebackForceBasedMove(ForceBasedMove):
+    """Stops <cmdVelTimeOut> (0.25 [s]) after the last command; its odometry knows no motion to the side."""
+
+    SIDEWAYS = False
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        super().__init__(sim, model, node, tag)
+        self._timeout_s = tag.node.number("cmdVelTimeOut", default=0.25, report=sim.report)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Push."""
+        if (sim.time_ns - self.command.stamp_ns) / 1e9 > self._timeout_s:
+            self.command.stop()
+        super().before_step(sim)

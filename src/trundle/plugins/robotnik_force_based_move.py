@@ -1,0 +1,42 @@
+"""librobotnik_force_based_move.so: hector's force-based move, which holds its place when commands end."""
+
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation, Snapshot
+from trundle.spatial import Twist
+
+from .hector_gazebo.force_based_move import ForceBasedMove
+
+
+class RobotnikForceBasedMove(ForceBasedMove):
+    """Puts the model back to where it was <commandWatchdog> (2 [s]) after the last command, until the next.
+
+    Meanwhile nothing pushes, and no odometry is told, as in the original.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        super().__init__(sim, model, node, tag)
+        self._watchdog_s = tag.node.number("commandWatchdog", default=2.0, report=sim.report)
+        self._held = model.pose
+
+    def before_step(self, sim: Simulation) -> None:
+        """Push, or hold."""
+        if self._expired(sim.time_ns):
+            self.model.set_twist(Twist())
+            self.model.set_pose(self._held)
+            return
+        self._held = self.model.pose
+        super().before_step(sim)
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Tell, while it moves."""
+        if not self._expired(snapshot.time_ns):
+            super().after_step(snapshot)
+
+    def reset(self) -> None:
+        """Stay where the model was put."""
+        super().reset()
+        self._held = self.model.pose
+
+    def _expired(self, time_ns: int) -> bool:
+        return (time_ns - self.command.stamp_ns) / 1e9 > self._watchdog_s

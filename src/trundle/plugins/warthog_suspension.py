@@ -1,0 +1,39 @@
+"""libwarthog_suspension_plugin.so: the springs and dampers between a Warthog's body and its two drive units."""
+
+from typing import Self
+
+from trundle.model import PluginTag
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation
+
+from .plugin import Plugin
+
+_JOINTS = ("left_diff_unit_joint", "right_diff_unit_joint")
+
+
+class WarthogSuspension(Plugin):
+    """Drives `left_diff_unit_joint` and `right_diff_unit_joint` with −k q − b q̇ at every step.
+
+    Parameters: <suspension_k> 0 [N·m/rad] and <suspension_b> 0 [N·m·s/rad], as the original reads what is not there.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, tag: PluginTag) -> None:
+        parameters, report = tag.node, sim.report
+        self._joints = [model.joint(name) for name in _JOINTS]
+        self._stiffness = parameters.number("suspension_k", default=0.0, report=report)
+        self._damping = parameters.number("suspension_b", default=0.0, report=report)
+        for name in ("robotNamespace", "namespace"):
+            parameters.find(name)
+        parameters.report_unread(report)
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        del node
+        return cls(sim, model, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Push back."""
+        del sim
+        for joint in self._joints:
+            joint.set_effort(-self._stiffness * joint.position - self._damping * joint.velocity)
