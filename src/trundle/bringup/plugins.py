@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeVar
 from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
 from trundle.model import PluginTag
 from trundle.names import ros_name
-from trundle.plugins import Hooks, Plugin, find_plugin, find_sensor_plugin, find_world_plugin
+from trundle.plugins import Hooks, Plugin, find_model_sensor_plugin, find_plugin, find_sensor_plugin, find_world_plugin
 from trundle.sensors import CameraSensor, MeasuringSensor
 from trundle.simulation import ModelHandle, Simulation
 
@@ -84,8 +84,9 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diag
     silent: list[_Sensor] = []
     for sensor in sensors:
         attached = 0
-        for tag in sensor.sensor.plugins:
-            attach = find_sensor_plugin(tag)
+        finds = [(tag, find_sensor_plugin(tag)) for tag in sensor.sensor.plugins]
+        by_model = [(tag, find_model_sensor_plugin(tag, sensor.sensor.name)) for tag in sensor.model.plugins]
+        for tag, attach in (*finds, *(each for each in by_model if each[1] is not None)):
             who = f"sensor {sensor.name!r}: plugin {tag.filename}"
             if attach is None:
                 report.warn(tag.at, f"{who} is not supported yet; the sensor has topics without")

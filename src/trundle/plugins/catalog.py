@@ -63,6 +63,7 @@ BUILTIN: dict[str, str] = {
     "libhector_gazebo_ros_gps.so": "trundle.plugins.hector_gazebo.gps:Gps",
     "libhector_gazebo_ros_imu.so": "trundle.plugins.hector_gazebo.imu:Imu",
     "libhector_gazebo_ros_magnetic.so": "trundle.plugins.hector_gazebo.magnetic:Magnetic",
+    "librealsense_gazebo_plugin.so": "trundle.plugins.realsense:RealSense",
     "libridgeback_ros_force_based_move.so": "trundle.plugins.ridgeback_force_based_move:RidgebackForceBasedMove",
     "libroboticsgroup_gazebo_mimic_joint_plugin.so": "trundle.plugins.mimic_joint:MimicJoint",
     "libroboticsgroup_upatras_gazebo_mimic_joint_plugin.so": "trundle.plugins.mimic_joint:MimicJoint",
@@ -96,8 +97,12 @@ OF_SENSORS: dict[str, str] = {
     "libgazebo_ros_velodyne_gpu_laser.so": f"{_SENSORS}.laser:attach_points",
     "libgazebo_ros_velodyne_laser.so": f"{_SENSORS}.laser:attach_points",
     "libhector_gazebo_ros_sonar.so": "trundle.plugins.hector_gazebo.sonar:attach",
+    "libunitreeFootContactPlugin.so": "trundle.plugins.unitree.foot_contact:attach",
 }
 """File name → "module:function", of the plugins that publish what a sensor measures."""
+
+_OF_MODELS = {"librealsense_gazebo_plugin.so": "trundle.plugins.realsense:attach_of"}
+"""File name → "module:function", of a model's plugins that publish what its sensors measure."""
 
 GROUP = "trundle.plugins"
 
@@ -121,15 +126,24 @@ def find_world_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[t
 
 def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, Node, PluginTag, Diagnostics], None] | None":
     """The function that publishes a sensor's readings as a plugin does; None: there is none of this name."""
-    target = OF_SENSORS.get(PurePosixPath(tag.filename.replace("\\", "/")).name)
-    if target is None:
-        return None
-    module, _, name = target.partition(":")
-    return getattr(importlib.import_module(module), name)
+    target = OF_SENSORS.get(_base_name(tag))
+    return None if target is None else _imported(target)
+
+
+def find_model_sensor_plugin(
+    tag: PluginTag, sensor: str
+) -> "Callable[[Any, Node, PluginTag, Diagnostics], None] | None":
+    """The function that publishes a sensor's readings as a plugin of its model does; None: it does not."""
+    target = _OF_MODELS.get(_base_name(tag))
+    return None if target is None else _imported(target)(tag, sensor)
+
+
+def _base_name(tag: PluginTag) -> str:
+    return PurePosixPath(tag.filename.replace("\\", "/")).name
 
 
 def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> tuple[type[_Kind], str]:
-    filename = PurePosixPath(tag.filename.replace("\\", "/")).name
+    filename = _base_name(tag)
     if filename in BUILTIN:
         return _of_kind(_imported(BUILTIN[filename]), kind, tag), f"Trundle's own {filename}"
     for guest in entry_points(group=GROUP, name=filename):
@@ -166,7 +180,7 @@ def _folders(tag: PluginTag, environment: Mapping[str, str]) -> list[Path]:
     return folders
 
 
-def _imported(path: str) -> type[Hooks]:
+def _imported(path: str) -> Any:
     module, _, name = path.partition(":")
     return getattr(importlib.import_module(module), name)
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from trundle.physics import Contact
 from trundle.simulation import Simulation, Snapshot
-from trundle.spatial import Vector3, Wrench
+from trundle.spatial import Pose, Vector3, Wrench
 
 from .mounted import MountedSensor, Spot
 
@@ -40,6 +40,8 @@ class ContactReading:
 
     time_ns: int
     touches: tuple[Touch, ...]
+    world_from_link: Pose = Pose()
+    """Of the sensor's link."""
 
 
 class ContactSensor(MountedSensor[ContactReading]):
@@ -75,7 +77,9 @@ class ContactSensor(MountedSensor[ContactReading]):
         felt = [touch for step in self._felt for touch in step]
         self._felt.clear()
         return ContactReading(
-            time_ns=now_ns, touches=tuple(touch for touch in felt if 0 <= now_ns - touch.time_ns < period_ns)
+            time_ns=now_ns,
+            touches=tuple(touch for touch in felt if 0 <= now_ns - touch.time_ns < period_ns),
+            world_from_link=self.world_from_link(snapshot),
         )
 
     def _feel(self, snapshot: Snapshot) -> None:
