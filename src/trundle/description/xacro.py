@@ -138,11 +138,16 @@ def _where(path: Path) -> Source:
 @contextmanager
 def _ours(packages: Packages, report: Diagnostics, path: Path, data: bytes) -> Generator[None]:
     """Put our functions in the official package's place, for as long as one file takes."""
+    stood_in: set[str] = set()
 
     def find(name: str) -> str:
         folder = packages.find_folder(name)
         if folder is None:
             raise LookupError(f"$(find {name}): {packages.why_not_found(name)}")
+        if packages.stand_in_of(folder) is not None and name not in stood_in:
+            stood_in.add(name)
+            what = f"no package {name!r}: a stand-in of boxes is used; put the original on ROS_PACKAGE_PATH"
+            report.warn(_where(path), what)
         return str(folder)
 
     def warn(*words: object) -> None:
@@ -203,6 +208,7 @@ def _parse_for(
         if filename is not None:
             if filename not in known:
                 packages.check_readable(Path(filename), Source(filename), told="xacro:include")
+                _expect_stand_in(Path(filename), packages)
             data = known[filename] if filename in known else _data(Path(filename))
             if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
                 raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
@@ -216,6 +222,13 @@ def _parse_for(
         return original(inp, filename)
 
     return parse
+
+
+def _expect_stand_in(file: Path, packages: Packages) -> None:
+    package = packages.stand_in_of(file)
+    if package is not None and not os.path.exists(file):
+        what = f"{packages.why_not_found(package)}; its stand-in has no {file.name}"
+        raise DescriptionError(_where(file), what)
 
 
 def _data(path: Path) -> bytes:

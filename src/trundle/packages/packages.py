@@ -13,7 +13,7 @@ from .confinement import Confinement, WideFolders
 from .gazebo_paths import SHIPPED, GazeboPaths, is_stand_in
 from .repositories import published_at
 from .ros_packages import RosPackages
-from .stock import STOCK
+from .stock import DESCRIPTIONS, STOCK
 from .workspace import own_confinement
 
 ALLOW_OUTSIDE = "TRUNDLE_ALLOW_OUTSIDE"
@@ -54,8 +54,14 @@ class Packages:
         return self._ros.find(name)
 
     def find_folder(self, name: str) -> Path | None:
-        """What `$(find name)` stands for: of a stock package that is not installed, a folder that is not there."""
-        return self._ros.find(name) or (SHIPPED / "ros" / name if name in STOCK else None)
+        """What `$(find name)` stands for: of a stock package that is not installed, a folder that is not there; of one
+        that describes a sensor, our stand-in."""
+        found = self._ros.find(name) or DESCRIPTIONS.get(name)
+        return found or (SHIPPED / "ros" / name if name in STOCK else None)
+
+    def stand_in_of(self, path: Path) -> str | None:
+        """The package that a file of ours stands in for, or would if it were there; None: it is no file of ours."""
+        return next((name for name, folder in DESCRIPTIONS.items() if path.is_relative_to(folder)), None)
 
     def workspace_of(self, package: Path) -> Path | None:
         """The workspace around the start that a package's folder is in, where ROS_PACKAGE_PATH does not name it."""
@@ -153,7 +159,7 @@ class Packages:
 
     @cached_property
     def _in_ros(self) -> Confinement:
-        return Confinement([*self._ros.roots, *self._ros.all().values()], wide=self._wide)
+        return Confinement([*self._ros.roots, *self._ros.all().values(), *DESCRIPTIONS.values()], wide=self._wide)
 
     @cached_property
     def _in_gazebo(self) -> Confinement:

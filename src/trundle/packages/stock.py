@@ -1,8 +1,12 @@
 """The stock ROS packages whose programs, plugins or controllers Trundle stands in for.
 
 Launch files `$(find)` them for an argument's default, a command or a file; where none is installed, each is a folder
-with nothing in it, so that only the file that is truly asked for is missing.
+with nothing in it, so that only the file that is truly asked for is missing. Of a few packages that describe sensors
+there are stand-ins: the same macros, which build the same links and sensors of boxes and cylinders.
 """
+
+import os
+from pathlib import Path
 
 _TOOLS = (
     "gazebo_ros_pkgs rosbag roscpp roslaunch roslib rosmaster rosmsg rosnode rosout rosparam rospy rosservice rostopic"
@@ -24,4 +28,7 @@ _CONTROLLERS = """
     four_wheel_steering_controller gripper_action_controller imu_sensor_controller joint_state_controller
     joint_trajectory_controller position_controllers velocity_controllers
 """
+_DESCRIPTIONS = Path(__file__).parent / "descriptions"
 STOCK = frozenset(f"{_TOOLS} {_NODES} {_PLUGINS} {_CONTROLLERS}".split())
+DESCRIPTIONS = {name: _DESCRIPTIONS / name for name in sorted(os.listdir(_DESCRIPTIONS))}
+"""Folders that stand in for packages that describe sensors, by name."""
