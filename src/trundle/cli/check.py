@@ -5,7 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, no_garbage, quiet_imports
+from .main import add_allow_outside, add_lenient, no_garbage, quiet_imports
 
 EXAMPLES = """
   trundle check model.sdf                             everything worth knowing, worst first
@@ -25,6 +25,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     cut = "cut hollow collision meshes as physics does, and say how near that is; the first time may take a minute"
     parser.add_argument("--collisions", action="store_true", help=cut)
     add_allow_outside(parser)
+    add_lenient(parser)
     parser.add_argument("--tree", action="store_true", help="draw the kinematic tree in the terminal")
     parser.add_argument("--graph", metavar="OUT.svg", type=Path, help="write the kinematic tree as a picture")
 

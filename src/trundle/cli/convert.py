@@ -5,7 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, quiet_imports
+from .main import add_allow_outside, add_lenient, quiet_imports
 
 EXAMPLES = """
   trundle convert robot.urdf.xacro --to sdf           what Gazebo would make of it, on standard output
@@ -22,6 +22,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", type=Path, metavar="OUT", help="where to write to (standard output)")
     parser.add_argument("--strict", action="store_true", help="a warning is an error")
     add_allow_outside(parser)
+    add_lenient(parser)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from trundle.diagnostics import UsageError
 from trundle.ros import PROFILES
 
-from .main import add_allow_outside, add_page_access, add_renderer, page_access, quiet_imports
+from .main import add_allow_outside, add_lenient, add_page_access, add_renderer, page_access, quiet_imports
 from .speed import read_speed
 
 if TYPE_CHECKING:
@@ -78,6 +78,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_renderer(parser)
     add_page_access(parser)
     add_allow_outside(parser)
+    add_lenient(parser)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -103,10 +103,7 @@ def _main(arguments: list[str]) -> int:
         _heed(words)
         parse = parser.parse_intermixed_args if name in _INTERMIXED else parser.parse_args
         parsed = parse(words.rest, argparse.Namespace(words=words))
-        if getattr(parsed, "allow_outside", False):
-            from trundle.packages import ALLOW_OUTSIDE
-
-            os.environ[ALLOW_OUTSIDE] = "1"
+        _set_variables(parsed)
         code = _command(name).main(parsed)
         if sys.stdout is not None:  # it was closed: `trundle … >&-`
             sys.stdout.flush()
@@ -148,10 +145,26 @@ def _heed(words: Arguments) -> None:
     os.environ.update({variable: value for variable, value in given.items() if value})
 
 
+def _set_variables(parsed: argparse.Namespace) -> None:
+    """Have options mean what their environment variables do, in processes of this one, too."""
+    options = [name for name in ("allow_outside", "lenient") if getattr(parsed, name, False)]
+    if options:
+        from trundle import packages
+
+        os.environ.update({getattr(packages, name.upper()): "1" for name in options})
+
+
 def add_allow_outside(parser: argparse.ArgumentParser) -> None:
     """Declare the option of every command that reads a description."""
     parser.add_argument(
         "--allow-outside", action="store_true", help="read files outside the packages and resource paths too"
+    )
+
+
+def add_lenient(parser: argparse.ArgumentParser) -> None:
+    """Declare the option of every command that reads robots as their authors wrote them."""
+    parser.add_argument(
+        "--lenient", action="store_true", help="leave out xacro:includes of packages that are not there, and say so"
     )
 
 

@@ -5,7 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, add_renderer
+from .main import add_allow_outside, add_lenient, add_renderer
 
 EXAMPLES = """
   trundle render model://rp2w -o rp2w.png             the whole robot from a good side
@@ -35,6 +35,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--duration", type=_seconds, metavar="S", help=f"how long a film lasts ({_FILM_S:g})")
     add_renderer(parser)
     add_allow_outside(parser)
+    add_lenient(parser)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -5,7 +5,7 @@ import json
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, add_page_access, add_renderer, page_access, quiet_imports
+from .main import add_allow_outside, add_lenient, add_page_access, add_renderer, page_access, quiet_imports
 from .speed import read_speed
 
 EXAMPLES = """
@@ -42,6 +42,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print the final state as one JSON object")
     add_page_access(parser)
     add_allow_outside(parser)
+    add_lenient(parser)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -5,7 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, no_garbage
+from .main import add_allow_outside, add_lenient, no_garbage
 
 EXAMPLES = """
   trundle xacro robot.urdf.xacro                      the expanded XML on standard output
@@ -20,6 +20,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="where to write to")
     parser.add_argument("-i", "--inorder", action="store_true", help=argparse.SUPPRESS)  # every file is, by now
     add_allow_outside(parser)
+    add_lenient(parser)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -24,6 +24,7 @@ from trundle.files import read_file
 from trundle.packages import Packages
 
 from .xacro_error import error_of
+from .xacro_lenient import MissingPackageError, make_lenient, parse_with_lines
 from .xacro_symbols import SubstitutedNames, new_interpreter, offer_symbols
 
 
@@ -143,7 +144,7 @@ def _ours(packages: Packages, report: Diagnostics, path: Path, data: bytes) -> G
     def find(name: str) -> str:
         folder = packages.find_folder(name)
         if folder is None:
-            raise LookupError(f"$(find {name}): {packages.why_not_found(name)}")
+            raise MissingPackageError(f"$(find {name}): {packages.why_not_found(name)}")
         if packages.stand_in_of(folder) is not None and name not in stood_in:
             stood_in.add(name)
             what = f"no package {name!r}: a stand-in of boxes is used; put the original on ROS_PACKAGE_PATH"
@@ -162,12 +163,17 @@ def _ours(packages: Packages, report: Diagnostics, path: Path, data: bytes) -> G
 
     package, arguments = xacro, substitution_args
     interpreter = new_interpreter(package)
-    names = ("parse", "eval_all", "handle_macro_call", "warning", "print_location", "safe_eval", "eval_text")
+    names = (
+        "parse", "eval_all", "handle_macro_call", "warning", "print_location", "safe_eval", "eval_text",
+        "process_doc", "process_include", "get_include_files",
+    )  # fmt: skip
     kept = {name: getattr(package, name) for name in names}
     own_find = arguments._eval_find
     package.parse = _parse_for(kept["parse"], packages, report, {str(path): data})
     package.eval_all = _eval_all_for(kept["eval_all"], path)
     package.handle_macro_call = _call_for(kept["handle_macro_call"], report, path)
+    if packages.is_lenient:
+        make_lenient(package, packages, report)
     package.safe_eval = interpreter.evaluate
     package.eval_text = _eval_text_for(kept["eval_text"], interpreter.budget)
     package.warning = warn
@@ -214,7 +220,12 @@ def _parse_for(
                 raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
             if data[:1].isspace() and data.lstrip().startswith(b"<?xml"):
                 report.warn(Source(filename, 1), "blank lines before <?xml …?>, for which xacro refuses the file")
-            document = xml.dom.minidom.parseString(data.lstrip()) if data.strip() else original(inp, filename)
+            if not data.strip():
+                document = original(inp, filename)
+            elif packages.is_lenient:
+                document = parse_with_lines(data.lstrip(), filename)
+            else:
+                document = xml.dom.minidom.parseString(data.lstrip())
             if any(start in data for start in _BARE):
                 _prefix_core_tags(document, filename, report)
             _drop_unnamed(document, filename, report)
@@ -226,7 +237,7 @@ def _parse_for(
 
 def _expect_stand_in(file: Path, packages: Packages) -> None:
     package = packages.stand_in_of(file)
-    if package is not None and not os.path.exists(file):
+    if package is not None and packages.is_absent(file):
         what = f"{packages.why_not_found(package)}; its stand-in has no {file.name}"
         raise DescriptionError(_where(file), what)
 

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from .gazebo_paths import is_stand_in
     from .manifest import needs
     from .model_config import model_file, refuse_template
-    from .packages import ALLOW_OUTSIDE, Packages
+    from .packages import ALLOW_OUTSIDE, LENIENT, Packages
     from .repositories import published_at
     from .rule_exports import exported_rules
     from .workspace import program_folders
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "ALLOW_OUTSIDE": "packages",
     "CMakeProgram": "cmake",
+    "LENIENT": "packages",
     "Packages": "packages",
     "cmake_programs": "cmake",
     "exported_rules": "rule_exports",
@@ -31,6 +32,7 @@ __getattr__ = opened_on_use(__name__, _HOMES)
 
 __all__ = [
     "ALLOW_OUTSIDE",
+    "LENIENT",
     "CMakeProgram",
     "Packages",
     "cmake_programs",

@@ -18,7 +18,8 @@ from .workspace import own_confinement
 
 ALLOW_OUTSIDE = "TRUNDLE_ALLOW_OUTSIDE"
 """Set to 1, a description may read any file; `--allow-outside` sets it."""
-
+LENIENT = "TRUNDLE_LENIENT"
+"""Set to 1, a robot is read without what packages that are not there would add; `--lenient` sets it."""
 
 _LONGEST = 200
 """Characters of a name or URI in a sentence."""
@@ -62,6 +63,16 @@ class Packages:
     def stand_in_of(self, path: Path) -> str | None:
         """The package that a file of ours stands in for, or would if it were there; None: it is no file of ours."""
         return next((name for name, folder in DESCRIPTIONS.items() if path.is_relative_to(folder)), None)
+
+    def is_absent(self, file: Path) -> bool:
+        """Whether a file is not there because its package is not: what stands in for that has no such file."""
+        is_ours = self.stand_in_of(file) is not None or any(file.is_relative_to(SHIPPED / "ros" / n) for n in STOCK)
+        return is_ours and not os.path.exists(file)
+
+    @property
+    def is_lenient(self) -> bool:
+        """Whether descriptions are read without what packages that are not there would add."""
+        return self._environment.get(LENIENT) == "1"
 
     def workspace_of(self, package: Path) -> Path | None:
         """The workspace around the start that a package's folder is in, where ROS_PACKAGE_PATH does not name it."""
