@@ -59,8 +59,8 @@ system:  ## what the fullest tests use, from Debian's packages and npm's
 	  $$SUDO $$GET update && $$SUDO env DEBIAN_FRONTEND=noninteractive $$GET install -y --no-install-recommends $(DEBIAN); \
 	else echo "make system knows Debian and Ubuntu only; make test skips what is not installed"; fi
 	@npm install --silent --no-audit --no-fund --ignore-scripts --fetch-retries=1 --fetch-timeout=20000 --prefix .npm \
-	  rosnodejs@3.1.0 || \
-	  echo "npm brought no rosnodejs: make test-all skips the client in JavaScript"
+	  rosnodejs@3.1.0 @foxglove/ros1@3.0.1 tslib@2.8.1 || \
+	  echo "npm brought no rosnodejs and @foxglove/ros1: make test-all skips the clients in JavaScript"
 
 clean:  ## remove what make made
 	rm -rf $(VENV) .npm dist build .pytest_cache .ruff_cache .import_linter_cache .hypothesis

@@ -1,4 +1,4 @@
-"""An independent client library of another language joins: rosnodejs, whose author read the same wire."""
+"""Independent client libraries of another language join: rosnodejs and @foxglove/ros1, of authors who read the wire."""
 
 import os
 import shutil
@@ -26,6 +26,32 @@ ros.initNode('/js', {onTheFly: true}).then((node) => {
   return node.setParam('/from_js', 7);
 });
 """
+FOXGLOVE = """
+const { RosNode } = require('@foxglove/ros1');
+const { TcpServerNode, TcpSocketNode } = require('@foxglove/ros1/nodejs');
+const { HttpServerNodejs } = require('@foxglove/xmlrpc/nodejs');
+async function main() {
+  const node = new RosNode({
+    name: '/fox', hostname: '127.0.0.1', pid: process.pid, rosMasterUri: process.env.ROS_MASTER_URI,
+    httpServer: new HttpServerNodejs(), tcpSocketCreate: TcpSocketNode.Create,
+    tcpServer: await TcpServerNode.Listen({ host: '127.0.0.1' }),
+  });
+  node.on('error', (error) => console.error(error));
+  await node.start();
+  await node.advertise({ topic: '/up', dataType: 'std_msgs/String', messageDefinitionText: 'string data' });
+  const down = node.subscribe({ topic: '/down', dataType: 'std_msgs/String' });
+  down.on('message', (message) => node.publish('/up', { data: 'heard ' + message.data }));
+  node.on('paramUpdate', ({ key, value }) => node.setParameter('/seen', key + ' = ' + value));
+  await node.setParameter('/from_js', await node.subscribeParam('/for_js'));
+  const call = '<methodCall><methodName>setParam</methodName><params>' +
+    ['/fox', '/fetched_js', 'yes'].map((text) => `<param><value>${text}</value></param>`).join('') +
+    '</params></methodCall>';
+  const headers = { 'Content-Type': 'text/xml' };
+  await fetch(process.env.ROS_MASTER_URI, { method: 'POST', headers, body: call });
+  await node.setParameter('/names', (await node.getParamNames()).filter((name) => name.endsWith('_js')));
+}
+main().catch((error) => { console.error(error); process.exit(1); });
+"""
 
 
 def _share(folder: Path, messages: Messages) -> None:
@@ -43,22 +69,22 @@ def _share(folder: Path, messages: Messages) -> None:
                 (home / "srv" / f"{name.partition('/')[2]}.srv").write_text(messages.service_text(name))
 
 
-@pytest.fixture
-def node_js(monkeypatch: pytest.MonkeyPatch) -> str:
+def _node_with(library: str, monkeypatch: pytest.MonkeyPatch) -> str:
     if "NODE_PATH" not in os.environ:
         monkeypatch.setenv("NODE_PATH", str(Path(__file__).parents[2] / ".npm/node_modules"))
     program = shutil.which("node")
     if (
         program is None
-        or subprocess.run([program, "-e", "require.resolve('rosnodejs')"], capture_output=True).returncode
+        or subprocess.run([program, "-e", f"require.resolve({library!r})"], capture_output=True).returncode
     ):
-        pytest.skip("node finds no rosnodejs (make system installs it; NODE_PATH says where else it is)")
+        pytest.skip(f"node finds no {library} (make system installs it; NODE_PATH says where else it is)")
     return program
 
 
 def test_topics_services_and_parameters_work_both_ways(
-    graph: Any, messages: Messages, tmp_path: Path, node_js: str
+    graph: Any, messages: Messages, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    node_js = _node_with("rosnodejs", monkeypatch)
     share = tmp_path / "share"
     _share(share, messages)
     env = {**os.environ, "ROS_MASTER_URI": graph.core.uri, "ROS_IP": "127.0.0.1"}
@@ -79,5 +105,37 @@ def test_topics_services_and_parameters_work_both_ways(
 
             graph.until(heard)
             graph.until(lambda: graph.loop.run(node.get_param("/from_js", None)) == 7)
+        finally:
+            client.kill()
+
+
+def test_what_foxglove_and_lichtblick_are_made_of_talks_and_follows_parameters(
+    graph: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Their requests come from node-fetch; one of Node's own `fetch`, marked as a browser's are, is served as well."""
+    node_js = _node_with("@foxglove/ros1", monkeypatch)
+    node = graph.node("ours")
+    got: list[str] = []
+    node.subscribe("/up", "std_msgs/String", lambda m: got.append(m.data))
+    down = node.advertise("/down", "std_msgs/String")
+    graph.loop.run(node.set_param("/for_js", [1, "two", True]), PATIENCE_S)
+
+    def value(name: str) -> Any:
+        return graph.loop.run(node.get_param(name, None), PATIENCE_S)
+
+    with subprocess.Popen([node_js, "-e", FOXGLOVE], env={**os.environ, "ROS_MASTER_URI": graph.core.uri}) as client:
+        try:
+
+            def heard() -> bool:
+                assert client.poll() is None, "the client ended"
+                down.publish({"data": "hello"})
+                return "heard hello" in got
+
+            graph.until(heard)
+            graph.until(lambda: value("/names") is not None)
+            assert sorted(value("/names")) == ["/fetched_js", "/for_js", "/from_js"]
+            assert (value("/from_js"), value("/fetched_js")) == ([1, "two", True], "yes")
+            graph.loop.run(node.set_param("/for_js", "later"), PATIENCE_S)
+            graph.until(lambda: value("/seen") == "/for_js = later")
         finally:
             client.kill()
