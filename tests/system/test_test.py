@@ -1,5 +1,6 @@
 """`trundle test` runs the tests of launch files as rostest does."""
 
+import signal
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
@@ -24,6 +25,14 @@ if verdict == "flaky":
     mark.touch()
 if verdict == "says":
     print("the graph is at", os.environ["ROS_MASTER_URI"])
+if verdict == "nodes":
+    from xmlrpc.client import ServerProxy
+    print("nodes:", ServerProxy(os.environ["ROS_MASTER_URI"]).getSystemState("/t")[2])
+if verdict == "waits":
+    import signal, time
+    signal.signal(signal.SIGINT, lambda *_: sys.exit(pathlib.Path(sys.argv[2]).write_text("interrupted")))
+    pathlib.Path(sys.argv[2]).touch()
+    time.sleep(100)
 if "--text" in sys.argv:
     print("no file from me"); sys.exit(verdict == "fail")
 if verdict == "silent":
@@ -171,3 +180,32 @@ def test_a_graph_that_cannot_be_taken_is_said(trundle, package: Path, options: l
     assert done.returncode == 1
     assert said in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_a_test_is_alone_with_its_master(trundle, package: Path) -> None:
+    """No /rosout beside it, as under rostest: a test may have that name itself."""
+    written(package, a_test("rosout", "nodes"))
+    done = trundle("test", "p", "a.test", "-t", ROS_PACKAGE_PATH=str(package.parent))
+    assert done.returncode == 0
+    assert "nodes: [[], [], []]" in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_test_in_a_shells_background_is_stopped_with_its_nodes(
+    start, until, package: Path, tmp_path: Path, number: int
+) -> None:
+    """A shell starts its background jobs with SIGINT ignored, and what ignores it hands that on."""
+    mark = tmp_path / "mark"
+    written(package, a_test("waits", f"waits {mark}"))
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        running = start("test", "p", "a.test", ROS_PACKAGE_PATH=str(package.parent))
+    finally:
+        signal.signal(signal.SIGINT, before)
+    until("the test to run", mark.exists)
+
+    running.process.send_signal(number)
+
+    assert running.process.wait(60.0) == 130
+    assert mark.read_text() == "interrupted"
+    assert "Traceback" not in running.output()

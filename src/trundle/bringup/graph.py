@@ -1,6 +1,7 @@
 """The ROS graph that a run takes part in: the one there is, or one started here."""
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Self
 
@@ -27,6 +28,7 @@ class Graph:
         *,
         host: str,
         ports: Sequence[int] = (),
+        rosout: bool = True,
         log_folder: Callable[[str], Path | None] | None = None,
     ) -> Self:
         """Join the master that ROS_MASTER_URI names, else the default one; start it where none answers.
@@ -36,6 +38,7 @@ class Graph:
             host: address that a master started here binds.
             ports: with no ROS_MASTER_URI, where to start a new master, the first that is free (0: any), rather than
                 join the default one, so that ten runs side by side do not meet.
+            rosout: whether a master that is started here has /rosout beside it.
             log_folder: makes the folder for the logs of a master that is started here, from the run_id.
 
         Raises:
@@ -56,7 +59,8 @@ class Graph:
                 raise UsageError(
                     f"no ROS master answers at {uri} (ROS_MASTER_URI); start one there, or unset ROS_MASTER_URI"
                 )
-            core = _start_core(loop, (port,) if named or not ports else ports, host, log_folder=log_folder)
+            new_core = partial(Core, loop, host=host, rosout=rosout, log_folder=log_folder)
+            core = _start_core(loop, new_core, (port,) if named or not ports else ports)
             return cls(loop, core.uri, core, host)
         except BaseException:
             loop.stop()
@@ -103,16 +107,14 @@ def _answers(uri: str) -> bool:
     return True
 
 
-def _start_core(
-    loop: GraphLoop, ports: Sequence[int], host: str, *, log_folder: Callable[[str], Path | None] | None
-) -> Core:
+def _start_core(loop: GraphLoop, new_core: Callable[..., Core], ports: Sequence[int]) -> Core:
     """Start a master at the first port that is free.
 
     Raises:
         PortTakenError: none is.
     """
     for port in ports:
-        core = Core(loop, port=port, host=host, log_folder=log_folder)
+        core = new_core(port=port)
         try:
             loop.run(core.start())
         except PortTakenError:

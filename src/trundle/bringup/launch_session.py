@@ -48,6 +48,7 @@ class LaunchSession:
         options: LaunchOptions,
         *,
         ports: Sequence[int] = (),
+        rosout: bool = True,
         listener: Listener = lambda _event, _text: None,
     ) -> None:
         """Join or start a graph and set the parameters.
@@ -56,6 +57,7 @@ class LaunchSession:
             read: what to launch.
             options: how.
             ports: as `Graph.open`.
+            rosout: as `Graph.open`.
             listener: is told what happens to each node, on the graph's thread.
         """
         self._read = read
@@ -68,15 +70,17 @@ class LaunchSession:
         self._page: GraphPage | None = None
         self._world: GazeboWorld | None = None
         try:
-            self._open(ports)
+            self._open(ports, rosout=rosout)
         except BaseException:
             self._open_things.close()
             raise
 
-    def _open(self, ports: Sequence[int]) -> None:
+    def _open(self, ports: Sequence[int], *, rosout: bool) -> None:
         read, options, show = self._read, self._options, self._read.show
         graph = self.graph = self._open_things.enter_context(
-            Graph.open(read.env, host=options.host, ports=ports, log_folder=partial(log_folder, read.env))
+            Graph.open(
+                read.env, host=options.host, ports=ports, rosout=rosout, log_folder=partial(log_folder, read.env)
+            )
         )
         show.line(graph.story)
         launcher = Node("/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False)

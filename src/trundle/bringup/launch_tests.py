@@ -1,6 +1,5 @@
 """`trundle test`: the <test> nodes of launch files, each in a launch of its own, as rostest runs them."""
 
-import asyncio
 import os
 import tempfile
 import time
@@ -10,7 +9,7 @@ from pathlib import Path
 
 from trundle.diagnostics import DescriptionError, UsageError
 from trundle.launch import LaunchTest
-from trundle.ros import MasterProxy, MasterUnreachableError, master_uri_from_env
+from trundle.ros import GraphLoop, MasterProxy, MasterUnreachableError, master_uri_from_env
 from trundle.supervisor import Job, JobError, Patience
 
 from .launch import read_files
@@ -84,11 +83,9 @@ def _run(
         started = time.monotonic()
         if how.clear:
             _clear_params(MasterProxy(read.env["ROS_MASTER_URI"]))
-        with LaunchSession(read, replace(options, summary=False), ports=(0,)) as session:
+        with LaunchSession(read, replace(options, summary=False), ports=(0,), rosout=False) as session:
             session.start(read.plan.nodes)
-            did_run, cases = session.graph.loop.run(
-                _attempt(session, test, folder / f"rosunit-{test.name}.xml", text=how.text), timeout_s=None
-            )
+            did_run, cases = _attempt(session, test, folder / f"rosunit-{test.name}.xml", text=how.text)
         seconds = time.monotonic() - started
         suite = SuiteResult(name=name, seconds=seconds, cases=tuple(cases), did_run=did_run)
         if left == 0 or suite.failures + suite.errors == 0:
@@ -104,7 +101,7 @@ class _Ended:
     output: list[str]
 
 
-async def _attempt(
+def _attempt(
     session: LaunchSession, test: LaunchTest, result: Path, *, text: bool
 ) -> tuple[bool, Sequence[CaseResult]]:
     """Return whether the program ran to its end and left results, and those."""
@@ -121,7 +118,7 @@ async def _attempt(
     if prepared.job is None:
         return did_not_run(prepared.what)
     try:
-        ended = await _to_the_end(prepared.job, test.time_limit_s)
+        ended = _to_the_end(session.graph.loop, prepared.job, test.time_limit_s)
     except JobError as error:
         return did_not_run(str(error))
     if ended.code is None:
@@ -135,13 +132,14 @@ async def _attempt(
     return True, [CaseResult(name=test.name, problem="" if ended.code == 0 else f"exit code {ended.code}")]
 
 
-async def _to_the_end(job: Job, limit_s: float) -> _Ended:
-    await job.start()
+def _to_the_end(loop: GraphLoop, job: Job, limit_s: float) -> _Ended:
+    loop.run(job.start())
     try:
-        code = await asyncio.wait_for(job.wait(), limit_s)
+        code = loop.run(job.wait(), limit_s)
     except TimeoutError:
-        await job.stop(Patience())
-        return _Ended(None, job.last_output())
+        code = None
+    finally:  # also on Ctrl-C
+        loop.run(job.stop(Patience()), timeout_s=None)
     return _Ended(code, job.last_output())
 
 

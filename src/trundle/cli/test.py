@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from .main import quiet_imports
+from .running import interrupted_by_signals
 
 EXAMPLES = """
   trundle test my_robot drive.test                    a package and a file in it
@@ -49,7 +50,8 @@ def main(args: argparse.Namespace) -> int:
         reuse_master=args.reuse_master,
         clear=args.clear,
     )
-    return run_tests(args.words, options, how)
+    with interrupted_by_signals():
+        return run_tests(args.words, options, how)
 
 
 def _file_name(text: str) -> str:
