@@ -74,6 +74,22 @@ def test_what_is_laid_there_is_taken_round_after_round(
     reader.close()
 
 
+def test_a_subscriber_answers_when_half_of_it_is_taken(
+    connected: socket.socket, new_shelf: Callable[[int], Shelf]
+) -> None:
+    """Each answer wakes the publisher."""
+    shelf = new_shelf(128 * 1024)
+    reader = ShelfReader(connected, _content(shelf.offer()))
+    shelf.take_note(_content(reader.seen()))
+    answered: list[bool] = []
+    for _ in range(8):
+        note = shelf.lay(_framed(bytes(128 * 1024 - LENGTH.size)), 128 * 1024)
+        assert note is not None
+        answered.append(reader.take(_content(note))[1] is not None)
+    assert answered == [False, False, False, True] * 2
+    reader.close()
+
+
 @pytest.mark.parametrize("size", [LONG_BYTES - 1, 10**6])
 def test_frames_too_short_or_too_long_go_over_the_socket(
     connected: socket.socket, new_shelf: Callable[[int], Shelf], size: int

@@ -55,7 +55,7 @@ class Shelf:
         return encode_note(_OPENED.pack(self._file, self._size))
 
     def takes(self, size: int) -> bool:
-        """Whether frames of this length are laid here: with a quarter not yet told to be free, one always fits."""
+        """Whether frames of this length are laid here: with a half not yet told to be free, one always fits."""
         return self.is_seen and LONG_BYTES <= size <= self._size // 4
 
     def lay(self, frame: Pieces, size: int) -> bytes | None:
@@ -127,7 +127,7 @@ class ShelfReader:
         if start + size > self._size:
             raise WireError("a frame is announced outside of the shared memory")
         content = self._memory[start + LENGTH.size : start + size]
-        if end - self._told < self._size // 4:
+        if end - self._told < self._size // 2:
             return content, None
         self._told = end
         return content, encode_note(_TAKEN.pack(end))
