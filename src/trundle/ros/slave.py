@@ -182,6 +182,7 @@ class _Inbound(FrameProtocol):
 
     def note_received(self, note: bytes, /) -> None:
         self.out.take_note(note)
+        self.read_past_asyncio(self._node.loop.selector)
 
     def drained(self) -> None:
         if isinstance(self._target, Publisher):

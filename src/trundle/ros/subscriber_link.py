@@ -2,7 +2,6 @@
 
 import asyncio
 import contextlib
-import socket
 from typing import TYPE_CHECKING
 
 from . import _wire
@@ -28,10 +27,8 @@ class SubscriberLink(FrameProtocol):
         self.ended: asyncio.Future[str] = asyncio.get_running_loop().create_future()
         self._subscription = subscription
         self._request = request
-        self._selector = selector
+        self._loop_selector = selector
         self._receive = _wire.receive if codec is None else codec.receive
-        self._socket: socket.socket | None = None
-        """The connection once more, read past asyncio."""
         self._shelf: ShelfReader | None = None
 
     def connected(self) -> None:
@@ -44,8 +41,7 @@ class SubscriberLink(FrameProtocol):
             raise WireError(f"it carries {header.get('type', 'another type')}, not {self._subscription.type}")
         if header.get("tcp_nodelay") == "1":
             self.set_nodelay()
-        with contextlib.suppress(OSError):  # no number is left for it: asyncio goes on reading
-            self._read_past_asyncio()
+        self.read_past_asyncio(self._loop_selector)
 
     def frame_received(self, data: bytes | memoryview) -> None:
         try:
@@ -66,31 +62,19 @@ class SubscriberLink(FrameProtocol):
         self.bytes_received += len(content)
         return content
 
-    def _read_past_asyncio(self) -> None:
-        assert self.transport is not None
-        own: socket.socket = self.transport.get_extra_info("socket").dup()
-        self.transport.pause_reading()
-        self._socket = own
-        self._selector.read(own, self._readable)
-
     def _readable(self) -> None:
-        assert self._socket is not None
-        room = self.frames.room_for_one()
-        try:
-            if room is None:
-                come, count = None, self._socket.recv_into(self.frames.room())
-            else:
-                come, count = self._receive(self._socket.recv_into, room)
-        except BlockingIOError:
+        """As of any connection, but a message that comes alone is taken in one step."""
+        if (room := self.frames.room_for_one()) is None:
+            super()._readable()
             return
+        assert self._socket is not None
+        try:
+            come, count = self._receive(self._socket.recv_into, room)
         except OSError as error:
-            self.close(str(error))
+            self._cannot_read(error)
             return
         if come is None:
-            if count:
-                self.buffer_updated(count)
-            else:
-                self.close("the peer closed the connection")
+            self._take_bytes(count)
             return
         self.bytes_received += count
         if self._subscription.is_raw:
@@ -99,9 +83,6 @@ class SubscriberLink(FrameProtocol):
             self._subscription.receive(come)
 
     def closed(self, reason: str, /) -> None:
-        if self._socket is not None:
-            self._selector.forget(self._socket)
-            self._socket.close()
         if self._shelf is not None:
             self._shelf.close()
         if not self.ended.done():

@@ -1,6 +1,7 @@
 """A TCPROS connection on the loop: headers first, then frames."""
 
 import asyncio
+import contextlib
 import socket
 from collections.abc import Mapping
 from typing import cast
@@ -10,6 +11,7 @@ from .frames import FrameCutter
 from .headers import MAX_HEADER_BYTES, MAX_MESSAGE_BYTES, decode_header, encode_header
 from .nearby import UNIXROS
 from .outgoing import Outgoing
+from .selector import ReadingSelector
 
 HANDSHAKE_S = 15.0
 """How long a peer may take for its header."""
@@ -30,6 +32,9 @@ class FrameProtocol(asyncio.BufferedProtocol):
         self.bytes_received = 0
         self.frames = FrameCutter(MAX_HEADER_BYTES)
         self._deadline: asyncio.TimerHandle | None = None
+        self._selector: ReadingSelector | None = None
+        self._socket: socket.socket | None = None
+        """The connection once more, read past asyncio."""
         self._ending: str | None = None
 
     # what subclasses fill in
@@ -89,6 +94,37 @@ class FrameProtocol(asyncio.BufferedProtocol):
 
     def connection_lost(self, exc: Exception | None) -> None:
         self._end(str(exc) if exc is not None else "the peer closed the connection")
+
+    # past asyncio
+
+    def read_past_asyncio(self, selector: ReadingSelector) -> None:
+        """Have the loop's selector read from now on, with less between the system and this than asyncio has."""
+        if self._socket is not None or self.transport is None:
+            return
+        with contextlib.suppress(OSError):  # no number is left for it: asyncio goes on reading
+            own: socket.socket = self.transport.get_extra_info("socket").dup()
+            selector.read(own, self._readable)
+            self.transport.pause_reading()
+            self._selector, self._socket = selector, own
+
+    def _readable(self) -> None:
+        assert self._socket is not None
+        try:
+            count = self._socket.recv_into(self.frames.room())
+        except OSError as error:
+            self._cannot_read(error)
+            return
+        self._take_bytes(count)
+
+    def _cannot_read(self, error: OSError) -> None:
+        if not isinstance(error, BlockingIOError):
+            self.close(str(error))
+
+    def _take_bytes(self, count: int) -> None:
+        if count:
+            self.buffer_updated(count)
+        else:
+            self.close("the peer closed the connection")
 
     # for users
 
@@ -151,6 +187,9 @@ class FrameProtocol(asyncio.BufferedProtocol):
             return
         self.transport = None
         self.out.close()
+        if self._selector is not None and self._socket is not None:
+            self._selector.forget(self._socket)
+            self._socket.close()
         if self._deadline is not None:
             self._deadline.cancel()
         self.closed(reason)
