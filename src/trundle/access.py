@@ -19,7 +19,7 @@ _AUTHORITY = re.compile(r"(\[[0-9a-f:.%]+\]|[^][:/@\s]+)(?::\d{1,5})?")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AllowedNames:
-    """Who else is served, by `--allow-host` and `--allow-origin`."""
+    """Hosts and origins served beside the usual ones: `--allow-host`, `--allow-origin`."""
 
     hosts: tuple[str, ...] = ()
     """Names that the page is opened at: `robot.example`."""
@@ -55,7 +55,7 @@ class PageAddress:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PageRequest:
-    """What a browser says of itself in an HTTP request or a WebSocket's upgrade."""
+    """The fields of an HTTP request, or of a WebSocket's upgrade, that access is judged by."""
 
     target: str
     """Path and query."""
@@ -69,7 +69,7 @@ class Access:
     """The rules of one server."""
 
     host: str
-    """What it binds."""
+    """The name or address that it binds."""
     port: int
     allowed: AllowedNames = NONE_ALLOWED
     needs_token: bool = False

@@ -18,7 +18,7 @@ from typing import BinaryIO, TypeAlias
 AnyPath: TypeAlias = str | os.PathLike[str]
 
 MOST_BYTES = 64 * 1024 * 1024
-"""Of a description or a text; the largest published ones are a few MB."""
+"""Size of a description or a text; the largest published ones are a few MB."""
 _CHUNK_BYTES = 64 * 1024
 _TIMEOUT_S = 60.0
 """For a pipe to come to its end; `<param command>` has as long."""

@@ -94,7 +94,7 @@ def test_an_attribute_whose_prefix_nobody_declared_is_left_out(tmp_path: Path) -
 
     assert arm.link("upper").visuals[0].transparency == 0.25
     assert [warning.partition("warning: ")[2] for warning in report.warnings[1:]] == [
-        "attribute 'my::a' has a prefix that nobody declared; it is left out",
-        "attribute 'my:a' has a prefix that nobody declared; it is left out",
+        "attribute 'my::a' has an undeclared prefix; it is left out",
+        "attribute 'my:a' has an undeclared prefix; it is left out",
         "<my::b> in <link> is not supported; it is ignored",
     ]

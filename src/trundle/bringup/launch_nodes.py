@@ -50,7 +50,7 @@ class NodeStarter:
     host: Host
     """What stand-ins may use."""
     tree: ProcessTree
-    """What processes belong to."""
+    """Started processes belong to it, and end with it."""
     log_folder: Path
     output: Literal["screen", "log"] | None = None
     """Overrides what the launch file says."""

@@ -80,7 +80,7 @@ class RosSide:
 
     @property
     def graph(self) -> Graph:
-        """What the simulation takes part in."""
+        """The ROS graph that the simulation is part of."""
         return self._graph
 
     def make_node(self, name: str) -> Node:

@@ -14,7 +14,7 @@ _EXPRESSION = re.compile(r"\s*when evaluating expression '(.*)'\Z", re.DOTALL)
 _LONGEST = 400
 """Characters of an error: it quotes the expression, and each that this one was part of."""
 _MOST_BYTES = 4_000_000
-"""Of a file that is searched for the line."""
+"""Size of the largest file that is searched for the line."""
 
 
 def error_of(error: Exception, at: Source, files: Iterable[str]) -> DescriptionError:

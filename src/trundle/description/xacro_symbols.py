@@ -9,7 +9,7 @@ from trundle.expressions import Caller, Function, Interpreter, function_of, is_m
 from trundle.yaml_loader import BoundedLoader, load_yaml
 
 _DEPRECATED = {"sorted": "python", "range": "python", "load_yaml": "xacro", "abs_filename": "xacro", "dotify": "xacro"}
-"""What may be called without its namespace, with a warning."""
+"""Functions that may be called without their namespace, with a warning."""
 
 
 def offer_symbols(package: Any) -> None:

@@ -6,13 +6,13 @@ from typing import Any, cast
 MOST_ITEMS = 1_000_000
 """Characters or items of one value."""
 MOST_BITS = 100_000
-"""Of one integer."""
+"""Size of one integer."""
 _MOST_STEPS = 3_000_000
 """A step is one operation, some 0.2 µs; the PR2, the most of all published robots, takes 19,000."""
 _MOST_OCTETS = 96 * 1024 * 1024
-"""Of all values that were ever made for one document; the PR2's are 160,000."""
+"""Size of all values that were ever made for one document; the PR2's are 160,000."""
 _MOST_DEPTH = 100
-"""Of iterators over iterators."""
+"""Levels of iterators over iterators."""
 
 _GROUPS = (list, tuple, set, frozenset, type({}.keys()), type({}.values()), type({}.items()))
 _SMALL = 1 << 61
@@ -24,7 +24,7 @@ class ExpressionError(ValueError):
 
 
 class Budget:
-    """What is left of the work and memory of one document."""
+    """The work and memory that one document may still use."""
 
     def __init__(self, steps: int = _MOST_STEPS, octets: int = _MOST_OCTETS) -> None:
         self._steps, self._octets = steps, octets

@@ -17,7 +17,7 @@ def set_of(caller: Caller, items: Iterable[Any]) -> set[Any]:
 
 
 def mapping_of(caller: Caller, value: Any) -> dict[str, Any]:
-    """What `**value` stands for."""
+    """Return the arguments that `**value` stands for."""
     if not isinstance(value, dict):
         raise TypeError(f"argument after ** must be a mapping, not {type(value).__name__}")
     caller.budget.spend(len(value))

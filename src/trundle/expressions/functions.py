@@ -268,7 +268,7 @@ def _product(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) ->
 
 
 MATH_NAMES: Mapping[str, Any] = {name: value for name, value in vars(math).items() if not name.startswith("_")}
-"""What `from math import *` gives."""
+"""Names that `from math import *` gives."""
 
 GUARDED: Mapping[Callable[..., Any], Guarded] = {
     **{function: _natural(function) for function in MATH_NAMES.values() if callable(function)},
@@ -296,7 +296,7 @@ GUARDED: Mapping[Callable[..., Any], Guarded] = {
     sum: _sum,
     round: _round,
 }
-"""What may be called, and what is called in its place."""
+"""Functions that may be called, and those called in their place."""
 
 _PLAIN = "abs all any bool dict float int len list map max min round sorted str sum tuple"
 PYTHON_NAMES: Mapping[str, Any] = {name: getattr(builtins, name) for name in _PLAIN.split()}

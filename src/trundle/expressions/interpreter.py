@@ -17,10 +17,10 @@ from .values import Callee
 _LONGEST = 65_536
 """Characters of one expression."""
 _OCTETS_PER_NODE = 250
-"""Of memory; and of time to parse it, in steps, a tenth."""
+"""Memory of a node; the steps to parse it are a tenth."""
 _STEPS_PER_CALL = 5
 _OCTETS_PER_CALL = 80
-"""What it may return beside what is counted where it is made; and what finding an attribute takes."""
+"""Memory of a value that a call returns and that is not counted where it is made; also of finding an attribute."""
 _SHORT = frozenset({str, int, float, bool})
 """Kinds of values that are as long as they look."""
 

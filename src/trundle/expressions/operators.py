@@ -128,7 +128,7 @@ OF_FRACTIONS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Mult: operator.mul,
     ast.Div: operator.truediv,
 }
-"""What may be done at once where one of both is a float."""
+"""Operators applied without a check where one operand is a float."""
 
 UNARY: dict[type[ast.unaryop], Callable[[Budget, Any], Any]] = {
     ast.Not: lambda _, a: not a,

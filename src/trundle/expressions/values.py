@@ -8,7 +8,7 @@ from .budget import Budget
 
 
 class Caller(Protocol):
-    """What runs an expression, as seen by what it calls."""
+    """The interpreter, as seen by the functions that it calls."""
 
     @property
     def budget(self) -> Budget:

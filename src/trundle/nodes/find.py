@@ -42,7 +42,7 @@ class Replacement:
 
     @property
     def command(self) -> tuple[str, ...] | None:
-        """Of a command line tool: the words behind `trundle` that are the same program."""
+        """The words behind `trundle` that are the same program, where it is a command line tool."""
         return getattr(self.load(), "command", None)
 
 

@@ -165,7 +165,7 @@ class Host:
     env: Mapping[str, str] = field(default_factory=dict[str, str])
     """Variables that the launch file sets for this node."""
     tree: ProcessTree = field(default_factory=ProcessTree)
-    """What processes of its own belong to."""
+    """The node's own processes belong to it, and end with it."""
 
 
 class StandIn(Protocol):

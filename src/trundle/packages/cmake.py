@@ -16,7 +16,7 @@ _NO_SOURCES = frozenset({"EXCLUDE_FROM_ALL", "MACOSX_BUNDLE", "WIN32"})
 _MOST_FOLDERS = 20
 """A CMakeLists.txt may add itself."""
 _MOST_CHARACTERS, _LONGEST = 1_000_000, 1000
-"""Of what variables stand for, all in all and each: a few lines of `set(A ${A}${A})` can stand for anything."""
+"""Length of the variables' values, together and each: a few lines of `set(A ${A}${A})` make any length."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,7 +24,7 @@ class CMakeProgram:
     """A program that is to be compiled."""
 
     name: str
-    """Of the file that is built."""
+    """File name of the program that is built."""
     target: str
     sources: tuple[str, ...]
     """As written, with the variables replaced that are known."""

@@ -10,7 +10,7 @@ from .walk import MANIFESTS, Walk
 PARTS = frozenset({"launch", "urdf", "xacro", "meshes", "models", "worlds", "msg"})
 """A published tutorial often has no package.xml: a folder with one of these in it is a package too."""
 _CONTENTS = PARTS | {"config", "materials", "media", "params", "textures"}
-"""What a file in one of such a package's folders reads from the others."""
+"""The other folders that a file in one of such a package's folders may read."""
 _SPACES = {"src": ("src", "devel/share", "install"), "devel": ("devel/share", "src"), "install": ("install", "src")}
 """The folders of a catkin or colcon workspace, by the one that the file is in."""
 _DEEPEST = 3
@@ -27,7 +27,7 @@ def own_package(start: Path, wide: WideFolders) -> Path | None:
 
 
 def own_confinement(start: Path, wide: WideFolders) -> Confinement:
-    """What a file may read as its own: all of the package or model folder it is in.
+    """Return the folders that a file may read as its own: all of the package or model folder it is in.
 
     Without a manifest or model.config that is its own folder, and those such as `meshes` of the package as published.
     """

@@ -16,7 +16,7 @@ from .sheets import sheets_of
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
 MOST_FACES = 100_000
-"""Of what is cut."""
+"""Faces of the largest mesh that is cut."""
 _FULL: Mapping[str, object] = {
     "maxConvexHulls": 16,
     "resolution": 20_000,

@@ -48,7 +48,7 @@ class DecompositionProgress:
         return passed / self._worked * (self._work - self._worked)
 
     def show(self) -> None:
-        """Draw the line anew."""
+        """Redraw the line."""
         if self._on_terminal and self._expected_s > _QUICK_S:
             text = f"cutting meshes: {self._finished} of {self._count}, about {_said(self.left_s)} left"
             self._stream.write(f"\r{text:<{self._width}}")

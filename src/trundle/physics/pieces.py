@@ -23,7 +23,7 @@ _Faces = NDArray[np.intp]
 MOST_PIECES = 1000
 """Beyond so many, a mesh that moves is one convex hull."""
 MOST_SLABS = 50_000
-"""Of all that stands in a world; what has over 1000 and comes then is one hull."""
+"""Slabs of all that stands in a world; a later mesh of more than 1000 is one hull."""
 _CLOSE = 0.02
 """[m] Where its hull is nearer, what stands and takes over 1000 slabs is its hull."""
 _VERSION = 4
@@ -72,7 +72,7 @@ class Pieces:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HollowPart:
-    """What hangs together in a mesh that moves, and is not convex; from its lowest corner, so that equal ones are."""
+    """A connected, non-convex part of a mesh that moves; placed from its lowest corner: copies compare equal."""
 
     points: _Points
     """(N, 3) [m]"""

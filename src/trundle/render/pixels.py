@@ -1,4 +1,4 @@
-"""What is done to each pixel of a picture once it is drawn, in C++."""
+"""Per-pixel operations on a drawn picture, in C++."""
 
 import numpy as np
 from numpy.typing import NDArray

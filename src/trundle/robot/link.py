@@ -39,7 +39,7 @@ def read_link(node: XmlNode, materials: Materials, report: Diagnostics) -> Robot
 
 
 def _read_inertial(link: XmlNode, name: str, report: Diagnostics) -> tuple[RobotInertial | None, bool]:
-    """What is said of a link's mass, and whether all of it is: urdfdom keeps a mass whose inertia is at fault."""
+    """Return a link's inertial and whether it is complete: urdfdom keeps a mass whose inertia is at fault."""
     node = link.find("inertial")
     if node is None:
         return None, True

@@ -11,7 +11,7 @@ from trundle.files import read_text
 
 _SHIPPED = Path(__file__).parent / "definitions"
 MOST_CHARACTERS = 1_000_000
-"""Of a text; the longest of a desktop installation has below 100,000. Texts of peers have the same bound."""
+"""Length of a text; the longest of a desktop installation has below 100,000. Texts of peers have the same bound."""
 _SEPARATOR = re.compile(r"^\s*---[^\n]*$", re.MULTILINE)
 DEBIAN_SHARE = "/usr/share"
 """Debian's rospkg looks here last, whatever ROS_PACKAGE_PATH says."""

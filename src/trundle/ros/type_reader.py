@@ -8,7 +8,7 @@ from .errors import DefinitionError
 from .sources import MOST_CHARACTERS
 
 MOST_ELEMENTS = 1_000_000_000
-"""Of an array: as many bytes as a connection carries at once."""
+"""Elements of an array: as many bytes as a connection carries at once."""
 _MOST_FIELDS = 5_000
 _FIELD = re.compile(
     r"(?P<type>[A-Za-z]\w*(?:/[A-Za-z]\w*){0,2})(?:<=(?P<longest>\d{1,9}))?"

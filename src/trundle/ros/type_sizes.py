@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
 
 _OBJECT_BYTES = 64
-"""Of a message, a text or a list, about."""
+"""Size of a message, a text or a list, about."""
 _SMALL = {"bool": 1, "byte": 1, "char": 1, "int8": 1, "uint8": 1, "int16": 2, "uint16": 2, "int32": 4, "uint32": 4}
 
 

@@ -158,7 +158,7 @@ class CameraSensor(MountedSensor[CameraReading]):
         return noisy
 
     def noise_seed(self) -> int:
-        """What the noise of the next picture follows from."""
+        """Return the seed of the next picture's noise."""
         return int(self.random.integers(1 << 64, dtype=np.uint64))
 
     def world_from_camera(self, snapshot: Snapshot) -> Pose:

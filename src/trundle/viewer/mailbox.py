@@ -61,7 +61,7 @@ class Mailbox:
 
     @classmethod
     def _create_named(cls, size: int) -> Self:
-        descriptor, name = tempfile.mkstemp(prefix=f"trundle-{os.getpid()}-")  # nobody else may open it
+        descriptor, name = tempfile.mkstemp(prefix=f"trundle-{os.getpid()}-")  # only this user may open it
         try:
             with os.fdopen(descriptor, "w+b") as file:
                 file.write(bytes(size))

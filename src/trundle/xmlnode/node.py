@@ -244,7 +244,7 @@ class XmlNode:
             try:
                 self._element.set(name, value)
             except ValueError:  # lxml sets no name that XML does not allow
-                report.warn(other.at, f"attribute {name!r} has a prefix that nobody declared; it is left out")
+                report.warn(other.at, f"attribute {name!r} has an undeclared prefix; it is left out")
 
     def drop_attributes(self, *names: str) -> None:
         """Take attributes away."""

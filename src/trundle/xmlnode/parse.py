@@ -88,7 +88,7 @@ _PREFIXES = frozenset(
         etree.ErrorTypes.NS_ERR_XML_NAMESPACE,
     }
 )
-"""Prefixes that nobody declared, or two of them: names to TinyXML like any other. libxml2 keeps them as written."""
+"""Undeclared prefixes, or two of them: names to TinyXML like any other. libxml2 keeps them as written."""
 
 
 def _says_or_is_unicode(data: bytes) -> bool:

@@ -45,7 +45,7 @@ def _sentence(link: RobotLink, mass: float, gone: list[str]) -> str:
 
 
 class _Tree:
-    """What hangs on what."""
+    """The links below each link, and their masses."""
 
     def __init__(self, robot: Robot, lumps: Mapping[str, Lump]) -> None:
         self._lump_of = {link: lump.name for lump in lumps.values() for link, _ in lump.parts}
@@ -53,7 +53,7 @@ class _Tree:
         for joint in robot.joints:
             self._below.setdefault(joint.parent, []).append(joint.child)
         self.mass = {link.name: 0.0 if link.inertial is None else link.inertial.mass for link in robot.links}
-        """Of each link with all that was lumped into it [kg]."""
+        """Mass of each link with all that was lumped into it [kg]."""
         order = [robot.root]
         for name in order:
             order += self._below.get(name, [])

@@ -40,7 +40,7 @@ class Relay:
     async def _hide(self, inlet: Inlet, outlet: Outlet, monitored: str, *, every_s: float) -> None:
         """Listen only while another node subscribes to a topic; looks every so often: the original calls it a rate.
 
-        Before the type is known nobody can subscribe to what is passed on: the first message is waited for.
+        The output is advertised once the type is known: the first message is waited for.
         """
         node = self._node
         while not node.closed.is_set():
