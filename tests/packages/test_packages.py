@@ -149,6 +149,17 @@ def test_a_package_exports_its_models_and_media(tmp_path: Path) -> None:
     assert packages.resolve("file://worlds/kitchen.world", beside=tmp_path, at=AT).is_file()
 
 
+def test_manifests_are_read_once_for_all_files_of_an_environment(tmp_path: Path) -> None:
+    gazebo = package(tmp_path / "ws/arm_gazebo", export='<gazebo_ros gazebo_model_path="${prefix}"/>')
+    cup = model(gazebo / "cup")
+    packages = Packages({"ROS_PACKAGE_PATH": str(tmp_path / "ws")}, start=tmp_path)
+    assert packages.around(tmp_path / "a/a.world").find_model("cup") == cup
+
+    (gazebo / "package.xml").unlink()
+
+    assert packages.around(tmp_path / "b/b.world").find_model("cup") == cup
+
+
 def test_models_near_the_file_are_found_after_those_on_the_path(tmp_path: Path) -> None:
     world = write(tmp_path / "project/worlds/kitchen.world")
     near = model(tmp_path / "project/models/cup")

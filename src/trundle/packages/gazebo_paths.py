@@ -9,7 +9,7 @@ from urllib.parse import unquote, urlsplit
 from trundle.diagnostics import DescriptionError
 from trundle.files import read_file
 
-from .confinement import WideFolders
+from .package_cache import PackageCache
 from .ros_packages import RosPackages
 from .workspace import nearby
 
@@ -34,11 +34,11 @@ def is_stand_in(path: Path) -> bool:
 class GazeboPaths:
     """The folders of one environment, around one file."""
 
-    def __init__(self, environment: Mapping[str, str], start: Path, ros: RosPackages) -> None:
+    def __init__(self, environment: Mapping[str, str], start: Path, ros: RosPackages, cache: PackageCache) -> None:
         self._home = Path(environment.get("HOME") or os.devnull)  # in /tmp all could put models, and their plugins
         self._start = start
-        self._wide = WideFolders(environment)
         self._ros = ros
+        self._cache = cache
         self._named_models = _paths(environment.get("GAZEBO_MODEL_PATH", ""))
         self._named_resources = _paths(environment.get("GAZEBO_RESOURCE_PATH", ""))
 
@@ -71,7 +71,7 @@ class GazeboPaths:
         near = (folder / sub / name for folder in nearby(self._start) for sub in (".", "models"))
         stand_in = SHIPPED / "stand_ins" / name
         candidates = (*along, *(each for each in near if os.path.isfile(each / "model.config")), stand_in)
-        return next((each for each in candidates if os.path.isdir(each) and each not in self._wide), None)
+        return next((each for each in candidates if os.path.isdir(each) and each not in self._cache.wide), None)
 
     def find_resource(self, name: str) -> Path | None:
         """A file below a resource folder, such as `worlds/empty.world` or `media/materials/scripts`."""
@@ -107,19 +107,23 @@ class GazeboPaths:
 
     @cached_property
     def _exports(self) -> list[tuple[Path, dict[str, str]]]:
-        from trundle.xmlnode import read_xml  # of what most commands ask of packages, only this takes lxml
-
-        found: list[tuple[Path, dict[str, str]]] = []
+        exports = self._cache.exports
         for folder in self._ros.all().values():
-            manifest = folder / "package.xml"
-            try:
-                if b"gazebo_ros" not in read_file(manifest):
-                    continue
-                export = read_xml(manifest).find("export")
-            except (OSError, DescriptionError):
-                continue
-            found += [(folder, node.attributes()) for node in (export.all("gazebo_ros") if export else [])]
-        return found
+            if folder not in exports:
+                exports[folder] = _gazebo_exports(folder / "package.xml")
+        return [(folder, attributes) for folder in self._ros.all().values() for attributes in exports[folder]]
+
+
+def _gazebo_exports(manifest: Path) -> list[dict[str, str]]:
+    from trundle.xmlnode import read_xml  # of what most commands ask of packages, only this takes lxml
+
+    try:
+        if b"gazebo_ros" not in read_file(manifest):
+            return []
+        export = read_xml(manifest).find("export")
+    except (OSError, DescriptionError):
+        return []
+    return [node.attributes() for node in (export.all("gazebo_ros") if export else [])]
 
 
 def _folders(folder: Path) -> list[Path]:

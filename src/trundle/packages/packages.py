@@ -9,8 +9,9 @@ from urllib.parse import unquote
 from trundle.diagnostics import DescriptionError, Source, UsageError
 from trundle.files import is_stream
 
-from .confinement import Confinement, WideFolders
+from .confinement import Confinement
 from .gazebo_paths import SHIPPED, GazeboPaths, is_stand_in
+from .package_cache import PackageCache
 from .repositories import published_at
 from .ros_packages import RosPackages
 from .stock import DESCRIPTIONS, STOCK
@@ -35,14 +36,12 @@ class Packages:
         Args:
             environment: ROS_PACKAGE_PATH, GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and HOME are read.
             start: whose package and workspace are searched too.
-            known: others whose walks through folders need not be made again.
+            known: others whose walks and manifests need not be read again.
         """
         start = start.absolute()
         self._environment = environment
         self._start = start
-        self._ros = RosPackages(environment, start, None if known is None else known._ros)
-        self._gazebo = GazeboPaths(environment, start, self._ros)
-        self._wide = WideFolders(environment)
+        self._cache = PackageCache(environment) if known is None else known._cache
 
     def around(self, file: Path) -> "Packages":
         """The same, searched around another file."""
@@ -81,7 +80,7 @@ class Packages:
     def passed_over(self) -> Mapping[Path, str]:
         """Folders that no package was looked for in, and why."""
         self._ros.all()
-        return self._ros.passed_over
+        return self._cache.passed_over
 
     def ros_packages(self) -> Mapping[str, Path]:
         """Every ROS package there is, by name."""
@@ -91,7 +90,7 @@ class Packages:
         """One sentence for a package that is not there."""
         looked = ", ".join(str(folder) for folder in self._ros.searched())
         where = f"looked below {looked}" if looked else "ROS_PACKAGE_PATH is not set"
-        passed_over = [f"{folder} ({why})" for folder, why in self._ros.passed_over.items()]
+        passed_over = [f"{folder} ({why})" for folder, why in self._cache.passed_over.items()]
         if passed_over:
             rest = f" and {len(passed_over) - _MOST_NAMED} more" if len(passed_over) > _MOST_NAMED else ""
             where += f", but not in {', '.join(passed_over[:_MOST_NAMED])}{rest}"
@@ -156,7 +155,7 @@ class Packages:
         """
         if self._environment.get(ALLOW_OUTSIDE) == "1":
             return
-        is_named = root is not None and Confinement([root], wide=self._wide).allows(path)
+        is_named = root is not None and Confinement([root], wide=self._cache.wide).allows(path)
         if not (self._in_own.allows(path) or is_named or self._in_ros.allows(path) or self._in_gazebo.allows(path)):
             raise DescriptionError(
                 at,
@@ -165,16 +164,24 @@ class Packages:
             )
 
     @cached_property
+    def _ros(self) -> RosPackages:
+        return RosPackages(self._environment, self._start, self._cache)
+
+    @cached_property
+    def _gazebo(self) -> GazeboPaths:
+        return GazeboPaths(self._environment, self._start, self._ros, self._cache)
+
+    @cached_property
     def _in_own(self) -> Confinement:
-        return own_confinement(self._start, self._wide)
+        return own_confinement(self._start, self._cache.wide)
 
     @cached_property
     def _in_ros(self) -> Confinement:
-        return Confinement([*self._ros.roots, *self._ros.all().values(), *DESCRIPTIONS.values()], wide=self._wide)
+        return Confinement([*self._ros.roots, *self._ros.all().values(), *DESCRIPTIONS.values()], wide=self._cache.wide)
 
     @cached_property
     def _in_gazebo(self) -> Confinement:
-        return Confinement([*self._gazebo.model_folders, *self._gazebo.resource_folders], wide=self._wide)
+        return Confinement([*self._gazebo.model_folders, *self._gazebo.resource_folders], wide=self._cache.wide)
 
     def _located(self, uri: str, beside: Path, at: Source) -> tuple[Path | None, Path]:
         """Where a URI leads, and the folder of the package or model it names."""

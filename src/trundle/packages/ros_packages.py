@@ -4,11 +4,10 @@ import os
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TypeAlias
 
 from trundle.files import read_text
 
-from .confinement import WideFolders
+from .package_cache import Folder, PackageCache
 from .walk import MANIFESTS, Walk
 from .workspace import PARTS, own_package, workspaces
 
@@ -23,33 +22,26 @@ _INSTALLED = Path("/usr/share")
 _CHECKOUT_EXAMPLES = Path(__file__).parents[3] / "examples"
 
 
-_Folder: TypeAlias = tuple[Path, str | None]
-"""A folder that may be meant by its own name, and the name that its manifest gives it, if it has one."""
-
-
 class RosPackages:
     """An index of the packages below some folders, made when first asked."""
 
-    def __init__(self, environment: Mapping[str, str], start: Path, known: "RosPackages | None" = None) -> None:
+    def __init__(self, environment: Mapping[str, str], start: Path, cache: PackageCache) -> None:
         """Look along ROS_PACKAGE_PATH, in the workspace around `start`, then beside the package `start` is in.
 
         Args:
             environment: says where packages are.
             start: a file or folder.
-            known: an index whose walks through folders need not be made again.
+            cache: what the same environment found before.
         """
         entries = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
         start = Path(os.path.realpath(start))
-        self._wide = WideFolders(environment)
+        self._cache = cache
         self._on_path = [Path(os.path.expanduser(entry)).absolute() for entry in entries if entry]
         self._around = list(workspaces(start))
         self.roots = [*self._on_path, *self._around]
         """Folders that are there to hold packages."""
-        self.passed_over: dict[Path, str] = {} if known is None else known.passed_over
-        """Folders that could not be looked into, and why."""
-        own = own_package(start, self._wide)
+        own = own_package(start, cache.wide)
         self._guessed = [] if own is None or own.parent in self.roots else [own, own.parent]
-        self._walks: dict[tuple[Path, int | None], list[_Folder]] = {} if known is None else known._walks
         self._by_name: dict[str, Path] | None = None
         self._folders: dict[str, Path] = {}
 
@@ -68,7 +60,9 @@ class RosPackages:
             self._crawl(SHIPPED)
             if os.path.isdir(_CHECKOUT_EXAMPLES / "smartcar"):
                 self._crawl(_CHECKOUT_EXAMPLES)
-            for folder, name in _installed():
+            if self._cache.installed is None:
+                self._cache.installed = list(_installed())
+            for folder, name in self._cache.installed:
                 if name not in self._folders:
                     self._by_name.setdefault(name, folder)
         return self._by_name
@@ -86,20 +80,21 @@ class RosPackages:
 
     def _crawl(self, root: Path, *, most: int | None = None) -> None:
         assert self._by_name is not None
-        if (root, most) not in self._walks:
-            self._walks[root, most] = list(self._packages_below(Walk(root, most=most)))
-        for folder, name in self._walks[root, most]:
+        walks = self._cache.walks
+        if (root, most) not in walks:
+            walks[root, most] = list(self._packages_below(Walk(root, most=most)))
+        for folder, name in walks[root, most]:
             if name is not None:
                 self._by_name.setdefault(name, folder)
             self._folders.setdefault(folder.name, folder)
 
-    def _packages_below(self, walk: Walk) -> Iterator[_Folder]:
+    def _packages_below(self, walk: Walk) -> Iterator[Folder]:
         for folder, names in walk:
             has_manifest = not names.isdisjoint(MANIFESTS)
-            if (has_manifest or not names.isdisjoint(PARTS)) and folder not in self._wide:
+            if (has_manifest or not names.isdisjoint(PARTS)) and folder not in self._cache.wide:
                 yield folder, _package_name(folder) if has_manifest else None
         if walk.most is None:  # a folder to hold packages, by what the user says
-            self.passed_over.update(walk.passed_over)
+            self._cache.passed_over.update(walk.passed_over)
 
 
 def _installed() -> Iterator[tuple[Path, str]]:
