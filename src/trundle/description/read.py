@@ -128,10 +128,12 @@ def load_urdf(text: str, name: str, path: Path, packages: Packages, report: Diag
     Raises:
         DescriptionError: it is no robot that urdfdom would take.
     """
-    from .urdf import lower_robot, read_urdf_text
+    from trundle.robot import read_robot
 
-    robot = read_urdf_text(text, name=name, report=report)
+    from .urdf import lower_robot
+
     root = parse_xml(text, name=name, report=report)
+    robot = read_robot(root, report)
     world = lower_robot(robot, root, folder=path.parent, packages=packages, report=report)
     return Loaded(kind="urdf", world=world, robot=robot, urdf=text)
 

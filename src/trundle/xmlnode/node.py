@@ -28,10 +28,13 @@ class XmlNode:
         "_read_once",
         "_read_tags",
         "is_declared_late",
+        "tag",
     )
 
     def __init__(self, element: etree._Element, *, file: str, first_line: int = 0) -> None:  # pyright: ignore[reportPrivateUsage]
         self._element = element
+        self.tag = _written_tag(element)
+        """The element's name as written, prefix included."""
         self._file = file
         self._first_line = first_line
         self._read_tags: set[str] = set()
@@ -41,15 +44,6 @@ class XmlNode:
         self._children: list[XmlNode] | None = None
         self.is_declared_late = False
         """Whether blank lines stand before its document's <?xml …?>, which TinyXML skips and expat refuses."""
-
-    @property
-    def tag(self) -> str:
-        """The element's name as written, prefix included."""
-        tag = str(self._element.tag)
-        if not tag.startswith("{"):
-            return tag
-        local = tag.rpartition("}")[2]
-        return f"{self._element.prefix}:{local}" if self._element.prefix else local
 
     @property
     def at(self) -> Source:
@@ -100,7 +94,10 @@ class XmlNode:
         if tag not in self._read_tags:
             self._read_tags.add(tag)
             self._read_once.add(tag)
-        return next((child for child in self.children if child.tag == tag), None)
+        for child in self.children:
+            if child.tag == tag:
+                return child
+        return None
 
     def attribute(self, name: str) -> str | None:
         """An attribute's value as written, or None."""
@@ -222,7 +219,7 @@ class XmlNode:
         for old, new in names.items():
             for element in self._element.iter(old):
                 element.tag = new
-        self._children = None
+        self.tag, self._children = _written_tag(self._element), None
 
     def append(self, other: "XmlNode") -> None:
         """Add a copy of another file's element below this one; it still says where it stands."""
@@ -285,6 +282,14 @@ class XmlNode:
                 report.warn(child.at, f"<{child.tag}> in <{self.tag}> is not supported; it is ignored")
         for name in sorted(set(map(str, self._element.attrib)) - self._read_attributes):
             report.warn(self.at, f"attribute {name!r} of <{self.tag}> is not supported; it is ignored")
+
+
+def _written_tag(element: etree._Element) -> str:  # pyright: ignore[reportPrivateUsage]
+    tag = str(element.tag)
+    if not tag.startswith("{"):
+        return tag
+    local = tag.rpartition("}")[2]
+    return f"{element.prefix}:{local}" if element.prefix else local
 
 
 def parse_numbers(text: str) -> list[float] | None:
