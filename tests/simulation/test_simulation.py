@@ -203,10 +203,14 @@ def test_handles_agree_with_the_snapshot() -> None:
 def test_a_snapshot_stays_what_it_was() -> None:
     sim = cart()
     drive(sim)
-    snapshot = sim.snapshot()
-    before = snapshot.poses.copy()
+    sim.run(0.1)
+    snapshot, seen = sim.snapshot(), sim.snapshot()
+    at_once = [seen.poses, seen.twists, seen.joint_positions, seen.joint_velocities, seen.joint_efforts]
     sim.run(0.5)
-    assert (snapshot.poses == before).all()
+    assert not same(snapshot, sim.snapshot())
+    later = [snapshot.poses, snapshot.twists]
+    later += [snapshot.joint_positions, snapshot.joint_velocities, snapshot.joint_efforts]
+    assert [each.tolist() for each in later] == [each.tolist() for each in at_once]
 
 
 def test_unknown_names_are_answered_with_the_names_there_are() -> None:
@@ -244,9 +248,16 @@ def test_a_joint_without_freedom_cannot_be_driven_and_says_so(axis: JointAxis | 
 
 
 def test_a_ball_joint_takes_an_effort_and_no_other_order() -> None:
-    joint = rigid_arm(None, JointType.BALL)["m"].joint("j")
+    sim = rigid_arm(None, JointType.BALL)
+    joint = sim["m"].joint("j")
     joint.set_effort(0.1, axis=2)
     assert joint.efforts == pytest.approx((0.0, 0.0, 0.1))
+    joint.start(0.7, axis=1)
+    sim.run(0.5)
+    positions, velocities, efforts = sim.snapshot().axes_of(joint.index)
+    assert (joint.positions, joint.velocities, joint.efforts) == (tuple(positions), tuple(velocities), tuple(efforts))
+    assert abs(joint.positions[1]) > 0.1
+    assert joint.position == joint.positions[0]
     for order in (joint.set_velocity, joint.set_position, joint.hold):
         with pytest.raises(UsageError, match="a ball has no axis"):
             order(0.5)

@@ -72,6 +72,7 @@ class Engine:
         self.motors.keep_on = self._laws.acts
         self._looker = Looker(compiled)
         self._feeling = Feeling(compiled, self._data, self._looker)
+        self._warnings = [self._data.warning[kind] for kind in _BAD]
         self._good = np.empty(mujoco.mj_stateSize(self._model, STATE))
         self._taken = 0
         """Steps, from which follows when to decide who may sleep."""
@@ -124,11 +125,12 @@ class Engine:
                 self._rest.decide()
 
     def _is_unstable(self) -> bool:
-        warnings = self._data.warning
-        if any(warnings[kind].number > 0 for kind in _BAD):
-            return True
+        for warning in self._warnings:
+            if warning.number > 0:
+                return True
         speeds = self._data.qvel
-        return bool(speeds.size) and not max(float(speeds.max()), -float(speeds.min())) < FASTEST
+        # One sum says of most worlds that no speed is too large, in a tenth of the time.
+        return not speeds.dot(speeds) < FASTEST**2 and not bool((np.abs(speeds) < FASTEST).all())
 
     def _look_for_depth(self) -> None:
         self._leapt = False

@@ -95,13 +95,24 @@ class Instant:
     def __init__(self, looker: Looker, reader: StateReader) -> None:
         """Take what the reader has before it."""
         self._looker = looker
+        self._reader = reader
         self._qpos, self._qvel = reader.state()
-        self.axis_positions = reader.axis_positions()
+        self._efforts = reader.efforts()
+
+    @cached_property
+    def axis_positions(self) -> _Array:
         """(axes,) [rad or m]; a ball joint's three are its rotation vector."""
-        self.axis_velocities = reader.axis_velocities()
+        return self._reader.axis_positions(self._qpos)
+
+    @cached_property
+    def axis_velocities(self) -> _Array:
         """(axes,) [rad/s or m/s]"""
-        self.axis_efforts = reader.axis_efforts()
+        return self._reader.by_axis(self._qvel)
+
+    @cached_property
+    def axis_efforts(self) -> _Array:
         """(axes,) what drives them [N·m or N]"""
+        return self._reader.by_axis(self._efforts)
 
     @cached_property
     def bodies(self) -> tuple[_Array, _Array]:

@@ -18,6 +18,10 @@ class StateReader:
         self._data = data
         self._roots = self._model.body_rootid[compiled.link_bodies]
         self._balls = [(range(b, b + 3), int(compiled.axis_qpos[b])) for b in compiled.balls]
+        self._ball_starts = frozenset(compiled.balls)
+        self._qpos_addresses: list[int] = compiled.axis_qpos.tolist()
+        self._dofs: list[int] = compiled.axis_dof.tolist()
+        self._signs: list[float] = compiled.axis_sign.tolist()
         self._fresh = False
 
     def show(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
@@ -65,26 +69,47 @@ class StateReader:
         twists[:, 3:] = cvel[:, :3]
         return twists
 
-    def axis_positions(self) -> NDArray[np.float64]:
-        """(axes,) [rad or m]; a ball joint's three are its rotation vector."""
-        positions = self._data.qpos[self._compiled.axis_qpos]
+    def efforts(self) -> NDArray[np.float64]:
+        """(degrees of freedom,) what motors and applied efforts exert [N·m or N]."""
+        return self._data.qfrc_applied + self._data.qfrc_actuator
+
+    def axis_positions(self, qpos: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(axes,) [rad or m] in a state; a ball joint's three are its rotation vector."""
+        positions = qpos[self._compiled.axis_qpos]
         for span, first in self._balls:
-            rotation = np.empty(3)
-            mujoco.mju_quat2Vel(rotation, self._data.qpos[first : first + 4], 1.0)
-            positions[span.start : span.stop] = rotation
+            positions[span.start : span.stop] = _rotation_vector(qpos, first)
         return positions * self._compiled.axis_sign
 
-    def axis_velocities(self) -> NDArray[np.float64]:
-        """(axes,) [rad/s or m/s]"""
-        return self._data.qvel[self._compiled.axis_dof] * self._compiled.axis_sign
+    def by_axis(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(axes,) velocities or efforts of the axes, from those of all degrees of freedom."""
+        return values[self._compiled.axis_dof] * self._compiled.axis_sign
 
-    def axis_efforts(self) -> NDArray[np.float64]:
-        """(axes,) what motors and applied efforts exert [N·m or N]."""
-        dofs = self._compiled.axis_dof
-        return (self._data.qfrc_applied[dofs] + self._data.qfrc_actuator[dofs]) * self._compiled.axis_sign
+    def positions_of(self, axes: range) -> list[float]:
+        """[rad or m] Of a joint's axes: one number costs a twentieth of all."""
+        qpos, addresses, signs = self._data.qpos, self._qpos_addresses, self._signs
+        if axes.start in self._ball_starts:
+            return (_rotation_vector(qpos, addresses[axes.start]) * signs[axes.start]).tolist()
+        return [qpos.item(addresses[axis]) * signs[axis] for axis in axes]
+
+    def velocities_of(self, axes: range) -> list[float]:
+        """[rad/s or m/s] Of a joint's axes."""
+        qvel, dofs, signs = self._data.qvel, self._dofs, self._signs
+        return [qvel.item(dofs[axis]) * signs[axis] for axis in axes]
+
+    def efforts_of(self, axes: range) -> list[float]:
+        """[N·m or N] What motors and applied efforts exert on a joint's axes."""
+        applied, driven, dofs, signs = self._data.qfrc_applied, self._data.qfrc_actuator, self._dofs, self._signs
+        return [(applied.item(dofs[axis]) + driven.item(dofs[axis])) * signs[axis] for axis in axes]
 
     def center_of_mass(self, link: int) -> Vector3:
         """Where a link's centre of mass is in the world [m]."""
         self._refresh()
         x, y, z = self._data.xipos[self._compiled.link_bodies[link]].tolist()
         return (x, y, z)
+
+
+def _rotation_vector(qpos: NDArray[np.float64], first: int) -> NDArray[np.float64]:
+    """(3,) [rad] Of the ball joint whose quaternion begins there."""
+    rotation = np.empty(3)
+    mujoco.mju_quat2Vel(rotation, qpos[first : first + 4], 1.0)
+    return rotation

@@ -18,7 +18,7 @@ TOLERANCE = 1e-6
 """[m/s or rad/s] What moves slower is at rest. With MuJoCo's own 1e-3 what just begins to slide would freeze."""
 _STIR = 1e-200
 """[m/s or rad/s] A speed that wakes a tree and moves nothing."""
-STATE = mujoco.mjtState.mjSTATE_INTEGRATION
+STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 _SLEEP = int(mujoco.mjtEnableBit.mjENBL_SLEEP)
 _NO_ISLANDS = int(mujoco.mjtDisableBit.mjDSBL_ISLAND)
 

@@ -39,28 +39,32 @@ class Alarm:
     """
 
     def __init__(self, period_ns: Period, timeline: Timeline, *, start_ns: Period) -> None:
-        self._period_ns = period_ns
-        self._timeline = timeline
-        self.restart(start_ns)
+        # Whole numbers of nanoseconds, as most periods are, are kept as such: fractions cost ten times as much.
+        self._period_ns = int(period_ns) if period_ns.denominator == 1 else period_ns
+        self.restart(start_ns, timeline)
 
-    def restart(self, start_ns: Period) -> None:
-        """Come due first at this time [ns]."""
+    def restart(self, start_ns: Period, timeline: Timeline | None = None) -> None:
+        """Come due first at this time [ns], at the steps of a timeline, or of the same as before."""
+        if timeline is not None:
+            self._timeline = timeline
+            self._at_every_step = self._period_ns <= timeline.step_ns
         self._next_ns = start_ns
         self.step = self._timeline.step_at(start_ns)
         """The number of the step it is due at."""
 
     def follow(self, timeline: Timeline) -> None:
         """Come due when it would have, at the steps of another timeline."""
-        self._timeline = timeline
-        self.restart(self._next_ns)
+        self.restart(self._timeline.time_ns(self.step) if self._at_every_step else self._next_ns, timeline)
 
     def rings(self, step: int) -> bool:
         """Whether it is due; if so, it is set to its next time."""
         if step < self.step:
             return False
-        period_ns = max(self._period_ns, self._timeline.step_ns)
+        if self._at_every_step:
+            self.step = step + 1
+            return True
         late_ns = self._timeline.time_ns(step) - self._next_ns
-        self.restart(self._next_ns + (late_ns // period_ns + 1) * period_ns)
+        self.restart(self._next_ns + (late_ns // self._period_ns + 1) * self._period_ns)
         return True
 
 
@@ -86,6 +90,8 @@ class ScheduledHook:
         self._asked_ns = period_ns
         self.before_alarm = Alarm(period_ns, self._timeline, start_ns=now_ns)
         self.after_alarm = Alarm(period_ns, self._timeline, start_ns=now_ns + self._period_ns)
+        alarms = ((self.before, self.before_alarm), (self.after, self.after_alarm))
+        self._alarms = [alarm for method, alarm in alarms if method is not None]
 
     def follow(self, timeline: Timeline) -> None:
         """Keep the rhythm at other steps."""
@@ -115,5 +121,4 @@ class ScheduledHook:
     @property
     def next_step(self) -> int:
         """The step before which the engine has to stop for it."""
-        alarms = [(self.before, self.before_alarm), (self.after, self.after_alarm)]
-        return min(alarm.step for method, alarm in alarms if method is not None)
+        return min([alarm.step for alarm in self._alarms])

@@ -3,9 +3,6 @@
 import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
 from trundle.diagnostics import UsageError
 from trundle.model import Joint
 from trundle.spatial import Pose, Wrench, cross
@@ -40,17 +37,20 @@ class JointHandle(Handle):
     @property
     def position(self) -> float:
         """[rad or m] of the first axis; 0 without freedom."""
-        return next(iter(self.positions), 0.0)
+        axes = self.axes
+        return self._simulation.engine.reader.positions_of(axes)[0] if axes else 0.0
 
     @property
     def velocity(self) -> float:
         """[rad/s or m/s] of the first axis"""
-        return next(iter(self.velocities), 0.0)
+        axes = self.axes
+        return self._simulation.engine.reader.velocities_of(axes)[0] if axes else 0.0
 
     @property
     def effort(self) -> float:
         """What drives the first axis [N·m or N]."""
-        return next(iter(self.efforts), 0.0)
+        axes = self.axes
+        return self._simulation.engine.reader.efforts_of(axes)[0] if axes else 0.0
 
     @property
     def is_driven(self) -> bool:
@@ -60,17 +60,17 @@ class JointHandle(Handle):
     @property
     def positions(self) -> tuple[float, ...]:
         """[rad or m] of each axis."""
-        return self._of_axes(self._simulation.engine.reader.axis_positions())
+        return tuple(self._simulation.engine.reader.positions_of(self.axes))
 
     @property
     def velocities(self) -> tuple[float, ...]:
         """[rad/s or m/s] of each axis."""
-        return self._of_axes(self._simulation.engine.reader.axis_velocities())
+        return tuple(self._simulation.engine.reader.velocities_of(self.axes))
 
     @property
     def efforts(self) -> tuple[float, ...]:
         """What drives each axis [N·m or N]."""
-        return self._of_axes(self._simulation.engine.reader.axis_efforts())
+        return tuple(self._simulation.engine.reader.efforts_of(self.axes))
 
     @property
     def reaction(self) -> Wrench:
@@ -119,10 +119,6 @@ class JointHandle(Handle):
     def start(self, velocity: float, *, axis: int = 0) -> None:
         """Give it this speed at once [rad/s or m/s]; nothing keeps it."""
         self._simulation.engine.set_axis_velocity(self._axis(axis), velocity)
-
-    def _of_axes(self, values: NDArray[np.float64]) -> tuple[float, ...]:
-        axes = self.axes
-        return tuple(values[axes.start : axes.stop].tolist())
 
     def _axis(self, axis: int) -> int:
         axes = self.axes

@@ -151,7 +151,7 @@ class Simulation:
         self._drain()
         hooks = self._schedule.awake(self.steps)
         act(hooks, self)
-        stop = min([target, self.steps + _LONGEST, *(hook.next_step for hook in hooks), *self.pushes.next_ends()])
+        stop = min([target, self.steps + _LONGEST, *[hook.next_step for hook in hooks], *self.pushes.next_ends()])
         self.engine.step(stop - self.steps)
         self.steps = stop
         self.pushes.end(self.steps)

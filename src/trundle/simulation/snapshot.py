@@ -31,7 +31,6 @@ class Snapshot:
         self.instant = instant
         self._axes = first_axes
         self._joint_axes = joint_axes
-        self._moves = first_axes >= 0
 
     @property
     def poses(self) -> _Array:
@@ -69,6 +68,6 @@ class Snapshot:
         )
 
     def _of_joints(self, values: _Array) -> _Array:
-        found = np.zeros(len(self._axes))
-        found[self._moves] = values[self._axes[self._moves]]
+        found, moves = np.zeros(len(self._axes)), self._axes >= 0
+        found[moves] = values[self._axes[moves]]
         return found
