@@ -41,7 +41,7 @@ def snapshot(time_ns: int) -> Snapshot:
     none = np.zeros(0)
     poses = np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]])
     one_link: Any = SimpleNamespace(
-        bodies=(poses, np.zeros((1, 6))), axis_positions=none, axis_velocities=none, axis_efforts=none
+        poses=poses, twists=np.zeros((1, 6)), axis_positions=none, axis_velocities=none, axis_efforts=none
     )
     return Snapshot(time_ns=time_ns, instant=one_link, first_axes=np.zeros(0, dtype=np.intp))
 

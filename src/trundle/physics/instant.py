@@ -36,12 +36,19 @@ class Looker:
         data = mujoco.MjData(model)
         return model, data, StateReader(replace(self._compiled, model=model), data)
 
-    def bodies(self, qpos: _Array, qvel: _Array) -> tuple[_Array, _Array]:
-        """`StateReader.link_poses` and `link_twists` of a state."""
+    def poses(self, qpos: _Array, qvel: _Array) -> _Array:
+        """`StateReader.link_poses` of a state."""
         with self._lock:
             _, _, reader = self._second
             reader.show(qpos, qvel)
-            return reader.link_poses(), reader.link_twists()
+            return reader.link_poses()
+
+    def twists(self, qpos: _Array, qvel: _Array) -> _Array:
+        """`StateReader.link_twists` of a state."""
+        with self._lock:
+            _, _, reader = self._second
+            reader.show(qpos, qvel)
+            return reader.link_twists()
 
     def contacts(self, state: _Array, apart: NDArray[np.bool_]) -> list[Contact]:
         """The contacts of a state, as mjSTATE_INTEGRATION has it, without those of geoms that are to be kept apart."""
@@ -115,6 +122,11 @@ class Instant:
         return self._reader.by_axis(self._efforts)
 
     @cached_property
-    def bodies(self) -> tuple[_Array, _Array]:
-        """(links, 7) poses and (links, 6) twists of the link frames."""
-        return self._looker.bodies(self._qpos, self._qvel)
+    def poses(self) -> _Array:
+        """(links, 7) of the link frames; see `StateReader.link_poses`."""
+        return self._looker.poses(self._qpos, self._qvel)
+
+    @cached_property
+    def twists(self) -> _Array:
+        """(links, 6) of the link frames; see `StateReader.link_twists`."""
+        return self._looker.twists(self._qpos, self._qvel)

@@ -22,12 +22,14 @@ class StateReader:
         self._qpos_addresses: list[int] = compiled.axis_qpos.tolist()
         self._dofs: list[int] = compiled.axis_dof.tolist()
         self._signs: list[float] = compiled.axis_sign.tolist()
-        self._fresh = False
+        self._poses: NDArray[np.float64] | None = None
+        self._twists: NDArray[np.float64] | None = None
+        """Of the state before the reader, once somebody has asked."""
 
     def show(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
         """Put another state before the reader; time and forces stay."""
         self._data.qpos[:], self._data.qvel[:] = qpos, qvel
-        self._fresh = False
+        self.changed()
 
     def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """What `show` takes."""
@@ -35,28 +37,31 @@ class StateReader:
 
     def changed(self) -> None:
         """The state is another now."""
-        self._fresh = False
-
-    def _refresh(self) -> None:
-        """Bring poses and velocities up to the state; what a step computes belongs to where it started.
-
-        Nothing that decides the next step is touched, so looking never changes the outcome.
-        """
-        if not self._fresh:
-            mujoco.mj_kinematics(self._model, self._data)
-            mujoco.mj_comPos(self._model, self._data)
-            mujoco.mj_comVel(self._model, self._data)
-            self._fresh = True
+        self._poses = self._twists = None
 
     def link_poses(self) -> NDArray[np.float64]:
-        """(links, 7) x y z qw qx qy qz of the link frames in the world [m]."""
-        self._refresh()
-        bodies = self._compiled.link_bodies
-        return np.concatenate([self._data.xpos[bodies], self._data.xquat[bodies]], axis=1)
+        """(links, 7) x y z qw qx qy qz of the link frames in the world [m]; the same array while nothing changes.
+
+        What a step computes belongs to where it started, so they are brought up to the state. Nothing that decides
+        the next step is touched: looking never changes the outcome.
+        """
+        if self._poses is None:
+            mujoco.mj_kinematics(self._model, self._data)
+            bodies = self._compiled.link_bodies
+            self._poses = np.concatenate([self._data.xpos[bodies], self._data.xquat[bodies]], axis=1)
+        return self._poses
 
     def link_twists(self) -> NDArray[np.float64]:
-        """(links, 6) velocity of the link frame's origin [m/s] and angular velocity [rad/s], world axes."""
-        self._refresh()
+        """(links, 6) velocity of the link frame's origin [m/s] and angular velocity [rad/s], world axes; the same array
+        while nothing changes."""
+        if self._twists is None:
+            self.link_poses()
+            mujoco.mj_comPos(self._model, self._data)
+            mujoco.mj_comVel(self._model, self._data)
+            self._twists = self._read_twists()
+        return self._twists
+
+    def _read_twists(self) -> NDArray[np.float64]:
         bodies = self._compiled.link_bodies
         cvel = self._data.cvel[bodies]
         wx, wy, wz = cvel[:, 0], cvel[:, 1], cvel[:, 2]
@@ -103,7 +108,7 @@ class StateReader:
 
     def center_of_mass(self, link: int) -> Vector3:
         """Where a link's centre of mass is in the world [m]."""
-        self._refresh()
+        self.link_poses()
         x, y, z = self._data.xipos[self._compiled.link_bodies[link]].tolist()
         return (x, y, z)
 

@@ -71,7 +71,7 @@ class Rest:
         mujoco.mj_step(model, data, nstep=count)
 
     def _all_sleep(self) -> bool:
-        return self.is_on and bool((self._data.tree_asleep >= 0).all())
+        return self.is_on and int(self._data.tree_asleep.min()) >= 0
 
     def decide(self) -> None:
         """Let trees sleep if at least half of what can move hangs from what is wholly at rest."""

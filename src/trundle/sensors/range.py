@@ -52,11 +52,12 @@ class RangeSensor(MountedSensor[RangeReading]):
         pose = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
         met = self._rays(pose.position, turned(pose, self._directions), scan.max_m, self.link_index)
         found, retros = met.distances, met.retros
-        found[found >= scan.max_m] = np.inf
-        found[found <= scan.min_m] = -np.inf
-        seen = np.isfinite(found)
-        found[seen] = np.clip(self._noise.disturb(found[seen], snapshot.time_ns), scan.min_m, scan.max_m)
-        retros = np.where(np.isfinite(found), retros, 0.0)
+        far, near = found >= scan.max_m, found <= scan.min_m
+        found[far], found[near] = np.inf, -np.inf
+        retros[far | near] = 0.0
+        if not self._noise.is_silent:
+            seen = np.isfinite(found)
+            found[seen] = np.clip(self._noise.disturb(found[seen], snapshot.time_ns), scan.min_m, scan.max_m)
         shape = (scan.vertical.values, scan.horizontal.values)
         return RangeReading(
             time_ns=snapshot.time_ns, scan=scan, ranges=found.reshape(shape), intensities=retros.reshape(shape)

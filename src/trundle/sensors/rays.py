@@ -56,8 +56,9 @@ class RayCaster:
 
     def update(self, poses: _Array, moment_of: Callable[[str], Moment]) -> None:
         """Move the links, (links, 7) x y z qw qx qy qz in the world, and the skins of actors."""
-        self._poses = poses
-        self._renderer.update(poses)
+        if poses is not self._poses:  # those that were asked for again at one instant are the same array
+            self._poses = poses
+            self._renderer.update(poses)
         move_skins(self._renderer, self._scene, moment_of)
 
     def cast(self, origin: Vector3, directions: _Array, reach: float, exclude: int | None) -> Found:

@@ -39,8 +39,7 @@ class Alarm:
     """
 
     def __init__(self, period_ns: Period, timeline: Timeline, *, start_ns: Period) -> None:
-        # Whole numbers of nanoseconds, as most periods are, are kept as such: fractions cost ten times as much.
-        self._period_ns = int(period_ns) if period_ns.denominator == 1 else period_ns
+        self._period_ns = period_ns
         self.restart(start_ns, timeline)
 
     def restart(self, start_ns: Period, timeline: Timeline | None = None) -> None:
@@ -87,7 +86,8 @@ class ScheduledHook:
 
     def retime(self, period_ns: Period, *, now_ns: int) -> None:
         """Count a period from now."""
-        self._asked_ns = period_ns
+        # Whole numbers of nanoseconds, as most periods are, are kept as such: fractions cost ten times as much.
+        self._asked_ns = period_ns = int(period_ns) if period_ns.denominator == 1 else period_ns
         self.before_alarm = Alarm(period_ns, self._timeline, start_ns=now_ns)
         self.after_alarm = Alarm(period_ns, self._timeline, start_ns=now_ns + self._period_ns)
         alarms = ((self.before, self.before_alarm), (self.after, self.after_alarm))

@@ -35,12 +35,12 @@ class Snapshot:
     @property
     def poses(self) -> _Array:
         """(links, 7) link frames in the world: x y z [m], qw qx qy qz."""
-        return self.instant.bodies[0]
+        return self.instant.poses
 
     @property
     def twists(self) -> _Array:
         """(links, 6) velocity of the link frame's origin [m/s], angular velocity [rad/s]; world axes."""
-        return self.instant.bodies[1]
+        return self.instant.twists
 
     @property
     def joint_positions(self) -> _Array:
