@@ -12,6 +12,7 @@ BENCHES = (
     "commands",
     "step",
     "robots",
+    "hooks",
     "contacts",
     "images",
     "renderer",

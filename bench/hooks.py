@@ -1,0 +1,141 @@
+"""Python beside the engine: an arm under ros_control at every step, a lidar at 100 Hz on a robot at rest.
+
+The peer is a plain loop of `mj_step` on the same compiled model. Times are of this process' CPU, all its threads.
+"""
+
+import copy
+import statistics
+import tempfile
+import time
+from collections.abc import Callable
+from concurrent.futures import Future
+from pathlib import Path
+from typing import Any
+
+import mujoco
+
+import trundle
+from bench.table import Row
+from trundle.bringup.plugins import load_plugins
+from trundle.ros import Core, GraphLoop, Node
+from trundle.sensors import mount_sensors
+from trundle.simulation import Simulation
+
+_PAIRS = 5
+_PATIENCE_S = 30.0
+_JOINTS = [f"j{i}" for i in range(7)]
+_GAINS = {"p": 300.0, "i": 10.0, "d": 10.0, "i_clamp": 50.0}
+_CONTROLLERS: dict[str, Any] = {
+    "joint_state_controller": {"type": "joint_state_controller/JointStateController", "publish_rate": 50},
+    "arm": {
+        "type": "effort_controllers/JointTrajectoryController",
+        "joints": _JOINTS,
+        "gains": dict.fromkeys(_JOINTS, _GAINS),
+    },
+}
+_LINK = """<link name="{name}"><inertial><origin xyz="0 0 0.15"/><mass value="2"/>
+<inertia ixx="0.02" iyy="0.02" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>"""
+_JOINT = """<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{next}"/><origin xyz="0 0 0.3"/>
+<axis xyz="{axis}"/><limit lower="-2.9" upper="2.9" effort="200" velocity="3"/><dynamics damping="0.5"/></joint>
+<transmission name="t{i}"><type>transmission_interface/SimpleTransmission</type><joint name="j{i}">
+<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface></joint></transmission>"""
+_LIDAR = """<sensor name="scan" type="ray"><pose>0 0 0.5 0 0 0</pose><always_on>1</always_on>
+<update_rate>100</update_rate><ray><scan><horizontal><samples>360</samples><min_angle>-3.1</min_angle>
+<max_angle>3.1</max_angle></horizontal></scan><range><min>0.1</min><max>10</max></range>
+<noise><type>gaussian</type><stddev>0.01</stddev></noise></ray></sensor>"""
+_BOX = """<collision name="c"><geometry><box><size>{}</size></box></geometry></collision>"""
+
+
+def run() -> list[Row]:
+    """Alternate simulation and loop, so that both see the machine at its fast and slow moments."""
+    rows = _rows("robot at rest with a 360-ray lidar at 100 Hz", _robot_with_lidar(), 10.0)
+    with tempfile.TemporaryDirectory() as folder, GraphLoop() as loop:
+        rows += _rows("arm of 7 joints under ros_control", _controlled_arm(Path(folder), loop), 4.0)
+    return rows
+
+
+def _rows(name: str, sim: Simulation, duration_s: float) -> list[Row]:
+    model, data = copy.copy(sim.engine.compiled.model), sim.engine.save().data
+    steps = round(duration_s * 1e9 / sim.step_ns)
+    pairs = [
+        (
+            _rate(lambda: sim.step(steps), duration_s),
+            _rate(lambda: mujoco.mj_step(model, data, nstep=steps), duration_s),
+        )
+        for _ in range(_PAIRS)
+    ]
+    ratio = statistics.median(ours / theirs for ours, theirs in pairs)
+    return [Row(name, statistics.median(ours for ours, _ in pairs), "× real", "mj_step on the same", ratio)]
+
+
+def _rate(work: Callable[[], None], duration_s: float) -> float:
+    """[simulated s per CPU s]"""
+    start = time.process_time()
+    work()
+    return duration_s / (time.process_time() - start)
+
+
+def _robot_with_lidar() -> Simulation:
+    inertia = "<inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>"
+    robot = f'<link name="l"><inertial><mass>5</mass>{inertia}</inertial>{_BOX.format("0.4 0.3 0.2")}{_LIDAR}</link>'
+    wall = f'<static>1</static><pose>3 0 0.5 0 0 0</pose><link name="l">{_BOX.format("0.2 6 1")}</link>'
+    models = f'<model name="wall">{wall}</model><model name="robot"><pose>0 0 0.1 0 0 0</pose>{robot}</model>'
+    ground = "<include><uri>model://ground_plane</uri></include>"
+    sim = _load("robot.world", f'<sdf version="1.6"><world name="w">{ground}{models}</world></sdf>')
+    for sensor in mount_sensors(sim):
+        sim.add_hook(sensor, period_ns=sensor.period_ns, wanted=sensor.wanted)
+    sim.run(2.0)
+    return sim
+
+
+def _controlled_arm(folder: Path, loop: GraphLoop) -> Simulation:
+    """An arm on its way along a trajectory, as a launch file would have it."""
+    links = "".join(_LINK.format(name=f"l{i}") for i in range(len(_JOINTS) + 1))
+    joints = "".join(_JOINT.format(i=i, next=i + 1, axis="0 1 0" if i % 2 else "0 0 1") for i in range(len(_JOINTS)))
+    plugin = '<gazebo><plugin name="c" filename="libgazebo_ros_control.so"><robotNamespace>/</robotNamespace></plugin>'
+    weld = '<link name="world"/><joint name="w" type="fixed"><parent link="world"/><child link="l0"/></joint>'
+    urdf = f'<robot name="r">{weld}{links}{joints}{plugin}</gazebo></robot>'
+    core = Core(loop, port=0)
+    loop.run(core.start(), _PATIENCE_S)
+    loop.run(core.ready(), _PATIENCE_S)
+    sim = _load("arm.urdf", urdf, folder)
+    node = Node(
+        "/gazebo", loop=loop, master_uri=core.uri, deliver=lambda call: sim.post(lambda _: call()), rosout=False
+    )
+    for name, value in {"robot_description": urdf, **_CONTROLLERS}.items():
+        loop.run(node.set_param(f"/{name}", value), _PATIENCE_S)
+    load_plugins(sim, lambda _: node, {}, say=lambda _: None)
+    client = Node("/client", loop=loop, master_uri=core.uri, rosout=False)
+
+    def ask(service: str, **fields: Any) -> None:
+        name = f"/controller_manager/{service}_controller"
+        kind = f"controller_manager_msgs/{service.title()}Controller"
+        _stepped(sim, loop.spawn(client.wait_for_service(name, _PATIENCE_S)))
+        assert _stepped(sim, loop.spawn(client.call_service(name, kind, fields))).ok, f"{name} failed"
+
+    for name in _CONTROLLERS:
+        ask("load", name=name)
+    ask("switch", start_controllers=list(_CONTROLLERS), stop_controllers=[], strictness=2)
+    commands = client.advertise("/arm/command", "trajectory_msgs/JointTrajectory")
+    while not commands.has_subscribers:
+        time.sleep(0.01)
+    goal = {"positions": [0.3] * 7, "velocities": [0.0] * 7, "time_from_start": {"secs": 60, "nsecs": 0}}
+    commands.publish({"joint_names": _JOINTS, "points": [goal]})
+    time.sleep(0.2)
+    sim.step(1000)
+    return sim
+
+
+def _stepped(sim: Simulation, future: Future[Any]) -> Any:
+    """Step until something on the graph has come about."""
+    while not future.done():
+        sim.step(1)
+        time.sleep(0.001)
+    return future.result()
+
+
+def _load(name: str, text: str, folder: Path | None = None) -> Simulation:
+    with tempfile.TemporaryDirectory() as own:
+        file = (folder or Path(own)) / name
+        file.write_text(text)
+        return trundle.load(str(file))
