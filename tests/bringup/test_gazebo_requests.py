@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+import pytest
 from tests.bringup.conftest import Gazebo, until
 
 _LINK = "<link name='{}'><inertial><mass>1</mass></inertial></link>"
@@ -64,3 +65,20 @@ def test_a_namespace_is_given_to_plugins_that_have_none(gazebo: Gazebo) -> None:
         gazebo.call("unpause_physics")
         until(lambda heard=heard: heard)
         assert list(heard[0].name) == ["turn"]
+
+
+def test_the_twist_of_a_model_state_is_that_of_each_links_own_origin(gazebo: Gazebo) -> None:
+    body = "<inertial><pose>0 0.3 0 0 0 0</pose><mass>1</mass></inertial>"
+    links = "".join(
+        f'<link name="{name}"><pose>{x} 0 0 0 0 0</pose>{body}</link>' for name, x in (("near", 0), ("far", 2))
+    )
+    gazebo.spawn(f'<sdf version="1.6"><model name="pair">{links}</model></sdf>', "pair")
+    gazebo.call("pause_physics")
+
+    twist = {"linear": {"x": 0.4, "y": 0.1, "z": 0.0}, "angular": {"x": 0.0, "y": 0.0, "z": 3.0}}
+    state = {"model_name": "pair", "pose": {"position": {"z": 5.0}, "orientation": {"w": 1.0}}, "twist": twist}
+    assert gazebo.call("set_model_state", "gazebo_msgs/SetModelState", model_state=state).success
+
+    for name in ("near", "far"):
+        moves = gazebo.call("get_link_state", "gazebo_msgs/GetLinkState", link_name=name).link_state.twist
+        assert (moves.linear.x, moves.linear.y, moves.angular.z) == pytest.approx((0.4, 0.1, 3.0), abs=1e-6)

@@ -59,6 +59,19 @@ def test_a_model_starts_with_the_velocity_it_is_given(tmp_path: Path) -> None:
     assert sim["m"].pose.rpy[2] == pytest.approx(2.0, abs=2e-3)
 
 
+def test_a_start_with_a_spin_moves_every_link_at_its_own_origin_as_written(tmp_path: Path) -> None:
+    motion = "<linear>1 0 0</linear><angular>0 0 2</angular>"
+    plugin = f'<plugin name="p" filename="libInitialVelocityPlugin.so">{motion}</plugin>'
+    links = f'<link name="a">{BODY.format(1)}</link><link name="b"><pose>0 3 0 0 0 0.5</pose>{BODY.format(2)}</link>'
+
+    sim = load(tmp_path, f"{links}{plugin}", gravity="0 0 0")
+    sim.run(0.5)
+
+    assert sim["m"].link("a").pose.position == pytest.approx((0.5, 0, 0), abs=1e-3)
+    assert sim["m"].link("b").pose.position == pytest.approx((0.5, 3, 0), abs=1e-3)
+    assert sim["m"].link("b").pose.rpy[2] == pytest.approx(1.5, abs=2e-3)
+
+
 @pytest.mark.parametrize(
     ("speed", "alpha0", "lift", "drag"),
     [

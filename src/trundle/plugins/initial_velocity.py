@@ -11,7 +11,7 @@ from .plugin import Plugin
 
 
 class InitialVelocity(Plugin):
-    """Gives the model <linear> [m/s] and <angular> [rad/s], world axes, before the first step."""
+    """Gives each free link's origin <linear> [m/s], and it <angular> [rad/s], world axes, before the first step."""
 
     period_ns = 1 << 62  # once, at the start
 
@@ -35,7 +35,7 @@ class InitialVelocity(Plugin):
         del sim
         if self._is_due:
             self._is_due = False
-            self._model.set_twist(self._twist)
+            self._model.set_link_twists(self._twist)
 
     def reset(self) -> None:
         """Start again."""

@@ -174,6 +174,15 @@ class ModelHandle:
                 there = (vx + wy * z - wz * y, vy + wz * x - wx * z, vz + wx * y - wy * x)
                 link.set_twist(Twist(there, twist.angular))
 
+    def set_link_twists(self, twist: Twist) -> None:
+        """Give each link that moves freely this velocity of its own origin, and this spin, world axes.
+
+        So do Gazebo's SetLinearVel and SetAngularVel of a model: what is beside its origin is not swung about that.
+        """
+        for link in self.links:
+            if self._simulation.engine.is_free(link.index):
+                link.set_twist(twist)
+
     def describe(self, model: Model) -> None:
         """Stand for an edited model of the same links and joints; for the simulation alone."""
         self.model = model

@@ -72,7 +72,7 @@ class _States:
         pose, twist = frame @ pose_of(state.pose), _turned(frame, twist_of(state.twist))
         model.set_pose(pose)
         if not model.model.static:
-            model.set_twist(twist)
+            model.set_link_twists(twist)
         return {}
 
     def set_link(self, state: Message) -> dict[str, Any]:
