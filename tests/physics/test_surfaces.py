@@ -171,11 +171,21 @@ def test_contacts_say_who_pushes_whom_where_and_how_hard(load: Load) -> None:
     assert contact.force.force[2] == pytest.approx(up * 3.0 * G, rel=1e-3)
 
 
-@pytest.mark.parametrize(("category", "meets"), [("", False), ("<category_bitmask>0x02</category_bitmask>", True)])
-def test_categories_decide_who_meets(load: Load, category: str, meets: bool) -> None:
-    mine = f"<contact><collide_bitmask>0x01</collide_bitmask>{category}</contact>"
-    theirs = "<contact><collide_bitmask>0x02</collide_bitmask></contact>"
-    sim = load(floor(theirs), body("b", BALL, mine, pose="0 0 0.1 0 0 0"))
+@pytest.mark.parametrize("crowd", [False, True])
+@pytest.mark.parametrize(("theirs", "meets"), [("0x02", False), ("0x06", False), ("0x03", True)])
+def test_shapes_meet_by_their_collide_bits_whatever_their_categories(
+    load: Load, theirs: str, meets: bool, crowd: bool
+) -> None:
+    def bits(collide: str, category: str) -> str:
+        written = f"<collide_bitmask>{collide}</collide_bitmask><category_bitmask>{category}</category_bitmask>"
+        return f"<contact>{written}</contact>"
+
+    ground = body("ground", "<box><size>2 2 0.2</size></box>", bits(theirs, "0x01"), pose="0 0 -0.1 0 0 0", static=True)
+    models = [ground, body("b", BALL, bits("0x01", "0x02"), pose="0 0 0.1 0 0 0")]
+    if crowd:  # so many pairs that shapes meet by MuJoCo's search
+        models += [body(f"wall{i}", BLOCK, pose=f"{9 + i} 9 9 0 0 0", static=True) for i in range(45)]
+        models += [body(f"far{i}", BALL, pose=f"{9 + i} -9 9 0 0 0") for i in range(45)]
+    sim = load(*models)
     sim.run(0.3)
     assert (sim["b"].pose.position[2] > 0.09) is meets
 

@@ -35,5 +35,5 @@ class Surface:
     """[m/s]"""
     collide_bitmask: int = 0xFFFF
     category_bitmask: int | None = None
-    """Two collisions meet where the category of one has a bit of the other's collide_bitmask; None: as that."""
+    """As written; Gazebo 11 lets two collisions meet by their collide_bitmasks alone."""
     collide_without_contact: bool = False

@@ -17,7 +17,7 @@ from trundle.model import Model
 
 from .settings import SOFT, SOLIMP, contact_solref, is_soft, sliding_solref, soft_spring
 from .shapes import Meets, ShapeEntry
-from .surfaces import Touch, category_of, friction_of, is_plain, may_meet, touch_of
+from .surfaces import Touch, friction_of, is_plain, may_meet, touch_of
 from .tree import Tree
 
 MOST_PAIRS = 2000
@@ -157,7 +157,7 @@ def _let_find(
     """Let moving shapes find what stands; they do not find each other so."""
     for shape in fixed:
         _carry(shape, h, ranks)
-        shape.geom.contype = category_of(shape.surface) & _BITS
+        shape.geom.contype = shape.surface.collide_bitmask & _BITS
     for shape in moving:
         _carry(shape, h, ranks)
         shape.geom.conaffinity = shape.surface.collide_bitmask & _BITS
@@ -167,7 +167,7 @@ def _let_search(moving: Sequence[ShapeEntry], *, h: float, ranks: Mapping[float,
     """Let moving shapes find each other."""
     for shape in moving:
         _carry(shape, h, ranks)
-        shape.geom.contype = category_of(shape.surface) & _BITS
+        shape.geom.contype = shape.surface.collide_bitmask & _BITS
         shape.geom.conaffinity = shape.surface.collide_bitmask & _BITS
 
 

@@ -53,13 +53,8 @@ def touch_of(a: Surface, b: Surface) -> Touch:
 
 
 def may_meet(a: Surface, b: Surface) -> bool:
-    """By their bitmasks."""
-    return bool(category_of(a) & b.collide_bitmask | category_of(b) & a.collide_bitmask)
-
-
-def category_of(surface: Surface) -> int:
-    """As whom a surface is met."""
-    return surface.collide_bitmask if surface.category_bitmask is None else surface.category_bitmask
+    """Whether their collide_bitmasks share a bit; as in Gazebo 11, the category_bitmasks do not count."""
+    return bool(a.collide_bitmask & b.collide_bitmask)
 
 
 def is_plain(surface: Surface) -> bool:
