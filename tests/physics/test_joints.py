@@ -324,13 +324,30 @@ def test_an_effort_is_cut_to_its_limit_and_ends_at_the_limit_of_speed(load: Load
     assert j.velocity == pytest.approx(4.0, rel=1e-6)
 
 
-def test_a_soft_stop_gives_by_its_stiffness(load: Load) -> None:
+def test_a_stop_is_hard_whatever_its_stiffness_as_in_ode(load: Load) -> None:
     limit = "<limit><lower>-0.2</lower><upper>0.2</upper><stiffness>60</stiffness><dissipation>8</dissipation></limit>"
     sim = load(link("a"), joint("j", "revolute", "world", "a", axis("0 0 1", limit)), gravity=0.0)
     j = sim["m"].joint("j")
     j.set_effort(3.0)
     sim.run(3.0)
-    assert j.position == pytest.approx(0.2 + 3.0 / 60.0, rel=5e-3)
+    assert j.position == pytest.approx(0.2, abs=1e-4)
+    said = "joint 'j': a limit's <stiffness> and <dissipation> mean nothing to Gazebo's ODE; the stop is hard"
+    assert sum(said in finding.what for finding in sim.report.findings) == 1
+
+
+@pytest.mark.parametrize("kind", ["prismatic", "revolute"])
+@pytest.mark.parametrize("speed", [0.3, 1.7, 4.3])
+def test_what_runs_into_its_stop_is_over_it_for_no_more_than_a_step(load: Load, kind: str, speed: float) -> None:
+    limit = "<limit><lower>-1</lower><upper>0.05</upper></limit>"
+    sim = load(link("a"), joint("j", kind, "world", "a", axis("1 0 0", limit)), gravity=0.0)
+    j = sim["m"].joint("j")
+    j.start(speed)
+    furthest, fastest_back = 0.0, 0.0
+    for _ in range(500):
+        sim.step()
+        furthest, fastest_back = max(furthest, j.position), min(fastest_back, j.velocity)
+    assert 0.05 < furthest < 0.05 + 1.05e-3 * speed
+    assert fastest_back > -0.005 * speed
 
 
 def test_a_joint_says_what_it_carries(load: Load) -> None:

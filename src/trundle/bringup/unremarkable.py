@@ -112,11 +112,18 @@ def _is_plain_joint(joint: Joint) -> bool:
     axis = joint.axis
     if joint.type not in _TYPES or axis is None or joint.axis2 is not None:
         return False
-    return axis.lower < axis.upper and axis.effort > 0.0 and axis.mimic is None and _adds_no_energy(axis)
+    has_hard_stops = axis.stop_stiffness >= 1e8  # physics names a softer one
+    return (
+        axis.lower < axis.upper
+        and axis.effort > 0.0
+        and axis.mimic is None
+        and has_hard_stops
+        and _adds_no_energy(axis)
+    )
 
 
 def _adds_no_energy(axis: JointAxis) -> bool:
-    resisting = (axis.damping, axis.friction, axis.spring_stiffness, axis.stop_stiffness, axis.stop_dissipation)
+    resisting = (axis.damping, axis.friction, axis.spring_stiffness)
     return all(0.0 <= number < math.inf for number in resisting) and math.isfinite(axis.spring_reference)
 
 

@@ -22,7 +22,7 @@ from .decomposition import Decomposition, MeshRequest
 from .engine_words import muted
 from .index import CompiledWorld, index_world
 from .inertia import principal_inertia
-from .joints import JointMaker, soften_stops
+from .joints import JointMaker
 from .law_tables import fill_tables, reserve_tables
 from .settings import apply_settings
 from .shapes import Meets, ShapeEntry, add_shape, collision_mesh, mesh_arrays
@@ -83,7 +83,6 @@ class Compiler:
         compiled = self.compile_spec()
         soften(compiled, touches)
         look_ahead(compiled, self.shapes)
-        soften_stops(compiled, (axis for axes in self.joints.axes.values() for axis in axes))
         world = index_world(self.world, self.tree, self.joints.axes, collisions, compiled)
         fill_tables(compiled, touches, self.shapes, world.link_bodies.tolist(), self.world)
         return replace(world, start=start_positions(compiled, self.tree, self.joints.axes, self.report))

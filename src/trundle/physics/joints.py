@@ -5,7 +5,7 @@ loop has its limits, its motor and its position as any other.
 """
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import mujoco
@@ -14,11 +14,13 @@ from trundle.diagnostics import Diagnostics
 from trundle.model import Joint, JointAxis, JointType, Mimic
 from trundle.spatial import Pose, Vector3, upright
 
-from .settings import SOFT, SOLIMP, contact_solref, friction_solref, soft_spring, tie_solref
+from .settings import SOLIMP, friction_solref, limit_solref, tie_solref
 from .tree import Hold, Tree, is_rigid
 
 _NO_EFFORT = 1e-9
 """[N·m or N] What an effort limit of zero becomes: MuJoCo wants a range that is not empty."""
+_HARD_STOP = 1e8
+"""[N/m or N·m/rad] SDF's own stiffness of a limit."""
 _PARALLEL = 0.9999
 """Cosine of 0.8 degrees."""
 _ACROSS = ("::x", "::y")
@@ -36,19 +38,6 @@ class Axis:
     """None: a ball."""
     sign: float = 1.0
     """−1 where the engine's position runs the other way."""
-
-
-def soften_stops(model: mujoco.MjModel, axes: Iterable[Axis]) -> None:
-    """Let limits give as their stiffness says, where it is low enough to be seen."""
-    for axis in axes:
-        if axis.axis is None:
-            continue
-        joint = model.joint(axis.engine_joint)
-        inverse_inertia = float(model.dof_invweight0[joint.dofadr[0]])
-        h = model.opt.timestep
-        soft = soft_spring(axis.axis.stop_stiffness, max(axis.axis.stop_dissipation, 0.0), inverse_inertia, h)
-        if soft is not None:
-            model.jnt_solref[joint.id], model.jnt_solimp[joint.id, :2] = soft, SOFT
 
 
 class JointMaker:
@@ -117,7 +106,7 @@ class JointMaker:
         hinge.damping[0] = self._positive(axis.damping, "damping", joint)
         hinge.stiffness[0] = self._positive(axis.spring_stiffness, "spring_stiffness", joint)
         hinge.solref_friction = friction_solref(h)
-        hinge.solref_limit, hinge.solimp_limit = contact_solref(h), SOLIMP
+        hinge.solref_limit, hinge.solimp_limit = limit_solref(h), SOLIMP
         is_limited = not axis.is_rigid and (math.isfinite(axis.lower) or math.isfinite(axis.upper))
         hinge.limited = mujoco.mjtLimited.mjLIMITED_TRUE if is_limited else mujoco.mjtLimited.mjLIMITED_FALSE
         if is_limited:
@@ -126,6 +115,9 @@ class JointMaker:
                 what = f"joint {joint.name!r}: lower {upper:g} is above upper {lower:g}; physics swaps them"
                 self._report.warn(joint.at, what)
             hinge.range = [max(lower, -1e10), min(upper, 1e10)]
+            if axis.stop_stiffness < _HARD_STOP:
+                what = "a limit's <stiffness> and <dissipation> mean nothing to Gazebo's ODE; the stop is hard"
+                self._report.info(joint.at, f"joint {joint.name!r}: {what}")
         if math.isfinite(axis.effort) and axis.effort >= 0:
             hinge.actfrclimited = mujoco.mjtLimited.mjLIMITED_TRUE
             effort = max(axis.effort, _NO_EFFORT)

@@ -23,14 +23,14 @@ def is_soft(stiffness: float, inverse_mass: float, h: float) -> bool:
 
 
 def soft_spring(stiffness: float, damping: float, inverse_mass: float, h: float) -> tuple[float, float] | None:
-    """The solref of a contact or stop that a force f presses in by f / stiffness; None where that is not to be seen.
+    """The solref of a contact that a force f presses in by f / stiffness; None where that is not to be seen.
 
     A constraint of impedance d and inverse mass A rests at f A (1 − d) / (d K), which gives K.
 
     Args:
-        stiffness: [N/m] or [N·m/rad]
-        damping: [N·s/m] or [N·m·s/rad]
-        inverse_mass: [1/kg] or [1/(kg·m²)] of what it moves.
+        stiffness: [N/m]
+        damping: [N·s/m]
+        inverse_mass: [1/kg] of what it moves.
         h: time step [s].
     """
     if not is_soft(stiffness, inverse_mass, h):
@@ -43,8 +43,13 @@ def soft_spring(stiffness: float, damping: float, inverse_mass: float, h: float)
 
 
 def contact_solref(h: float) -> tuple[float, float]:
-    """Of contacts and joint limits."""
+    """Of contacts."""
     return (2 * h, CONTACT_DAMPING_RATIO)
+
+
+def limit_solref(h: float) -> tuple[float, float]:
+    """Of joint limits: stopped within a step, and back at the limit over two hundred: no bounce."""
+    return (-1 / (h * h), -200 / h)
 
 
 def friction_solref(h: float) -> tuple[float, float]:
