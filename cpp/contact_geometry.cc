@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kShortest = 1e-6;  // part of a direction that lies in the surface: where less does, it has none
 
-// Turn the two rows of a contact's constraint that are along its tangents; what follows from them, MuJoCo works out after
-// its control callback.
+// Turn the two rows of a contact's constraint that are along its tangents, and the speeds along them; what else follows
+// from them, MuJoCo works out after its control callback.
 void turn_rows(const mjModel* m, mjData* d, const mjContact& contact, double cosine, double sine) {
   if (contact.efc_address < 0) return;
   const int row = contact.efc_address + 1;
@@ -22,6 +22,10 @@ void turn_rows(const mjModel* m, mjData* d, const mjContact& contact, double cos
     first[i] = cosine * before + sine * second[i];
     second[i] = cosine * second[i] - sine * before;
   }
+  double* speeds = d->efc_vel + row;
+  const double before = speeds[0];
+  speeds[0] = cosine * before + sine * speeds[1];
+  speeds[1] = cosine * speeds[1] - sine * before;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_offset.h"
 #include "depenetration.h"
 #include "law_tables.h"
 #include "midpoint.h"
@@ -45,6 +46,7 @@ void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
   if (bounced || changed) mujoco.mj_fwdVelocity(m, d);
   resist_slip(laws, m, d);
   apply_damping(laws, m, d);
+  shift_contacts(laws, m, d);
 }
 
 thread_local bool busy = false;  // whoever is called first may call us in turn

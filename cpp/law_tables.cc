@@ -5,7 +5,7 @@ namespace trundle {
 namespace {
 
 constexpr double kMagic = 7.2751;  // no number that another model begins with
-constexpr int kTables = 9;
+constexpr int kTables = 10;
 
 template <typename Row>
 std::span<const Row> table(const mjModel* m, int number) {
@@ -27,6 +27,7 @@ bool LawTables::find(const mjModel* m, const mjData* d, LawTables& found) {
            table<MotorRow>(m, 6),
            table<ChainRow>(m, 7).first(static_cast<std::size_t>(head[5])),
            table<SpringRow>(m, 8).first(static_cast<std::size_t>(head[6])),
+           table<DeadZoneRow>(m, 9),
            static_cast<int>(head[3]),
            static_cast<int>(head[4]),
            head[1] > 0.0,

@@ -31,6 +31,10 @@ struct DampingRow {
   double body, linear, angular;  // parts of a velocity that one step takes away
 };
 
+struct DeadZoneRow {
+  double pair, depth;  // [m] up to which a contact holds and does not push
+};
+
 struct GeomRow {
   double max_vel;  // [m/s] at which what begins deep comes out
   double motion;   // its body's row of motions
@@ -72,6 +76,7 @@ struct LawTables {
   std::span<const MotorRow> motors;
   std::span<const ChainRow> chains;
   std::span<const SpringRow> springs;
+  std::span<const DeadZoneRow> dead_zones;
   int marks;   // numbers at the front of userdata, which mark what began deep; behind them, each body's load [N]
   int motor_equality;  // whose spring and damper motors' constraints have
   bool on;     // contact laws act

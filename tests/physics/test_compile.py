@@ -288,22 +288,22 @@ def test_a_crowd_meets_by_search_by_the_same_rules() -> None:
 
 
 def test_soft_and_deep_shapes_keep_their_ways_in_a_crowd() -> None:
-    """A ball of 1 kg on 2000 N/m sinks by g / 2000, one that may be 4 mm deep so far, whatever else there is."""
-    soft, deep = Surface(kp=2000.0, kd=40.0), Surface(min_depth=0.004)
+    """A ball of 1 kg on 2000 N/m sinks by g / 2000, one that may be 4 mm deeper so far, whatever else there is."""
+    soft, deep = Surface(kp=2000.0, kd=40.0), Surface(kp=20000.0, min_depth=0.004)
     crowd = [model(link("l", x=3.0 * i), name=f"b{i}") for i in range(68)]
     odd = [
         model(link("l", x=-3.0, surface=soft), name="soft"),
         replace(model(link("l", x=-3.0, surface=soft), name="above"), world_from_model=Pose((0.0, 0.0, 0.2))),
         model(link("l", x=-6.0, surface=deep), name="deep"),
     ]
-    ground = replace(floor(deep), world_from_model=Pose((0.0, 0.0, -0.1)))
+    ground = replace(floor(), world_from_model=Pose((0.0, 0.0, -0.1)))
     sim = Simulation(World(name="w", at=AT, models=(*crowd, *odd, ground)), Diagnostics(strict=True))
     mass = sim["soft"].links[0].link.inertial.mass
     sim.run(3.0)
 
     heights = {m.name: m.links[0].pose.position[2] for m in sim.models}
     assert heights["b0"] == pytest.approx(1.0, abs=1e-3)
-    assert heights["deep"] == pytest.approx(1.0 - 0.004, abs=1e-4)
+    assert heights["deep"] == pytest.approx(1.0 - 0.004 - mass * 9.8 / 20000, abs=1e-4)
     assert heights["soft"] == pytest.approx(1.0 - 2 * mass * 9.8 / 2000, rel=1e-4)
     assert heights["above"] - heights["soft"] == pytest.approx(0.2 - mass * 9.8 / 1000, abs=1e-4)
 

@@ -77,6 +77,28 @@ def test_a_block_slides_along_its_grain_and_sticks_across_it(load: Load, directi
     assert (speed > 0.3) is slides
 
 
+@pytest.mark.parametrize("fdir1", ["", "<fdir1>1 0 0</fdir1>", "<fdir1>0 1 0</fdir1>", "<fdir1>1 1 0</fdir1>"])
+@pytest.mark.parametrize(("mu", "mu2"), [(0.5, 0.0), (0.0, 0.5)])
+def test_friction_in_one_direction_acts_where_there_is_none_in_the_other(
+    load: Load, mu: float, mu2: float, fdir1: str
+) -> None:
+    """ODE's first direction on a level floor is y where the file names none."""
+    x, y = {"": (0, 1), "<fdir1>1 0 0</fdir1>": (1, 0), "<fdir1>0 1 0</fdir1>": (0, 1)}.get(fdir1, (1, 1))
+    first = (x / math.hypot(x, y), y / math.hypot(x, y))
+    second = (-first[1], first[0])
+    sim = load(floor(friction(10.0)), body("b", BLOCK, friction(mu, mu2, fdir1), pose="0 0 0.05 0 0 0"))
+    sim.run(0.05)
+    block = sim["b"].link("l")
+    for way, grip in ((first, mu), (second, mu2)):
+        before = block.twist.linear
+        push = 0.8 * G  # more than friction holds
+        block.apply_wrench(Wrench(force=(push * way[0], push * way[1], 0.0)), duration_s=0.2)
+        sim.run(0.2)
+        gained = [after - old for after, old in zip(block.twist.linear, before, strict=True)]
+        along = gained[0] * way[0] + gained[1] * way[1]
+        assert along == pytest.approx(0.2 * (push - grip * G), rel=0.01)
+
+
 def test_a_patch_of_contact_resists_turning(load: Load) -> None:
     torsional = "<torsional><coefficient>0.8</coefficient><patch_radius>0.05</patch_radius></torsional>"
     sim = load(floor(friction(1.0)), body("b", BALL, friction(1.0, torsional=torsional), pose="0 0 0.1 0 0 0"))
@@ -103,11 +125,35 @@ def test_a_soft_contact_gives_by_its_stiffness(load: Load) -> None:
     assert sim["b"].pose.position[2] == pytest.approx(0.1 - 2.0 * G / 2000.0, rel=1e-3)
 
 
-def test_a_surface_may_be_deep_before_it_pushes(load: Load) -> None:
-    contact = "<contact><ode><min_depth>0.004</min_depth></ode></contact>"
-    sim = load(floor(contact), body("b", BALL, contact, pose="0 0 0.1 0 0 0"))
+# Gazebo: 3 mm where the body that moves says so, 0 where the floor does; what is put down hard stays where it was put.
+@pytest.mark.parametrize(
+    ("own", "floors", "kp", "start", "depth"),
+    [
+        (0.003, 0.0, 1e5, 0.0, 0.003),
+        (0.0, 0.003, 1e5, 0.0, 0.0),
+        (0.01, 0.01, 1e12, 0.0, 0.0),
+        (0.003, 0.0, 1e12, 0.0025, 0.0025),
+        (0.003, 0.0, 1e6, 0.0, 0.003),
+    ],
+)
+def test_up_to_its_own_min_depth_a_body_is_stopped_and_not_pushed_out(
+    load: Load, own: float, floors: float, kp: float, start: float, depth: float
+) -> None:
+    def held(min_depth: float, stiffness: float = 1e12) -> str:
+        return f"<contact><ode><kp>{stiffness}</kp><min_depth>{min_depth}</min_depth></ode></contact>"
+
+    sim = load(floor(held(floors)), body("b", BLOCK, held(own, kp), pose=f"0 0 {0.05 - start} 0 0 0"))
+    sim.run(3.0)
+    sunk = G / (4 * kp)
+    assert sim["b"].pose.position[2] == pytest.approx(0.05 - depth - sunk, abs=3e-5)
+
+
+def test_what_falls_is_stopped_at_once_where_it_may_be_deep(load: Load) -> None:
+    contact = "<contact><ode><min_depth>0.01</min_depth></ode></contact>"
+    sim = load(floor(), body("b", BLOCK, contact, pose="0 0 0.0502 0 0 0"))
+    sim["b"].set_twist(Twist((0.0, 0.0, -1.0)))
     sim.run(1.0)
-    assert sim["b"].pose.position[2] == pytest.approx(0.096, abs=1e-4)
+    assert 0.05 - 0.001 < sim["b"].pose.position[2] < 0.05
 
 
 @pytest.mark.parametrize("speed", [0.01, 0.1])

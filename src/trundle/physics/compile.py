@@ -17,7 +17,8 @@ from trundle.meshes import MeshError
 from trundle.model import Collision, Heightmap, Plane, World, flattened
 from trundle.spatial import Pose
 
-from .contacts import add_contacts, soften
+from .compliance import set_compliance
+from .contacts import add_contacts
 from .decomposition import Decomposition, MeshRequest
 from .engine_words import muted
 from .index import CompiledWorld, index_world
@@ -30,7 +31,7 @@ from .starting import start_positions
 from .surfaces import Touch
 from .thin import look_ahead
 from .tree import WORLD, Hold, Place, Tree
-from .wheels import tread_of, without_tread
+from .wheels import TREAD_POINTS, tread_of, without_tread
 
 _KINEMATIC_MASS = 1e6
 """How many times heavier a kinematic link is than written: nothing that the file has moves it."""
@@ -81,7 +82,7 @@ class Compiler:
         reserve_tables(self.spec, touches, self.shapes, self.world)
         collisions = {shape.name: shape.collision for shape in self.shapes}
         compiled = self.compile_spec()
-        soften(compiled, touches)
+        set_compliance(compiled, touches)
         look_ahead(compiled, self.shapes)
         world = index_world(self.world, self.tree, self.joints.axes, collisions, compiled)
         fill_tables(compiled, touches, self.shapes, world.link_bodies.tolist(), self.world)
@@ -185,18 +186,18 @@ class Compiler:
             what = "torsional friction by surface_radius is left out; patch_radius is simulated"
             self.report.warn(collision.at, f"collision {collision.name!r}: {what}")
         name = self._shape_name(f"{place.name}::{collision.name}")
-        parts = [(collision, name, Meets.ALL)]
+        parts = [(collision, name, Meets.ALL, 1)]
         tread = tread_of(collision, place, self.tree)
         if tread is not None:
             on = Meets.PLANES | Meets.STANDING
             rolling = replace(collision, geometry=tread)
-            parts = [(rolling, f"{name}::tread", on), (without_tread(collision), name, Meets.ALL)]
-        for part, part_name, on in parts:
+            parts = [(rolling, f"{name}::tread", on, TREAD_POINTS), (without_tread(collision), name, Meets.ALL, 1)]
+        for part, part_name, on, points in parts:
             body = self.bodies[place.name]
             for geom, meets in add_shape(
                 self.spec, body, part, part_name, self.report, fixed=fixed, decomposition=self.decomposition
             ):
-                self._keep(geom, geom.name, place, collision, meets & on)
+                self._keep(geom, geom.name, place, collision, meets & on, points)
 
     def _keep(
         self,
@@ -205,6 +206,7 @@ class Compiler:
         place: Place,
         collision: Collision,
         meets: Meets,
+        points: int,
     ) -> None:
         self.shapes.append(
             ShapeEntry(
@@ -216,6 +218,7 @@ class Compiler:
                 fixed=place.name in self.tree.still,
                 surface=collision.surface,
                 meets=meets,
+                points=points,
             )
         )
 

@@ -49,9 +49,9 @@ class ContactLaws:
         self._data = data
         self._motions = find_table(compiled.model, "motions")
         self._head = find_table(compiled.model, "laws")[0]
-        self._always = bool(self._head[5:].any()) or any(
-            find_table(compiled.model, name).any() for name in ("restitution", "directions", "damping")
-        )
+        slides = bool((compiled.model.geom_bodyid > 0).any())
+        decays = bool(find_table(compiled.model, "damping").any())
+        self._always = slides or decays or bool(self._head[5:].any())
 
     @property
     def acts(self) -> bool:

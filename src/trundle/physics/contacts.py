@@ -15,7 +15,8 @@ import mujoco
 from trundle.diagnostics import Diagnostics
 from trundle.model import Model
 
-from .settings import SOFT, SOLIMP, contact_solref, is_soft, sliding_solref, soft_spring
+from .compliance import is_soft, pair_name
+from .settings import SOLIMP, contact_solref, limit_solref, sliding_solref
 from .shapes import Meets, ShapeEntry
 from .surfaces import Touch, friction_of, is_plain, may_meet, touch_of
 from .tree import Tree
@@ -79,7 +80,8 @@ def _special(
 
     def gives(shape: ShapeEntry) -> bool:
         mass = heaviest if shape.fixed else tree.places[shape.link].link.inertial.mass
-        return shape.surface.min_depth > 0 or (mass > 0 and is_soft(shape.surface.kp, 1 / mass, h))
+        is_deep = shape.surface.min_depth > 0 and not shape.fixed
+        return is_deep or (mass > 0 and is_soft(shape.surface.kp, 1 / mass, h))
 
     giving = [shape for shape in shapes if shape.name not in odd and gives(shape)]
     if len(giving) * len(shapes) <= MOST_GIVING_PAIRS:
@@ -117,38 +119,23 @@ def _add_pairs(
 ) -> None:
     for a, b in pairs:
         if rules.may_touch(a, b):
-            touch = touches[a.name, b.name] = touch_of(a.surface, b.surface)
+            points = max(a.points, b.points)
+            touch = touches[a.name, b.name] = touch_of(a.surface, b.surface, points=points)
             _add_pair(spec, a, b, touch)
 
 
 def _add_pair(spec: mujoco.MjSpec, a: ShapeEntry, b: ShapeEntry, touch: Touch) -> None:
     h = spec.option.timestep
-    pair = spec.add_pair(name=_pair_name(a.name, b.name), geomname1=a.name, geomname2=b.name)
-    slides_freely = touch.mu <= 0 or touch.mu2 <= 0
+    pair = spec.add_pair(name=pair_name(a.name, b.name), geomname1=a.name, geomname2=b.name)
+    slides_freely = touch.mu <= 0 and touch.mu2 <= 0
     pair.condim = 1 if slides_freely else 4 if touch.torsion > 0 else 3
     # On a horizontal floor MuJoCo's first tangent lies along y, as ODE's does where no fdir1 is given.
     pair.friction = [max(touch.mu, 1e-5), max(touch.mu2, 1e-5), max(touch.torsion, 1e-5), 0.0001, 0.0001]
-    pair.solref = contact_solref(h)
+    pair.solref = limit_solref(h) if touch.min_depth > 0 else contact_solref(h)
     pair.solreffriction = sliding_solref(h)
     pair.solimp = SOLIMP
-    pair.margin = -touch.min_depth
     if not touch.is_felt:
         pair.margin, pair.gap = -_NEVER_FELT, _NEVER_FELT
-
-
-def _pair_name(a: str, b: str) -> str:
-    return f"{a} {b}"
-
-
-def soften(model: mujoco.MjModel, touches: Mapping[tuple[str, str], Touch]) -> None:
-    """Give contacts that ODE would make soft the static depth that kp gives them."""
-    for (a, b), touch in touches.items():
-        bodies = [int(model.geom_bodyid[model.geom(name).id]) for name in (a, b)]
-        inverse_mass = float(sum(model.body_invweight0[body, 0] for body in bodies))
-        soft = soft_spring(touch.kp, touch.kd, inverse_mass, model.opt.timestep)
-        if soft is not None:
-            pair = model.pair(_pair_name(a, b)).id
-            model.pair_solref[pair], model.pair_solimp[pair, :2] = soft, SOFT
 
 
 def _let_find(

@@ -27,6 +27,7 @@ _WIDTHS = {
     "motors": 4,
     "chains": 1,
     "springs": 4,
+    "dead_zones": 2,
 }
 """Numbers in a row of each table; the first is a single row: a magic number, on or off, whether surfaces
 move, how many numbers at the front of userdata mark what began deep, the equality that motors take after, and how many
@@ -56,6 +57,7 @@ def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[Shape
         "motors": len(spec.actuators),
         "chains": len(spec.bodies),
         "springs": len(spec.joints),
+        "dead_zones": sum(touch.min_depth > 0 for touch in touches.values()),
     }
     for name, width in _WIDTHS.items():
         # MuJoCo takes no custom number of size zero; less than a row is none.
@@ -114,6 +116,7 @@ def fill_tables(
         joint = model.actuator_trnid[motor, 0]
         row[:] = motor, 0.0, model.jnt_qposadr[joint], model.jnt_dofadr[joint]
     _center(model)
+    _write(model, "dead_zones", ((_key(model, a, b), touch.min_depth) for a, b, touch in pairs if touch.min_depth > 0))
     geoms = find_table(model, "geoms")
     geoms[:, 0], geoms[:, 1], geoms[:, 2] = np.inf, model.geom_bodyid, -1.0
     moving = 0

@@ -11,35 +11,6 @@ CONTACT_DAMPING_RATIO = 2.8
 then, for it comes up so slowly that gravity stops it. From 3 on, what just slides on a slope hops.
 """
 SOLIMP = (0.99, 0.99, 0.001, 0.5, 2.0)
-SOFT = 0.5
-"""Impedance of springs that give: with more, they swing too slowly; with less, friction creeps."""
-_STIFFEST = 0.05
-"""[1/h²] Stiffness over mass from which on a step cannot tell a spring from MuJoCo's own hard contact."""
-
-
-def is_soft(stiffness: float, inverse_mass: float, h: float) -> bool:
-    """Whether a step can tell such a spring from what is hard; arguments as of `soft_spring`."""
-    return 0.0 < stiffness * inverse_mass * h * h < _STIFFEST
-
-
-def soft_spring(stiffness: float, damping: float, inverse_mass: float, h: float) -> tuple[float, float] | None:
-    """The solref of a contact that a force f presses in by f / stiffness; None where that is not to be seen.
-
-    A constraint of impedance d and inverse mass A rests at f A (1 − d) / (d K), which gives K.
-
-    Args:
-        stiffness: [N/m]
-        damping: [N·s/m]
-        inverse_mass: [1/kg] of what it moves.
-        h: time step [s].
-    """
-    if not is_soft(stiffness, inverse_mass, h):
-        return None
-    share = inverse_mass * (1 - SOFT) / SOFT
-    # ODE's implicit step adds h · stiffness to the damping.
-    resistance = min((damping + h * stiffness) * share, 1 / h)
-    # MuJoCo divides what it is given by the impedance.
-    return (-stiffness * share * SOFT, -resistance * SOFT)
 
 
 def contact_solref(h: float) -> tuple[float, float]:

@@ -64,6 +64,8 @@ class ShapeEntry:
     """Part of the world: nothing moves it."""
     surface: Surface
     meets: Meets = Meets.ALL
+    points: int = 1
+    """How many of ODE's contact points each of its contacts stands for."""
 
     @property
     def kind(self) -> Meets:

@@ -8,6 +8,8 @@ from trundle.spatial import ZERO, Vector3
 
 INFINITE_FRICTION = 100.0
 """What SDF's negative mu stands for: steeper than any slope."""
+_LEAST = 1e-4
+"""Of one friction beside the other: none at all is more than MuJoCo's solver takes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,28 +29,38 @@ class Touch:
     kd: float
     """[N·s/m]"""
     min_depth: float
-    """[m]"""
+    """[m] Up to which they stop each other, and do not push each other out."""
     restitution: float
     threshold: float
     """[m/s]"""
     is_felt: bool
     """Whether the two push each other, not only meet."""
+    points: int = 1
+    """How many of ODE's contact points one contact stands for."""
 
 
-def touch_of(a: Surface, b: Surface) -> Touch:
-    """The smaller friction wins, springs act in series, dampers add up, both must bounce."""
+def touch_of(a: Surface, b: Surface, *, points: int = 1) -> Touch:
+    """The smaller friction wins, springs act in series, dampers add up, both must bounce; the first's min_depth counts.
+
+    Args:
+        a: of the first; where one of the two stands, that is the other.
+        b: of the second.
+        points: see `Touch`.
+    """
+    mu, mu2 = min(_friction(a.mu), _friction(b.mu)), min(_friction(a.mu2), _friction(b.mu2))
     return Touch(
-        mu=min(_friction(a.mu), _friction(b.mu)),
-        mu2=min(_friction(a.mu2), _friction(b.mu2)),
+        mu=max(mu, _LEAST * mu2),
+        mu2=max(mu2, _LEAST * mu),
         fdir1=a.fdir1 if a.fdir1 != ZERO else b.fdir1,
         fdir1_of=0 if a.fdir1 != ZERO else 1,
         torsion=_torsion(a, b),
         kp=1 / (1 / max(a.kp, 1e-3) + 1 / max(b.kp, 1e-3)),
         kd=max(a.kd, 0.0) + max(b.kd, 0.0),
-        min_depth=max(min(a.min_depth, b.min_depth), 0.0),
+        min_depth=max(a.min_depth, 0.0),
         restitution=min(max(min(a.restitution, b.restitution), 0.0), 1.0),
         threshold=min(a.bounce_threshold, b.bounce_threshold),
         is_felt=not (a.collide_without_contact or b.collide_without_contact),
+        points=points,
     )
 
 

@@ -14,6 +14,8 @@ from .tree import Hold, Place, Tree
 
 TREAD = 1e-4
 """[m] How far the tread stands out of the cylinder."""
+TREAD_POINTS = 2
+"""In ODE a cylinder touches in both of its edges."""
 _SMALLEST = 1e-3
 """[m] Radius under which a cylinder is left as it is."""
 
