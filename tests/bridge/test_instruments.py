@@ -108,6 +108,18 @@ def test_an_air_speed_sensor_feels_what_meets_it(hear: Any) -> None:
     assert heard[topic].fluid_pressure == pytest.approx(0.5 * 1.225 * 100, rel=1e-3)
 
 
+@pytest.mark.parametrize(("pitch", "sees"), [(0.0, True), (-0.4, True), (-math.pi / 2, False)])
+def test_a_logical_camera_lists_the_ground_unless_it_looks_straight_up(hear: Any, pitch: float, sees: bool) -> None:
+    own = "<logical_camera><near>0.5</near><far>6</far><horizontal_fov>1</horizontal_fov></logical_camera>"
+    eye = sensor("logical_camera", own, pose=f"0 0 1 0 {pitch} 0")
+    plane = "<geometry><plane><normal>0 0 1</normal></plane></geometry>"
+    link = f'<link name="l"><collision name="c">{plane}</collision></link>'
+    topic = "/bot/l/s/models"
+    heard, _ = hear(bot(eye) + f'<model name="ground"><static>1</static>{link}</model>', {topic: "tf2_msgs/TFMessage"})
+
+    assert [t.child_frame_id for t in heard[topic].transforms] == ["ground"] * sees
+
+
 def test_a_logical_camera_tells_models_in_its_pyramid_where_they_are(hear: Any) -> None:
     """One ahead, one that only reaches in, one outside, one too far; never its own."""
     own = "<logical_camera><near>0.5</near><far>6</far><horizontal_fov>1</horizontal_fov></logical_camera>"
@@ -173,7 +185,7 @@ UP = "<localization>GRAV_UP</localization>"
 @pytest.mark.parametrize(
     ("reference", "expected"),
     [
-        ("", (0, 0, 0.3)),
+        ("", (0, 0, 0)),
         ("<localization>ENU</localization>", (0, 0, 0.3 + math.radians(30))),
         ("<localization>NED</localization>", (math.pi, 0, math.pi / 2 - 0.3 - math.radians(30))),
         ("<localization>NWU</localization>", (0, 0, 0.3 + math.radians(30) - math.pi / 2)),
@@ -269,7 +281,7 @@ def test_a_force_torque_sensor_has_noise_on_each_axis(described: Any) -> None:
         (
             "imu",
             "<imu><orientation_reference_frame><localization>UP</localization></orientation_reference_frame></imu>",
-            "no localization 'UP': CUSTOM, ENU, NED, NWU, GRAV_UP, GRAV_DOWN; orientation is told in the world",
+            "no localization 'UP': CUSTOM, ENU, NED, NWU, GRAV_UP, GRAV_DOWN; orientation is told against its start",
         ),
     ],
 )

@@ -45,7 +45,7 @@ def test_an_imu_at_rest_reads_g_upwards_in_its_own_frame(tmp_path: Path) -> None
     assert len(readings) == 100
     assert readings[-1].linear_acceleration == pytest.approx((0, 9.8, 0), abs=1e-9)
     assert readings[-1].angular_velocity == pytest.approx((0, 0, 0), abs=1e-12)
-    assert readings[-1].orientation == pytest.approx((math.sqrt(0.5), math.sqrt(0.5), 0, 0))
+    assert readings[-1].orientation == pytest.approx((1, 0, 0, 0))  # against its start
 
 
 def test_an_imu_in_free_fall_reads_nothing(tmp_path: Path) -> None:

@@ -67,7 +67,7 @@ class ImuNoise:
     linear_acceleration: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
     """[m/s²]"""
     reference: OrientationReference | None = None
-    """None: the world."""
+    """None: the sensor as it was at the start."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,7 +16,7 @@ class ImuReading:
 
     time_ns: int
     orientation: Quaternion
-    """reference_from_sensor, wxyz; the reference is the world unless the file names another."""
+    """reference_from_sensor, wxyz; the reference is the sensor at the start unless the file names another."""
     angular_velocity: Vector3
     """In the sensor's frame [rad/s]."""
     linear_acceleration: Vector3

@@ -50,7 +50,7 @@ class LogicalCameraReading:
 class LogicalCameraSensor(MountedSensor[LogicalCameraReading]):
     """Tells the models, but for its own, whose upright box around all collision shapes reaches into a pyramid.
 
-    As in Gazebo a model that others hide is in view, too; endless planes never are.
+    As in Gazebo a model that others hide is in view, too, and so is the ground: an endless plane is the box below it.
     """
 
     def __init__(self, spot: Spot, *, bodies: Callable[[], Sequence[Body]]) -> None:

@@ -14,15 +14,15 @@ def reference_from_world(
     """What turns orientations in the world into those that are told.
 
     Args:
-        reference: as described; None: the world itself (REP 145).
+        reference: as described; None: the sensor as it was when time began, as in Gazebo.
         at_start: world_from_sensor when time began.
         gravity: of the world [m/s²].
         heading_rad: from east to the world's x axis.
     """
-    if reference is None:
-        return Pose()
-    east_north_up = Pose(quaternion=quaternion_from_rpy(0.0, 0.0, heading_rad))
     start = Pose(quaternion=at_start.quaternion)
+    if reference is None:
+        return start.inverse()
+    east_north_up = Pose(quaternion=quaternion_from_rpy(0.0, 0.0, heading_rad))
     match reference.localization:
         case "ENU":
             return east_north_up

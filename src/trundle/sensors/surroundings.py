@@ -4,10 +4,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import EVERY_BIT, Joint, Link, Model, Transceiver, World
+from trundle.model import EVERY_BIT, Joint, Link, Model, Plane, Transceiver, World
 from trundle.render import corners_of, scene_of
 from trundle.simulation import Simulation
-from trundle.spatial import Pose, Vector3
+from trundle.spatial import Pose, Vector3, upright
 
 from .logical_camera import Body
 from .placing import moved
@@ -15,6 +15,9 @@ from .rays import Found, RayCaster, Rays
 from .wireless import Beacon
 
 _Array = NDArray[np.float64]
+_FAR = 1e6
+"""[m] How far an endless plane goes."""
+_HALF_SPACE = [(x, y, z) for x in (-_FAR, _FAR) for y in (-_FAR, _FAR) for z in (-_FAR, 0.0)]
 
 
 class Surroundings:
@@ -112,9 +115,13 @@ def _ends(joint: Joint, link: str) -> tuple[str, str]:
 def _bodies(world: World) -> list[Body]:
     corners: dict[int, list[_Array]] = {}
     for shape in scene_of(world, Diagnostics(), collisions=True).shapes:
-        box = corners_of(shape.geometry)
+        place = shape.body_from_shape
+        if isinstance(shape.geometry, Plane):
+            place, box = place @ Pose(quaternion=upright(shape.geometry.normal)), _HALF_SPACE
+        else:
+            box = corners_of(shape.geometry)
         if box:
-            corners.setdefault(shape.body, []).append(moved(shape.body_from_shape, np.array(box)))
+            corners.setdefault(shape.body, []).append(moved(place, np.array(box)))
     bodies: list[Body] = []
     first = 0
     for model in world.models:

@@ -109,7 +109,7 @@ def _reference(node: XmlNode | None, context: Context) -> OrientationReference |
     node.report_unread(report)
     if localization not in _LOCALIZATIONS:
         known = ", ".join(_LOCALIZATIONS)
-        report.warn(node.at, f"no localization {localization!r}: {known}; orientation is told in the world")
+        report.warn(node.at, f"no localization {localization!r}: {known}; orientation is told against its start")
         return None
     return reference
 
