@@ -134,6 +134,9 @@ class Engine:
 
     def _look_for_depth(self) -> None:
         self._leapt = False
+        apart = self._looker.separated(self._state())
+        if apart is not None:
+            self._data.qpos[:] = apart
         self._data.userdata[:] = self._looker.deep_marks(self._state())
         self._watch()
 

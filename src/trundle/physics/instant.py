@@ -14,6 +14,7 @@ from .index import CompiledWorld
 from .law_tables import switch_off
 from .motors import MotorOrders
 from .reader import StateReader
+from .separation import find_deep, separate
 from .touching import Contact, contacts_of
 
 _Array = NDArray[np.float64]
@@ -56,6 +57,19 @@ class Looker:
             model, data = self._solve(state)
             chosen = np.flatnonzero(~apart[data.contact.geom].any(axis=1))
             return contacts_of(self._compiled, model, data, chosen)
+
+    def separated(self, state: _Array) -> _Array | None:
+        """The positions in which nothing that began inside something else is so any more; None: nothing was.
+
+        Args:
+            state: as mjSTATE_INTEGRATION has it.
+        """
+        with self._lock:
+            model, data, reader = self._second
+            mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
+            mujoco.mj_fwdPosition(model, data)
+            reader.changed()
+            return separate(model, data) if find_deep(model, data).any() else None
 
     def deep_marks(self, state: _Array) -> _Array:
         """The userdata that marks what is deeper in something than it may come out of at once.
