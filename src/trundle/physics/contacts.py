@@ -4,7 +4,7 @@ In Gazebo the smaller friction of two surfaces wins; MuJoCo takes the larger, so
 joined by a joint never touch, links of one model only where they say so.
 
 ODE and MuJoCo cannot agree on everything: ODE's friction pyramid becomes an elliptic cone, and max_vel, which limits
-how fast ODE corrects depth, holds for what begins deep (see `parting`); what hits is slow to come up by itself.
+how fast ODE corrects depth, does not count: what begins deep is put out (see `separation`), what hits comes up slowly.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
