@@ -72,7 +72,8 @@ def _rest_depths(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float
     weights = _HEAVY * masses * float(np.linalg.norm(model.opt.gravity))
     held = _min_depths(model)
     geoms = np.sort(contacts.geom, axis=1).tolist()
-    pressed = np.where(stiffnesses > 0.0, weights / np.maximum(stiffnesses, 1e-12), 0.0)
+    with np.errstate(over="ignore"):  # of masses that are out of all bounds
+        pressed = np.where(stiffnesses > 0.0, weights / np.maximum(stiffnesses, 1e-12), 0.0)
     return pressed + np.array([held.get((a, b), 0.0) for a, b in geoms])
 
 
