@@ -178,3 +178,11 @@ def test_a_hidden_relay_waits_for_its_first_message_however_long_it_takes(stage)
     stage.until(lambda: source.has_subscribers)
     stage.until(lambda: source.publish({"data": "wanted"}) or copies)
     assert copies[0].data == "wanted"
+
+
+def test_a_hidden_relay_lets_go_as_soon_as_it_knows_the_type(stage) -> None:
+    """Its next look is an hour away; until then a subscriber to its output is sent nothing."""
+    stage.start("topic_tools/relay", "in copy", stealth=True, monitor_topic="other", monitor_rate=3600.0)
+    source = stage.speak("/in", STRING)
+    source.publish({"data": "to learn the type"})
+    stage.until(lambda: not source.has_subscribers)

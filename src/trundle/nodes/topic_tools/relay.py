@@ -2,7 +2,7 @@
 
 import asyncio
 
-from trundle.ros import Node, Settings
+from trundle.ros import Node, RawMessage, Settings
 
 from ..host import Host
 from .passing import Inlet, Outlet, listen_lazily
@@ -26,10 +26,18 @@ class Relay:
             return 1
         source, target = (*self._arguments, f"{self._arguments[0]}_relay")[:2]
         settings = Settings(await node.get_param("~", {}), node.name)
+        is_stealthy = settings.flag("stealth", default=False)
         outlet = Outlet(node, target)
-        inlet = Inlet(node, source, outlet.put)
+
+        def relay(message: RawMessage) -> None:
+            learns = not outlet.is_typed
+            outlet.put(message)
+            if learns and is_stealthy:  # the next look decides; who subscribes meanwhile is sent nothing
+                inlet.close()
+
+        inlet = Inlet(node, source, relay)
         inlet.open()
-        if settings.flag("stealth", default=False):
+        if is_stealthy:
             monitored = node.resolve(settings.text("monitor_topic", source))
             await self._hide(inlet, outlet, monitored, every_s=settings.number("monitor_rate", 1.0))
         elif settings.flag("lazy", default=False):
