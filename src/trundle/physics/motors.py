@@ -50,10 +50,14 @@ class Motors:
             data: its state.
             wake: called with a degree of freedom that is told something new.
         """
-        self._compiled = compiled
         self._model = compiled.model
         self._data = data
         self._wake = wake
+        # Lists: one number of an array costs four times as much, and controllers give orders at every step.
+        self._dofs: list[int] = compiled.axis_dof.tolist()
+        self._actuators: list[int] = compiled.axis_actuator.tolist()
+        self._largest: list[float] = compiled.axis_effort.tolist()
+        self._fastest: list[float] = compiled.axis_velocity.tolist()
         self._orders: dict[int, tuple[float, ...]] = {}
         self._rates = find_table(compiled.model, "motors")[:, 1]
         self._keep_on = False
@@ -65,7 +69,7 @@ class Motors:
         As in Gazebo, an axis that is faster than its limit is not pushed on: with such a limit the effort is a
         motor's, which wants that speed and pulls one way only.
         """
-        largest, fastest = float(self._compiled.axis_effort[axis]), float(self._compiled.axis_velocity[axis])
+        largest, fastest = self._largest[axis], self._fastest[axis]
         effort = min(max(effort, -largest), largest)
         if math.isinf(fastest) or effort == 0.0 or not math.isfinite(effort):
             self._order(axis, command=0.0, most=0.0, effort=effort)
@@ -82,24 +86,26 @@ class Motors:
         self._keep(axis, position, max_effort, rate=HOLD_RATE)
 
     def _keep(self, axis: int, command: float, max_effort: float, *, rate: float) -> None:
-        most = min(max_effort, float(self._compiled.axis_effort[axis]), _HUGE)
+        most = min(max_effort, self._largest[axis], _HUGE)
         self._order(axis, command=command, most=max(most, 0.0), rate=rate)
 
     def _order(self, axis: int, *, command: float, most: float, rate: float = 0.0, effort: float = 0.0) -> None:
         """Have the motor keep a command with an effort up to `most`, beside an effort that lasts."""
-        dof, actuator = int(self._compiled.axis_dof[axis]), int(self._compiled.axis_actuator[axis])
+        dof, actuator = self._dofs[axis], self._actuators[axis]
         self._data.qfrc_applied[dof] = effort
         if actuator < 0:
             return
         order = (command, most, rate)
         # The same order again, as controllers give it at every turn, wakes nobody.
-        if self._orders.get(actuator) == order:
+        last = self._orders.get(actuator)
+        if last == order:
             return
         self._orders[actuator] = order
         self._model.tendon_frictionloss[actuator] = most
         self._rates[actuator] = rate
         self._data.ctrl[actuator] = command
-        self._plug()
+        if last is None or (last[1] > 0.0) != (most > 0.0):
+            self._plug()
         self._wake(dof)
 
     def report(self) -> None:
