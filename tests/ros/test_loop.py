@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from tests.ros.conftest import PATIENCE_S
 
+from trundle.diagnostics import UsageError
 from trundle.ros.loop import GraphLoop, close_server
 from trundle.ros.node import Node
 
@@ -124,3 +125,19 @@ def test_what_an_ended_loop_is_given_is_cancelled() -> None:
     with GraphLoop() as loop:
         pass
     assert loop.spawn(asyncio.sleep(0)).cancelled()
+
+
+@pytest.mark.parametrize(("error", "is_logged"), [(UsageError("no such file"), False), (KeyError("a"), True)])
+def test_only_a_fault_of_the_program_is_logged_with_its_traceback(error: Exception, is_logged: bool, caplog) -> None:
+    async def fail() -> None:
+        raise error
+
+    loop = GraphLoop()
+    loop.start()
+    try:
+        with pytest.raises(type(error)):
+            loop.spawn(fail()).result(PATIENCE_S)
+    finally:
+        loop.stop()
+
+    assert ("a task of the graph failed" in caplog.text) is is_logged

@@ -14,6 +14,11 @@ LINK = '<sdf version="1.6"><model name="m">\n<link name="a"/>\n{}\n</model></sdf
     [
         ("empty.sdf", "", "empty.sdf:1: error: the file is empty"),
         ("words.sdf", "hello", "words.sdf:1: error: not well-formed XML: Start tag expected, '<' not found"),
+        (
+            "arm.xml",
+            "<launch/>",
+            "arm.xml:1: error: a launch file, not a robot or a world; `trundle launch` starts it",
+        ),
         ("other.sdf", "<html/>", "other.sdf:1: error: <html> starts neither an SDF (<sdf>) nor a URDF (<robot>)"),
         (
             "joint.sdf",

@@ -92,6 +92,8 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics,
     """
     from .sdf import Context, name_missing_attributes, read_root, read_version, rewrite_old_style
 
+    if root.tag == "launch":
+        raise DescriptionError(root.at, "a launch file, not a robot or a world; `trundle launch` starts it")
     if root.tag not in ("sdf", "gazebo"):
         raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")
     version = read_version(root, report)

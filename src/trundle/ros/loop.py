@@ -10,6 +10,8 @@ from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 from weakref import WeakSet
 
+from trundle.diagnostics import DescriptionError, UsageError
+
 from .messages import Messages
 from .selector import ReadingSelector
 from .work import Work
@@ -343,7 +345,8 @@ def _copy(task: "asyncio.Task[_T]", future: "Future[_T]") -> None:
     if future.cancelled():
         return
     if error is not None:
-        _log.error("a task of the graph failed: %s: %s", type(error).__name__, error, exc_info=error)
+        if not isinstance(error, DescriptionError | UsageError):  # those are said by whoever waits, in a sentence
+            _log.error("a task of the graph failed: %s: %s", type(error).__name__, error, exc_info=error)
         future.set_exception(error)
     else:
         future.set_result(task.result())
