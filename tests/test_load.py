@@ -43,3 +43,16 @@ def test_the_way_in_loads_nothing_before_it_minds_the_interrupt() -> None:
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
 
     assert done.stdout.split() == ["trundle.__main__"]
+
+
+def test_a_robot_loads_nothing_that_it_has_not() -> None:
+    """RP2W has cameras; each module and each dataclass of others would cost time at every start."""
+    words = ["run", "model://rp2w", "--headless", "--no-ros", "--duration", "0.001"]
+    others = {"trundle.sensors.mount_measuring", "trundle.sensors.imu", "trundle.model.actor", "trundle.render.skins"}
+    code = (
+        f"import sys, trundle.cli as c; c.main({words}); print(*sorted({others} & set(sys.modules)), file=sys.stderr)"
+    )
+
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+
+    assert done.stderr.splitlines()[-1] == ""

@@ -9,6 +9,8 @@ import pytest
 
 import trundle
 from trundle.sensors import ContactReading, ImuReading, ImuSensor, RangeReading, RangeSensor, mount_sensors
+from trundle.sensors.measuring import MEASURING
+from trundle.sensors.mount_measuring import MAKERS
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist
 
@@ -367,3 +369,7 @@ def test_a_sensor_that_nobody_wants_measures_nothing(tmp_path: Path) -> None:
 
     assert [type(sensor) for sensor in sensors] == [RangeSensor, ImuSensor]
     assert not any(sensor.wanted() for sensor in sensors)
+
+
+def test_every_type_that_is_made_is_known_before_its_module_is_loaded() -> None:
+    assert set(MAKERS) == MEASURING - {"force_torque", "rfidtag", "wireless_transmitter"}

@@ -8,11 +8,11 @@ from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
 from trundle.model import PluginTag
 from trundle.names import ros_name
 from trundle.plugins import Hooks, Plugin, find_model_sensor_plugin, find_plugin, find_sensor_plugin, find_world_plugin
-from trundle.sensors import CameraSensor, MeasuringSensor
 from trundle.simulation import ModelHandle, Simulation
 
-if TYPE_CHECKING:  # a run without ROS starts without its modules
+if TYPE_CHECKING:  # a run without ROS or sensors starts without their modules
     from trundle.ros import Node
+    from trundle.sensors import CameraSensor, MeasuringSensor
 
 _Kind = TypeVar("_Kind", bound=Hooks)
 
@@ -76,7 +76,7 @@ def load_world_plugins(
         report.info(world.at, "the wind pushes nothing: as in Gazebo, that takes libWindPlugin.so in the world")
 
 
-_Sensor = TypeVar("_Sensor", CameraSensor, MeasuringSensor)
+_Sensor = TypeVar("_Sensor", "CameraSensor", "MeasuringSensor")
 
 
 def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diagnostics) -> list[_Sensor]:

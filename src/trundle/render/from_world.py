@@ -21,9 +21,7 @@ from trundle.model import (
     World,
 )
 
-from .roads import road_shapes
 from .scene import Scene, SceneLight, SceneSkin, Shape, ShapeGeometry
-from .skins import skin_shapes
 
 _COLLISION: Rgba = (1.0, 0.55, 0.1, 0.45)
 _SKY: tuple[Rgba, Rgba] = ((0.86, 0.91, 0.96, 1.0), (0.30, 0.52, 0.82, 1.0))
@@ -54,6 +52,8 @@ def scene_of(world: World, report: Diagnostics, *, collisions: bool = False, mas
             actor = actors.get(link.name)
             moving = None
             if actor is not None and actor.name == model.name:
+                from .skins import skin_shapes  # these read COLLADA's bones, which most worlds have none of
+
                 moving = skin_shapes(actor, len(bodies), len(shapes))
             if moving is None:
                 shapes += _shapes(items, len(bodies), report)
@@ -62,7 +62,9 @@ def scene_of(world: World, report: Diagnostics, *, collisions: bool = False, mas
                 skins.append(moving[1])
             lights += [_light(light, len(bodies), world) for light in link.lights]
             bodies.append(f"{model.name}::{link.name}")
-    if not collisions:
+    if world.roads and not collisions:
+        from .roads import road_shapes
+
         shapes += road_shapes(world, report)
     return Scene(
         bodies=tuple(bodies),

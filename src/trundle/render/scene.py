@@ -5,13 +5,17 @@ A scene is plain data. Renderers and the viewer both draw it; neither knows wher
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trundle.meshes import Mesh, Texture
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, LightType, Moment, Plane, Rgba, Sphere
+from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, LightType, Plane, Rgba, Sphere
 from trundle.spatial import Pose, Vector3
+
+if TYPE_CHECKING:
+    from trundle.model import Moment
 
 ShapeGeometry = Box | Capsule | Cylinder | Ellipsoid | Mesh | Plane | Sphere
 
@@ -73,7 +77,7 @@ class SceneSkin:
     """The number of its first shape; the others follow."""
     rows: tuple[NDArray[np.intp], ...]
     """Of each shape: which of the skin's vertices are its own."""
-    vertices: Callable[[Moment], NDArray[np.float32]]
+    vertices: "Callable[[Moment], NDArray[np.float32]]"
     """(N, 3) All of them at a moment, in the body's frame [m]."""
 
 

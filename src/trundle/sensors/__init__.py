@@ -18,8 +18,9 @@ if TYPE_CHECKING:
     from .lens import radius_of
     from .logical_camera import LogicalCameraReading, LogicalCameraSensor
     from .magnetometer import MagnetometerReading, MagnetometerSensor
+    from .measuring import mount_sensors
     from .mount import SIMULATED, mount_cameras
-    from .mount_measuring import MeasuringSensor, mount_sensors
+    from .mount_measuring import MeasuringSensor
     from .mounted import Spot
     from .noise import NoiseSource
     from .range import RangeReading, RangeSensor, angles_of, directions_of
@@ -77,7 +78,7 @@ _HOMES = {
     "directions_of": "range",
     "geodetic": "gps",
     "mount_cameras": "mount",
-    "mount_sensors": "mount_measuring",
+    "mount_sensors": "measuring",
     "pixels_in": "formats",
     "radius_of": "lens",
 }

@@ -17,7 +17,7 @@ from .camera import CameraSensor
 from .depth_camera import DepthCameraSensor
 from .formats import FORMATS
 from .lens import fits
-from .mount_measuring import MEASURING
+from .measuring import MEASURING
 from .mounted import Spot
 from .saving import PictureSaver, folder_for, quota_of
 from .scenery import Scenery

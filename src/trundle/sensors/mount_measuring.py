@@ -56,16 +56,8 @@ class _Site:
         return self.simulation.world
 
 
-def mount_sensors(
-    simulation: Simulation, *, model: str | None = None, around: Surroundings | None = None
-) -> list[MeasuringSensor]:
-    """Every sensor that needs no picture, in file order; each has random numbers of its own.
-
-    Args:
-        simulation: with its sensors; its seed is that of the noise.
-        model: of this one alone.
-        around: what sensors that are there already share.
-    """
+def mount_all(simulation: Simulation, *, model: str | None, around: Surroundings | None) -> list[MeasuringSensor]:
+    """As `mount_sensors`, whose arguments these are."""
     mounted: list[MeasuringSensor] = []
     around = around or Surroundings(simulation)
     index = number = 0
@@ -74,7 +66,7 @@ def mount_sensors(
         for link in owner.links:
             for sensor in link.sensors:
                 number += 1
-                make = _MAKERS.get(sensor.type)
+                make = MAKERS.get(sensor.type)
                 if sensor.type == "force_torque" and wanted:
                     what = f"sensor {sensor.name!r}: force_torque sensors measure joints; on a link it tells nothing"
                     simulation.report.warn(sensor.at, what)
@@ -157,7 +149,7 @@ def _gps(at: _Site) -> GpsSensor:
     return GpsSensor(at.spot, origin=at.world.spherical_coordinates)
 
 
-_MAKERS: Mapping[str, Callable[[_Site], MeasuringSensor]] = {
+MAKERS: Mapping[str, Callable[[_Site], MeasuringSensor]] = {
     "air_pressure": lambda at: AirPressureSensor(at.spot, air=at.world.atmosphere),
     "air_speed": _air_speed,
     "altimeter": lambda at: AltimeterSensor(at.spot, start_height=at.spot.start().position[2]),
@@ -175,5 +167,3 @@ _MAKERS: Mapping[str, Callable[[_Site], MeasuringSensor]] = {
     "sonar": lambda at: SonarSensor(at.spot, rays=at.around.foreign_rays(at.spot.model, at.spot.link)),
     "wireless_receiver": _wireless_receiver,
 }
-MEASURING = frozenset(_MAKERS) | {"force_torque", "rfidtag", "wireless_transmitter"}
-"""SDF's types of them; tags and transmitters are measured by others."""

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.model import EVERY_BIT, Visual, World
-from trundle.render import Intrinsics, Picture, Renderer, Scene, move_skins, scene_of, size_of
+from trundle.render import Intrinsics, Picture, Renderer, Scene, scene_of, size_of
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
@@ -102,5 +102,8 @@ class Scenery:
             self._shown = None
         if self._shown is not snapshot:
             self._renderer.update(snapshot.poses)
-            move_skins(self._renderer, self.scene, self._simulation.moment_of)
+            if self.scene.skins:
+                from trundle.render import move_skins  # only actors have some
+
+                move_skins(self._renderer, self.scene, self._simulation.moment_of)
             self._shown = snapshot

@@ -8,13 +8,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import Actor, Box, Link, Model, Moment, Skin, Visual, World
+from trundle.model import Box, Link, Model, Visual, World
 from trundle.spatial import Pose, Vector3
 
-from .actor_script import ActorScript
 from .handles import ModelHandle
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # a world without actors starts without their modules
+    from trundle.model import Actor, Moment, Skin
+
     from .simulation import Simulation
 
 _PERSON: Vector3 = (0.3, 0.5, 1.8)
@@ -38,7 +39,9 @@ class ActorWalk:
 
     period_ns = 20_000_000
 
-    def __init__(self, actor: Actor, handle: ModelHandle) -> None:
+    def __init__(self, actor: "Actor", handle: ModelHandle) -> None:
+        from .actor_script import ActorScript
+
         self._script = ActorScript(actor)
         self._handle = handle
         self.is_on = bool(self._script) and actor.auto_start
@@ -51,8 +54,10 @@ class ActorWalk:
         """Leave the actor to somebody else, whose pose of it is that of its bones, too."""
         self.is_on, self.taken_over = False, True
 
-    def moment(self, time_ns: int) -> Moment:
+    def moment(self, time_ns: int) -> "Moment":
         """What its bones are at."""
+        from trundle.model import Moment
+
         if self.taken_over:
             return Moment(animation=_WALKING, time_s=self.animation_s, way_m=0.0, placed=False)
         return self._script.moment_at(time_ns / 1e9 if self._starts else 0.0)
@@ -68,7 +73,9 @@ class ActorWalk:
         self._handle.set_twist(self._script.twist_at(time_s, dt))
 
 
-def _model(actor: Actor, report: Diagnostics) -> Model:
+def _model(actor: "Actor", report: Diagnostics) -> Model:
+    from .actor_script import ActorScript
+
     links = [replace(link, kinematic=True, gravity=False) for link in actor.links]
     if actor.skin is not None:
         links.insert(0, _body(actor, actor.skin, report))
@@ -85,7 +92,7 @@ def _model(actor: Actor, report: Diagnostics) -> Model:
     )
 
 
-def _body(actor: Actor, skin: Skin, report: Diagnostics) -> Link:
+def _body(actor: "Actor", skin: "Skin", report: Diagnostics) -> Link:
     width, depth, height = _size(skin)
     place = Pose((0.0, 0.0, height / 2))
     if _wanders(actor):
@@ -102,11 +109,11 @@ def _body(actor: Actor, skin: Skin, report: Diagnostics) -> Link:
     return Link(name=name, at=actor.at, kinematic=True, gravity=False, visuals=(box,))
 
 
-def _wanders(actor: Actor) -> bool:
+def _wanders(actor: "Actor") -> bool:
     return any(tag.filename.endswith(_WANDERING) for tag in actor.plugins)
 
 
-def _size(skin: Skin) -> Vector3:
+def _size(skin: "Skin") -> Vector3:
     """Lengths of the box, the largest upwards."""
     if skin.path is None:
         return _PERSON

@@ -8,10 +8,10 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from trundle.diagnostics import Diagnostics, UsageError
-from trundle.model import Joint, Model, Moment, World
+from trundle.model import Joint, Model, World
 from trundle.physics import Contact, Engine, compile_world
 
 from .actors import ActorWalk, with_actors
@@ -34,6 +34,9 @@ from .saved import SavedSimulation
 from .schedule import Schedule, act, look
 from .snapshot import Snapshot
 from .timeline import NS, Period, Timeline, step_ns_of
+
+if TYPE_CHECKING:
+    from trundle.model import Moment
 
 _LONGEST = 1000
 """Steps in one stride: what blows up is undone to its beginning."""
@@ -112,8 +115,10 @@ class Simulation:
                 return model
         raise UsageError(f"no model {name!r}; there are: {', '.join(repr(m.name) for m in self.models) or 'none'}")
 
-    def moment_of(self, actor: str) -> Moment:
+    def moment_of(self, actor: str) -> "Moment":
         """What the bones of an actor are at now; one that is gone stands."""
+        from trundle.model import Moment  # a world without actors starts without theirs
+
         walk = self.actors.get(actor)
         return Moment() if walk is None else walk.moment(self.time_ns)
 

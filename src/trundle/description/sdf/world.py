@@ -1,12 +1,12 @@
 """Reads <world>, and a model or light that stands alone in a file."""
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from trundle.diagnostics import DescriptionError
 from trundle.model import Light, Model, World
 from trundle.xmlnode import XmlNode
 
-from .actor import read_actor
 from .context import Context, leave_out, read_pose
 from .environment import read_atmosphere, read_physics, read_scene, read_spherical_coordinates
 from .frames import WORLD, FrameGraph
@@ -19,6 +19,9 @@ from .population import read_population
 from .road import read_road
 from .sensor import read_plugin
 from .state import apply_state, inserted
+
+if TYPE_CHECKING:
+    from trundle.model import Actor
 
 
 def read_root(root: XmlNode, context: Context) -> tuple[World, bool]:
@@ -34,7 +37,7 @@ def read_root(root: XmlNode, context: Context) -> tuple[World, bool]:
             context.report.warn(worlds[1].at, "a second <world>; only the first is simulated")
         return replace(read_world(worlds[0], context), sdf_version=version), True
     contents = _Contents(root, context)
-    actors = tuple(read_actor(child, context) for child in root.all("actor"))
+    actors = _actors(root, context)
     root.report_unread(context.report)
     if not contents.parts and not contents.lights and not root.children:
         raise DescriptionError(root.at, f"<{root.tag}> holds no world, model or light")
@@ -77,7 +80,7 @@ def read_world(node: XmlNode, context: Context) -> World:
         frames=whole.frames,
         lights=lights,
         roads=tuple(road for child in node.all("road") if (road := read_road(child, context)) is not None),
-        actors=tuple(read_actor(child, context) for child in node.all("actor")),
+        actors=_actors(node, context),
         plugins=whole.plugins,
         physics=read_physics(node, context),
         scene=read_scene(node, context),
@@ -89,6 +92,15 @@ def read_world(node: XmlNode, context: Context) -> World:
     leave_out(node, ("gui", "audio"), "speaks to Gazebo's own window", context)
     node.report_unread(report)
     return world
+
+
+def _actors(node: XmlNode, context: Context) -> "tuple[Actor, ...]":
+    nodes = node.all("actor")
+    if not nodes:
+        return ()
+    from .actor import read_actor  # a world without actors starts without their modules
+
+    return tuple(read_actor(child, context) for child in nodes)
 
 
 class _Contents:

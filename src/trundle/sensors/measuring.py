@@ -1,0 +1,60 @@
+"""Sensors that need no picture: SDF's types of them, and the way to those of a world.
+
+A world without any starts without their modules.
+"""
+
+from typing import TYPE_CHECKING
+
+from trundle.model import Model
+from trundle.simulation import Simulation
+
+if TYPE_CHECKING:
+    from .mount_measuring import MeasuringSensor
+    from .surroundings import Surroundings
+
+MEASURING = frozenset(
+    {
+        "air_pressure",
+        "air_speed",
+        "altimeter",
+        "contact",
+        "force_torque",
+        "gps",
+        "gpu_lidar",
+        "gpu_ray",
+        "imu",
+        "lidar",
+        "logical_camera",
+        "magnetometer",
+        "navsat",
+        "ray",
+        "rfid",
+        "rfidtag",
+        "sonar",
+        "wireless_receiver",
+        "wireless_transmitter",
+    }
+)
+"""Tags and transmitters are measured by others."""
+
+
+def mount_sensors(
+    simulation: Simulation, *, model: str | None = None, around: "Surroundings | None" = None
+) -> "list[MeasuringSensor]":
+    """Every sensor that needs no picture, in file order; each has random numbers of its own.
+
+    Args:
+        simulation: with its sensors; its seed is that of the noise.
+        model: of this one alone.
+        around: what sensors that are there already share.
+    """
+    if not any(map(_has_some, simulation.world.models)):
+        return []
+    from .mount_measuring import mount_all
+
+    return mount_all(simulation, model=model, around=around)
+
+
+def _has_some(model: Model) -> bool:
+    on_links = (sensor.type in MEASURING for link in model.links for sensor in link.sensors)
+    return any(on_links) or any(joint.sensors for joint in model.joints)
