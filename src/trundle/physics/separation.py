@@ -62,6 +62,7 @@ def _depths(data: mujoco.MjData) -> NDArray[np.float64]:
     return data.contact.includemargin - data.contact.dist
 
 
+@np.errstate(over="ignore")  # masses and a gravity out of all bounds press infinitely deep
 def _rest_depths(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
     """(contacts,) how deep all that hangs together presses what gives [m]; 0 where it is hard. See `compliance`."""
     contacts = data.contact
@@ -72,8 +73,7 @@ def _rest_depths(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float
     weights = _HEAVY * masses * float(np.linalg.norm(model.opt.gravity))
     held = _min_depths(model)
     geoms = np.sort(contacts.geom, axis=1).tolist()
-    with np.errstate(over="ignore"):  # of masses that are out of all bounds
-        pressed = np.where(stiffnesses > 0.0, weights / np.maximum(stiffnesses, 1e-12), 0.0)
+    pressed = np.where(stiffnesses > 0.0, weights / np.maximum(stiffnesses, 1e-12), 0.0)
     return pressed + np.array([held.get((a, b), 0.0) for a, b in geoms])
 
 
