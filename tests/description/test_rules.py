@@ -5,9 +5,6 @@ from pathlib import Path
 
 import pytest
 
-import trundle.description
-import trundle.packages
-import trundle.robot
 from trundle.description import Loaded, expand_xacro, load
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import Cylinder, MeshFile, Model
@@ -271,12 +268,6 @@ def test_what_xacro_refuses_is_one_sentence(tmp_path, body, words) -> None:
 
     assert error.value.at.file.endswith("r.urdf.xacro")
     assert str(error.value).count(": error: ") == 1
-
-
-@pytest.mark.parametrize("room", [trundle.description, trundle.packages, trundle.robot])
-def test_the_front_doors_are_what_they_say(room) -> None:
-    assert room.__all__ == sorted(room.__all__)
-    assert all(hasattr(room, name) for name in room.__all__)
 
 
 def test_sdf_1_0_writes_values_as_attributes(tmp_path: Path) -> None:

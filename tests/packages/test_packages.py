@@ -40,11 +40,6 @@ def resolve(uri: str, start: Path, **environment: str) -> Path:
     )
 
 
-def test_the_front_door_exports_in_order() -> None:
-    assert room.__all__ == sorted(room.__all__)
-    assert all(hasattr(room, name) for name in room.__all__)
-
-
 def test_a_package_is_found_by_its_manifests_name_and_by_its_folders(tmp_path: Path) -> None:
     package(tmp_path / "ws/arm-master", name="arm_description")
     path = {"ROS_PACKAGE_PATH": str(tmp_path / "ws")}

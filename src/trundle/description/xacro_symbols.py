@@ -6,7 +6,6 @@ from types import FunctionType
 from typing import Any
 
 from trundle.expressions import Caller, Function, Interpreter, function_of, is_method
-from trundle.yaml_loader import BoundedLoader, load_yaml
 
 _DEPRECATED = {"sorted": "python", "range": "python", "load_yaml": "xacro", "abs_filename": "xacro", "dotify": "xacro"}
 """Functions that may be called without their namespace, with a warning."""
@@ -66,13 +65,19 @@ def _tokenize(text: str, sep: str = ",; ", skip_empty: bool = True) -> list[str]
     return [item for item in items if item] if skip_empty else items
 
 
-def _yaml_reader(package: Any) -> Callable[[Caller, Sequence[Any], Mapping[str, Any]], Any]:
+def _yaml_of(text: str, package: Any) -> Any:
+    """Read YAML with xacro's units, such as `!degrees 90`."""
+    from trundle.yaml_loader import BoundedLoader, load_yaml  # slow to load, and most robots have none
+
     class Loader(BoundedLoader):
-        """YAML with xacro's units, such as `!degrees 90`."""
+        pass
 
     for unit in package.ConstructUnits:
         Loader.add_constructor(unit.value.tag, unit.constructor)
+    return load_yaml(text, Loader)
 
+
+def _yaml_reader(package: Any) -> Callable[[Caller, Sequence[Any], Mapping[str, Any]], Any]:
     def read(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         (filename,) = (*values, *named.values())
         name = package.abs_filename_spec(filename)
@@ -81,7 +86,7 @@ def _yaml_reader(package: Any) -> Callable[[Caller, Sequence[Any], Mapping[str, 
         caller.budget.spend(len(text))
         package.filestack.append(name)
         try:
-            return package.YamlListWrapper.wrap(load_yaml(text, Loader))
+            return package.YamlListWrapper.wrap(_yaml_of(text, package))
         finally:
             package.filestack.pop()
             package.all_includes.append(name)
