@@ -18,7 +18,7 @@ class LaunchOptions:
     view_port: int | None = None
     host: str = "127.0.0.1"
     allowed: AllowedNames = AllowedNames()
-    """Whom a page serves beside itself."""
+    """Hosts and origins that the page serves beside its own."""
     renderer: Literal["cpu", "egl"] = "cpu"
     """As `RunOptions.renderer`."""
     output: Literal["screen", "log"] | None = None

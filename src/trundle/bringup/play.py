@@ -32,7 +32,7 @@ class PlayOptions:
     host: str = "127.0.0.1"
     port: int | None = None
     allowed: AllowedNames = AllowedNames()
-    """Whom the page serves beside itself."""
+    """Hosts and origins that the page serves beside its own."""
     speed: float = 1.0
     """Recorded seconds per second."""
     paused: bool = False

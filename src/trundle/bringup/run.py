@@ -44,7 +44,7 @@ class RunOptions:
     port: int | None = None
     """Of the page; None: 8080 or the next free one."""
     allowed: AllowedNames = AllowedNames()
-    """Whom the page serves beside itself."""
+    """Hosts and origins that the page serves beside its own."""
     duration_s: float | None = None
     """Simulation time; None: until interrupted."""
     speed: float | None = 1.0

@@ -31,7 +31,7 @@ class ViewOptions:
     port: int | None = None
     """None: 8080 or the next free one."""
     allowed: AllowedNames = AllowedNames()
-    """Whom the page serves beside itself."""
+    """Hosts and origins that the page serves beside its own."""
 
 
 def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> int:

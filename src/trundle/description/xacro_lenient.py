@@ -138,7 +138,7 @@ def _end(joint: Any, role: str) -> str:
 
 
 def _missing_package(error: BaseException | None) -> MissingPackageError | None:
-    """What an error came of, if that is a package that is not there."""
+    """The missing package that caused an error; None: something else did."""
     while error is not None and not isinstance(error, MissingPackageError):
         error = getattr(error, "exc", None) or error.__context__
     return error

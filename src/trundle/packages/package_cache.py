@@ -1,4 +1,4 @@
-"""What was found on the disk, kept for all files that one environment reads: rospack keeps a cache, too."""
+"""Cache of walks and manifests, kept for all files that one environment reads, as rospack keeps one."""
 
 from collections.abc import Mapping
 from pathlib import Path

@@ -65,10 +65,7 @@ class Looker:
             state: as mjSTATE_INTEGRATION has it.
         """
         with self._lock:
-            model, data, reader = self._second
-            mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
-            mujoco.mj_fwdPosition(model, data)
-            reader.changed()
+            model, data = self._placed(state)
             return separate(model, data) if find_deep(model, data).any() else None
 
     def deep_marks(self, state: _Array) -> _Array:
@@ -78,12 +75,17 @@ class Looker:
             state: as mjSTATE_INTEGRATION has it.
         """
         with self._lock:
-            model, data, reader = self._second
-            mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
-            mujoco.mj_fwdPosition(model, data)
-            reader.changed()
+            model, data = self._placed(state)
             _contact_laws.mark_deep(model._address, data._address)
             return data.userdata.copy()
+
+    def _placed(self, state: _Array) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        """Put everything where a state has it, with the contacts there."""
+        model, data, reader = self._second
+        mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
+        mujoco.mj_fwdPosition(model, data)
+        reader.changed()
+        return model, data
 
     def reactions(self, state: _Array) -> _Array:
         """(links, 6) force [N] and torque [N·m] on each link by what it hangs from, at its frame's origin, world axes.
