@@ -54,8 +54,11 @@ class Packages:
         return self._ros.find(name)
 
     def find_folder(self, name: str) -> Path | None:
-        """What `$(find name)` stands for: of a stock package that is not installed, a folder that is not there; of one
-        that describes a sensor, our stand-in."""
+        """Folder that `$(find name)` stands for.
+
+        Of a stock package that is not installed it is one that is not there; of a package that describes a sensor, our
+        stand-in.
+        """
         found = self._ros.find(name) or DESCRIPTIONS.get(name)
         return found or (SHIPPED / "ros" / name if name in STOCK else None)
 

@@ -23,7 +23,7 @@ _NO_MOTORS = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MotorOrders:
-    """What the motors of a model are told, but for the speeds and positions, which are in its data."""
+    """Orders of a model's motors, without the speeds and positions, which are in its data."""
 
     most: NDArray[np.float64]
     rates: NDArray[np.float64]

@@ -24,7 +24,7 @@ class StateReader:
         self._signs: list[float] = compiled.axis_sign.tolist()
         self._poses: NDArray[np.float64] | None = None
         self._twists: NDArray[np.float64] | None = None
-        """Of the state before the reader, once somebody has asked."""
+        """Values of the state that the reader holds, from the first time they are asked for."""
 
     def show(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
         """Put another state before the reader; time and forces stay."""

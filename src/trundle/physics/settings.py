@@ -14,12 +14,12 @@ SOLIMP = (0.99, 0.99, 0.001, 0.5, 2.0)
 
 
 def contact_solref(h: float) -> tuple[float, float]:
-    """Of contacts."""
+    """Time constant [s] and damping ratio of hard contacts, at a time step of h [s]."""
     return (2 * h, CONTACT_DAMPING_RATIO)
 
 
 def limit_solref(h: float) -> tuple[float, float]:
-    """Of joint limits: stopped within a step, and back at the limit over two hundred: no bounce."""
+    """Solver parameters of joint limits: stopped within a step, and back at the limit over two hundred: no bounce."""
     return (-1 / (h * h), -200 / h)
 
 

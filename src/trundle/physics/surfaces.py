@@ -9,7 +9,7 @@ from trundle.spatial import ZERO, Vector3
 INFINITE_FRICTION = 100.0
 """What SDF's negative mu stands for: steeper than any slope."""
 _LEAST = 1e-4
-"""Of one friction beside the other: none at all is more than MuJoCo's solver takes."""
+"""Least ratio of one friction to the other: none at all is more than MuJoCo's solver takes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
