@@ -5,10 +5,20 @@ from itertools import chain, count
 from typing import TYPE_CHECKING, TypeVar
 
 from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
-from trundle.model import PluginTag
+from trundle.model import PluginTag, Visual
 from trundle.names import ros_name
-from trundle.plugins import Hooks, Plugin, find_model_sensor_plugin, find_plugin, find_sensor_plugin, find_world_plugin
-from trundle.simulation import ModelHandle, Simulation
+from trundle.plugins import (
+    Hooks,
+    Plugin,
+    VisualPlugin,
+    alters_looks_alone,
+    find_model_sensor_plugin,
+    find_plugin,
+    find_sensor_plugin,
+    find_visual_plugin,
+    find_world_plugin,
+)
+from trundle.simulation import LinkHandle, ModelHandle, Simulation
 
 if TYPE_CHECKING:  # a run without ROS or sensors starts without their modules
     from trundle.ros import Node
@@ -36,7 +46,7 @@ def load_plugins(
     """
     loaded: list[Plugin] = []
     for model in simulation.models if models is None else models:
-        for tag, node_name in _named(model.name, model.model.plugins):
+        for tag, node_name in _named(f"/{ros_name(model.name)}", model.model.plugins):
 
             def load(tag: PluginTag = tag, model: ModelHandle = model, node_name: str = node_name) -> Plugin:
                 plugin_class, origin = find_plugin(tag, environment)
@@ -48,7 +58,39 @@ def load_plugins(
             if plugin is not None:
                 _hook_in(simulation, plugin, model)
                 loaded.append(plugin)
+        _load_visual_plugins(simulation, model, make_node, environment, say)
     return loaded
+
+
+def _load_visual_plugins(
+    simulation: Simulation,
+    model: ModelHandle,
+    make_node: "Callable[[str], Node] | None",
+    environment: Mapping[str, str],
+    say: Callable[[str], None],
+) -> None:
+    """Load the plugins of a model's visuals; see `load_plugins`."""
+    report = simulation.report
+    for link in model.links:
+        asked = [(visual, tag) for visual in link.link.visuals for tag in visual.plugins]
+        named = _named(f"/{ros_name(model.name)}/{ros_name(link.name)}", [tag for _, tag in asked])
+        for (visual, tag), (_, node_name) in zip(asked, named, strict=True):
+            if alters_looks_alone(tag):
+                what = f"plugin {tag.name!r}: {tag.filename} alters only how Gazebo draws a visual; it is not run"
+                report.info(tag.at, what)
+                continue
+
+            def load(
+                tag: PluginTag = tag, link: LinkHandle = link, visual: Visual = visual, node_name: str = node_name
+            ) -> VisualPlugin:
+                plugin_class, origin = find_visual_plugin(tag, environment)
+                say(f"plugin {tag.name!r} of {model.name}::{link.name}::{visual.name}: {origin}")
+                node = None if make_node is None else make_node(node_name)
+                return plugin_class.load(simulation, model, link, visual, node, tag)
+
+            plugin = _loaded(tag, load, report)
+            if plugin is not None:
+                _hook_in(simulation, plugin, model)
 
 
 def load_world_plugins(
@@ -60,7 +102,7 @@ def load_world_plugins(
 ) -> None:
     """Load the plugins that the world itself asks for; see `load_plugins`."""
     world = simulation.world
-    for tag, node_name in _named(world.name, world.plugins):
+    for tag, node_name in _named(f"/{ros_name(world.name)}", world.plugins):
 
         def load(tag: PluginTag = tag, node_name: str = node_name) -> Hooks:
             plugin_class, origin = find_world_plugin(tag, environment)
@@ -101,11 +143,11 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diag
     return silent
 
 
-def _named(owner: str, tags: Sequence[PluginTag]) -> list[tuple[PluginTag, str]]:
+def _named(namespace: str, tags: Sequence[PluginTag]) -> list[tuple[PluginTag, str]]:
     """Each plugin with the name of its node: of namesakes, the graph would end all but the last."""
     names: list[str] = []
     for tag in tags:
-        name = f"/{ros_name(owner)}/{ros_name(tag.name)}"
+        name = f"{namespace}/{ros_name(tag.name)}"
         numbered = (f"{name}_{i}" for i in count(2))
         names.append(next(free for free in chain([name], numbered) if free not in names))
     return list(zip(tags, names, strict=True))

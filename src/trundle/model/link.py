@@ -14,6 +14,7 @@ from .visibility import EVERY_BIT
 if TYPE_CHECKING:
     from .geometry import Geometry
     from .light import Light
+    from .plugin import PluginTag
     from .sensor import Sensor
 
 
@@ -37,6 +38,8 @@ class Visual:
     """Sensors see it whose mask shares a bit with them."""
     temperature: float | None = None
     """What thermal cameras see in it [K]; None: that of the air."""
+    plugins: tuple["PluginTag", ...] = ()
+    """Those that alter it or draw beside it; labels and temperatures are read."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

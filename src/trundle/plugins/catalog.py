@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.model import PluginTag
 
-from .plugin import Hooks, Plugin, WorldPlugin
+from .plugin import Hooks, Plugin, VisualPlugin, WorldPlugin
 
 if TYPE_CHECKING:
     from trundle.ros import Node
@@ -104,9 +104,21 @@ OF_SENSORS: dict[str, str] = {
 _OF_MODELS = {"librealsense_gazebo_plugin.so": "trundle.plugins.realsense:attach_of"}
 """File name → "module:function", of a model's plugins that publish what its sensors measure."""
 
+_LOOKS = frozenset(
+    {
+        "libAmbientOcclusionVisualPlugin.so",
+        "libBlinkVisualPlugin.so",
+        "libHeightmapLODPlugin.so",
+        "libReflectancePlugin.so",
+        "libShaderParamVisualPlugin.so",
+        "libgazebo_ros_video.so",
+    }
+)
+"""Of Gazebo's visuals, those that alter nothing but how they are drawn."""
+
 GROUP = "trundle.plugins"
 
-
+_OWNERS: dict[type[Hooks], str] = {Plugin: "model", VisualPlugin: "visual", WorldPlugin: "world"}
 _Kind = TypeVar("_Kind", bound=Hooks)
 
 
@@ -117,6 +129,16 @@ def find_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[Pl
         DescriptionError: there is none, with where was looked; or the user's file does not load, with its line.
     """
     return _find(tag, environment, Plugin)
+
+
+def find_visual_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[VisualPlugin], str]:
+    """Return the class of a visual's plugin and where it came from; see `find_plugin`."""
+    return _find(tag, environment, VisualPlugin)
+
+
+def alters_looks_alone(tag: PluginTag) -> bool:
+    """Whether a visual's plugin is one of Gazebo's that is not run: it alters nothing but how the visual is drawn."""
+    return _base_name(tag) in _LOOKS
 
 
 def find_world_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[WorldPlugin], str]:
@@ -160,8 +182,9 @@ def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> 
 
 def _of_kind(found: type[Hooks], kind: type[_Kind], tag: PluginTag) -> type[_Kind]:
     if not issubclass(found, kind):
-        whose, place = ("a world's", "<world>") if issubclass(found, WorldPlugin) else ("a model's", "<model>")
-        raise DescriptionError(tag.at, f"plugin {tag.name!r} ({tag.filename}) is {whose}; it belongs into a {place}")
+        owner = next(name for base, name in _OWNERS.items() if issubclass(found, base))
+        what = f"plugin {tag.name!r} ({tag.filename}) is a {owner}'s; it belongs into a <{owner}>"
+        raise DescriptionError(tag.at, what)
     return found
 
 

@@ -1,4 +1,4 @@
-"""What a plugin is: the Python counterpart of a Gazebo ModelPlugin or WorldPlugin.
+"""What a plugin is: the Python counterpart of a Gazebo ModelPlugin, VisualPlugin or WorldPlugin.
 
 Write a class like this in `rp2w.py` beside `model.sdf`, name `librp2w.so` (or `rp2w.py`) in the model's
 <plugin filename="…">, and `trundle run` loads it:
@@ -20,8 +20,8 @@ Write a class like this in `rp2w.py` beside `model.sdf`, name `librp2w.so` (or `
 
 from typing import TYPE_CHECKING, Self
 
-from trundle.model import PluginTag
-from trundle.simulation import ModelHandle, Simulation, Snapshot
+from trundle.model import PluginTag, Visual
+from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 
 if TYPE_CHECKING:  # a run without ROS starts without its modules
     from trundle.ros import Node
@@ -57,6 +57,17 @@ class Plugin(Hooks):
             tag: the <plugin> element; read parameters with `tag.node.number(…)` and its siblings.
         """
         raise NotImplementedError(f"{cls.__name__} needs a load(cls, sim, model, node, tag)")
+
+
+class VisualPlugin(Hooks):
+    """Draws for a visual: the Python counterpart of a Gazebo VisualPlugin."""
+
+    @classmethod
+    def load(
+        cls, sim: Simulation, model: ModelHandle, link: LinkHandle, visual: Visual, node: "Node | None", tag: PluginTag
+    ) -> Self:
+        """Make the plugin for one visual of a link; see `Plugin.load`."""
+        raise NotImplementedError(f"{cls.__name__} needs a load(cls, sim, model, link, visual, node, tag)")
 
 
 class WorldPlugin(Hooks):

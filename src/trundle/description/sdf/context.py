@@ -52,9 +52,9 @@ def leave_out(node: XmlNode, tags: Iterable[str], why: str, context: Context) ->
             context.report.info(child.at, f"<{tag}> in <{node.tag}> {why}; it is ignored")
 
 
-def read_bits(node: XmlNode, tag: str, context: Context) -> int:
-    """Flags or a mask: every bit is set where there is none."""
-    return node.integer(tag, default=EVERY_BIT, report=context.report) & EVERY_BIT
+def read_bits(node: XmlNode, tag: str, context: Context, *, default: int = EVERY_BIT) -> int:
+    """Flags or a mask."""
+    return node.integer(tag, default=default, report=context.report) & EVERY_BIT
 
 
 @dataclass(frozen=True, slots=True)

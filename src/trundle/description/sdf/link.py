@@ -11,7 +11,7 @@ from .frames import FrameGraph
 from .geometry import read_geometry
 from .inertial import read_inertial
 from .light import read_light
-from .marks import read_marks
+from .marks import with_plugins
 from .material import read_material
 from .sensor import named_apart, read_sensor
 from .surface import read_surface
@@ -51,22 +51,29 @@ def _flag(node: XmlNode, tag: str, context: Context) -> bool | None:
 
 
 def _read_visual(node: XmlNode, link: str, graph: FrameGraph, context: Context) -> Visual:
-    label, temperature = read_marks(node.all("plugin"), context)
     visual = Visual(
         name=node.attribute("name") or "visual",
         geometry=read_geometry(node, context),
         at=node.at,
         link_from_visual=graph.within(link, read_pose(node, context), node.at),
         material=read_material(node, context),
-        transparency=min(max(node.number("transparency", default=0.0, report=context.report), 0.0), 1.0),
-        cast_shadows=node.flag("cast_shadows", default=True, report=context.report),
-        laser_retro=node.number("laser_retro", default=0.0, report=context.report),
-        label=label or 0,
-        visibility_flags=read_bits(node, "visibility_flags", context),
-        temperature=temperature,
+    )
+    return with_appearance(visual, node, context)
+
+
+def with_appearance(visual: Visual, node: XmlNode, context: Context) -> Visual:
+    """A visual with all that a <visual> says of it besides its place, shape and material."""
+    report = context.report
+    visual = replace(
+        visual,
+        transparency=min(max(node.number("transparency", default=visual.transparency, report=report), 0.0), 1.0),
+        cast_shadows=node.flag("cast_shadows", default=visual.cast_shadows, report=report),
+        laser_retro=node.number("laser_retro", default=visual.laser_retro, report=report),
+        visibility_flags=read_bits(node, "visibility_flags", context, default=visual.visibility_flags),
     )
     leave_out(node, ("meta",), "is for Gazebo's editor", context)
-    node.report_unread(context.report)
+    visual = with_plugins(visual, node.all("plugin"), context)
+    node.report_unread(report)
     return visual
 
 

@@ -3,29 +3,28 @@
 from dataclasses import replace
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import Model
+from trundle.model import Model, PluginTag, Visual
 from trundle.xmlnode import XmlNode
 
 from .context import Context
+from .sensor import read_plugin
 
 _LARGEST_LABEL = 255
 _HOTTEST = 1e6
 """[K]"""
 
 
-def read_marks(plugins: list[XmlNode], context: Context) -> tuple[int | None, float | None]:
-    """Label and temperature [K] among a visual's plugins; others are named, for visuals have none here."""
-    label: int | None = None
-    temperature: float | None = None
-    for node in plugins:
+def with_plugins(visual: Visual, nodes: list[XmlNode], context: Context) -> Visual:
+    """A visual with its plugins, of which Label and Thermal are read."""
+    plugins: list[PluginTag] = []
+    for node in nodes:
         if _is(node, "label"):
-            label = _label(node, context.report)
+            visual = replace(visual, label=_label(node, context.report))
         elif _is(node, "thermal"):
-            temperature = _temperature(node, context.report)
+            visual = replace(visual, temperature=_temperature(node, context.report))
         else:
-            what = f"visual plugin {node.attribute('filename')!r} is not supported; the visual is drawn without it"
-            context.report.warn(node.at, what)
-    return label, temperature
+            plugins.append(read_plugin(node))
+    return replace(visual, plugins=(*visual.plugins, *plugins))
 
 
 def _temperature(node: XmlNode, report: Diagnostics) -> float | None:

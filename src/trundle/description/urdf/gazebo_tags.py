@@ -17,7 +17,7 @@ from ..sdf.required import name_missing_attributes
 from .lump import Lump
 
 if TYPE_CHECKING:
-    from trundle.model import Joint, Light, Link, Material, Model, PluginTag, Sensor
+    from trundle.model import Joint, Light, Link, Material, Model, PluginTag, Sensor, Visual
 
     from ..sdf.part import Part
 
@@ -76,6 +76,16 @@ class GazeboTags:
         from ..sdf.material import named_material
 
         return named_material(node.text, node, self._context)
+
+    def with_appearance(self, visual: "Visual", link: str) -> "Visual":
+        """A visual of a link with what its <visual> blocks say: that goes on every one (InsertSDFExtensionVisual)."""
+        blocks = self._all(link, "visual")
+        if blocks:
+            from ..sdf.link import with_appearance
+
+            for block in blocks:
+                visual = with_appearance(visual, block, self._context)
+        return visual
 
     def surface(self, link: str) -> Surface:
         """mu1, mu2, fdir1, kp, kd, minDepth, maxVel, or a <collision> block's <surface> instead of them all."""

@@ -206,16 +206,15 @@ class _Lowering:
     def _visuals(self, lump: str, part: RobotLink, pose: Pose, gazebo: Material | None) -> list[Visual]:
         visuals: list[Visual] = []
         for i, shape in enumerate(part.visuals):
-            visuals.append(
-                Visual(
-                    name=shape_name(lump, part.name, "visual", i, shape),
-                    geometry=self._geometry(shape),
-                    at=shape.at,
-                    link_from_visual=pose @ shape.link_from_shape,
-                    material=gazebo or self._material(shape),
-                    transparency=0.0 if gazebo or shape.rgba is None else 1.0 - shape.rgba[3],
-                )
+            visual = Visual(
+                name=shape_name(lump, part.name, "visual", i, shape),
+                geometry=self._geometry(shape),
+                at=shape.at,
+                link_from_visual=pose @ shape.link_from_shape,
+                material=gazebo or self._material(shape),
+                transparency=0.0 if gazebo or shape.rgba is None else 1.0 - shape.rgba[3],
             )
+            visuals.append(self.tags.with_appearance(visual, part.name))
             if gazebo is None and (shape.rgba is not None or shape.texture):
                 what = "textures" if shape.texture else "colours"
                 self.report.info(shape.at, f"Gazebo draws URDF {what} grey; here they are kept")

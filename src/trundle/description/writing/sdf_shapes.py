@@ -42,6 +42,7 @@ def add_visual(link: Tag, visual: Visual, uri_of: UriOf) -> None:
     if visual.temperature is not None:
         plugin = tag.add("plugin", filename="gz-sim-thermal-system", name="gz::sim::systems::Thermal")
         plugin.add("temperature", visual.temperature)
+    tag.children += [plugin.node.xml() for plugin in visual.plugins]
 
 
 def add_collision(link: Tag, collision: Collision, uri_of: UriOf) -> None:

@@ -216,6 +216,11 @@ class _Writer:
             extra.add_unless(tag, getattr(surface, name), default=getattr(default, name))
         extra.add_unless("turnGravityOff", not link.gravity, default=False)
         extra.add_unless("selfCollide", link.self_collide, default=None)
+        plugins = dict.fromkeys(plugin for visual in link.visuals for plugin in visual.plugins)
+        if plugins:
+            extra.add("visual").children += [plugin.node.xml() for plugin in plugins]
+        if any(set(visual.plugins) != plugins.keys() for visual in link.visuals):
+            self.report.warn(link.at, f"link {link.name!r}: in a URDF all its visuals get the plugins of any")
         for sensor in link.sensors:
             add_sensor(extra, replace(sensor, link_from_sensor=frame_from_link @ sensor.link_from_sensor), self.report)
         for light in link.lights:
