@@ -103,6 +103,7 @@ def test_a_camera_is_shown_once_and_where_it_is_now(tmp_path: Path) -> None:
     sim, (first,) = world(tmp_path, sensor("camera", _CAMERA))
     screen = Screen()
     page = Page(cast(Viewer, screen), sim, None, [])
+    assert sim.lines_are_shown
     page.replace(sim, [first])
     sim.spawn(replace(sim["eye"].model, name="other"))
     second = mount_cameras(sim, NativeRenderer, model="other", beside=[first])[0]

@@ -76,6 +76,7 @@ class Page:
 
     def _follow(self, simulation: Simulation, joints: list[tuple[str, str]]) -> None:
         self._simulation = simulation
+        simulation.lines_are_shown = True
         self._joints = dict(zip(slider_names(joints), joints, strict=True))
         self._slider_indices = joint_indices(simulation, joints)
 

@@ -74,6 +74,7 @@ BUILTIN: dict[str, str] = {
     "librotors_gazebo_multirotor_base_plugin.so": "trundle.plugins.rotors.multirotor_base:MultirotorBase",
     "librotors_gazebo_odometry_plugin.so": "trundle.plugins.rotors.odometry:Odometry",
     "librotors_gazebo_ros_interface_plugin.so": "trundle.plugins.rotors.interfaces:RosInterface",
+    "libunitreeDrawForcePlugin.so": "trundle.plugins.unitree.draw_force:DrawForce",
     "libwarthog_suspension_plugin.so": "trundle.plugins.warthog_suspension:WarthogSuspension",
 }
 """File name → "module:Class", imported only when a model asks."""

@@ -70,6 +70,8 @@ class Simulation:
         """Between models, in file order."""
         self.lines: dict[str, Line] = {}
         """What plugins draw, by `model::name`."""
+        self.lines_are_shown = False
+        """Whether a viewer shows them; a plugin whose lines cost much draws none until then."""
         self._commands: deque[Command] = deque()
         self._schedule = Schedule(self._timeline)
         self._on_change: list[Callable[[], None]] = []

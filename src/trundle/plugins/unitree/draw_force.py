@@ -1,0 +1,81 @@
+"""libunitreeDrawForcePlugin.so: the force on a foot, as a line."""
+
+from typing import Self
+
+from trundle.description import GAZEBO_MATERIALS
+from trundle.model import Box, Cylinder, Geometry, MeshFile, Plane, PluginTag, Sphere, Visual
+from trundle.ros import Message, Node, Subscription
+from trundle.simulation import Line, LinkHandle, ModelHandle, Simulation
+from trundle.spatial import ZERO, Vector3
+
+from ..plugin import VisualPlugin
+
+_NEWTONS_PER_UNIT = 20.0
+
+
+class DrawForce(VisualPlugin):
+    """Draws a line from a visual's origin along the force of geometry_msgs/WrenchStamped on <topicName>/the_force.
+
+    A name that is not global is below /visual, where the foot contacts are; the default is /default_force_draw. As in
+    Gazebo the line is in the visual's axes and stretched with it (a unit sphere's line is 0.05 m/N long, that of one of
+    0.02 m across 0.001 m/N), and viewers alone see it: cameras do not (GZ_VISIBILITY_GUI). It listens from when one
+    shows lines.
+    """
+
+    period_ns = 20_000_000
+    """That of a viewer's frames, about."""
+
+    def __init__(
+        self, sim: Simulation, model: ModelHandle, link: LinkHandle, visual: Visual, node: Node | None, tag: PluginTag
+    ) -> None:
+        """See `VisualPlugin.load`."""
+        topic = tag.node.string("topicName", default="/default_force_draw")
+        tag.node.report_unread(sim.report)
+        self._topic = f"{topic if topic.startswith('/') else f'/visual/{topic}'}/the_force"
+        self._node = node
+        self._subscription: Subscription | None = None
+        self._link = link
+        self._link_from_visual = visual.link_from_visual
+        self._scale = _scale_of(visual.geometry)
+        self._force = ZERO
+        self._line = Line(GAZEBO_MATERIALS["Gazebo/Purple"].diffuse[:3])
+        sim.lines[f"{model.name}::{link.name}::{visual.name}::{tag.name}"] = self._line
+
+    @classmethod
+    def load(
+        cls, sim: Simulation, model: ModelHandle, link: LinkHandle, visual: Visual, node: Node | None, tag: PluginTag
+    ) -> Self:
+        """See `VisualPlugin.load`."""
+        return cls(sim, model, link, visual, node, tag)
+
+    def before_step(self, sim: Simulation) -> None:
+        """Put the line where the visual is."""
+        if self._node is None or not sim.lines_are_shown:
+            return
+        if self._subscription is None:
+            kind = "geometry_msgs/WrenchStamped"
+            self._subscription = self._node.subscribe(self._topic, kind, self._hear, queue_size=30)
+        x, y, z = (force * scale / _NEWTONS_PER_UNIT for force, scale in zip(self._force, self._scale, strict=True))
+        world_from_visual = self._link.pose @ self._link_from_visual
+        self._line.points[:] = [world_from_visual.position, world_from_visual.point((x, y, z))]
+
+    def _hear(self, message: Message) -> None:
+        force = message.wrench.force
+        self._force = (force.x, force.y, force.z)
+
+
+def _scale_of(geometry: Geometry) -> Vector3:
+    """What Gazebo stretches unit shapes by, and with them all that is attached to their node (Visual::Load)."""
+    match geometry:
+        case Box(size):
+            return size
+        case Sphere(radius):
+            return (2.0 * radius, 2.0 * radius, 2.0 * radius)
+        case Cylinder(radius, length):
+            return (2.0 * radius, 2.0 * radius, length)
+        case Plane(_, (x, y)):
+            return (x, y, 1.0)
+        case MeshFile():
+            return geometry.scale
+        case _:
+            return (1.0, 1.0, 1.0)
