@@ -47,3 +47,34 @@ def test_a_folder_whose_src_holds_programs_is_none(workspace: Path, tmp_path: Pa
     (tmp_path / "program/src/deep").mkdir(parents=True)
 
     assert Packages({"HOME": "/nobody"}, start=tmp_path / "program").find_package("arm") is None
+
+
+@pytest.mark.parametrize("name", ["robot_description", "robot-master"])
+def test_a_package_right_below_where_the_user_is_is_found_by_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
+    """As it lies after a clone: no workspace, and nothing on the path."""
+    folder = tmp_path / "robot-master"
+    (folder / "launch").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>robot_description</name></package>")
+    (folder / "launch/show.launch").write_text('<launch><param name="p" textfile="$(find other)/a.txt"/></launch>')
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "package.xml").write_text("<package><name>other</name></package>")
+    (other / "a.txt").write_text("a")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
+
+    assert main(["launch", "--dump-params", name, "show.launch"]) == 0
+    assert capsys.readouterr().out.strip() == "/p: a"
+
+
+def test_what_lies_right_below_needs_a_manifest_and_is_no_home_folder(tmp_path: Path) -> None:
+    for folder in (tmp_path / "home", tmp_path / "group/deep"):
+        folder.mkdir(parents=True)
+        (folder / "package.xml").write_text("<package><name>thing</name></package>")
+    (tmp_path / "plain/launch").mkdir(parents=True)
+    packages = Packages({"HOME": str(tmp_path / "home")}, start=tmp_path)
+
+    assert [packages.find_package(name) for name in ("thing", "home", "deep", "plain", "..")] == [None] * 5
+    assert "thing" not in packages.ros_packages()

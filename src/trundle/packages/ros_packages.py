@@ -3,6 +3,7 @@
 import os
 import re
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from pathlib import Path
 
 from trundle.files import read_text
@@ -13,6 +14,7 @@ from .workspace import PARTS, own_package, workspaces
 
 _MOST_GUESSED = 5000
 """Folders looked at where nobody said that packages are: a home folder has more than one wants to wait for."""
+_MOST_RIGHT_BELOW = 500
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _NAME = re.compile(r"<name>\s*([\w.-]+)\s*</name>")
 SHIPPED = Path(__file__).parent / "ros"
@@ -26,7 +28,7 @@ class RosPackages:
     """An index of the packages below some folders, made when first asked."""
 
     def __init__(self, environment: Mapping[str, str], start: Path, cache: PackageCache) -> None:
-        """Look along ROS_PACKAGE_PATH, in the workspace around `start`, then beside the package `start` is in.
+        """Look along ROS_PACKAGE_PATH, in the workspace around `start`, beside the package `start` is in, then in it.
 
         Args:
             environment: says where packages are.
@@ -35,6 +37,7 @@ class RosPackages:
         """
         entries = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
         start = Path(os.path.realpath(start))
+        self._start = start
         self._cache = cache
         self._on_path = [Path(os.path.expanduser(entry)).absolute() for entry in entries if entry]
         self._around = list(workspaces(start))
@@ -47,7 +50,7 @@ class RosPackages:
 
     def find(self, name: str) -> Path | None:
         """The folder of a package: by its manifest's name, else by the folder's own name."""
-        return self.all().get(name) or self._folders.get(name)
+        return self.all().get(name) or self._folders.get(name) or self._right_below.get(name)
 
     def all(self) -> Mapping[str, Path]:
         """Every package that has a manifest, by name; the first of a name wins."""
@@ -77,6 +80,16 @@ class RosPackages:
     def searched(self) -> list[Path]:
         """Where `find` looks, in order."""
         return [*self.roots, *self._guessed[1:]]
+
+    @cached_property
+    def _right_below(self) -> Mapping[str, Path]:
+        """Packages whose folders are in `start`, a plain folder, by their manifests' and by their folders' names.
+
+        None of them is listed in `all`: only who asks for one by its name means it.
+        """
+        walk = Walk(self._start, most=_MOST_RIGHT_BELOW, deepest=1)
+        found = [(folder, name) for folder, name in self._packages_below(walk) if name is not None]
+        return {folder.name: folder for folder, _ in found} | {name: folder for folder, name in found}
 
     def _crawl(self, root: Path, *, most: int | None = None) -> None:
         assert self._by_name is not None
