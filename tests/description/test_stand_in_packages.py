@@ -113,6 +113,61 @@ def test_a_realsense_has_its_frames_and_for_gazebo_its_cameras(tmp_path: Path, k
     assert len(report.warnings) == 1
 
 
+GENERIC = 'ros_topic="image" cam_info_topic="info" update_rate="10" res_x="320" res_y="240" image_format="R8G8B8"'
+
+
+@pytest.mark.parametrize(
+    ("kind", "more", "name", "y", "size", "fov", "plugin", "said"),
+    [
+        (
+            "generic_camera",
+            f'{GENERIC} hfov="90" far_clip="30"',
+            "eye_camera_sensor",
+            0.0,
+            (320, 240, 0.01, 30.0),
+            90.0,
+            "libgazebo_ros_camera.so",
+            ["image", "info", "eye_optical_frame"],
+        ),
+        (
+            "asus_camera",
+            "",
+            "eye",
+            0.049,
+            (640, 480, 0.5, 9.0),
+            62.8,
+            "libgazebo_ros_openni_kinect.so",
+            ["eye/rgb/image_raw", "eye/rgb/camera_info", "eye_depth_optical_frame"],
+        ),
+    ],
+)
+def test_a_camera_s_macro_builds_its_sensor(
+    tmp_path: Path,
+    kind: str,
+    more: str,
+    name: str,
+    y: float,
+    size: tuple[float, ...],
+    fov: float,
+    plugin: str,
+    said: list[str],
+) -> None:
+    include = f"hector_sensors_description)/urdf/{kind}.urdf.xacro"
+    call = f'<xacro:{kind} name="eye" parent="base_link" {more}>{ORIGIN}</xacro:{kind}>'
+    model, report = read(tmp_path, include, call)
+
+    (sensor,) = sensors(model)
+    (camera,) = sensor.cameras
+    assert (sensor.name, sensor.plugins[0].filename) == (name, plugin)
+    assert sensor.link_from_sensor.position == pytest.approx((0.1, y, 0.3))
+    assert (camera.width_px, camera.height_px, camera.near_m, camera.far_m) == size
+    assert math.degrees(camera.horizontal_fov_rad) == pytest.approx(fov)
+    assert [
+        sensor.plugins[0].node.string(tag) for tag in ("imageTopicName", "cameraInfoTopicName", "frameName")
+    ] == said
+    assert len(report.warnings) == 1
+
+
 def test_a_file_that_a_stand_in_has_not_is_named_with_the_package(tmp_path: Path) -> None:
     with pytest.raises(DescriptionError, match=r"no package 'velodyne_description'.*its stand-in has no VLS-128"):
         read(tmp_path, "velodyne_description)/urdf/VLS-128.urdf.xacro", "")
