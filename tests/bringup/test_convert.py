@@ -29,6 +29,9 @@ MODEL = """<sdf version='1.6'><model name='cart'><link name='base'>{visuals}
 </model></sdf>"""
 
 
+XACRO = "xmlns:xacro='http://www.ros.org/wiki/xacro'"
+
+
 @pytest.fixture
 def cart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A model with two meshes of one name, one of them painted."""
@@ -233,10 +236,32 @@ def test_an_output_that_cannot_be_written_is_one_sentence_and_no_file(cart: Path
     [
         ("", "<stdin>:1: error: the file is empty"),
         ("<sdf", "<stdin>:1: error: not well-formed XML"),
-        ("<robot name='r' xmlns:xacro='x'><xacro:arm/></robot>", "read from a file only, by its name"),
+        (f"<robot name='r' {XACRO}><xacro:arm/></robot>", "<stdin>: error: unknown macro name: xacro:arm"),
+        ("<launch><node pkg='p' exec='e'/></launch>", "<stdin>:1: error: <node exec>: this is a launch file of ROS 2"),
     ],
 )
 def test_standard_input_that_makes_no_sense(text: str, said: str) -> None:
     code, printed = run("check", "-", stdin=text)
     assert code == 1
     assert said in printed
+
+
+def test_a_launch_file_is_known_by_its_root(cart: Path) -> None:
+    text = "\ufeff<?xml version='1.0'?>\n<!-- <robot> -->\n<launch><node pkg='p' type='t' name='n'/></launch>"
+    file = cart.parent / "robot.xml"
+    file.write_text(text)
+    said = "a launch of 1 nodes with 0 parameters; nothing to remark\n"
+
+    assert run("check", "-", stdin=text) == (0, f"-: {said}")
+    assert run("check", str(file)) == (0, f"{file}: {said}")
+
+
+def test_a_xacro_of_standard_input_is_expanded_beside_where_the_user_is(cart: Path, tmp_path: Path) -> None:
+    """With what it includes and the lines of its faults; `check` and `convert` alike."""
+    (tmp_path / "mass.xacro").write_text(f"<robot {XACRO}><xacro:property name='mass' value='2'/></robot>")
+    link = "<link name='l'><inertial><mass value='${mass}'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link>"
+    text = f"<robot name='r' {XACRO}><xacro:include filename='mass.xacro'/>{link}</robot>"
+
+    (model,) = json.loads(run("check", "-", "--json", stdin=text)[1])["models"]
+    assert model["links"][0]["mass"] == 2.0
+    assert '<mass value="2"' in run("convert", "-", "--to", "urdf", stdin=text)[1]

@@ -1,6 +1,7 @@
 """`trundle check`: what a file says, and what is doubtful about it; nothing in it is run."""
 
 import os
+import re
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -8,12 +9,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError
+from trundle.files import open_file
 from trundle.packages import Packages
+
+from .described_file import Piped, read_piped
 
 if TYPE_CHECKING:
     from trundle.diagram import TreeNode
 
 _LAUNCH = (".launch", ".launch.py", ".launch.xml", ".test")
+_LAUNCH_TAG = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>]*>)*+<launch[\s/>]", re.DOTALL)
+"""A document's start up to its root."""
+_START_BYTES = 64 * 1024
 
 
 class Found(Protocol):
@@ -80,16 +87,34 @@ def check(file: str, environment: Mapping[str, str], *, start: Path, collisions:
     packages = Packages(environment, start=start)
     found: Found | None = None
     try:
-        if file.endswith(_LAUNCH) and os.path.isfile(file):
+        piped = read_piped(file)
+        if _is_launch(file, piped):
             from .check_launch import check_launch  # each knows rooms that the other need not load
 
-            found = check_launch(Path(file), environment, packages=packages, report=report)
+            found = check_launch(file, environment, packages=packages, report=report, piped=piped)
         else:
             from .check_description import check_description
 
-            found = check_description(file, packages=packages, start=start, report=report, collisions=collisions)
+            found = check_description(
+                file, packages=packages, start=start, report=report, collisions=collisions, piped=piped
+            )
     except DescriptionError as error:
         report.error(error)
     except UsageError as error:
         report.error(DescriptionError(Source(file), str(error)))
     return CheckOutcome(file=file, found=found, report=report)
+
+
+def _is_launch(file: str, piped: Piped | None) -> bool:
+    """By the name of a file, else by the root element."""
+    if piped is None and not os.path.isfile(file):
+        return False
+    return file.endswith(_LAUNCH) or _LAUNCH_TAG.match(_start_of(file) if piped is None else piped.data) is not None
+
+
+def _start_of(file: str) -> bytes:
+    try:
+        with open_file(file) as opened:
+            return opened.read(_START_BYTES)
+    except OSError:  # whoever reads all of it says so
+        return b""

@@ -10,7 +10,7 @@ from trundle.model import World, flattened
 from trundle.packages import Packages
 from trundle.physics import name_wheels
 
-from .described_file import load_described
+from .described_file import Piped, load_described
 from .doubts import name_doubts
 from .unremarkable import is_unremarkable
 from .unseen import why_unseen
@@ -52,7 +52,13 @@ class FoundDescription:
 
 
 def check_description(
-    file: str, *, packages: Packages, start: Path, report: Diagnostics, collisions: bool = False
+    file: str,
+    *,
+    packages: Packages,
+    start: Path,
+    report: Diagnostics,
+    collisions: bool = False,
+    piped: Piped | None = None,
 ) -> FoundDescription:
     """Read a description and put it to use as far as shows what is wrong with it.
 
@@ -62,12 +68,13 @@ def check_description(
         start: relative URIs in standard input start here.
         report: takes everything worth saying.
         collisions: cut hollow meshes as physics does, which may take a minute.
+        piped: what came through `file`, where that is no file.
 
     Raises:
         DescriptionError: of which nothing sensible can be made.
         UsageError: no such model.
     """
-    loaded = load_described(file, report, packages=packages, start=start)
+    loaded = load_described(file, report, packages=packages, start=start, piped=piped)
     flat = flattened(loaded.world)
     name_doubts(loaded, report)
     _name_silent_sensors(flat, report)

@@ -7,8 +7,10 @@ from pathlib import Path
 
 from trundle.diagnostics import Diagnostics
 from trundle.diagram import TreeNode
-from trundle.launch import LaunchPlan, ParamCommand, read_launch
+from trundle.launch import LaunchPlan, ParamCommand, read_launch, read_launch_text
 from trundle.packages import Packages
+
+from .described_file import Piped
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,13 +54,19 @@ class FoundLaunch:
         return f"a launch of {len(self.plan.nodes)} nodes with {len(self.plan.params)} parameters{to_run}"
 
 
-def check_launch(file: Path, environment: Mapping[str, str], *, packages: Packages, report: Diagnostics) -> FoundLaunch:
-    """Read a launch file.
+def check_launch(
+    file: str, environment: Mapping[str, str], *, packages: Packages, report: Diagnostics, piped: Piped | None = None
+) -> FoundLaunch:
+    """Read a launch file, or what came through a pipe in place of one.
 
     Raises:
         DescriptionError: of which nothing sensible can be made.
     """
-    return FoundLaunch(read_launch(file, packages=packages.around(file), report=report, env=environment))
+    if piped is not None:
+        text = piped.data.decode(errors="replace")
+        return FoundLaunch(read_launch_text(text, name=piped.name, packages=packages, report=report, env=environment))
+    path = Path(file)
+    return FoundLaunch(read_launch(path, packages=packages.around(path), report=report, env=environment))
 
 
 def _plain(value: object) -> object:

@@ -1,14 +1,39 @@
-"""A description by its name, or from standard input."""
+"""A description by its name, or from a pipe or standard input."""
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 from trundle.description import Loaded, load, load_text
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
-from trundle.files import read_standard_input
+from trundle.files import is_stream, read_standard_input, read_stream
 from trundle.packages import Packages
 
-STANDARD_INPUT = "-"
+_STANDARD_INPUT = "-"
+
+
+class Piped(NamedTuple):
+    """What came through a pipe or standard input."""
+
+    name: str
+    """As messages call it."""
+    data: bytes
+
+
+def read_piped(file: str) -> Piped | None:
+    """Read what is no file: standard input, "-", or a pipe; None: it is one, or nothing.
+
+    Raises:
+        DescriptionError: it cannot be read.
+    """
+    is_standard = file == _STANDARD_INPUT
+    if not is_standard and not is_stream(file):
+        return None
+    name = "<stdin>" if is_standard or Path(file).name == "stdin" else "<pipe>"
+    try:
+        return Piped(name, read_standard_input() if is_standard else read_stream(file))
+    except OSError as error:
+        raise DescriptionError(Source(name if is_standard else file), f"cannot be read: {error.strerror}") from None
 
 
 def name_workspace(file: str, packages: Packages, say: Callable[[str], None]) -> None:
@@ -20,7 +45,9 @@ def name_workspace(file: str, packages: Packages, say: Callable[[str], None]) ->
         say(f"using the workspace {workspace}")
 
 
-def load_described(file: str, report: Diagnostics, *, packages: Packages, start: Path) -> Loaded:
+def load_described(
+    file: str, report: Diagnostics, *, packages: Packages, start: Path, piped: Piped | None = None
+) -> Loaded:
     """Read a description.
 
     Args:
@@ -28,17 +55,14 @@ def load_described(file: str, report: Diagnostics, *, packages: Packages, start:
         report: takes everything worth saying.
         packages: where URIs lead.
         start: relative URIs in standard input start here.
+        piped: what `file` holds, where that was read already.
 
     Raises:
         DescriptionError: of which nothing sensible can be made.
         UsageError: no such model.
     """
-    if file != STANDARD_INPUT:
-        name_workspace(file, packages, lambda what: report.info(Source(file), what))
-        return load(file, report, packages=packages)
-    name = "<stdin>"
-    try:
-        text = read_standard_input()
-    except OSError as error:
-        raise DescriptionError(Source(name), f"cannot be read: {error.strerror}") from None
-    return load_text(text, name=name, folder=start, packages=packages, report=report)
+    piped = piped or read_piped(file)
+    if piped is not None:
+        return load_text(piped.data, name=piped.name, folder=start, packages=packages, report=report)
+    name_workspace(file, packages, lambda what: report.info(Source(file), what))
+    return load(file, report, packages=packages)

@@ -62,7 +62,7 @@ def _load_stream(path: Path, report: Diagnostics, *, packages: Packages, seed: i
 def load_text(
     text: str | bytes, *, name: str, folder: Path, packages: Packages, report: Diagnostics, seed: int = 0
 ) -> Loaded:
-    """Read a description that is in no file: SDF or URDF.
+    """Read a description that is in no file: SDF, URDF or xacro.
 
     Args:
         text: all of it.
@@ -80,7 +80,8 @@ def load_text(
         return load_sdf(root, folder / name, packages, report, seed=seed)
     text = text if isinstance(text, str) else text.decode(errors="replace")
     if _XACRO in text:
-        raise DescriptionError(root.at, "a xacro file; it is read from a file only, by its name")
+        path = Path(os.path.relpath(folder / name))  # as messages call it, where it is read in the working folder
+        text, name = _expanded(path, packages, report, text.encode()), f"{name} (expanded)"
     return load_urdf(text, name, folder / name, packages, report)
 
 
@@ -140,10 +141,10 @@ def load_urdf(text: str, name: str, path: Path, packages: Packages, report: Diag
     return Loaded(kind="urdf", world=world, robot=robot, urdf=text)
 
 
-def _expanded(path: Path, packages: Packages, report: Diagnostics) -> str:
+def _expanded(path: Path, packages: Packages, report: Diagnostics, data: bytes | None = None) -> str:
     from .xacro import expand_xacro
 
-    return expand_xacro(path, {}, packages=packages, report=report)
+    return expand_xacro(path, {}, packages=packages, report=report, data=data)
 
 
 def _find(what: str, packages: Packages) -> Path:
