@@ -1,6 +1,7 @@
 """The XML tree: lines, what nobody read, and hostile text."""
 
 import pytest
+from lxml import etree
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.xmlnode import parse_xml
@@ -43,10 +44,16 @@ def test_a_second_one_of_what_there_is_one_of_is_named() -> None:
     ("text", "sentence"),
     [
         ("", "x.xml:1: error: the file is empty"),
-        ("hello", "x.xml:1: error: not well-formed XML: Start tag expected, '<' not found"),
-        ("<a>\n<b></a>", "x.xml:2: error: not well-formed XML: Opening and ending tag mismatch: b line 2 and a"),
-        ("<a>" * 100_000, "x.xml:1: error: not well-formed XML: Excessive depth in document: 256"),
-        ('<!DOCTYPE a [<!ENTITY x SYSTEM "file:///etc/passwd">]><a>&x;</a>', "Entity 'x' not defined"),
+        ("hello", "x.xml:1: error: not well-formed XML: the root element has to start here, with '<' (column 1)"),
+        ("<a>\n<b></a>", "x.xml:2: error: not well-formed XML: </a> where <b> of line 2 is still open (column 8)"),
+        (" \n  <a>\n<b></a>", "x.xml:3: error: not well-formed XML: </a> where <b> of line 3 is still open (column 8)"),
+        ("\n  <a b></a>", "x.xml:2: error: not well-formed XML: attribute 'b' has no value (column 7)"),
+        ("<a>\n<b c='1' c='2'/></a>", "x.xml:2: error: not well-formed XML: attribute 'c' is given twice (column 15)"),
+        ("<a>&nbsp;</a>", "x.xml:1: error: not well-formed XML: &nbsp; is not defined; XML has &amp; "),
+        ("<a>\n<b>", "x.xml:2: error: not well-formed XML: it ends where <b> of line 2 is still open (column 4)"),
+        ("<a><b:c/></a>", "the prefix 'b' is not declared; xmlns:b="),
+        ("<a>" * 100_000, "x.xml:1: error: not well-formed XML: elements more than 256 deep in one another"),
+        ('<!DOCTYPE a [<!ENTITY x SYSTEM "file:///etc/passwd">]><a>&x;</a>', "&x; is not defined"),
     ],
 )
 def test_text_that_is_no_document_is_one_sentence(text: str, sentence: str) -> None:
@@ -54,6 +61,44 @@ def test_text_that_is_no_document_is_one_sentence(text: str, sentence: str) -> N
         parse_xml(text, name="x.xml")
 
     assert sentence in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "<a>& b</a>",
+        "<a>&b</a>",
+        "<a>< b</a>",
+        "<a><1/></a>",
+        "<a b=c/>",
+        "<a b='c/>",
+        "<a b='<'/>",
+        "<a b='1'c='2'/>",
+        "<a b='1' <c/></a>",
+        "<a><!-- -- --></a>",
+        "<a><!-- ",
+        "<a>]]></a>",
+        "<a><![CDATA[</a>",
+        "<a>\x08</a>",
+        "<a>&#0;</a>",
+        "<a>&#xZZ;</a>",
+        "<a/><b/>",
+        "<a></a",
+        "<a><?b </a>",
+        "<!-- --><?xml version='1.0'?><a/>",
+        "<?xml version='1.0'><a/>",
+        "<?xml version='1.0' encoding='klingon'?><a/>",
+        "<a:/>",
+        "<!DOCTYPE a [<a/>",
+    ],
+)
+def test_no_fault_is_worded_as_the_xml_library_does(text: str) -> None:
+    with pytest.raises(etree.XMLSyntaxError) as original:
+        etree.fromstring(text.encode())
+    with pytest.raises(DescriptionError, match=r": error: not well-formed XML: .{8,} \(column \d+\)$") as error:
+        parse_xml(text, name="x.xml")
+
+    assert (original.value.msg or "").partition(", line")[0] not in error.value.what
 
 
 def test_an_entity_bomb_is_refused_before_it_grows() -> None:

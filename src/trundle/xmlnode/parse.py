@@ -4,7 +4,6 @@ Entities are never fetched and never expanded without bound, so a hostile file c
 """
 
 import io
-import re
 from pathlib import Path
 
 from lxml import etree
@@ -12,6 +11,7 @@ from lxml import etree
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.files import read_file
 
+from .faults import place_fault
 from .node import XmlNode
 from .tinyxml import rewrite_as_xml
 
@@ -19,8 +19,6 @@ _MAX_BYTES = 64 * 1024 * 1024
 _DEEPEST = 256
 """libxml2's own bound."""
 _TOO_MUCH = etree.ErrorTypes.ERR_RESOURCE_LIMIT
-_POSITION = re.compile(r", line \d+, column \d+$")
-"""libxml2 repeats the place, which every message of ours starts with."""
 
 
 def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None, deepest: int = _DEEPEST) -> XmlNode:
@@ -46,38 +44,29 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
     if report is not None and data.startswith(_UTF_16):
         report.warn(Source(name, 1), "UTF-16 text, which Gazebo and urdfdom refuse; save it as UTF-8")
     parser = _parser()
+    document = data.lstrip()  # tutorials and templates start with blank lines, and Gazebo and ROS read on
+    before = data[: len(data) - len(document)]
     try:
-        root = etree.fromstring(data.lstrip(), parser)
+        root = etree.fromstring(document, parser)
     except etree.XMLSyntaxError as error:
-        line = (error.lineno or 1) + _blank_lines(data)
-        what = " ".join(_POSITION.sub("", error.msg or "no element found").split())
+        line, what = place_fault(error, before=before)
         at = Source(name, line)
         if deepest > _DEEPEST and any(entry.type == _TOO_MUCH for entry in parser.error_log):
-            root = _deep(data.lstrip(), deepest)
+            root = _deep(document, deepest)
             if root is None:
                 raise DescriptionError(
                     at, f"elements more than {deepest} deep in one another, or entities that multiply"
                 ) from None
-            return _node(root, data, name)
-        root = None if report is None else _recovered(data.lstrip())
-        if root is None or report is None:
-            raise DescriptionError(at, f"not well-formed XML: {what}") from None
-        report.warn(at, f"not well-formed XML: {what}; read as Gazebo reads it")
+        else:
+            root = None if report is None else _recovered(document)
+            if root is None or report is None:
+                raise DescriptionError(at, what) from None
+            report.warn(at, f"{what}; read as Gazebo reads it")
     except ValueError as error:  # "Unicode strings with encoding declaration": only bytes come here
         raise DescriptionError(Source(name, 1), f"not readable as XML: {error}") from None
-    return _node(root, data, name)
-
-
-def _node(root: etree._Element, data: bytes, name: str) -> XmlNode:  # pyright: ignore[reportPrivateUsage]
-    """The root of a document, which may start with blank lines: tutorials and templates do, Gazebo and ROS read on."""
-    start = data.lstrip()
-    node = XmlNode(root, file=name, first_line=_blank_lines(data))
-    node.is_declared_late = len(start) < len(data) and start.startswith(b"<?xml")
+    node = XmlNode(root, file=name, first_line=before.count(b"\n"))
+    node.is_declared_late = bool(before) and document.startswith(b"<?xml")
     return node
-
-
-def _blank_lines(data: bytes) -> int:
-    return data[: len(data) - len(data.lstrip())].count(b"\n")
 
 
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")

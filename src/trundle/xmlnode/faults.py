@@ -1,0 +1,85 @@
+"""Says what is not well-formed about a document, and where, in place of libxml2's own words."""
+
+import re
+from collections.abc import Mapping
+
+from lxml import etree
+
+_E = etree.ErrorTypes
+_POSITION = re.compile(r", line \d+, column \d+\s*$")
+"""libxml2 repeats the place."""
+_ATTRIBUTE_TWICE = "attribute {0!r} is given twice"
+_NO_BLANK = "a blank is missing here"
+_CUT_SHORT = "<!DOCTYPE …> is cut short"
+_SENTENCES: Mapping[int, tuple[tuple[str, str], ...]] = {
+    _E.ERR_DOCUMENT_EMPTY: (("", "the root element has to start here, with '<'"),),
+    _E.ERR_DOCUMENT_END: (("", "more follows where the root element has ended"),),
+    _E.ERR_TAG_NAME_MISMATCH: ((r": (\S+) line (\d+) and (\S+)", "</{2}> where <{0}> of line {1} is still open"),),
+    _E.ERR_TAG_NOT_FINISHED: ((r"tag (\S+) line (\d+)", "it ends where <{0}> of line {1} is still open"),),
+    _E.ERR_GT_REQUIRED: (
+        (r"Start Tag (\S+) line (\d+)", "the '>' that ends <{0} …> of line {1} is missing"),
+        ("", "the '>' that ends a tag is missing"),
+    ),
+    _E.ERR_NAME_REQUIRED: (
+        ("EntityRef", "'&' starts no reference here; write &amp;"),
+        ("attribute", "an attribute, or the '>' that ends the tag, has to stand here"),
+        ("StartTag", "'<' starts no tag here; write &lt;"),
+    ),
+    _E.ERR_ENTITYREF_SEMICOL_MISSING: (("", "no ';' ends what '&' starts; for an '&' alone write &amp;"),),
+    _E.ERR_UNDECLARED_ENTITY: (("'(.*)'", "&{0}; is not defined; XML has &amp; &lt; &gt; &quot; and &apos;"),),
+    _E.ERR_ENTITY_LOOP: (("", "an entity that holds itself"),),
+    _E.ERR_ATTRIBUTE_REDEFINED: ((r"Attribute (\S+)", _ATTRIBUTE_TWICE),),
+    _E.NS_ERR_ATTRIBUTE_REDEFINED: ((r"Attribute (\S+)", _ATTRIBUTE_TWICE),),
+    _E.ERR_ATTRIBUTE_WITHOUT_VALUE: ((r"attribute (\S+)", "attribute {0!r} has no value"),),
+    _E.ERR_ATTRIBUTE_NOT_STARTED: (("", "the value of an attribute has no quotes"),),
+    _E.ERR_ATTRIBUTE_NOT_FINISHED: (("", "the quote that ends the value of an attribute is missing"),),
+    _E.ERR_LT_IN_ATTRIBUTE: (("", "'<' in the value of an attribute; write &lt;, or end the value with its quote"),),
+    _E.ERR_SPACE_REQUIRED: (("attributes", "no blank between two attributes"), ("", _NO_BLANK)),
+    _E.ERR_HYPHEN_IN_COMMENT: (("", "'--' within a comment"),),
+    _E.ERR_COMMENT_NOT_FINISHED: (("not terminated", "the '-->' that ends a comment is missing"),),
+    _E.ERR_CDATA_NOT_FINISHED: (("", "the ']]>' that ends <![CDATA[ is missing"),),
+    _E.ERR_MISPLACED_CDATA_END: (("", "']]>' in text; write ]]&gt;"),),
+    _E.ERR_PI_NOT_FINISHED: (("", "the '?>' that ends <? is missing"),),
+    _E.ERR_XMLDECL_NOT_FINISHED: (("", "the '?>' that ends <?xml is missing"),),
+    _E.ERR_VERSION_MISSING: (("", "<?xml …?> names no version"),),
+    _E.ERR_RESERVED_XML_NAME: (("", "<?xml …?> can stand only at the start"),),
+    _E.ERR_DOCTYPE_NOT_FINISHED: (("", _CUT_SHORT),),
+    _E.ERR_INT_SUBSET_NOT_FINISHED: (("", _CUT_SHORT),),
+    _E.ERR_INVALID_CHAR: (("", "a character that XML does not allow"),),
+    _E.ERR_INVALID_HEX_CHARREF: (("", "&#x…; of what is no hexadecimal number"),),
+    _E.ERR_INVALID_DEC_CHARREF: (("", "&#…; of what is no number"),),
+    _E.ERR_INVALID_ENCODING: (("", "bytes that are none of the encoding it is in"),),
+    _E.ERR_UNSUPPORTED_ENCODING: ((r": (\S+)", "the encoding {0!r} is not known"),),
+    _E.ERR_NAME_TOO_LONG: (("", "a name of more than 50000 characters"),),
+    _E.ERR_RESOURCE_LIMIT: (
+        (r"depth\D*(\d+)", "elements more than {0} deep in one another"),
+        ("amplification", "entities that multiply"),
+        ("", "a text of more than ten million characters"),
+    ),
+    _E.NS_ERR_UNDEFINED_NAMESPACE: ((r"prefix (\S+)", 'the prefix {0!r} is not declared; xmlns:{0}="…" declares it'),),
+    _E.NS_ERR_QNAME: ((r"'(.*)'", "{0!r} is no name, which has a colon only between two words"),),
+}
+"""By the kind of an error, what its message holds → our sentence, with what the pattern's groups found."""
+
+
+def place_fault(error: etree.XMLSyntaxError, *, before: bytes) -> tuple[int, str]:
+    """The line of an error, and a sentence with the column.
+
+    Args:
+        error: what libxml2 found.
+        before: white space in front of the document that libxml2 was not given.
+    """
+    lines = before.count(b"\n")
+    line, column = error.lineno or 1, (error.offset or 0) + 1
+    column += len(before) - (before.rfind(b"\n") + 1) if line == 1 else 0
+    return line + lines, f"not well-formed XML: {_words(error, lines)} (column {column})"
+
+
+def _words(error: etree.XMLSyntaxError, lines: int) -> str:
+    said = " ".join(_POSITION.sub("", error.msg or "no element found").split())
+    code: int = error.code  # pyright: ignore[reportAttributeAccessIssue]  # lxml-stubs leaves it out
+    for pattern, sentence in _SENTENCES.get(code, ()):
+        if found := re.search(pattern, said):
+            groups = [int(text) + lines if text.isdigit() and "line" in pattern else text for text in found.groups()]
+            return sentence.format(*groups)
+    return said
