@@ -104,7 +104,7 @@ def test_what_a_xacro_names_is_a_file(folder: Path, text: str) -> None:
     path = folder / "r.xacro"
     path.write_text(XACRO.format(text))
 
-    with pytest.raises(DescriptionError, match="it is a pipe, not a regular file"):
+    with pytest.raises(DescriptionError, match=r"r\.xacro:1: error: \S*/pipe\.dae: it is a pipe, not a regular file$"):
         expand_xacro(path, {}, packages=Packages({}, start=path), report=Diagnostics())
 
 

@@ -82,7 +82,7 @@ def test_a_scanner_s_macro_builds_its_sensor(
     assert sensor.scan is not None
     assert sensor.scan.horizontal.samples == rays
     (said,) = report.warnings
-    assert f"robot.urdf.xacro: warning: no package {include.partition(')')[0]!r}: a stand-in of boxes" in said
+    assert f"robot.urdf.xacro:2: warning: no package {include.partition(')')[0]!r}: a stand-in of boxes" in said
     assert model.links[0].inertial.mass > 5.0
 
 

@@ -125,9 +125,52 @@ def test_an_error_names_the_line_of_its_expression(tmp_path: Path) -> None:
         expand(tmp_path, f'<xacro:include filename="{other}"/>')
 
 
-def test_an_error_of_an_expression_that_stands_twice_names_no_line(tmp_path: Path) -> None:
-    with pytest.raises(DescriptionError, match=r"x\.xacro: error: name 'nothing' is not defined"):
-        expand(tmp_path, '<a b="${nothing}" c="${nothing}"/>')
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ('<a/>\n<a b="${nothing}" c="${nothing}"/>', "name 'nothing' is not defined"),
+        ('<!-- ${nothing} -->\n<a b="${nothing}"/>', "name 'nothing' is not defined"),
+        ('<a/>\n<a b="$(arg nothing)"/>', "Undefined substitution argument nothing"),
+        ('<a/>\n<xacro:if value="maybe"/>', 'Xacro conditional "maybe"'),
+        ("<a/>\n<xacro:nothing/>", "unknown macro name"),
+        ("<a/>\n<a><b/>$(find nothing)</a>", "no package 'nothing'"),
+        ('<a/>\n<a b="$(find nothing)"/>', "no package 'nothing'"),
+        ('<a/>\n<xacro:include filename="$(find nothing)/a.xacro"/>', "no package 'nothing'"),
+        ('<a/>\n<xacro:include filename="/usr/secret"/>', "xacro:include leads to /usr/secret; "),
+        ('<a/>\n<xacro:include filename="nothing"/>', "no such file '.*/nothing'"),
+        (f'<a/>\n<xacro:include filename="{"a" * 300}"/>', r"/a+…: File name too long"),
+        ('<xacro:macro name="m">\n<a b="${x}" c="${x}"/></xacro:macro>\n<xacro:m/>', "name 'x' is not defined"),
+        ('<xacro:macro name="m" params="x"/>\n<xacro:m/>', r"Undefined parameters \[x\]"),
+    ],
+)
+def test_an_error_names_the_line_of_its_element(tmp_path: Path, body: str, words: str) -> None:
+    with pytest.raises(DescriptionError, match=rf"x\.xacro:2: error: .*{words}"):
+        expand(tmp_path, body)
+
+
+def test_a_macro_of_another_file_is_named_where_it_stands(tmp_path: Path) -> None:
+    (tmp_path / "m.xacro").write_text(
+        '\n\n<r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="m">\n<a b="${x}" c="${x}"/>'
+        "</xacro:macro></r>"
+    )
+    with pytest.raises(DescriptionError, match=r"m\.xacro:4: error: name 'x' is not defined"):
+        expand(tmp_path, '<xacro:include filename="m.xacro"/><xacro:m/>')
+
+
+def test_a_file_that_is_not_well_formed_is_named_with_the_line(tmp_path: Path) -> None:
+    (tmp_path / "m.xacro").write_text("\n<r>\n<a></r>")
+    with pytest.raises(DescriptionError, match=r"m\.xacro:3: error: not well-formed XML: </r> where <a> of line 3 is"):
+        expand(tmp_path, '<xacro:include filename="m.xacro"/>')
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [(b"a: b: c", "line 1, column 5: mapping values are not allowed here"), (b"a: \xe9", "it is not UTF-8 text")],
+)
+def test_yaml_that_cannot_be_read_is_named(tmp_path: Path, data: bytes, words: str) -> None:
+    (tmp_path / "a.yaml").write_bytes(data)
+    with pytest.raises(DescriptionError, match=rf"x\.xacro:2: error: .*/a\.yaml: {words} when"):
+        expand(tmp_path, "\n<a b=\"${xacro.load_yaml('a.yaml')}\"/>")
 
 
 def test_eval_substitutions_are_bounded_too(tmp_path: Path) -> None:

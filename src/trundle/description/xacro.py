@@ -9,14 +9,13 @@ import itertools
 import os
 import sys
 import threading
-import xml.dom.minidom
 from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any, TextIO
-from xml.parsers.expat import ExpatError
+from xml.parsers.expat import ErrorString, ExpatError
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.expressions import PYTHON_NAMES, Budget
@@ -24,7 +23,8 @@ from trundle.files import read_file
 from trundle.packages import Packages
 
 from .xacro_error import error_of
-from .xacro_lenient import MissingPackageError, make_lenient, parse_with_lines
+from .xacro_lenient import MissingPackageError, make_lenient
+from .xacro_places import Cursor, parse_with_lines, place_of
 from .xacro_symbols import SubstitutedNames, new_interpreter, offer_symbols
 
 
@@ -114,30 +114,25 @@ def expand_xacro(
         if not os.path.exists(path):
             raise DescriptionError(Source(str(path)), "no such file")
         packages = packages.around(path)
-        data = _data(path)
-    with _LOCK, _ours(packages, report, path, data):
+        try:
+            data = read_file(path)
+        except OSError as error:
+            raise DescriptionError(Source(str(path)), str(error.strerror)) from None
+    cursor = Cursor(Source(str(path)))
+    with _LOCK, _ours(packages, report, path, data, cursor):
         try:
             document: Any = xacro.process_file(str(path), mappings=dict(arguments), verbosity=0)
             return str(document.toprettyxml(indent="  "))
         except DescriptionError:
             raise
         except RecursionError:
-            raise DescriptionError(
-                _where(path), "elements, macros or properties within one another without end"
-            ) from None
-        except ExpatError as error:
-            raise DescriptionError(Source(_where(path).file, error.lineno), f"not well-formed XML: {error}") from None
+            raise DescriptionError(cursor.at, "elements, macros or properties within one another without end") from None
         except Exception as error:  # xacro evaluates the file's own Python: anything may come out of it
-            raise error_of(error, _where(path), map(str, xacro.all_includes)) from None
-
-
-def _where(path: Path) -> Source:
-    stack = [name for name in (xacro.filestack or []) if name]
-    return Source(str(stack[-1]) if stack else str(path))
+            raise error_of(error, cursor.at, map(str, xacro.all_includes)) from None
 
 
 @contextmanager
-def _ours(packages: Packages, report: Diagnostics, path: Path, data: bytes) -> Generator[None]:
+def _ours(packages: Packages, report: Diagnostics, path: Path, data: bytes, cursor: Cursor) -> Generator[None]:
     """Put our functions in the official package's place, for as long as one file takes."""
     stood_in: set[str] = set()
 
@@ -148,15 +143,18 @@ def _ours(packages: Packages, report: Diagnostics, path: Path, data: bytes) -> G
         if packages.stand_in_of(folder) is not None and name not in stood_in:
             stood_in.add(name)
             what = f"no package {name!r}: a stand-in of boxes is used; put the original on ROS_PACKAGE_PATH"
-            report.warn(_where(path), what)
+            report.warn(cursor.at, what)
         return str(folder)
 
     def warn(*words: object) -> None:
-        report.warn(_where(path), " ".join(map(str, words)))
+        report.warn(cursor.at, " ".join(map(str, words)))
 
     def open_readable(name: str) -> TextIO:
-        packages.check_readable(Path(name), _where(path), told="load_yaml")
-        return io.StringIO(read_file(name).decode())
+        packages.check_readable(Path(name), cursor.at, told="load_yaml")
+        try:
+            return io.StringIO(_data(name).decode())
+        except UnicodeDecodeError:
+            raise package.XacroException(f"{name}: it is not UTF-8 text") from None
 
     def substitution_eval(text: str, _: object, symbols: object) -> object:
         return interpreter.evaluate(text, SubstitutedNames(symbols, {**PYTHON_NAMES, "range": range}))
@@ -164,21 +162,22 @@ def _ours(packages: Packages, report: Diagnostics, path: Path, data: bytes) -> G
     package, arguments = xacro, substitution_args
     interpreter = new_interpreter(package)
     names = (
-        "parse", "eval_all", "handle_macro_call", "warning", "print_location", "safe_eval", "eval_text",
+        "parse", "eval_all", "handle_macro_call", "reqd_attrs", "warning", "print_location", "safe_eval", "eval_text",
         "process_doc", "process_include", "get_include_files",
     )  # fmt: skip
     kept = {name: getattr(package, name) for name in names}
     own_find = arguments._eval_find
-    package.parse = _parse_for(kept["parse"], packages, report, {str(path): data})
-    package.eval_all = _eval_all_for(kept["eval_all"], path)
-    package.handle_macro_call = _call_for(kept["handle_macro_call"], report, path)
+    package.parse = _parse_for(kept["parse"], packages, report, {str(path): data}, cursor)
+    package.eval_all = _eval_all_for(kept["eval_all"], cursor)
+    package.handle_macro_call = _call_for(kept["handle_macro_call"], report, cursor)
     if packages.is_lenient:
         make_lenient(package, packages, report)
+    cursor.follow(package)
     package.safe_eval = interpreter.evaluate
     package.eval_text = _eval_text_for(kept["eval_text"], interpreter.budget)
     package.warning = warn
     package.open = open_readable  # shadows the builtin that its load_yaml would open any file with
-    package.print_location = lambda: None  # it writes to stderr where a warning was; `_where` says it
+    package.print_location = lambda: None  # it writes to stderr where a warning was; the cursor knows
     arguments._eval_find = arguments._eval_dict["find"] = find
     arguments.eval = substitution_eval  # in its module, in place of the builtin one
     package.all_includes.clear()
@@ -206,94 +205,95 @@ def _eval_text_for(original: Callable[..., object], budget: Budget) -> Callable[
 
 
 def _parse_for(
-    original: Callable[..., Any], packages: Packages, report: Diagnostics, known: Mapping[str, bytes]
+    original: Callable[..., Any], packages: Packages, report: Diagnostics, known: Mapping[str, bytes], cursor: Cursor
 ) -> Callable[..., Any]:
     """Parse files our way; of those `known`, by name, the contents are here."""
 
     def parse(inp: object, filename: str | None = None) -> Any:
-        if filename is not None:
-            if filename not in known:
-                packages.check_readable(Path(filename), Source(filename), told="xacro:include")
-                _expect_stand_in(Path(filename), packages)
-            data = known[filename] if filename in known else _data(Path(filename))
-            if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
-                raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
-            if data[:1].isspace() and data.lstrip().startswith(b"<?xml"):
-                report.warn(Source(filename, 1), "blank lines before <?xml …?>, for which xacro refuses the file")
-            if not data.strip():
-                document = original(inp, filename)
-            elif packages.is_lenient:
-                document = parse_with_lines(data.lstrip(), filename)
-            else:
-                document = xml.dom.minidom.parseString(data.lstrip())
-            if any(start in data for start in _BARE):
-                _prefix_core_tags(document, filename, report)
-            _drop_unnamed(document, filename, report)
-            return document
-        return original(inp, filename)
+        if filename is None:
+            return original(inp, filename)
+        if filename not in known:
+            packages.check_readable(Path(filename), cursor.at, told="xacro:include")
+            _expect_stand_in(Path(filename), packages, cursor.at)
+        data = known[filename] if filename in known else _data(filename)
+        document = _parsed(data, filename, report)
+        if any(start in data for start in _BARE):
+            _prefix_core_tags(document, report)
+        _drop_unnamed(document, report)
+        return document
 
     return parse
 
 
-def _expect_stand_in(file: Path, packages: Packages) -> None:
+def _parsed(data: bytes, filename: str, report: Diagnostics) -> Any:
+    if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
+        raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
+    if data[:1].isspace() and data.lstrip().startswith(b"<?xml"):
+        report.warn(Source(filename, 1), "blank lines before <?xml …?>, for which xacro refuses the file")
+    try:
+        return parse_with_lines(data, filename)
+    except ExpatError as error:
+        from trundle.xmlnode import parse_xml  # slow to load, and most files are well-formed
+
+        parse_xml(data, name=filename)  # says in a sentence of ours what is wrong
+        at = Source(filename, error.lineno)
+        raise DescriptionError(at, f"not well-formed XML: {ErrorString(error.code)}") from None
+
+
+def _expect_stand_in(file: Path, packages: Packages, at: Source) -> None:
     package = packages.stand_in_of(file)
     if package is not None and packages.is_absent(file):
-        what = f"{packages.why_not_found(package)}; its stand-in has no {file.name}"
-        raise DescriptionError(_where(file), what)
+        raise DescriptionError(at, f"{packages.why_not_found(package)}; its stand-in has no {file.name}")
 
 
-def _data(path: Path) -> bytes:
-    if not os.path.exists(path):
-        return b""
+def _data(name: str) -> bytes:
+    """The contents of a file that a file names; one that cannot be read an include may allow."""
     try:
-        return read_file(path)
+        return read_file(name)
     except OSError as error:
-        raise DescriptionError(Source(str(path)), str(error.strerror)) from None
+        raise xacro.XacroException(exc=error) from None
 
 
-def _prefix_core_tags(document: Any, filename: str, report: Diagnostics) -> None:
+def _prefix_core_tags(document: Any, report: Diagnostics) -> None:
     """Give Indigo's bare core tags their prefix."""
-    rewritten: set[str] = set()
+    rewritten: dict[str, Source] = {}
     for element in document.getElementsByTagName("*"):
         tag = element.tagName
         if tag in _CORE and element.hasAttribute(_CORE[tag]):
             has_elements = any(child.nodeType == child.ELEMENT_NODE for child in element.childNodes)
             if not (tag == "include" and has_elements):
                 element.tagName = element.nodeName = f"xacro:{tag}"
-                rewritten.add(tag)
-    for tag in sorted(rewritten):
-        report.warn(Source(filename), f"<{tag}> without the prefix xacro: is Indigo's way; read as <xacro:{tag}>")
+                rewritten.setdefault(tag, place_of(element))
+    for tag, at in sorted(rewritten.items()):
+        report.warn(at, f"<{tag}> without the prefix xacro: is Indigo's way; read as <xacro:{tag}>")
 
 
-def _drop_unnamed(document: Any, filename: str, report: Diagnostics) -> None:
+def _drop_unnamed(document: Any, report: Diagnostics) -> None:
     """Leave out properties that no expression can name; Indigo's xacro kept them, today's refuses the file."""
     for element in document.getElementsByTagName("xacro:property"):
         name = str(element.getAttribute("name"))
         if element.hasAttribute("name") and not name.isidentifier():
             element.parentNode.removeChild(element)
-            what = f"a property named {name!r} can be used nowhere; it is left out"
-            report.warn(Source(filename), what)
+            report.warn(place_of(element), f"a property named {name!r} can be used nowhere; it is left out")
 
 
-def _eval_all_for(original: Callable[..., None], path: Path) -> Callable[..., None]:
+def _eval_all_for(original: Callable[..., None], cursor: Cursor) -> Callable[..., None]:
     """Count what is gone through: every element, macro and block, each time it is put somewhere."""
     elements = itertools.count()
 
     def eval_all(node: Any, macros: Any, symbols: Any) -> None:
         if next(elements) > _MOST_ELEMENTS:
-            raise DescriptionError(
-                _where(path), f"macros and blocks that expand to more than {_MOST_ELEMENTS} elements"
-            )
+            raise DescriptionError(cursor.at, f"macros and blocks that expand to more than {_MOST_ELEMENTS} elements")
         original(node, macros, symbols)
 
     return eval_all
 
 
-def _call_for(original: Callable[..., bool], report: Diagnostics, path: Path) -> Callable[..., bool]:
+def _call_for(original: Callable[..., bool], report: Diagnostics, cursor: Cursor) -> Callable[..., bool]:
     def handle_macro_call(node: Any, macros: Any, symbols: Any) -> bool:
         name = str(node.tagName)
         if ":" not in name and name not in _URDF and name in macros:
-            report.warn(_where(path), f"<{name}> calls a macro without the prefix xacro:; read as <xacro:{name}>")
+            report.warn(cursor.at, f"<{name}> calls a macro without the prefix xacro:; read as <xacro:{name}>")
             node.tagName = node.nodeName = f"xacro:{name}"
         return original(node, macros, symbols)
 

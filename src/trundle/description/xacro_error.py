@@ -13,6 +13,8 @@ _REPEATED = r"<class '[\w.]+'>: (.*?) \1"
 _EXPRESSION = re.compile(r"\s*when evaluating expression '(.*)'\Z", re.DOTALL)
 _LONGEST = 400
 """Characters of an error: it quotes the expression, and each that this one was part of."""
+_LONGEST_NAME = 200
+"""Characters of a file's."""
 _MOST_BYTES = 4_000_000
 """Size of the largest file that is searched for the line."""
 
@@ -22,21 +24,30 @@ def error_of(error: Exception, at: Source, files: Iterable[str]) -> DescriptionE
 
     Args:
         error: what the package raised; others may stand within it.
-        at: the file being expanded.
+        at: the element that was expanded.
         files: every file that was read, one of which holds the expression.
     """
     inner: object = error
     expression = None
+    what = ""
     while inner is not None:
         if isinstance(inner, DescriptionError):  # what was refused amid an expression
-            return inner
-        if found := _EXPRESSION.match(str(getattr(inner, "suffix", ""))):
+            at, what = inner.at, inner.what
+        elif isinstance(inner, OSError):
+            what = _why_unreadable(inner)
+        elif found := _EXPRESSION.match(str(getattr(inner, "suffix", ""))):
             expression = found[1]
         inner = getattr(inner, "exc", None)
-    what = re.sub(_REPEATED, r"\1", " ".join(str(error).split())) or type(error).__name__
+    what = what or re.sub(_REPEATED, r"\1", " ".join(str(error).split())) or type(error).__name__
     what = what if len(what) <= _LONGEST else f"{what[:_LONGEST]} …"
     place = None if expression is None else _find_place(f"${{{expression}}}", {at.file, *files})
     return DescriptionError(place or at, what)
+
+
+def _why_unreadable(error: OSError) -> str:
+    name = str(error.filename)
+    name = name if len(name) <= _LONGEST_NAME else f"{name[:_LONGEST_NAME]}…"
+    return f"no such file {name!r}" if isinstance(error, FileNotFoundError) else f"{name}: {error.strerror}"
 
 
 def _find_place(text: str, files: Iterable[str]) -> Source | None:

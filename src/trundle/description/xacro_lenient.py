@@ -1,48 +1,20 @@
 """Leaves out what packages that are not there would have put into a robot, and says so at each line."""
 
 import os
-import xml.dom.expatbuilder
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from trundle.diagnostics import Diagnostics, Source
+from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
 
-_AT = "at"
+from .xacro_places import place_of
+
 _DYNAMIC_CALL = "xacro:call"
 
 
 class MissingPackageError(LookupError):
     """`$(find …)` of a package that is not there."""
-
-
-class _Kept:
-    """Has clones of an element know where it stands."""
-
-    @staticmethod
-    def handle(operation: int, key: str, data: Any, src: Any, dst: Any) -> None:
-        """See the DOM's UserDataHandler; nothing is copied to when an element is thrown away."""
-        del operation, src
-        if dst is not None:
-            dst.setUserData(key, data, _Kept)
-
-
-class _SourceBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
-    """Builds a document whose elements know where they stand."""
-
-    def __init__(self, file: str) -> None:
-        super().__init__()
-        self._file = file
-
-    def start_element_handler(self, name: Any, attributes: Any) -> None:
-        super().start_element_handler(name, attributes)
-        self.curNode.setUserData(_AT, Source(self._file, self.getParser().CurrentLineNumber), _Kept)
-
-
-def parse_with_lines(data: bytes, file: str) -> Any:
-    """The document of a file, of whose elements `make_lenient` can say where they stand."""
-    return _SourceBuilder(file).parseString(data)
 
 
 def make_lenient(package: Any, packages: Packages, report: Diagnostics) -> None:
@@ -72,12 +44,12 @@ def make_lenient(package: Any, packages: Packages, report: Diagnostics) -> None:
             if missing is None:
                 raise
             left_out.append(spec)
-            report.warn(node.getUserData(_AT), f"{missing}; the include is left out")
+            report.warn(place_of(node), f"{missing}; the include is left out")
             return iter(())
         if files and not os.path.exists(files[0]) and packages.is_absent(Path(files[0])):
             left_out.append(spec)
             report.warn(
-                node.getUserData(_AT),
+                place_of(node),
                 f"{spec}: no such package, and its stand-in has no such file; the include is left out",
             )
             return iter(())
@@ -96,7 +68,7 @@ def make_lenient(package: Any, packages: Packages, report: Diagnostics) -> None:
         if not is_unknown(node, macros, symbols):
             return bool(handle_macro_call(node, macros, symbols))
         report.warn(
-            node.getUserData(_AT),
+            place_of(node),
             f"no macro <{node.tagName}>: the call is left out, as is the include it may come from",
         )
         package.replace_node(node, by=None)
@@ -122,7 +94,7 @@ def _drop_loose(robot: Any, report: Diagnostics) -> None:
         joint, parent, child = loose.pop()
         joints = [each for each in joints if each[0] is not joint]
         what = f"joint {joint.getAttribute('name')!r} goes with what was left out: no link"
-        report.warn(joint.getUserData(_AT), f"{what} {(child if parent in links else parent)!r}")
+        report.warn(place_of(joint), f"{what} {(child if parent in links else parent)!r}")
         robot.removeChild(joint)
         if parent not in links and child in links:
             robot.removeChild(links.pop(child))

@@ -65,16 +65,21 @@ def _tokenize(text: str, sep: str = ",; ", skip_empty: bool = True) -> list[str]
     return [item for item in items if item] if skip_empty else items
 
 
-def _yaml_of(text: str, package: Any) -> Any:
+def _yaml_of(text: str, name: str, package: Any) -> Any:
     """Read YAML with xacro's units, such as `!degrees 90`."""
-    from trundle.yaml_loader import BoundedLoader, load_yaml  # slow to load, and most robots have none
+    from yaml import YAMLError  # slow to load, and most robots have none
+
+    from trundle.yaml_loader import BoundedLoader, load_yaml, one_line
 
     class Loader(BoundedLoader):
         pass
 
     for unit in package.ConstructUnits:
         Loader.add_constructor(unit.value.tag, unit.constructor)
-    return load_yaml(text, Loader)
+    try:
+        return load_yaml(text, Loader)
+    except YAMLError as error:
+        raise package.XacroException(f"{name}: {one_line(error)}") from None
 
 
 def _yaml_reader(package: Any) -> Callable[[Caller, Sequence[Any], Mapping[str, Any]], Any]:
@@ -86,7 +91,7 @@ def _yaml_reader(package: Any) -> Callable[[Caller, Sequence[Any], Mapping[str, 
         caller.budget.spend(len(text))
         package.filestack.append(name)
         try:
-            return package.YamlListWrapper.wrap(_yaml_of(text, package))
+            return package.YamlListWrapper.wrap(_yaml_of(text, name, package))
         finally:
             package.filestack.pop()
             package.all_includes.append(name)
