@@ -120,13 +120,22 @@ def test_skeletons_fit_by_name_or_else_by_how_they_branch(tmp_path: Path) -> Non
     ("spoil", "what"),
     [
         (("root tip</Name", "root lost</Name"), "its skin is bound to 'lost', which is no bone in it"),
-        (("<skeleton>", "<bones>"), "not well-formed XML"),
+        (("<skeleton>", "<bones>"), r"line \d+: not well-formed XML: </skeleton> where <bones> "),
         (('<controller id="c">', '<controller id="d">'), "no mesh in it is bound to bones"),
     ],
 )
 def test_a_skin_that_makes_no_sense_is_refused(tmp_path: Path, spoil: tuple[str, str], what: str) -> None:
-    with pytest.raises(MeshError, match=what):
+    with pytest.raises(MeshError, match=what) as caught:
         read(tmp_path, bending_column().replace(*spoil))
+    assert str(caught.value).count(str(tmp_path)) == 1
+
+
+def test_an_animation_that_is_not_well_formed_is_named_once(tmp_path: Path) -> None:
+    file = tmp_path / "m.dae"
+    file.write_text("<COLLADA>\n<a></COLLADA>")
+    with pytest.raises(MeshError) as caught:
+        load_motion(file)
+    assert str(caught.value).startswith(f"{file}: line 2: not well-formed XML: </COLLADA> where <a> ")
 
 
 @pytest.mark.parametrize("text", ["", "HIERARCHY ROOT a {", "HIERARCHY } MOTION", BVH.replace("90", "x"), BVH[:-30]])

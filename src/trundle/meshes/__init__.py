@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .skins import load_motion, load_skin
     from .solids import cone_mesh, prism_mesh, terrain_mesh
     from .strip import strip_mesh
-    from .texture import image_file, mean_colour, png_of
+    from .texture import image_file, mean_colour, png_of, why_undecoded
 
 _HOMES = {
     "Mesh": "mesh",
@@ -41,6 +41,7 @@ _HOMES = {
     "strip_mesh": "strip",
     "terrain_mesh": "solids",
     "triangles_of": "polygons",
+    "why_undecoded": "texture",
 }
 __getattr__ = opened_on_use(__name__, _HOMES)
 
@@ -68,4 +69,5 @@ __all__ = [
     "strip_mesh",
     "terrain_mesh",
     "triangles_of",
+    "why_undecoded",
 ]

@@ -9,6 +9,9 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
+from trundle.diagnostics import DescriptionError
+from trundle.xmlnode import XmlNode, parse_xml
+
 from .collada_skin import read_skin
 from .mesh import Rgba
 from .raw import MOST_TRIANGLES, MeshError, RawPart, at_corners, fans, used_vertices
@@ -34,19 +37,36 @@ def read_collada(data: bytes, *, skins: bool = False) -> list[RawPart]:
         skins: tell how vertices hang on bones, too, in the file's own unit.
 
     Raises:
+        MeshError: it is not well-formed, or has no scene.
         Exception: pycollada's own, in its own words.
     """
     import collada
-    from collada.common import DaeError
+    from collada.common import DaeError, DaeMalformedError
 
     if data[:2] == b"PK":
         raise MeshError("a zipped COLLADA file; unpack it")
-    document: Any = collada.Collada(io.BytesIO(data), ignore=[DaeError])
+    try:
+        document: Any = collada.Collada(io.BytesIO(data), ignore=[DaeError])
+    except DaeMalformedError:
+        read_tree(data)
+        raise
     scene = document.scene or (document.scenes[0] if document.scenes else None)
     if scene is None:
         raise MeshError("no scene")
     walk = _Walk(float(document.assetInfo.unitmeter or 1.0), skins)
     return [part for node in scene.nodes for part in walk.parts(node, np.eye(4), "", 0)]
+
+
+def read_tree(data: bytes) -> XmlNode:
+    """The elements of a COLLADA file.
+
+    Raises:
+        MeshError: it is not well-formed.
+    """
+    try:
+        return parse_xml(data, name="")
+    except DescriptionError as error:
+        raise MeshError(f"line {error.at.line}: {error.what}") from None
 
 
 @dataclass(slots=True)

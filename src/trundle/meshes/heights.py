@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .raw import MeshError
-from .texture import image_file
+from .texture import image_file, why_undecoded
 
 _MOST_PIXELS = 4096
 """Of each side of an image."""
@@ -38,5 +38,5 @@ def read_heights(path: Path, *, sampling: int = 1, most: int = MOST_SAMPLES) -> 
             return (heights / (65535.0 if deep else 255.0)).astype(np.float32)
     except MeshError:
         raise
-    except Exception as error:  # every decoder behind Pillow fails in its own way
-        raise MeshError(" ".join(str(error).split())) from None
+    except Exception as error:
+        raise MeshError(why_undecoded(error)) from None

@@ -3,7 +3,8 @@
 import hashlib
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
+from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 
@@ -39,21 +40,27 @@ def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -
     Raises:
         MeshError: unreadable, too large, no triangles, or no such part.
     """
-    suffix = path.suffix.lower()
-    if suffix not in _FORMATS:
-        raise MeshError(
-            f"{path}: {suffix or 'files without ending'} meshes are not read; {', '.join(sorted(_FORMATS))} are"
-        )
-    try:
+    with faults_of(path):
+        suffix = path.suffix.lower()
+        if suffix not in _FORMATS:
+            known = ", ".join(sorted(_FORMATS))
+            raise MeshError(f"{suffix or 'files without ending'} meshes are not read; {known} are")
         stat = path.stat()
         return _load(path, suffix, submesh, center, (stat.st_mtime_ns, stat.st_size))
+
+
+@contextmanager
+def faults_of(path: Path) -> Generator[None]:
+    """Have whatever a reader fails with be a MeshError that starts with the file's name."""
+    try:
+        yield
     except MeshError as error:
         raise MeshError(f"{path}: {error}") from None
     except OSError as error:
         raise MeshError(f"{path}: {error.strerror or error}") from None
     except Exception as error:  # every reader fails in its own way
         what = " ".join(str(error).split()) or type(error).__name__
-        raise MeshError(f"{path}: not readable as {suffix}: {what[:200]}") from None
+        raise MeshError(f"{path}: not readable as {path.suffix.lower()}: {what[:200]}") from None
 
 
 @lru_cache(maxsize=256)

@@ -43,6 +43,15 @@ def image_file(texture: Texture) -> io.BytesIO:
     return io.BytesIO(texture if isinstance(texture, bytes) else read_file(texture, most=_MOST_BYTES))
 
 
+def why_undecoded(error: Exception) -> str:
+    """Say why an image's file cannot be read; every decoder behind Pillow fails in its own way."""
+    from PIL import UnidentifiedImageError
+
+    if isinstance(error, UnidentifiedImageError):
+        return "it is no image"
+    return getattr(error, "strerror", None) or " ".join(str(error).split()) or type(error).__name__
+
+
 def mean_colour(texture: Texture) -> Rgba | None:
     """The colour of an image seen from afar, opaque; None where it cannot be read."""
     try:

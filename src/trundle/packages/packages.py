@@ -139,14 +139,16 @@ class Packages:
             DescriptionError: nothing there, or outside what a description may read.
         """
         root, path = self._located(uri, beside, at)
-        if not os.path.exists(path):
-            path = path.parent / unquote(path.name) if "%" in path.name else path
+        decoded = path.parent / unquote(path.name)
+        if not os.path.exists(path) and os.path.exists(decoded):
+            path = decoded
         if not os.path.exists(path) and is_stand_in(path) and os.path.exists(path.with_suffix(".obj")):
             path = path.with_suffix(".obj")
+        named = "" if root is None else f"{_shown(uri)}: "  # a path says itself where it leads
         if not os.path.exists(path):
-            raise DescriptionError(at, f"{_shown(uri)}: no such file {_shown(str(path))}")
+            raise DescriptionError(at, f"{named}no such file {_shown(str(path))}")
         if is_stream(path):
-            raise DescriptionError(at, f"{uri}: {path} is a pipe, a device or a socket, not a file")
+            raise DescriptionError(at, f"{named}{path} is a pipe, a device or a socket, not a file")
         self.check_readable(path, at, told=uri, root=root)
         return path
 

@@ -13,6 +13,7 @@ from PIL import Image
 
 from trundle.diagnostics import UsageError
 from trundle.files import read_file
+from trundle.meshes import why_undecoded
 from trundle.yaml_loader import load_yaml
 
 _FREE, _OCCUPIED, _UNKNOWN = 0, 100, -1
@@ -96,7 +97,7 @@ def _pixels(picture: Path) -> NDArray[np.float64]:
             plain = image if image.mode in ("L", "LA", "RGB", "RGBA") else image.convert("L")
             pixels = np.asarray(plain, dtype=np.float64)
     except (OSError, Image.DecompressionBombError) as error:
-        raise UsageError(f"{picture}: {error}") from None
+        raise UsageError(f"{picture}: {why_undecoded(error)}") from None
     return pixels[:, :, None] if pixels.ndim == 2 else pixels
 
 
