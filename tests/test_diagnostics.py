@@ -21,6 +21,18 @@ def test_what_is_said_of_many_lines_is_printed_once_worst_first() -> None:
     assert len(report.findings) == 9
 
 
+def test_an_error_that_names_more_is_as_many_findings() -> None:
+    report = Diagnostics()
+    error = DescriptionError(
+        Source("a.launch", 2), "no package 'a'", more=[DescriptionError(Source("b.launch", 7), "no package 'b'")]
+    )
+
+    report.error(error)
+
+    said = ["a.launch:2: error: no package 'a'", "b.launch:7: error: no package 'b'"]
+    assert report.errors == said == str(error).splitlines()
+
+
 def test_an_error_that_ends_nothing_is_said_once_and_where_it_is() -> None:
     """A rendered error within a warning would name the place and the severity twice."""
     report = Diagnostics()

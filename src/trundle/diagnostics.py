@@ -38,10 +38,12 @@ class UsageError(TrundleError):
 class DescriptionError(TrundleError):
     """A file, or a place in it, of which nothing sensible can be made."""
 
-    def __init__(self, at: Source, what: str) -> None:
-        super().__init__(f"{at}: error: {what}")
+    def __init__(self, at: Source, what: str, *, more: "Iterable[DescriptionError]" = ()) -> None:
+        """Say what is wrong, and `more` that is."""
         self.at = at
         self.what = what
+        self.more = tuple(more)
+        super().__init__("\n".join([f"{at}: error: {what}", *map(str, self.more)]))
 
 
 class DiagnosticJson(TypedDict):
@@ -100,8 +102,9 @@ class Diagnostics:
         self._add(Diagnostic("info", at, what))
 
     def error(self, error: DescriptionError) -> None:
-        """Keep the error that ended a reading beside what led up to it."""
-        self._add(Diagnostic("error", error.at, error.what))
+        """Keep the error that ended a reading, and more that it names, beside what led up to it."""
+        for each in (error, *error.more):
+            self._add(Diagnostic("error", each.at, each.what))
 
     def extend(self, findings: Iterable[Diagnostic]) -> None:
         """Take over another collection's findings."""

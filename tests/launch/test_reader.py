@@ -300,8 +300,13 @@ def test_an_argument_that_is_used_and_not_declared_may_be_set() -> None:
     assert plan_of(unused, gui="1").params == ()
     with pytest.raises(DescriptionError, match="no argument 'gui'; none is declared so far"):
         plan_of('<param name="use_gui" value="$(arg gui)"/>')
-    with pytest.raises(DescriptionError, match="no argument 'gu' to set; the file's arguments: none"):
-        plan_of('<param name="use_gui" value="$(arg gui)"/>', gui="1", gu="1")
+    with pytest.raises(DescriptionError, match="no argument 'gui'; none is declared so far; 'guii' is given"):
+        plan_of('<param name="use_gui" value="$(arg gui)"/>', guii="1")
+    with pytest.raises(DescriptionError, match="no argument 'guii' to set; the file's arguments: 'gui'"):
+        plan_of('<param name="use_gui" value="$(arg gui)"/>', gui="1", guii="1")
+    both = '<param name="a" value="$(arg gui)"/><param name=\'b\' value=\'$(eval arg("rate"))\'/>'
+    with pytest.raises(DescriptionError, match="the nearest is 'rate'; the file's arguments: 'gui', 'rate'"):
+        plan_of(both, gui="1", rate="2", rat="3")
 
 
 def test_an_argument_may_be_set_that_an_included_file_is_passed(tmp_path: Path) -> None:
@@ -365,6 +370,7 @@ def test_missing_packages_are_named_together(tmp_path: Path) -> None:
         "https://github.com/ROBOTIS-GIT/turtlebot3_simulations",
         f"{top}:3: error: no package 'three'",
     ]
+    assert [error.at.line for error in caught.value.more] == [2, 2, 3]
 
 
 def test_all_arguments_are_passed_when_asked_for(tmp_path: Path) -> None:

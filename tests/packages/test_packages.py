@@ -169,6 +169,19 @@ def test_a_model_that_is_nowhere_is_answered_with_where_was_looked(tmp_path: Pat
         Packages({"GAZEBO_MODEL_PATH": str(tmp_path / "m")}, start=tmp_path).find_model("cup")
 
 
+def test_a_folder_that_is_named_twice_is_said_once_where_nothing_is_found(tmp_path: Path) -> None:
+    export = '<gazebo_ros gazebo_model_path="${prefix}/models"/>'
+    arm = package(tmp_path / "ws/src/arm", export=export)
+    (tmp_path / "link").symlink_to(tmp_path / "ws/src")
+    path = f"{tmp_path}/ws/src:{tmp_path}/link:{tmp_path}/ws/src/"
+    packages = Packages({"ROS_PACKAGE_PATH": path, "GAZEBO_MODEL_PATH": f"{arm}/models"}, start=arm / "meshes")
+
+    assert packages.why_not_found("hand").startswith(f"no package 'hand'; looked below {tmp_path}/ws/src; put ")
+    with pytest.raises(UsageError) as caught:
+        packages.find_model("cup")
+    assert str(caught.value).count(f"{arm}/models") == 1
+
+
 def test_a_fuel_model_comes_from_the_cache_of_gazebos_own_tool_or_not_at_all(tmp_path: Path) -> None:
     url = "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Coffee Cup"
     cached = tmp_path / ".gz/fuel/fuel.gazebosim.org/openrobotics/models/coffee cup"

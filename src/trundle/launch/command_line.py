@@ -1,10 +1,12 @@
 """Arguments that the command line gives a launch."""
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from trundle.diagnostics import DescriptionError
 from trundle.xmlnode import XmlNode
+
+_USE = re.compile(r"""\$\(\s*arg\s+([^\s)]+)\s*\)|\barg\(\s*['"]([^'"]+)['"]\s*\)""")
 
 
 class CommandLine:
@@ -22,16 +24,31 @@ class CommandLine:
         """Refuse an argument that no file declares or uses; roslaunch lets a misspelt one do nothing in silence.
 
         Raises:
-            DescriptionError: with the arguments there are.
+            DescriptionError: with the nearest name there is, and the others.
         """
-        known = {name for root in self._files for name in _declared(root)}
-        for name in sorted(set(self.arguments) - known):
-            use = re.compile(rf"\$\(\s*arg\s+{re.escape(name)}\s*\)|\$\(eval\b.*\b{re.escape(name)}\b", re.DOTALL)
-            if self._files and not any(use.search(text) for root in self._files for text in _texts(root)):
+        texts = [text for root in self._files for text in _texts(root)]
+        known = {name for root in self._files for name in _declared(root)} | set(_used(texts))
+        for name in sorted(set(self.arguments) - known) if self._files else ():
+            if not any(re.search(rf"\$\(eval\b.*\b{re.escape(name)}\b", text, re.DOTALL) for text in texts):
+                near = nearest(name, known) if len(known) > 1 else None
+                said = f"; the nearest is {near!r}" if near else ""
                 there_is = ", ".join(map(repr, sorted(known))) or "none"
-                raise DescriptionError(
-                    self._files[0].at, f"no argument {name!r} to set; the file's arguments: {there_is}"
-                )
+                what = f"no argument {name!r} to set{said}; the file's arguments: {there_is}"
+                raise DescriptionError(self._files[0].at, what)
+
+
+def nearest(name: str, names: Collection[str]) -> str | None:
+    """The one of some names that one is most like; None: it is like none of them."""
+    from difflib import get_close_matches  # slow to load, and most names are there
+
+    return next(iter(get_close_matches(name, names, n=1)), None)
+
+
+def _used(texts: Iterable[str]) -> Iterator[str]:
+    """Names that $(arg …) and an expression's arg(…) ask for, declared or not."""
+    for text in texts:
+        for match in _USE.finditer(text):
+            yield match[1] or match[2]
 
 
 def _declared(node: XmlNode) -> Iterator[str]:

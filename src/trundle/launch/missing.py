@@ -30,11 +30,11 @@ class MissingPackages:
                 self.add(node.package, node.at, f" for the node {node.full_name}")
 
     def after(self, first: MissingPackageError) -> DescriptionError:
-        """The error that names them all: the first in full, each other one in a line."""
+        """The error that names them all, the first in full."""
         others = sorted(self._places.items(), key=lambda item: (item[1][0].file, item[1][0].line or 0))
-        lines = [
-            f"{at}: error: no package {name!r}{what_for}{published_at(name)}"
+        more = [
+            DescriptionError(at, f"no package {name!r}{what_for}{published_at(name)}")
             for name, (at, what_for) in others
             if f"no package {name!r}" not in first.what
         ]
-        return DescriptionError(first.at, "\n".join([first.what, *lines]))
+        return DescriptionError(first.at, first.what, more=more)

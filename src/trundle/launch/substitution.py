@@ -10,6 +10,7 @@ from typing import Any
 from trundle.diagnostics import DescriptionError, Source
 from trundle.expressions import MATH_NAMES, PYTHON_NAMES, ExpressionError, Interpreter, function_of
 
+from .command_line import nearest
 from .missing import MissingPackageError, MissingPackages
 from .packages import PackageFinder
 from .scope import Scope
@@ -99,7 +100,9 @@ class Substitution:
             raise DescriptionError(at, f"the argument {name!r} is required and was not given; write {name}:=VALUE")
         declared = ", ".join(map(repr, sorted(scope.declared)))
         there_is = f"; declared so far: {declared}" if declared else "; none is declared so far"
-        raise DescriptionError(at, f"no argument {name!r}{there_is}")
+        near = nearest(name, set(scope.arguments) - scope.declared)
+        given = f"; {near!r} is given" if near else ""
+        raise DescriptionError(at, f"no argument {name!r}{there_is}{given}")
 
     def _env(self, name: str, at: Source) -> str:
         if name not in self.env:

@@ -11,7 +11,7 @@ from trundle.files import read_file
 
 from .package_cache import PackageCache
 from .ros_packages import RosPackages
-from .workspace import nearby
+from .workspace import distinct_folders, nearby
 
 SHIPPED = Path(__file__).parent
 """Has `models`, `stand_ins` and `worlds` of our own, laid out as /usr/share/gazebo is."""
@@ -45,13 +45,15 @@ class GazeboPaths:
     @cached_property
     def model_folders(self) -> list[Path]:
         """Folders of models in Gazebo's order, then ours."""
-        return [
-            self._home / ".gazebo" / "models",
-            *self._named_models,
-            *self._exported("gazebo_model_path"),
-            SHIPPED / "models",
-            *([_CHECKOUT_EXAMPLES] if os.path.isdir(_CHECKOUT_EXAMPLES / "rp2w") else []),
-        ]
+        return distinct_folders(
+            [
+                self._home / ".gazebo" / "models",
+                *self._named_models,
+                *self._exported("gazebo_model_path"),
+                SHIPPED / "models",
+                *([_CHECKOUT_EXAMPLES] if os.path.isdir(_CHECKOUT_EXAMPLES / "rp2w") else []),
+            ]
+        )
 
     @cached_property
     def resource_folders(self) -> list[Path]:

@@ -10,7 +10,7 @@ from trundle.files import read_text
 
 from .package_cache import Folder, PackageCache
 from .walk import MANIFESTS, Walk
-from .workspace import PARTS, own_package, workspaces
+from .workspace import PARTS, distinct_folders, own_package, workspaces
 
 _MOST_GUESSED = 5000
 """Folders looked at where nobody said that packages are: a home folder has more than one wants to wait for."""
@@ -36,15 +36,14 @@ class RosPackages:
             cache: what the same environment found before.
         """
         entries = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
-        start = Path(os.path.realpath(start))
-        self._start = start
+        start = self._start = _real(start)
         self._cache = cache
         self._on_path = [Path(os.path.expanduser(entry)).absolute() for entry in entries if entry]
         self._around = list(workspaces(start))
-        self.roots = [*self._on_path, *self._around]
+        self.roots = distinct_folders([*self._on_path, *self._around])
         """Folders that are there to hold packages."""
         own = own_package(start, cache.wide)
-        self._guessed = [] if own is None or own.parent in self.roots else [own, own.parent]
+        self._guessed = [] if own is None or own.parent in map(_real, self.roots) else [own, own.parent]
         self._by_name: dict[str, Path] | None = None
         self._folders: dict[str, Path] = {}
 
@@ -108,6 +107,10 @@ class RosPackages:
                 yield folder, _package_name(folder) if has_manifest else None
         if walk.most is None:  # a folder to hold packages, by what the user says
             self._cache.passed_over.update(walk.passed_over)
+
+
+def _real(folder: Path) -> Path:
+    return Path(os.path.realpath(folder))
 
 
 def _installed() -> Iterator[tuple[Path, str]]:

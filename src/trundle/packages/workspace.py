@@ -1,7 +1,7 @@
 """What lies around a file: the package it is in, the workspace, the folders to look for its neighbours in."""
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from .confinement import Confinement, WideFolders
@@ -62,6 +62,14 @@ def _has_manifest(folder: Path) -> bool:
 def _holds_packages(folder: Path) -> bool:
     walk = Walk(folder, most=_MOST_LOOKED_AT, deepest=_DEEPEST)
     return any(not names.isdisjoint(MANIFESTS) for _, names in walk)
+
+
+def distinct_folders(folders: Iterable[Path]) -> list[Path]:
+    """Each folder by the first of its names, in order."""
+    named: dict[str, Path] = {}
+    for folder in folders:
+        named.setdefault(os.path.realpath(folder), folder)
+    return list(named.values())
 
 
 def program_folders(package: str, folder: Path, environment: Mapping[str, str]) -> list[Path]:
