@@ -6,8 +6,9 @@ from pathlib import Path
 import pytest
 from tests.launch.test_reader import Folders
 
+from trundle.cli import main
 from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.launch import LaunchPlan, read_launch
+from trundle.launch import LaunchPlan, read_launch, read_launch_text
 
 
 def read(file: Path, text: str) -> LaunchPlan:
@@ -37,6 +38,37 @@ def test_xml_of_ros_2_is_named(tmp_path: Path, body: str, shown: str) -> None:
     what = rf"a.launch.xml:1: error: {re.escape(shown)}: this is a launch file of ROS 2; those of ROS 1 are read here$"
     with pytest.raises(DescriptionError, match=what):
         read(tmp_path / "a.launch.xml", f"<launch>{body}</launch>")
+
+
+@pytest.mark.parametrize("name", ["a.launch.py", "a_launch.py", "launch.yml"])
+def test_commands_that_take_no_launch_file_say_the_same(
+    tmp_path: Path, name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / name
+    file.write_text("launch: []")
+    language = "in Python" if file.suffix == ".py" else "in YAML"
+    said = f"{file}: error: a launch file {language} is one of ROS 2; those of ROS 1 are read here\n"
+    for command in (
+        ["run", str(file), "--headless"],
+        ["render", str(file), "-o", str(tmp_path / "a.png")],
+        ["convert", str(file), "--to", "sdf"],
+        ["xacro", str(file)],
+    ):
+        assert main(command) == 1
+        assert capsys.readouterr().err == said
+    assert main(["check", str(file)]) == 1
+    assert capsys.readouterr().out.startswith(said)
+
+
+def test_xml_of_ros_2_is_none_to_run_nor_to_read_from_a_pipe(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "a.launch.xml"
+    file.write_text('<launch><node pkg="p" exec="t"/></launch>')
+    assert main(["run", str(file), "--headless"]) == 1
+    assert ":1: error: <node exec>: this is a launch file of ROS 2" in capsys.readouterr().err
+    with pytest.raises(DescriptionError, match="<stdin>:1: error: <node exec>: this is a launch file of ROS 2"):
+        read_launch_text(file.read_text(), name="<stdin>", packages=Folders(), report=Diagnostics())
 
 
 def test_the_ending_alone_says_nothing(tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from urllib.parse import unquote
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.files import is_stream, read_stream, read_text
 from trundle.model import Model
-from trundle.packages import Packages, model_file, refuse_template
+from trundle.packages import Packages, model_file, refuse_ros2, refuse_ros2_language, refuse_template
 from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
 from .loaded import Loaded
@@ -38,6 +38,7 @@ def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -
     if os.path.isdir(path):
         path = model_file(path, report)
     refuse_template(path)
+    refuse_ros2_language(path, is_launch=False)
     packages = packages.around(path)
     if path.suffix == ".xacro":
         return load_urdf(_expanded(path, packages, report), f"{path} (expanded)", path, packages, report)
@@ -94,6 +95,7 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics,
     from .sdf import Context, name_missing_attributes, read_root, read_version, rewrite_old_style
 
     if root.tag == "launch":
+        refuse_ros2(root)
         raise DescriptionError(root.at, "a launch file, not a robot or a world; `trundle launch` starts it")
     if root.tag not in ("sdf", "gazebo"):
         raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")

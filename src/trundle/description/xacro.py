@@ -20,7 +20,7 @@ from xml.parsers.expat import ErrorString, ExpatError
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.expressions import PYTHON_NAMES, Budget
 from trundle.files import read_file
-from trundle.packages import Packages
+from trundle.packages import Packages, refuse_ros2_language
 
 from .xacro_error import error_of
 from .xacro_lenient import MissingPackageError, make_lenient
@@ -113,6 +113,7 @@ def expand_xacro(
     if data is None:
         if not os.path.exists(path):
             raise DescriptionError(Source(str(path)), "no such file")
+        refuse_ros2_language(path, is_launch=False)
         packages = packages.around(path)
         try:
             data = read_file(path)
@@ -159,8 +160,7 @@ def _ours(packages: Packages, report: Diagnostics, path: Path, data: bytes, curs
     def substitution_eval(text: str, _: object, symbols: object) -> object:
         return interpreter.evaluate(text, SubstitutedNames(symbols, {**PYTHON_NAMES, "range": range}))
 
-    package, arguments = xacro, substitution_args
-    interpreter = new_interpreter(package)
+    package, arguments, interpreter = xacro, substitution_args, new_interpreter(xacro)
     names = (
         "parse", "eval_all", "handle_macro_call", "reqd_attrs", "warning", "print_location", "safe_eval", "eval_text",
         "process_doc", "process_include", "get_include_files",
@@ -236,8 +236,8 @@ def _parsed(data: bytes, filename: str, report: Diagnostics) -> Any:
         from trundle.xmlnode import parse_xml  # slow to load, and most files are well-formed
 
         parse_xml(data, name=filename)  # says in a sentence of ours what is wrong
-        at = Source(filename, error.lineno)
-        raise DescriptionError(at, f"not well-formed XML: {ErrorString(error.code)}") from None
+        what = f"not well-formed XML: {ErrorString(error.code)}"
+        raise DescriptionError(Source(filename, error.lineno), what) from None
 
 
 def _expect_stand_in(file: Path, packages: Packages, at: Source) -> None:

@@ -1,14 +1,10 @@
-"""Reads the XML of launch files; those of ROS 2 are told from those of ROS 1, which alone are read."""
+"""Reads the XML of launch files of ROS 1."""
 
-import re
 from pathlib import Path
 
-from trundle.diagnostics import DescriptionError, Diagnostics, Source
-from trundle.xmlnode import XmlNode, read_xml
-
-_IN_OTHER_LANGUAGES = {".py": "in Python", ".yaml": "in YAML", ".yml": "in YAML"}
-_SUBSTITUTION = re.compile(r"\$\((var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec)\s")
-_READ_HERE = "those of ROS 1 are read here"
+from trundle.diagnostics import Diagnostics, Source
+from trundle.packages import refuse_ros2, refuse_ros2_language
+from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
 
 def read_launch_file(file: Path, report: Diagnostics) -> XmlNode:
@@ -17,8 +13,7 @@ def read_launch_file(file: Path, report: Diagnostics) -> XmlNode:
     Raises:
         DescriptionError: it cannot be read, or is one of ROS 2.
     """
-    if language := _IN_OTHER_LANGUAGES.get(file.suffix):
-        raise DescriptionError(Source(str(file)), f"a launch file {language} is one of ROS 2; {_READ_HERE}")
+    refuse_ros2_language(file, is_launch=True)
     root = read_xml(file)
     if root.is_declared_late:
         report.warn(Source(str(file), 1), "blank lines before <?xml …?>, for which roslaunch refuses the file")
@@ -26,22 +21,12 @@ def read_launch_file(file: Path, report: Diagnostics) -> XmlNode:
     return root
 
 
-def refuse_ros2(node: XmlNode) -> None:
-    """Refuse what only ROS 2 has.
+def parse_launch_text(text: str, name: str) -> XmlNode:
+    """Parse a launch file that is in no file; `name` is how messages call it.
 
     Raises:
-        DescriptionError: at the first place that shows it.
+        DescriptionError: as `read_launch_file`.
     """
-    if shown := _shown_by(node):
-        raise DescriptionError(node.at, f"{shown}: this is a launch file of ROS 2; {_READ_HERE}")
-    for child in node.children:
-        refuse_ros2(child)
-
-
-def _shown_by(node: XmlNode) -> str | None:
-    if node.tag == "node" and node.attribute("exec") is not None and node.attribute("type") is None:
-        return "<node exec>"
-    for name in node.attributes():
-        if found := _SUBSTITUTION.search(node.attribute(name) or ""):
-            return f"$({found[1]} …)"
-    return None
+    root = parse_xml(text, name=name)
+    refuse_ros2(root)
+    return root

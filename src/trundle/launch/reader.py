@@ -7,12 +7,12 @@ from pathlib import Path
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.names import anonymous_name, canonical_name
-from trundle.xmlnode import XmlNode, parse_xml
+from trundle.xmlnode import XmlNode
 
 from .attributes import Attributes
 from .command_line import CommandLine
 from .draft import Draft
-from .launch_file import read_launch_file, refuse_ros2
+from .launch_file import parse_launch_text, read_launch_file
 from .machines import read_machine
 from .missing import MissingPackageError, MissingPackages
 from .nodes import read_node
@@ -61,9 +61,7 @@ def read_launch(
         for file in [files] if isinstance(files, Path) else files:
             reader.read_root(read_launch_file(file, report), file, namespace)
         for name, text in texts:
-            root = parse_xml(text, name=name)
-            refuse_ros2(root)
-            reader.read_root(root, Path(name), namespace)
+            reader.read_root(parse_launch_text(text, name), Path(name), namespace)
         return reader.draft.plan()
 
     try:

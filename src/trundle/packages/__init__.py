@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from .model_config import model_file, refuse_template
     from .packages import ALLOW_OUTSIDE, LENIENT, Packages
     from .repositories import published_at
+    from .ros2 import refuse_ros2, refuse_ros2_language
     from .rule_exports import exported_rules
     from .workspace import program_folders
 
@@ -26,6 +27,8 @@ _HOMES = {
     "needs": "manifest",
     "program_folders": "workspace",
     "published_at": "repositories",
+    "refuse_ros2": "ros2",
+    "refuse_ros2_language": "ros2",
     "refuse_template": "model_config",
 }
 __getattr__ = opened_on_use(__name__, _HOMES)
@@ -42,5 +45,7 @@ __all__ = [
     "needs",
     "program_folders",
     "published_at",
+    "refuse_ros2",
+    "refuse_ros2_language",
     "refuse_template",
 ]
