@@ -309,6 +309,23 @@ def test_a_log_has_a_line_at_the_start_and_one_at_the_end_where_it_takes_long(
     ]
 
 
+@pytest.mark.parametrize(
+    ("faces", "is_convex"),
+    [
+        ([(0, 1, 2), (0, 2, 3)], True),
+        ([(0, 1, 2)], True),
+        ([(0, 1, 2), (0, 2, 3), (2, 1, 0), (3, 2, 0)], True),
+        ([(0, 1, 4), (0, 4, 3)], False),
+    ],
+)
+def test_a_flat_mesh_is_convex_where_it_fills_the_polygon_around_it(
+    faces: list[tuple[int, int, int]], is_convex: bool
+) -> None:
+    corners = np.array([*SQUARE, (0.4, 0.4, 0)], dtype=float)
+
+    assert (split(corners, np.array(faces, dtype=np.intp), fixed=False).hollow == []) is is_convex
+
+
 SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
 DEGENERATE = {
     "flat": SQUARE,

@@ -13,12 +13,25 @@ _THICKEST = 0.01
 """[m] Of a slab: what comes at 10 m/s still meets it in a step of 1 ms."""
 _THINNEST = 1e-4
 """[m] What is thinner is flat."""
+_FILLS = 1.001
+"""Area of a convex polygon over that of faces which fill it, at most."""
 
 
 def is_layer(own: _Points) -> bool:
     """Whether points (N, 3) are flat."""
     centred = own - own.mean(axis=0)
     return bool(np.ptp(centred @ np.linalg.eigh(centred.T @ centred)[1][:, 0]) < _THINNEST)
+
+
+def is_convex_layer(points: _Points, faces: _Faces, own: _Points) -> bool:
+    """Whether faces are flat, and fill the polygon around them; those that are there both ways count once."""
+    if not is_layer(own):
+        return False
+    a, b, c = (points[np.unique(np.sort(faces, axis=1), axis=0)[:, i]] for i in range(3))
+    normals = np.cross(b - a, c - a)
+    areas = np.linalg.norm(normals, axis=1)
+    widest = int(areas.argmax())
+    return area_around(own, normals[widest] / areas[widest]) <= areas.sum() / 2 * _FILLS
 
 
 def slabs_of(points: _Points, faces: _Faces, own: _Points) -> list[_Points]:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .decompose import MOST_FACES, MOST_SHEETED, cut_up, is_thin
-from .face_slabs import is_layer, slabs_of
+from .face_slabs import is_convex_layer, is_layer, slabs_of
 from .hulls import distance, hull_of, off, volume_of
 from .sheets import sheets_of
 from .surface_parts import WELD, is_closed, is_convex, islands_of, renumbered, welded
@@ -129,7 +129,7 @@ def split(vertices: _Points, faces: _Faces, *, fixed: bool) -> Split:
         own = points[np.unique(island)]
         if fixed and (is_layer(own) or not is_convex(points, island, own)):
             corners += slabs_of(points, island, own)
-        elif fixed or is_convex(points, island, own):
+        elif fixed or is_convex(points, island, own) or is_convex_layer(points, island, own):
             corners.append(own)
         else:
             hollow.append(island)
