@@ -11,6 +11,7 @@ from pathlib import Path
 
 import mujoco
 
+from trundle.built import refuse_stale
 from trundle.diagnostics import TrundleError
 
 from . import _contact_laws
@@ -25,8 +26,9 @@ def bind() -> None:
     """Find MuJoCo's functions in its loaded library.
 
     Raises:
-        TrundleError: it is another release than the one whose structures the C++ knows.
+        TrundleError: it is another release than the one whose structures the C++ knows, or that is of other sources.
     """
+    refuse_stale(_contact_laws)
     found = mujoco.mj_version()
     if found != _contact_laws.VERSION:
         built, here = (f"{v // 1_000_000}.{v // 1000 % 1000}.{v % 1000}" for v in (_contact_laws.VERSION, found))

@@ -6,6 +6,7 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from trundle.built import refuse_stale
 from trundle.meshes import Mesh, Texture
 from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, Plane, Sphere
 from trundle.spatial import Pose, upright
@@ -14,6 +15,8 @@ from . import _native
 from .renderer import Intrinsics, Picture, size_of
 from .scene import Scene, SceneLight, Shape
 from .textures import load_texture
+
+refuse_stale(_native)
 
 _THINNEST = 1e-4
 """[m] What a thickness of zero becomes: 0.1 mm."""

@@ -6,12 +6,16 @@ from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 from rosbags.interfaces import Nodetype
 
+from trundle.built import refuse_stale
+
 from . import _wire
 from .errors import MessageError
 from .type_texts import PLACEHOLDER, ros_name
 
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
+
+refuse_stale(_wire)
 
 _Fields: TypeAlias = list[tuple[str, str, int, int]]
 """Attribute, type, how many, and of a message's type its place."""

@@ -1,0 +1,50 @@
+"""Compiled modules of a checkout that are not of its C++."""
+
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from trundle import built
+from trundle.diagnostics import TrundleError
+
+
+@pytest.fixture
+def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    """One that is built of the two files beside it."""
+    monkeypatch.setattr(built, "_SOURCES", tmp_path / "cpp")
+    (tmp_path / "cpp").mkdir()
+    (tmp_path / "cpp/a.cc").write_text("int a;")
+    (tmp_path / "cpp/a.h").write_text("extern int a;")
+    (tmp_path / "cpp/notes.txt").write_text("not compiled")
+    (tmp_path / "sources.sha256").write_text(built._digest(tmp_path / "cpp") or "")
+    built._digest.cache_clear()
+    made = ModuleType("_native")
+    made.__file__ = str(tmp_path / "render/_native.so")
+    return made
+
+
+def test_modules_of_these_sources_are_taken(module: ModuleType, tmp_path: Path) -> None:
+    built.refuse_stale(module)
+    (tmp_path / "cpp/notes.txt").write_text("more notes")
+    built._digest.cache_clear()
+    built.refuse_stale(module)
+
+
+@pytest.mark.parametrize("change", ["cpp/a.cc", "cpp/b.h", "sources.sha256"])
+def test_modules_of_other_sources_are_refused_with_what_to_do(module: ModuleType, tmp_path: Path, change: str) -> None:
+    (tmp_path / change).write_text("int b;")
+    with pytest.raises(TrundleError, match=r"is not of the sources in .*/cpp; build it: make \.venv/\.ready, or pip"):
+        built.refuse_stale(module)
+
+
+def test_modules_without_a_record_are_refused(module: ModuleType, tmp_path: Path) -> None:
+    (tmp_path / "sources.sha256").unlink()
+    with pytest.raises(TrundleError, match="build it"):
+        built.refuse_stale(module)
+
+
+def test_an_installed_wheel_has_no_sources_to_be_held_against(module: ModuleType, tmp_path: Path) -> None:
+    (tmp_path / "cpp").rename(tmp_path / "elsewhere")
+    (tmp_path / "sources.sha256").unlink()
+    built.refuse_stale(module)
