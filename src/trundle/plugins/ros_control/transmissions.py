@@ -20,7 +20,9 @@ class DrivenJoint:
 
 
 def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[DrivenJoint]:
-    """Every joint that a simple transmission drives, in file order; what cannot be used is named.
+    """Every joint that a transmission drives, in file order; what cannot be used is named, and the others go on.
+
+    By transmission_interface's TransmissionParser; an interface that stands in the actuator counts as before Indigo.
 
     Args:
         urdf: the robot as XML.
@@ -30,11 +32,16 @@ def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[Driven
     Raises:
         DescriptionError: the text is no robot.
     """
-    root = parse_xml(urdf, name=name)
+    root = parse_xml(urdf, name=name, report=report)
     if root.tag != "robot":
         raise DescriptionError(root.at, f"a URDF starts with <robot>, not <{root.tag}>")
     found: dict[str, DrivenJoint] = {}
     for transmission in root.all("transmission"):
+        if why := _why_unusable(transmission):
+            said = transmission.attribute("name")
+            who = "a transmission" if not said else f"transmission {said!r}"
+            report.warn(transmission.at, f"{who} {why}; it is left out")
+            continue
         for joint in transmission.all("joint"):
             driven = _driven(transmission, joint, report)
             if driven is None:
@@ -46,21 +53,40 @@ def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[Driven
     return list(found.values())
 
 
+def _why_unusable(transmission: XmlNode) -> str | None:
+    """What the parser drops a transmission for, with all its joints; None: it takes it."""
+    if not transmission.attribute("name"):
+        return "has no name"
+    if not transmission.string("type"):
+        return "has no <type>"
+    for tag in ("joint", "actuator"):
+        names = [node.attribute("name") for node in transmission.all(tag)]
+        if None in names:
+            return f"has a <{tag}> without a name"
+        if not any(names):
+            return f"has no <{tag}>"
+    return None
+
+
 def _driven(transmission: XmlNode, joint: XmlNode, report: Diagnostics) -> DrivenJoint | None:
-    name = joint.attribute("name") or ""
+    name = joint.attribute("name")
     who = f"transmission {transmission.attribute('name')!r} of joint {name!r}"
-    texts = [node.text.strip() for node in joint.all("hardwareInterface")]
-    for actuator in transmission.all("actuator"):  # where old files have it
-        texts += [node.text.strip() for node in actuator.all("hardwareInterface")]
-    if transmission.find("type") is None:
-        report.warn(transmission.at, f"{who} has no <type>; it is left out")
+    if not name:
+        report.warn(joint.at, f"{who}: the name is empty; it is left out")
         return None
+    texts = _interfaces(joint) or [text for each in transmission.all("actuator") for text in _interfaces(each)]
     if not texts:
-        report.warn(transmission.at, f"{who} names no <hardwareInterface>; it is left out")
+        report.warn(joint.at, f"{who} names no <hardwareInterface>; it is left out")
         return None
+    if len(_interfaces(joint)) > 1:
+        report.warn(joint.at, f"{who} names {len(texts)} times a <hardwareInterface>; the first one is used")
     interface = texts[0].removeprefix(_PACKAGE)
     if interface not in INTERFACES:
         what = f"{who}: no hardware interface {texts[0]!r}; there are {', '.join(INTERFACES)}; it is left out"
-        report.warn(transmission.at, what)
+        report.warn(joint.at, what)
         return None
     return DrivenJoint(name, interface)
+
+
+def _interfaces(node: XmlNode) -> list[str]:
+    return [each.text for each in node.all("hardwareInterface") if each.text]

@@ -1,0 +1,78 @@
+"""<transmission> as transmission_interface's parser takes it: what cannot be used is left out, and the others go on."""
+
+import pytest
+
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.plugins.ros_control.transmissions import DrivenJoint, read_transmissions
+
+TYPE = "<type>transmission_interface/SimpleTransmission</type>"
+EFFORT = "<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>"
+MOTOR = '<actuator name="m"/>'
+LAST = f'<transmission name="last">{TYPE}<joint name="z">{EFFORT}</joint>{MOTOR}</transmission>'
+
+
+def read(transmission: str, rest: str = "") -> tuple[list[str], list[str]]:
+    """Names of the joints that are driven, and what was warned of, of a robot of two transmissions."""
+    report = Diagnostics()
+    found = read_transmissions(f'<robot name="r">\n{transmission}{LAST}{rest}</robot>', "r", report)
+    return [driven.name for driven in found], report.warnings
+
+
+@pytest.mark.parametrize(
+    ("transmission", "said"),
+    [
+        (f'<transmission>{TYPE}<joint name="a">{EFFORT}</joint>{MOTOR}</transmission>', "a transmission has no name"),
+        (f'<transmission name="">{TYPE}<joint name="a">{EFFORT}</joint>{MOTOR}</transmission>', "has no name"),
+        (f'<transmission name="t"><joint name="a">{EFFORT}</joint>{MOTOR}</transmission>', "'t' has no <type>"),
+        (f'<transmission name="t"><type/><joint name="a">{EFFORT}</joint>{MOTOR}</transmission>', "has no <type>"),
+        (f'<transmission name="t">{TYPE}{MOTOR}</transmission>', "'t' has no <joint>"),
+        (f'<transmission name="t">{TYPE}<joint name="a">{EFFORT}</joint></transmission>', "'t' has no <actuator>"),
+        (f'<transmission name="t">{TYPE}<joint name="a">{EFFORT}</joint><actuator/></transmission>', "without a name"),
+        (
+            f'<transmission name="t">{TYPE}<joint>{EFFORT}</joint><joint name="a">{EFFORT}</joint>{MOTOR}'
+            "</transmission>",
+            "'t' has a <joint> without a name",
+        ),
+        (f'<transmission name="t">{TYPE}<joint name="a"/>{MOTOR}</transmission>', "names no <hardwareInterface>"),
+        (
+            f'<transmission name="t">{TYPE}<joint name="a"><hardwareInterface/></joint>{MOTOR}</transmission>',
+            "names no <hardwareInterface>",
+        ),
+    ],
+)
+def test_a_transmission_that_the_parser_drops_is_left_out(transmission: str, said: str) -> None:
+    joints, (warning,) = read(transmission)
+
+    assert joints == ["z"]
+    assert warning.startswith("r:2: warning: ")
+    assert said in warning
+    assert warning.endswith("; it is left out")
+
+
+def test_a_joint_of_an_empty_name_goes_alone() -> None:
+    joints, (warning,) = read(
+        f'<transmission name="t">{TYPE}<joint name="">{EFFORT}</joint><joint name="a">{EFFORT}</joint>{MOTOR}'
+        "</transmission>"
+    )
+
+    assert joints == ["a", "z"]
+    assert "the name is empty" in warning
+
+
+def test_elements_that_nobody_knows_and_a_second_interface_are_no_fault() -> None:
+    second = "<hardwareInterface>VelocityJointInterface</hardwareInterface>"
+    report = Diagnostics()
+    text = (
+        f'<robot name="r"><transmission name="t">{TYPE}<motorTorqueConstant>1</motorTorqueConstant>'
+        f'<joint name="a"><role>x</role>{EFFORT}{second}</joint>{MOTOR}<!-- -- --><leverArm/></transmission></robot>'
+    )
+
+    assert read_transmissions(text, "r", report) == [DrivenJoint("a", "EffortJointInterface")]
+    syntax, interfaces = report.warnings
+    assert "'--' within a comment (column " in syntax
+    assert interfaces.endswith("names 2 times a <hardwareInterface>; the first one is used")
+
+
+def test_what_no_reader_takes_for_a_robot_is_refused() -> None:
+    with pytest.raises(DescriptionError, match="not well-formed XML"):
+        read("", rest="<joint>")
