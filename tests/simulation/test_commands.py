@@ -1,6 +1,7 @@
 """What `gz` could do to a world, from Python."""
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -45,6 +46,49 @@ class Clock:
 
     def before_step(self, sim: Simulation) -> None:
         self.times.append(sim.time_ns // 1_000_000)
+
+
+def _slower(sim: Simulation) -> None:
+    sim.edit(replace(sim.world, physics=replace(sim.world.physics, max_step_size_s=0.01)))
+
+
+@pytest.mark.parametrize(
+    ("command", "time_ms"),
+    [
+        (lambda sim: sim.reset(), 100),
+        (lambda sim: sim.reset(poses=False), 100),
+        (_slower, 600),
+    ],
+)
+def test_what_is_left_of_an_advance_is_left_where_a_command_changes_the_time(
+    sim: Simulation, command: Callable[[Simulation], None], time_ms: int
+) -> None:
+    """Half a second has gone by, of which a burst would make up for."""
+    before_ns = sim.simulated_ns
+    sim.post(command)
+    sim.run(0.1)
+
+    assert sim.time_ns == time_ms * 1_000_000
+    assert sim.simulated_ns - before_ns == 100_000_000
+
+
+def test_a_stride_is_no_longer_where_a_command_takes_time_back(sim: Simulation) -> None:
+    sim.post(Simulation.reset)
+    sim.stride(sim.time_ns + 20_000_000)
+
+    assert sim.time_ns == 20_000_000
+
+
+def test_a_hook_may_take_time_back_amid_an_advance(sim: Simulation) -> None:
+    class Back:
+        def before_step(self, sim: Simulation) -> None:
+            if sim.time_ns == 600_000_000:
+                sim.reset(poses=False)
+
+    sim.add_hook(Back(), period_ns=100_000_000)
+    sim.run(0.2)
+
+    assert sim.time_ns == 100_000_000
 
 
 def test_time_alone_goes_back(sim: Simulation) -> None:

@@ -137,12 +137,14 @@ class Simulation:
     def advance(self, until_ns: int) -> None:
         """Simulate up to a time [ns]; it ends at the first step that reaches it.
 
+        Where a command or a hook takes time back, what was left to simulate is left.
+
         Raises:
             SimulationUnstableError: the physics blew up; the world stands where it last was sound.
         """
-        target = self._timeline.step_at(until_ns)
-        while self.steps < target:
-            self._stride(target)
+        left_ns = until_ns - self.time_ns
+        while left_ns > 0:
+            left_ns -= self._stride(left_ns)
         self._drain()
 
     def stride(self, until_ns: int) -> None:
@@ -151,18 +153,22 @@ class Simulation:
         Raises:
             SimulationUnstableError: as `advance`.
         """
-        self._stride(self._timeline.step_at(until_ns))
+        self._stride(until_ns - self.time_ns)
         self._drain()
 
-    def _stride(self, target: int) -> None:
+    def _stride(self, most_ns: int) -> int:
+        """Simulate so much or less [ns]; return how much it was."""
         self._drain()
         hooks = self._schedule.awake(self.steps)
         act(hooks, self)
+        target = self._timeline.step_at(self.time_ns + most_ns)
         stop = min([target, self.steps + _LONGEST, *[hook.next_step for hook in hooks], *self.pushes.next_ends()])
+        simulated_ns = (stop - self.steps) * self.step_ns
         self.engine.step(stop - self.steps)
         self.steps = stop
         self.pushes.end(self.steps)
         look(hooks, self.steps, self.snapshot)
+        return simulated_ns
 
     def add_hook(
         self, hook: BeforeStep | AfterStep, *, period_ns: Period = 0, wanted: Callable[[], bool] | None = None
