@@ -72,6 +72,16 @@ def test_what_is_left_of_an_advance_is_left_where_a_command_changes_the_time(
     assert sim.simulated_ns - before_ns == 100_000_000
 
 
+def test_a_restored_state_takes_back_nothing_of_what_was_simulated(sim: Simulation) -> None:
+    saved = sim.save()
+    sim.run(0.3)
+    sim.post(lambda sim: sim.restore(saved))
+    sim.run(0.1)
+
+    assert (sim.time_ns, sim.simulated_ns) == (600_000_000, 900_000_000)
+    assert sim.simulated_steps == 900
+
+
 def test_a_stride_is_no_longer_where_a_command_takes_time_back(sim: Simulation) -> None:
     sim.post(Simulation.reset)
     sim.stride(sim.time_ns + 20_000_000)

@@ -314,8 +314,9 @@ class GazeboWorld:
 
     def _go_in_step(self, simulation: Simulation, steps: Steps, until_ns: int) -> None:
         """Go from instant to instant, and at each let the nodes do what it brings."""
-        while simulation.time_ns < until_ns and not self._paused and not self._ending.is_set():
-            simulation.stride(until_ns)
+        end_ns = simulation.simulated_ns + until_ns - simulation.time_ns  # a node may have time reset amid this
+        while (left_ns := end_ns - simulation.simulated_ns) > 0 and not self._paused and not self._ending.is_set():
+            simulation.stride(simulation.time_ns + left_ns)
             self._clock.set(simulation.time_ns)
             steps.settle(self._calls.obey, lambda: self._calls.any() or self._ending.is_set(), self._ending.is_set)
             steps.stepped(simulation.time_ns)

@@ -64,7 +64,7 @@ class Simulation:
         self._timeline = Timeline(step_ns_of(world))
         self.steps = 0
         self._before_resets = (0, 0)
-        """Time [ns] and steps that resets have taken back."""
+        """Time [ns] and steps that resets and restored states have taken back."""
         self.models = handles_of(self, self.world, {})
         self.joints = world_joints_of(self, self.world, {})
         """Between models, in file order."""
@@ -212,10 +212,12 @@ class Simulation:
 
     def restore(self, saved: SavedSimulation) -> None:
         """Go back to a saved state; hooks are due as if time had just got there."""
+        simulated_ns, simulated_steps = self.simulated_ns, self.simulated_steps
         self.steps = saved.steps
         self.engine.restore(saved.engine)
         self.pushes.restore(saved.ends)
         self._follow(saved.timeline)
+        self._before_resets = (simulated_ns - self.time_ns, simulated_steps - self.steps)
         self._schedule.restart(self.steps)
 
     def reset(self, *, time: bool = True, poses: bool = True) -> None:
