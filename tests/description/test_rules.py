@@ -318,11 +318,12 @@ def test_a_plugin_on_a_link_that_was_lumped_means_the_lump_and_an_offset(tmp_pat
 <joint name="j" type="fixed"><parent link="base"/><child link="imu_link"/>
 <origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/></joint>
 <gazebo><plugin name="p" filename="libp.so"><bodyName>imu_link</bodyName><frameName>imu_link</frameName>
-<xyzOffset>0.5 0 0</xyzOffset></plugin></gazebo></robot>"""
+<xyzOffset>0.5 0 0</xyzOffset><robotBaseFrame>imu_link</robotBaseFrame></plugin></gazebo></robot>"""
 
     plugin = read(tmp_path, text, name="x.urdf").world.models[0].plugins[0].node
 
     assert (plugin.string("bodyName"), plugin.string("frameName")) == ("base", "base")
+    assert plugin.string("robotBaseFrame") == "imu_link"
     report = Diagnostics()
     assert plugin.vector("xyzOffset", default=(0, 0, 0), report=report) == pytest.approx((1.0, 2.5, 3.0))
     assert plugin.vector("rpyOffset", default=(0, 0, 0), report=report) == pytest.approx((0.0, 0.0, math.pi / 2))

@@ -55,7 +55,8 @@ def lump_links(robot: Robot, kept: frozenset[str]) -> dict[str, Lump]:
 def follow_lumps(plugin: XmlNode, lumps: Iterable[Lump], report: Diagnostics) -> None:
     """Have a plugin's <bodyName> and <frameName> mean the lump that a link went into, offset to where the link was.
 
-    As sdformat's conversion does (ReduceSDFExtensionPluginFrameReplace), so that plugins find their link.
+    As sdformat's conversion does (ReduceSDFExtensionPluginFrameReplace), so that plugins find their link; it changes
+    no other name in a plugin, such as <robotBaseFrame>, which is a frame of tf.
     """
     places = {link: (lump.name, pose) for lump in lumps for link, pose in lump.parts[1:]}
     for tag in ("bodyName", "frameName"):
