@@ -4,8 +4,9 @@ import socket
 
 import pytest
 
-from trundle.access import Access, AllowedNames, PageRequest, is_loopback
+from trundle.access import Access, PageRequest
 from trundle.diagnostics import UsageError
+from trundle.page_address import AllowedNames, is_loopback
 
 HERE = "localhost:8080"
 EVIL = "http://evil.example"

@@ -4,53 +4,12 @@ Any web page that a person visits can have the browser send requests to loopback
 there (DNS rebinding). What it cannot do is choose `Origin` and `Host`, or guess the session's token.
 """
 
-import ipaddress
-import re
 import secrets
 import socket
 from dataclasses import dataclass, field
 from urllib.parse import parse_qs
 
-from .diagnostics import UsageError
-
-_ORIGIN = re.compile(r"https?://[^][:/@;,'\s]+(?::\d{1,5})?/?")
-_AUTHORITY = re.compile(r"(\[[0-9a-f:.%]+\]|[^][:/@\s]+)(?::\d{1,5})?")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AllowedNames:
-    """Hosts and origins served beside the usual ones: `--allow-host`, `--allow-origin`."""
-
-    hosts: tuple[str, ...] = ()
-    """Names that the page is opened at: `robot.example`."""
-    origins: tuple[str, ...] = ()
-    """Origins of other web pages: `https://robot.example:8443`."""
-
-    def __post_init__(self) -> None:
-        """Check them.
-
-        Raises:
-            UsageError: one is no name, or no origin.
-        """
-        for host in self.hosts:
-            if not _AUTHORITY.fullmatch(host.lower()):
-                raise UsageError(f"not the name of a host: '{host}'; one reads like robot.example")
-        for origin in self.origins:
-            if not _ORIGIN.fullmatch(origin.lower()):
-                raise UsageError(f"not the origin of a web page: '{origin}'; one reads like https://robot.example:8443")
-
-
-NONE_ALLOWED = AllowedNames()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PageAddress:
-    """Where a page is to be served, and to whom."""
-
-    host: str = "127.0.0.1"
-    port: int | None = None
-    """None: 8080 or the next free one."""
-    allowed: AllowedNames = NONE_ALLOWED
+from .page_address import AUTHORITY, NONE_ALLOWED, AllowedNames, is_address, is_loopback
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -145,22 +104,7 @@ class Access:
     def _knows(self, host: str | None) -> bool:
         name = _name(host)
         names = ("localhost", socket.gethostname(), self.host, *self.allowed.hosts)
-        return bool(name) and (_is_address(name) or name in map(_name, names))
-
-
-def is_loopback(host: str) -> bool:
-    """Tell whether a server bound there is reached from this machine only."""
-    if _is_address(host):
-        return ipaddress.ip_address(host).is_loopback
-    return host.lower() == "localhost"
-
-
-def _is_address(name: str) -> bool:
-    try:
-        ipaddress.ip_address(name)
-    except ValueError:
-        return False
-    return True
+        return bool(name) and (is_address(name) or name in map(_name, names))
 
 
 def _is_own(request: PageRequest) -> bool:
@@ -173,7 +117,7 @@ def _is_own(request: PageRequest) -> bool:
 
 def _name(host: str | None) -> str:
     """The name or address in a `Host` field; nothing where there is none."""
-    found = _AUTHORITY.fullmatch((host or "").lower())
+    found = AUTHORITY.fullmatch((host or "").lower())
     return "" if found is None else found[1].strip("[]").rstrip(".")
 
 

@@ -55,7 +55,7 @@ def stage() -> Iterator[SimpleNamespace]:
     model = Model(name="bot", at=AT, links=(link,))
     world = World(name="w", at=AT, models=(model,))
     scenery = Scenery(Simulation(world, Diagnostics()), lambda _: Ramp())
-    camera = CameraSensor(Spot(model, link, sensor, 0, np.random.default_rng(0)), optics, scenery=scenery)
+    camera = CameraSensor(Spot(model, link, sensor, 0, (0,)), optics, scenery=scenery)
     with running_graph() as running:
         node, viewer = running.node("sim"), running.node("viewer")
         topics = CameraTopics(node, StaticTransformBroadcaster(node), camera, FrameNames.of(world))

@@ -10,7 +10,7 @@ import pytest
 
 from trundle.bringup.run import OnInstability, RunOptions, run
 from trundle.cli.main import main
-from trundle.simulation import SimulationUnstableError
+from trundle.physics import SimulationUnstableError
 
 QUIET = ["--headless", "--no-ros", "--speed", "max", "--duration", "3"]
 

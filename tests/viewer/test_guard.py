@@ -11,7 +11,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin, Subprotocol
 
-from trundle.access import AllowedNames
+from trundle.page_address import AllowedNames
 from trundle.viewer import Viewer, ViewerScene, ViewerState
 
 EVIL = "http://evil.example"

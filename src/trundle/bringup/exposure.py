@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from trundle.access import is_loopback
+from trundle.page_address import is_loopback
 
 
 def warn_of_exposure(host: str, say: Callable[[str], None]) -> None:

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Sequence
 
-from trundle.access import PageAddress
 from trundle.diagnostics import TrundleError
+from trundle.page_address import PageAddress
 from trundle.ros import Node
 from trundle.sensors import CameraSensor, MeasuringSensor
 from trundle.simulation import Simulation

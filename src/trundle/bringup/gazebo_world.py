@@ -8,15 +8,16 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from trundle.access import PageAddress
 from trundle.bridge import ClockTopic, clock_rate_hz
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import World
 from trundle.packages import Packages
+from trundle.page_address import PageAddress
+from trundle.physics import SimulationUnstableError
 from trundle.ros import Node, SimClock
 from trundle.sensors import CameraSensor, MeasuringSensor
-from trundle.simulation import Simulation, SimulationUnstableError
+from trundle.simulation import Simulation
 from trundle.spatial import Pose
 
 from .gazebo_models import read_spawned

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from trundle.access import AllowedNames
+from trundle.page_address import AllowedNames
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,9 +7,9 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from trundle.access import PageAddress
 from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import WINDOWS, WORLDS, Executable, Host, Simulator, find_node
+from trundle.page_address import PageAddress
 from trundle.ros import PROFILES, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
 from trundle.supervisor import Event, Patience, ProcessTree
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import Protocol, Self
 
-from trundle.access import PageAddress
+from trundle.page_address import PageAddress
 from trundle.sensors import CameraReading, CameraSensor, MeasuringSensor
 from trundle.simulation import Simulation
 from trundle.viewer import Drive, Pause, Play, Reset, SetJoint, SetSpeed, Step, Viewer, ViewerState

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
-from trundle.access import AllowedNames
 from trundle.description import load_text
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.model import flattened
 from trundle.packages import Packages
+from trundle.page_address import AllowedNames
 from trundle.simulation import Simulation, StateLog, read_state_log
 from trundle.viewer import Pause, Play, Reset, SetSpeed, Step, Viewer, ViewerState
 

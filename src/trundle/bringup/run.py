@@ -9,11 +9,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from trundle.access import AllowedNames, PageAddress
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
+from trundle.page_address import AllowedNames, PageAddress
+from trundle.physics import SimulationUnstableError
 from trundle.sensors import mount_cameras, mount_sensors
-from trundle.simulation import Simulation, SimulationUnstableError, with_actors
+from trundle.simulation import Simulation, with_actors
 
 from .described_file import name_workspace
 from .exposure import warn_of_exposure

@@ -8,10 +8,10 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
-from trundle.access import AllowedNames
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.names import anonymous_name
 from trundle.packages import Packages
+from trundle.page_address import AllowedNames
 from trundle.ros import GraphLoop, MasterProxy, MasterUnreachableError, Node, follow_time, master_uri_from_env
 from trundle.viewer import GraphPage
 

@@ -158,12 +158,12 @@ def _stand_in(args: argparse.Namespace, stand_in: "Replacement") -> int:
 @contextmanager
 def _world(node: "Node", *, with_window: bool) -> "Generator[GazeboWorld]":
     """What gzserver simulates in; what its files leave to be said is said."""
-    from trundle.access import PageAddress
     from trundle.bringup.gazebo_world import GazeboWorld
     from trundle.bringup.graph import Graph
     from trundle.bringup.launch_logs import log_folder
     from trundle.bringup.showing import Showing
     from trundle.diagnostics import Diagnostics
+    from trundle.page_address import PageAddress
 
     report = Diagnostics()
     show = Showing(sys.stderr, report)

@@ -21,7 +21,7 @@ from trundle.diagnostics import TrundleError
 from trundle.names import Arguments, parse_arguments
 
 if TYPE_CHECKING:
-    from trundle.access import AllowedNames
+    from trundle.page_address import AllowedNames
 
 COMMANDS: dict[str, str] = {
     "run": "simulate a robot or a world",
@@ -183,7 +183,7 @@ def page_access(args: argparse.Namespace) -> "AllowedNames":
     Raises:
         UsageError: a name is none.
     """
-    from trundle.access import AllowedNames
+    from trundle.page_address import AllowedNames
 
     return AllowedNames(hosts=tuple(args.allow_host), origins=tuple(args.allow_origin))
 

@@ -8,6 +8,7 @@ import ctypes
 import sys
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import mujoco
 
@@ -15,9 +16,11 @@ from trundle.built import refuse_stale
 from trundle.diagnostics import TrundleError
 
 from . import _contact_laws
-from .grip import Grip, TrackGrip
 from .index import CompiledWorld
 from .law_tables import find_table, set_needstage
+
+if TYPE_CHECKING:
+    from .grip import Grip, TrackGrip
 
 _LIBRARIES = {"win32": "mujoco.dll", "darwin": "libmujoco.*.dylib"}
 
@@ -69,7 +72,7 @@ class ContactLaws:
         """See that MuJoCo calls the laws, whatever callback somebody else has set since."""
         _contact_laws.install()
 
-    def set_grips(self, grips: Mapping[int, Grip | TrackGrip]) -> None:
+    def set_grips(self, grips: "Mapping[int, Grip | TrackGrip]") -> None:
         """Have the surfaces of bodies, by number, move and slip like this; all others are ordinary."""
         self._motions[:] = 0.0
         for body, grip in grips.items():

@@ -6,6 +6,7 @@ Nothing here runs in Python at every step: `step(n)` is one call, and the state 
 import copy
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
@@ -16,7 +17,6 @@ from trundle.spatial import Pose, Twist, Wrench
 
 from .contact_laws import ContactLaws
 from .feeling import Feeling
-from .grip import Grip, TrackGrip
 from .index import CompiledWorld
 from .instant import Instant, Looker
 from .motors import MotorOrders, Motors
@@ -26,6 +26,9 @@ from .rest import EVERY, STATE, Rest
 from .settings import silence_log
 from .touching import Contact
 from .transfer import carry_over
+
+if TYPE_CHECKING:  # a world without belts starts without them
+    from .grip import Grip, TrackGrip
 
 _BAD = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
 FASTEST = 1e6
@@ -176,7 +179,7 @@ class Engine:
         fx, fy, fz, tx, ty, tz = self._data.xfrc_applied[self.compiled.link_bodies[link]].tolist()
         return Wrench((fx, fy, fz), (tx, ty, tz))
 
-    def set_grips(self, grips: Mapping[int, Grip | TrackGrip]) -> None:
+    def set_grips(self, grips: "Mapping[int, Grip | TrackGrip]") -> None:
         """Have the surfaces of these links, by index, move and slip from now on; all others are ordinary."""
         self._laws.set_grips({int(self.compiled.link_bodies[link]): grip for link, grip in grips.items()})
         self._watch()

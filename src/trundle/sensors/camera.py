@@ -81,7 +81,7 @@ class CameraSensor(MountedSensor[CameraReading]):
             far_m=optics.far_m,
         )
         self.view = view_of(optics, self.intrinsics)
-        self.random = spot.random
+        self._spot = spot
         self.images = 0
         """Pictures finished."""
         self.scenery = scenery
@@ -159,7 +159,7 @@ class CameraSensor(MountedSensor[CameraReading]):
 
     def noise_seed(self) -> int:
         """Return the seed of the next picture's noise."""
-        return int(self.random.integers(1 << 64, dtype=np.uint64))
+        return int(self._spot.random.integers(1 << 64, dtype=np.uint64))
 
     def world_from_camera(self, snapshot: Snapshot) -> Pose:
         """Where it is at this instant."""

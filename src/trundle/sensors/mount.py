@@ -5,8 +5,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
 from trundle.diagnostics import Diagnostics
 from trundle.model import CameraOptics, Distortion, Sensor
 from trundle.render import Renderer, Scene
@@ -76,11 +74,14 @@ def mount_cameras(
                 _name_unsupported(sensor, report)
                 together: list[CameraSensor] = []
                 for part, optics in enumerate(_made(sensor, report)):
-                    random = np.random.default_rng([simulation.seed, number, part])
                     mask = optics.visibility_mask
                     if mask not in sceneries:
                         sceneries[mask] = Scenery(simulation, make, mask=mask)
-                    camera = kind(Spot(owner, link, sensor, index, random), optics, scenery=sceneries[mask])
+                    camera = kind(
+                        Spot(owner, link, sensor, index, (simulation.seed, number, part)),
+                        optics,
+                        scenery=sceneries[mask],
+                    )
                     camera.follow(simulation[owner.name].link(link.name))
                     camera.together = together
                     _save(camera, simulation, world.name, report)

@@ -5,8 +5,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-import numpy as np
-
 from trundle.model import Model, RangeScan, World
 from trundle.simulation import Simulation
 
@@ -71,8 +69,8 @@ def mount_all(simulation: Simulation, *, model: str | None, around: Surroundings
                     what = f"sensor {sensor.name!r}: force_torque sensors measure joints; on a link it tells nothing"
                     simulation.report.warn(sensor.at, what)
                 if make is not None and wanted:
-                    random = np.random.default_rng([simulation.seed, number])
-                    made = make(_Site(simulation, around, Spot(owner, link, sensor, index, random)))
+                    spot = Spot(owner, link, sensor, index, (simulation.seed, number))
+                    made = make(_Site(simulation, around, spot))
                     made.follow(simulation[owner.name].link(link.name))
                     mounted.append(made)
             index += 1
@@ -93,9 +91,8 @@ def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[Meas
                 continue
             robot = simulation[model.name]
             handle = robot.joint(joint.name)
-            random = np.random.default_rng([simulation.seed, first, number])
             made = ForceTorqueSensor(
-                Spot(model, model.link(joint.child), sensor, indices[joint.child], random),
+                Spot(model, model.link(joint.child), sensor, indices[joint.child], (simulation.seed, first, number)),
                 joint=joint,
                 parent=robot.link(joint.parent) if joint.parent in indices else None,
                 reaction=lambda handle=handle: handle.reaction,

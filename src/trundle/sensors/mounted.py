@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -29,7 +30,7 @@ def _period_ns(rate_hz: float) -> Fraction:
     return NS / (Fraction(rate_hz).limit_denominator(1_000_000) or Fraction(rate_hz))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Spot:
     """Where a sensor is mounted."""
 
@@ -39,8 +40,13 @@ class Spot:
     sensor: Sensor
     link_index: int
     """Of the link in `Snapshot.poses`."""
-    random: np.random.Generator
-    """Numbers of its own, for its noise."""
+    seed: tuple[int, ...]
+    """Of its noise."""
+
+    @cached_property
+    def random(self) -> "np.random.Generator":
+        """Random numbers of its own; NumPy's are loaded for the first sensor that wants some."""
+        return np.random.default_rng(self.seed)
 
     def start(self) -> Pose:
         """Where the sensor was when its model came."""

@@ -16,7 +16,7 @@ _Values = NDArray[np.float64]
 class NoiseSource:
     """The noise of one value, or of every value of a scan."""
 
-    def __init__(self, noise: Noise, random: np.random.Generator) -> None:
+    def __init__(self, noise: Noise, random: "np.random.Generator") -> None:
         self._noise = noise
         self._random = random
         sign = 1.0 if random.random() < 0.5 else -1.0

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, TypeVar
 
 from trundle.diagnostics import UsageError
 from trundle.model import Link, Model, World
-from trundle.physics import Grip, TrackGrip
 from trundle.spatial import Pose, Twist, Vector3, Wrench, cross
 
 from .changing import placed
@@ -20,6 +19,8 @@ from .handle import Handle, expect_finite
 from .joint_handle import JointHandle
 
 if TYPE_CHECKING:
+    from trundle.physics import Grip, TrackGrip
+
     from .simulation import Simulation
 
 
@@ -91,7 +92,7 @@ class LinkHandle(Handle):
             wrench = wrench + Wrench(torque=turning)
         self._simulation.pushes.add_wrench(self.index, wrench)
 
-    def set_grip(self, grip: Grip | TrackGrip | None) -> None:
+    def set_grip(self, grip: "Grip | TrackGrip | None") -> None:
         """Have the link's surface move and slip where it touches, from now on.
 
         Args:

@@ -2,12 +2,16 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
-from trundle.physics import Engine, Grip, TrackGrip
+from trundle.physics import Engine
 from trundle.spatial import Wrench
 
 from .joint_handle import JointHandle
 from .timeline import Timeline
+
+if TYPE_CHECKING:  # a world without belts starts without them
+    from trundle.physics import Grip, TrackGrip
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +82,7 @@ class Pushes:
         if until is not None:
             self.ends.efforts[joint, axis] = until
 
-    def set_grip(self, link: int, grip: Grip | TrackGrip | None) -> None:
+    def set_grip(self, link: int, grip: "Grip | TrackGrip | None") -> None:
         """Have a link's surface move and slip, or hold on as any other."""
         if self._grips.get(link) == grip:
             return

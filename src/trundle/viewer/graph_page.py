@@ -6,9 +6,9 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Protocol
 
-from trundle.access import NONE_ALLOWED, AllowedNames
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
+from trundle.page_address import NONE_ALLOWED, AllowedNames
 from trundle.ros import Node
 
 from .content import JointSlider, ViewerScene

@@ -19,7 +19,8 @@ from typing import BinaryIO
 import numpy as np
 import viser
 
-from trundle.access import Access, PageAddress
+from trundle.access import Access
+from trundle.page_address import PageAddress
 
 from .content import ViewerState
 from .display import Display

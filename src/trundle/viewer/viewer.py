@@ -12,8 +12,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.access import NONE_ALLOWED, AllowedNames, PageAddress
 from trundle.diagnostics import UsageError
+from trundle.page_address import NONE_ALLOWED, AllowedNames, PageAddress
 
 from .content import MOST_LINE_POINTS, ViewerScene, ViewerState
 from .errors import ViewerError
