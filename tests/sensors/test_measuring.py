@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import trundle
+from trundle.model import MEASURING
 from trundle.sensors import ContactReading, ImuReading, ImuSensor, RangeReading, RangeSensor, mount_sensors
-from trundle.sensors.measuring import MEASURING
 from trundle.sensors.mount_measuring import MAKERS
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist

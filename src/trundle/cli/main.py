@@ -196,11 +196,17 @@ def add_renderer(parser: argparse.ArgumentParser) -> None:
 
 @contextmanager
 def quiet_imports() -> Generator[None]:
-    """Let Ctrl-C end the process without a word while modules are loaded: some turn it into errors of their own."""
+    """Let Ctrl-C end the process without a word while modules are loaded: some turn it into errors of their own.
+
+    Nobody looks for garbage meanwhile, nor later among what was loaded: it stays.
+    """
     before = signal.signal(signal.SIGINT, signal.SIG_DFL)
+    gc.disable()
     try:
         yield
     finally:
+        gc.freeze()
+        gc.enable()
         signal.signal(signal.SIGINT, before)
 
 

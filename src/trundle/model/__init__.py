@@ -44,11 +44,12 @@ if TYPE_CHECKING:
     from .light import Light, LightType
     from .link import Collision, Link, Visual
     from .material import GREY, Material, Rgba
+    from .measuring import ForceTorque, GpsNoise, ImuNoise, OrientationReference, RangeScan, ScanAxis
     from .model import Frame, Model
     from .noise import Noise
     from .plugin import PluginTag
     from .road import Road
-    from .sensor import ForceTorque, GpsNoise, ImuNoise, OrientationReference, RangeScan, ScanAxis, Sensor
+    from .sensor import MEASURING, Sensor
     from .surface import Surface
     from .visibility import EVERY_BIT
     from .world import World
@@ -71,13 +72,13 @@ _HOMES = {
     "Ellipsoid": "geometry",
     "Empty": "geometry",
     "Fog": "environment",
-    "ForceTorque": "sensor",
+    "ForceTorque": "measuring",
     "Frame": "model",
     "GREY": "material",
     "Geometry": "geometry",
-    "GpsNoise": "sensor",
+    "GpsNoise": "measuring",
     "Heightmap": "geometry",
-    "ImuNoise": "sensor",
+    "ImuNoise": "measuring",
     "Inertial": "inertial",
     "Instrument": "instrument",
     "Joint": "joint",
@@ -88,6 +89,7 @@ _HOMES = {
     "LightType": "light",
     "Link": "link",
     "LogicalCamera": "instrument",
+    "MEASURING": "sensor",
     "Magnetometer": "instrument",
     "Material": "material",
     "MeshFile": "geometry",
@@ -95,17 +97,17 @@ _HOMES = {
     "Model": "model",
     "Moment": "actor",
     "Noise": "noise",
-    "OrientationReference": "sensor",
+    "OrientationReference": "measuring",
     "PhysicsSettings": "environment",
     "PixelIntrinsics": "camera",
     "Plane": "geometry",
     "PluginTag": "plugin",
     "Polyline": "geometry",
     "Projection": "camera",
-    "RangeScan": "sensor",
+    "RangeScan": "measuring",
     "Rgba": "material",
     "Road": "road",
-    "ScanAxis": "sensor",
+    "ScanAxis": "measuring",
     "SceneSettings": "environment",
     "Sensor": "sensor",
     "Skin": "actor",
@@ -130,6 +132,7 @@ __getattr__ = opened_on_use(__name__, _HOMES)
 __all__ = [
     "EVERY_BIT",
     "GREY",
+    "MEASURING",
     "UNLIMITED",
     "Actor",
     "AirPressure",

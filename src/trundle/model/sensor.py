@@ -1,95 +1,41 @@
 """Sensors as a description states them; the room `sensors` makes them measure."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from trundle.diagnostics import Source
-from trundle.spatial import Pose, Vector3
+from trundle.spatial import Pose
 
-from .camera import CameraOptics
-from .instrument import Instrument
-from .noise import Noise
-from .plugin import PluginTag
-from .visibility import EVERY_BIT
+if TYPE_CHECKING:
+    from .camera import CameraOptics
+    from .instrument import Instrument
+    from .measuring import ForceTorque, GpsNoise, ImuNoise, RangeScan
+    from .plugin import PluginTag
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ScanAxis:
-    """The angles of a fan of rays."""
-
-    samples: int = 1
-    resolution: float = 1.0
-    """Values told for each sample; Gazebo interpolates between rays."""
-    min_angle: float = 0.0
-    """[rad]"""
-    max_angle: float = 0.0
-    """[rad]"""
-
-    @property
-    def values(self) -> int:
-        """How many are told."""
-        return max(1, int(self.samples * self.resolution))
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RangeScan:
-    """Rays from the sensor's origin, about its z axis and then up by its vertical angles; 0, 0 looks along +x."""
-
-    horizontal: ScanAxis = ScanAxis()
-    vertical: ScanAxis = ScanAxis()
-    min_m: float = 0.0
-    max_m: float = 0.0
-    noise: Noise = Noise()
-    visibility_mask: int = EVERY_BIT
-    """Of rays on Gazebo's GPU: visuals are met whose flags share a bit with it."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class OrientationReference:
-    """The frame that an imu tells its orientation in."""
-
-    localization: str = "CUSTOM"
-    """ENU, NED, NWU, GRAV_UP, GRAV_DOWN or CUSTOM."""
-    custom_rpy: Vector3 = (0.0, 0.0, 0.0)
-    """Of a custom frame in its parent [rad]."""
-    parent_frame: str = ""
-    """world, or empty: the sensor's own frame at the start."""
-    gravity_x: Vector3 = (1.0, 0.0, 0.0)
-    """The x axis of GRAV_UP, whose z points against gravity, and of GRAV_DOWN, whose z points along it."""
-    gravity_parent_frame: str = ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ImuNoise:
-    """Noise about each axis of the sensor, x y z, and the frame of its orientation."""
-
-    angular_velocity: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
-    """[rad/s]"""
-    linear_acceleration: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
-    """[m/s²]"""
-    reference: OrientationReference | None = None
-    """None: the sensor as it was at the start."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class GpsNoise:
-    """Noise of a position fix [m]."""
-
-    horizontal: Noise = Noise()
-    vertical: Noise = Noise()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ForceTorque:
-    """How what a joint carries is told."""
-
-    frame: str = "child"
-    """Whose axes: child, parent or sensor."""
-    parent_to_child: bool = False
-    """What the parent does to the child; else what the child does to the parent."""
-    force: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
-    """Along the axes that are told [N]."""
-    torque: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
-    """[N·m]"""
+MEASURING = frozenset(
+    {
+        "air_pressure",
+        "air_speed",
+        "altimeter",
+        "contact",
+        "force_torque",
+        "gps",
+        "gpu_lidar",
+        "gpu_ray",
+        "imu",
+        "lidar",
+        "logical_camera",
+        "magnetometer",
+        "navsat",
+        "ray",
+        "rfid",
+        "rfidtag",
+        "sonar",
+        "wireless_receiver",
+        "wireless_transmitter",
+    }
+)
+"""Types that need no picture; tags and transmitters are measured by others."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,18 +52,18 @@ class Sensor:
     always_on: bool = False
     visualize: bool = False
     topic: str = ""
-    cameras: tuple[CameraOptics, ...] = ()
+    cameras: tuple["CameraOptics", ...] = ()
     """One for cameras of every kind, several for a multicamera."""
-    scan: RangeScan | None = None
+    scan: "RangeScan | None" = None
     """Set for ray sensors and lidars."""
-    imu: ImuNoise | None = None
+    imu: "ImuNoise | None" = None
     """Set for imus."""
-    gps: GpsNoise | None = None
+    gps: "GpsNoise | None" = None
     """Set for gps and navsat sensors."""
-    force_torque: ForceTorque | None = None
+    force_torque: "ForceTorque | None" = None
     """Set for force_torque sensors, which sit on joints."""
     touching: tuple[str, ...] | None = None
     """Set for contact sensors: the collisions of the link that feel; none named stands for all."""
-    instrument: Instrument | None = None
+    instrument: "Instrument | None" = None
     """Set for sensors of other types that have settings."""
-    plugins: tuple[PluginTag, ...] = ()
+    plugins: tuple["PluginTag", ...] = ()

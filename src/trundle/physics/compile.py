@@ -6,32 +6,32 @@ holds. A joint whose limits leave no freedom (the 0..0 of many published robots)
 
 import warnings
 from collections import Counter
-from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import mujoco
 
 from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.meshes import MeshError
-from trundle.model import Collision, Heightmap, Plane, World, flattened
+from trundle.model import Collision, Heightmap, MeshFile, Plane, World, flattened
 from trundle.spatial import Pose
 
 from .compliance import set_compliance
 from .contacts import add_contacts
-from .decomposition import Decomposition, MeshRequest
 from .engine_words import muted
 from .index import CompiledWorld, index_world
 from .inertia import principal_inertia
 from .joints import JointMaker
 from .law_tables import fill_tables, reserve_tables
 from .settings import apply_settings
-from .shapes import Meets, ShapeEntry, add_shape, collision_mesh, mesh_arrays
+from .shapes import Meets, ShapeEntry, add_shape
 from .starting import start_positions
 from .surfaces import Touch
 from .thin import look_ahead
 from .tree import WORLD, Hold, Place, Tree
 from .wheels import TREAD_POINTS, tread_of, without_tread
+
+if TYPE_CHECKING:
+    from .decomposition import Decomposition
 
 _KINEMATIC_MASS = 1e6
 """How many times heavier a kinematic link is than written: nothing that the file has moves it."""
@@ -55,7 +55,9 @@ class Compiler:
     """A specification that grows from a world without nested models."""
 
     def __init__(self, world: World, report: Diagnostics, *, cut_meshes: bool = True) -> None:
-        self.decomposition = Decomposition() if cut_meshes else None
+        self.cuts_meshes = cut_meshes
+        self.decomposition: Decomposition | None = None
+        """How meshes are cut, once they are."""
         self.world = world
         self.report = report
         self.spec = mujoco.MjSpec()
@@ -94,8 +96,11 @@ class Compiler:
             self._place(place)
         for hold in self.tree.loops:
             self._close(hold)
-        if self.decomposition is not None:
-            self.decomposition.cut_ahead(self._meshes())
+        collisions = (collision for place in self.tree.places.values() for collision in place.link.collisions)
+        if self.cuts_meshes and any(isinstance(collision.geometry, MeshFile) for collision in collisions):
+            from .mesh_shapes import cut_meshes  # a world without meshes starts without what cuts them
+
+            self.decomposition = cut_meshes(self.tree)
         for place in self.tree.places.values():
             for collision in place.link.collisions:
                 self._add_collision(place, collision)
@@ -119,15 +124,6 @@ class Compiler:
         for warning in caught:
             self.report.warn(self.world.at, f"the engine is in doubt: {' '.join(str(warning.message).split())}")
         return compiled
-
-    def _meshes(self) -> Iterator[MeshRequest]:
-        """Those of collisions, in file order; what cannot be read is named where it is added."""
-        for place in self.tree.places.values():
-            for collision in place.link.collisions:
-                with suppress(MeshError):
-                    mesh = collision_mesh(collision)
-                    if mesh is not None:
-                        yield (*mesh_arrays(mesh), place.name in self.tree.still)
 
     def _place(self, place: Place) -> None:
         """Add a link's body, after those that it hangs from."""

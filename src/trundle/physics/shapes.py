@@ -3,13 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Flag, auto
+from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.meshes import Mesh, MeshError, load_mesh, triangles_of
+from trundle.meshes import triangles_of
 from trundle.model import (
     Box,
     Capsule,
@@ -29,10 +30,9 @@ from trundle.model import (
 from trundle.spatial import Pose, Vector3, upright
 
 from .convex_geoms import THINNEST, add_hull, add_hulls, thick_hulls
-from .decomposition import FULL, CutMesh, Decomposition
-from .hulls import hull_of
-from .pieces import split
-from .terrain import add_terrain
+
+if TYPE_CHECKING:
+    from .decomposition import Decomposition
 
 _CONE_SIDES = 32
 _MOST_CORNERS = 1000
@@ -75,24 +75,6 @@ class ShapeEntry:
         return Meets.PLANES if self.geom.type == mujoco.mjtGeom.mjGEOM_PLANE else Meets.STANDING
 
 
-def mesh_arrays(mesh: Mesh) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-    """Vertices (N, 3) [m] and faces (M, 3) of a mesh."""
-    return mesh.vertices.astype(float), mesh.faces.astype(np.intp)
-
-
-def collision_mesh(collision: Collision) -> Mesh | None:
-    """Read the mesh of a collision, as large as it says; None where it has none.
-
-    Raises:
-        MeshError: it cannot be read.
-    """
-    geometry = collision.geometry
-    if not isinstance(geometry, MeshFile) or geometry.path is None:
-        return None
-    mesh = load_mesh(geometry.path, submesh=geometry.submesh, center=geometry.center_submesh)
-    return mesh.scaled(geometry.scale)
-
-
 def add_shape(
     spec: mujoco.MjSpec,
     body: mujoco.MjsBody,
@@ -101,7 +83,7 @@ def add_shape(
     report: Diagnostics,
     *,
     fixed: bool,
-    decomposition: Decomposition | None,
+    decomposition: "Decomposition | None",
 ) -> list[tuple[mujoco.MjsGeom, Meets]]:
     """Add a collision to a body, in pieces where it takes several; none after a warning where it cannot be one.
 
@@ -120,21 +102,9 @@ def add_shape(
         case MeshFile(path=None) | Empty():
             return []
         case MeshFile():
-            try:
-                mesh = collision_mesh(collision)
-            except MeshError as error:
-                report.warn(collision.at, f"{error}; the collision is left out")
-                return []
-            assert mesh is not None  # caught above
-            if decomposition is None:
-                if not fixed and split(*mesh_arrays(mesh), fixed=False).hollow:
-                    what = f"a mesh of {len(mesh.faces)} triangles that is not convex; how physics cuts it was not"
-                    report.info(collision.at, f"collision {collision.name!r}: {what} looked at (check --collisions)")
-                (corners,) = _thick([mesh.vertices.astype(float)], collision, report)
-                return [(add_hull(spec, body, pose, name, corners), Meets.ALL)]
-            cut = decomposition.pieces_of(*mesh_arrays(mesh), fixed=fixed)
-            _report_cut(cut, mesh, collision, report)
-            return _add_pieces(spec, body, collision, name, report, cut.pieces.corners, fixed=fixed)
+            from .mesh_shapes import add_mesh  # a world without meshes starts without what cuts them
+
+            return add_mesh(spec, body, collision, name, report, fixed=fixed, decomposition=decomposition)
         case Cone(radius, length):
             turns = np.linspace(0.0, 2 * np.pi, _CONE_SIDES, endpoint=False)
             base = np.column_stack([radius * np.cos(turns), radius * np.sin(turns), np.full(_CONE_SIDES, -length / 2)])
@@ -147,6 +117,8 @@ def add_shape(
             prisms = _add_prisms(spec, body, collision, name, report, outlines, height)
             return [(geom, Meets.ALL) for geom in prisms]
         case Heightmap():
+            from .terrain import add_terrain  # nor one without ground what reads pictures of it
+
             return [(geom, Meets.ALL) for geom in add_terrain(spec, body, collision, geometry, name, report)]
         case _:
             pass
@@ -168,47 +140,6 @@ def add_shape(
     return [(geom, Meets.ALL)]
 
 
-def _add_pieces(
-    spec: mujoco.MjSpec,
-    body: mujoco.MjsBody,
-    collision: Collision,
-    name: str,
-    report: Diagnostics,
-    pieces: list[NDArray[np.float64]],
-    *,
-    fixed: bool,
-) -> list[tuple[mujoco.MjsGeom, Meets]]:
-    pose = collision.link_from_collision
-    corners = _thick(pieces, collision, report)
-    if len(corners) == 1:
-        return [(add_hull(spec, body, pose, name, corners[0]), Meets.ALL)]
-    geoms = add_hulls(spec, body, pose, name, corners)
-    if fixed or hull_of(np.concatenate(corners)) is None:
-        return [(geom, Meets.ALL) for geom in geoms]
-    # On a plane pieces stand as the hull around them all does, which touches it in far fewer points.
-    hull = add_hull(spec, body, pose, f"{name}#hull", np.concatenate(corners))
-    return [(hull, Meets.PLANES), *((geom, Meets.STANDING | Meets.MOVING) for geom in geoms)]
-
-
-def _report_cut(cut: CutMesh, mesh: Mesh, collision: Collision, report: Diagnostics) -> None:
-    """Say what stands for a hollow mesh, and how well."""
-    misfits = cut.pieces.misfits
-    if not misfits:
-        return
-    worst = max(misfits, key=lambda misfit: misfit.away)
-    is_filled = any(misfit.is_filled for misfit in misfits)
-    how = "fills it" if is_filled else f"takes it for {len(cut.pieces.corners)} convex pieces"
-    times = "" if worst.times is None else f"{round(worst.times, 2):g} times its volume, "
-    what = f"a hollow mesh of {len(mesh.faces)} triangles; physics {how}"
-    said = f"collision {collision.name!r}: {what}: {times}a surface up to {worst.away:.2g} m away"
-    if cut.is_failed:
-        report.warn(collision.at, f"{said}; it could not be cut into convex pieces")
-    elif cut.is_coarse:
-        report.warn(collision.at, f"{said}; fewer pieces than could be, to save time: {FULL}=1 has them all")
-    else:
-        report.info(collision.at, said)
-
-
 def _add_prisms(
     spec: mujoco.MjSpec,
     body: mujoco.MjsBody,
@@ -224,10 +155,10 @@ def _add_prisms(
         report.warn(collision.at, f"collision {collision.name!r}: {what}")
         return []
     prisms = [np.array([(x, y, z) for z in (0.0, height) for x, y in triangle]) for triangle in triangles_of(outlines)]
-    return add_hulls(spec, body, collision.link_from_collision, name, _thick(prisms, collision, report))
+    return add_hulls(spec, body, collision.link_from_collision, name, thick_pieces(prisms, collision, report))
 
 
-def _thick(
+def thick_pieces(
     pieces: Sequence[NDArray[np.float64]], collision: Collision, report: Diagnostics
 ) -> list[NDArray[np.float64]]:
     """Pieces (N, 3) [m] that a hull can be made of."""

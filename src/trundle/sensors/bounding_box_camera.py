@@ -18,6 +18,7 @@ class BoundingBoxCameraSensor(CameraSensor):
     """Tells a box around each labelled model of which a pixel can be seen."""
 
     sees_shapes = True
+    sees_labels = True
 
     def take(self, snapshot: Snapshot) -> CameraReading:
         """Look, and draw a box round each thing."""

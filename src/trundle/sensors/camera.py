@@ -61,6 +61,8 @@ class CameraSensor(MountedSensor[CameraReading]):
     sees_depth: ClassVar[bool] = False
     sees_shapes: ClassVar[bool] = False
     """What its kind needs besides colours."""
+    sees_labels: ClassVar[bool] = False
+    """Whether it tells things by their labels."""
 
     def __init__(self, spot: Spot, optics: CameraOptics, *, scenery: Scenery) -> None:
         """Mount a camera.

@@ -5,37 +5,12 @@ A world without any starts without their modules.
 
 from typing import TYPE_CHECKING
 
-from trundle.model import Model
+from trundle.model import MEASURING, Model
 from trundle.simulation import Simulation
 
 if TYPE_CHECKING:
     from .mount_measuring import MeasuringSensor
     from .surroundings import Surroundings
-
-MEASURING = frozenset(
-    {
-        "air_pressure",
-        "air_speed",
-        "altimeter",
-        "contact",
-        "force_torque",
-        "gps",
-        "gpu_lidar",
-        "gpu_ray",
-        "imu",
-        "lidar",
-        "logical_camera",
-        "magnetometer",
-        "navsat",
-        "ray",
-        "rfid",
-        "rfidtag",
-        "sonar",
-        "wireless_receiver",
-        "wireless_transmitter",
-    }
-)
-"""Tags and transmitters are measured by others."""
 
 
 def mount_sensors(

@@ -5,39 +5,36 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from trundle import sensors
 from trundle.diagnostics import Diagnostics
-from trundle.model import CameraOptics, Distortion, Sensor
+from trundle.model import MEASURING, CameraOptics, Distortion, Sensor
 from trundle.render import Renderer, Scene
 from trundle.simulation import Simulation
 
-from .bounding_box_camera import BoundingBoxCameraSensor
 from .camera import CameraSensor
-from .depth_camera import DepthCameraSensor
 from .formats import FORMATS
 from .lens import fits
-from .measuring import MEASURING
 from .mounted import Spot
 from .saving import PictureSaver, folder_for, quota_of
 from .scenery import Scenery
-from .segmentation_camera import SegmentationCameraSensor
-from .thermal_camera import ThermalCameraSensor
 
-_KINDS: Mapping[str, type[CameraSensor]] = {
-    "boundingbox": BoundingBoxCameraSensor,
-    "boundingbox_camera": BoundingBoxCameraSensor,
-    "camera": CameraSensor,
-    "depth": DepthCameraSensor,
-    "depth_camera": DepthCameraSensor,
-    "multicamera": CameraSensor,
-    "rgbd": DepthCameraSensor,
-    "rgbd_camera": DepthCameraSensor,
-    "segmentation": SegmentationCameraSensor,
-    "segmentation_camera": SegmentationCameraSensor,
-    "thermal": ThermalCameraSensor,
-    "thermal_camera": ThermalCameraSensor,
-    "wide_angle_camera": CameraSensor,
-    "wideanglecamera": CameraSensor,
+_KINDS: Mapping[str, str] = {
+    "boundingbox": "BoundingBoxCameraSensor",
+    "boundingbox_camera": "BoundingBoxCameraSensor",
+    "camera": "CameraSensor",
+    "depth": "DepthCameraSensor",
+    "depth_camera": "DepthCameraSensor",
+    "multicamera": "CameraSensor",
+    "rgbd": "DepthCameraSensor",
+    "rgbd_camera": "DepthCameraSensor",
+    "segmentation": "SegmentationCameraSensor",
+    "segmentation_camera": "SegmentationCameraSensor",
+    "thermal": "ThermalCameraSensor",
+    "thermal_camera": "ThermalCameraSensor",
+    "wide_angle_camera": "CameraSensor",
+    "wideanglecamera": "CameraSensor",
 }
+"""By SDF's type; each is imported for the first camera of its type."""
 SIMULATED = frozenset(_KINDS) | MEASURING
 """SDF's sensor types that measure."""
 
@@ -67,10 +64,10 @@ def mount_cameras(
                 number += 1
                 if sensor.type in MEASURING or model not in (None, owner.name):
                     continue
-                kind = _KINDS.get(sensor.type)
-                if kind is None:
+                if sensor.type not in _KINDS:
                     report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")
                     continue
+                kind: type[CameraSensor] = getattr(sensors, _KINDS[sensor.type])
                 _name_unsupported(sensor, report)
                 together: list[CameraSensor] = []
                 for part, optics in enumerate(_made(sensor, report)):
@@ -94,7 +91,7 @@ def mount_cameras(
 
 def _doubt_labels(cameras: Sequence[CameraSensor], report: Diagnostics) -> None:
     for camera in cameras:
-        if isinstance(camera, BoundingBoxCameraSensor | SegmentationCameraSensor) and not camera.scenery.labels.any():
+        if camera.sees_labels and not camera.scenery.labels.any():
             what = "nothing in the world has a label (gz-sim-label-system in a <visual> or <model> gives one)"
             report.warn(camera.sensor.at, f"sensor {camera.name!r}: {what}; it sees background alone")
 

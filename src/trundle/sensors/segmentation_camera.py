@@ -23,6 +23,7 @@ class SegmentationCameraSensor(CameraSensor):
     """
 
     sees_shapes = True
+    sees_labels = True
 
     def take(self, snapshot: Snapshot) -> CameraReading:
         """See what is where."""

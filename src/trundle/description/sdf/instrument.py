@@ -24,7 +24,7 @@ _Read: TypeAlias = Callable[[XmlNode, Context], Instrument]
 
 
 def read_instrument(sensor: XmlNode, type_: str, context: Context) -> Instrument | None:
-    """Read the settings of a sensor of one of these types; without any, SDF's defaults are taken."""
+    """Read the settings of a sensor; without any, SDF's defaults are taken. None: its type, as rfid, has none."""
     if type_ not in _READERS:
         return None
     tag, default, read = _READERS[type_]
@@ -121,5 +121,3 @@ _READERS: Mapping[str, tuple[str, Instrument, _Read]] = {
     "wireless_transmitter": ("transceiver", Transceiver(), _transceiver),
 }
 """Type → the element with its settings, what it is without, what reads it."""
-INSTRUMENTS = frozenset(_READERS) | {"rfid", "rfidtag"}
-"""Sensor types whose settings are read here; rfid sensors and tags have none."""

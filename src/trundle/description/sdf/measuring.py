@@ -1,13 +1,32 @@
-"""Reads what ray sensors, lidars and imus measure, and with how much noise."""
+"""Reads what sensors that need no picture measure, and with how much noise."""
 
-from trundle.model import ForceTorque, GpsNoise, ImuNoise, Noise, OrientationReference, RangeScan, ScanAxis
+from dataclasses import replace
+
+from trundle.model import ForceTorque, GpsNoise, ImuNoise, Noise, OrientationReference, RangeScan, ScanAxis, Sensor
 from trundle.xmlnode import XmlNode
 
 from .context import Context, leave_out, read_bits
+from .instrument import read_instrument
 from .noise import read_noise
 
-RANGING = frozenset({"ray", "gpu_ray", "lidar", "gpu_lidar"})
 _MOST_RAYS = 2_000_000
+
+
+def with_settings(sensor: Sensor, node: XmlNode, context: Context) -> Sensor:
+    """Add the settings of its type to a sensor."""
+    match sensor.type:
+        case "ray" | "gpu_ray" | "lidar" | "gpu_lidar":
+            return replace(sensor, scan=read_scan(node, context))
+        case "imu":
+            return replace(sensor, imu=read_imu(node, context))
+        case "gps" | "navsat":
+            return replace(sensor, gps=read_gps(node, context))
+        case "force_torque":
+            return replace(sensor, force_torque=read_force_torque(node, context))
+        case "contact":
+            return replace(sensor, touching=read_touching(node, context))
+        case type_:
+            return replace(sensor, instrument=read_instrument(node, type_, context))
 
 
 def read_scan(sensor: XmlNode, context: Context) -> RangeScan:

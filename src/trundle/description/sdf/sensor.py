@@ -4,17 +4,12 @@ from collections.abc import Iterable
 from dataclasses import replace
 from itertools import count
 
-from trundle.model import PluginTag, Sensor
+from trundle.model import MEASURING, PluginTag, Sensor
 from trundle.xmlnode import XmlNode
 
 from .camera import SEEING, read_cameras
 from .context import Context, leave_out, read_pose
 from .frames import FrameGraph
-from .instrument import INSTRUMENTS, read_instrument
-from .measuring import RANGING, read_force_torque, read_gps, read_imu, read_scan, read_touching
-
-WHOLE = RANGING | SEEING | INSTRUMENTS | {"imu", "gps", "navsat", "contact", "force_torque"}
-"""Types whose every setting is read."""
 
 
 def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -> Sensor:
@@ -31,15 +26,13 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
         visualize=node.flag("visualize", default=False, report=report),
         topic=_topic(node, type_),
         cameras=read_cameras(node, type_, context) if type_ in SEEING else (),
-        scan=read_scan(node, context) if type_ in RANGING else None,
-        imu=read_imu(node, context) if type_ == "imu" else None,
-        gps=read_gps(node, context) if type_ in ("gps", "navsat") else None,
-        force_torque=read_force_torque(node, context) if type_ == "force_torque" else None,
-        instrument=read_instrument(node, type_, context),
-        touching=read_touching(node, context) if type_ == "contact" else None,
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
     )
-    if sensor.type in WHOLE:
+    if type_ in MEASURING:
+        from .measuring import with_settings  # a world without any starts without what they are set to
+
+        sensor = with_settings(sensor, node, context)
+    if type_ in MEASURING | SEEING:
         node.report_unread(report)
     else:
         leave_out(node, [child.tag for child in node.unread()], f"of type {type_!r} is not read yet", context)

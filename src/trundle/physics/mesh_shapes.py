@@ -1,0 +1,123 @@
+"""Collisions of meshes as MuJoCo geoms: a convex hull, or the pieces that a hollow mesh is cut into."""
+
+from collections.abc import Iterator
+from contextlib import suppress
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.diagnostics import Diagnostics
+from trundle.meshes import Mesh, MeshError, load_mesh
+from trundle.model import Collision, MeshFile
+
+from .convex_geoms import add_hull, add_hulls
+from .decomposition import FULL, CutMesh, Decomposition, MeshRequest
+from .hulls import hull_of
+from .pieces import split
+from .shapes import Meets, thick_pieces
+from .tree import Tree
+
+
+def cut_meshes(tree: Tree) -> Decomposition:
+    """Cut the meshes of collisions, in file order; what cannot be read is named where it is added."""
+
+    def requests() -> Iterator[MeshRequest]:
+        for place in tree.places.values():
+            for collision in place.link.collisions:
+                with suppress(MeshError):
+                    mesh = _mesh_of(collision)
+                    if mesh is not None:
+                        yield (*_arrays(mesh), place.name in tree.still)
+
+    decomposition = Decomposition()
+    decomposition.cut_ahead(requests())
+    return decomposition
+
+
+def add_mesh(
+    spec: mujoco.MjSpec,
+    body: mujoco.MjsBody,
+    collision: Collision,
+    name: str,
+    report: Diagnostics,
+    *,
+    fixed: bool,
+    decomposition: Decomposition | None,
+) -> list[tuple[mujoco.MjsGeom, Meets]]:
+    """Add the mesh of a collision to a body; see `add_shape`, whose arguments these are."""
+    try:
+        mesh = _mesh_of(collision)
+    except MeshError as error:
+        report.warn(collision.at, f"{error}; the collision is left out")
+        return []
+    if mesh is None:
+        return []
+    if decomposition is None:
+        if not fixed and split(*_arrays(mesh), fixed=False).hollow:
+            what = f"a mesh of {len(mesh.faces)} triangles that is not convex; how physics cuts it was not"
+            report.info(collision.at, f"collision {collision.name!r}: {what} looked at (check --collisions)")
+        (corners,) = thick_pieces([mesh.vertices.astype(float)], collision, report)
+        return [(add_hull(spec, body, collision.link_from_collision, name, corners), Meets.ALL)]
+    cut = decomposition.pieces_of(*_arrays(mesh), fixed=fixed)
+    _report_cut(cut, mesh, collision, report)
+    return _add_pieces(spec, body, collision, name, report, cut.pieces.corners, fixed=fixed)
+
+
+def _add_pieces(
+    spec: mujoco.MjSpec,
+    body: mujoco.MjsBody,
+    collision: Collision,
+    name: str,
+    report: Diagnostics,
+    pieces: list[NDArray[np.float64]],
+    *,
+    fixed: bool,
+) -> list[tuple[mujoco.MjsGeom, Meets]]:
+    pose = collision.link_from_collision
+    corners = thick_pieces(pieces, collision, report)
+    if len(corners) == 1:
+        return [(add_hull(spec, body, pose, name, corners[0]), Meets.ALL)]
+    geoms = add_hulls(spec, body, pose, name, corners)
+    if fixed or hull_of(np.concatenate(corners)) is None:
+        return [(geom, Meets.ALL) for geom in geoms]
+    # On a plane pieces stand as the hull around them all does, which touches it in far fewer points.
+    hull = add_hull(spec, body, pose, f"{name}#hull", np.concatenate(corners))
+    return [(hull, Meets.PLANES), *((geom, Meets.STANDING | Meets.MOVING) for geom in geoms)]
+
+
+def _report_cut(cut: CutMesh, mesh: Mesh, collision: Collision, report: Diagnostics) -> None:
+    """Say what stands for a hollow mesh, and how well."""
+    misfits = cut.pieces.misfits
+    if not misfits:
+        return
+    worst = max(misfits, key=lambda misfit: misfit.away)
+    is_filled = any(misfit.is_filled for misfit in misfits)
+    how = "fills it" if is_filled else f"takes it for {len(cut.pieces.corners)} convex pieces"
+    times = "" if worst.times is None else f"{round(worst.times, 2):g} times its volume, "
+    what = f"a hollow mesh of {len(mesh.faces)} triangles; physics {how}"
+    said = f"collision {collision.name!r}: {what}: {times}a surface up to {worst.away:.2g} m away"
+    if cut.is_failed:
+        report.warn(collision.at, f"{said}; it could not be cut into convex pieces")
+    elif cut.is_coarse:
+        report.warn(collision.at, f"{said}; fewer pieces than could be, to save time: {FULL}=1 has them all")
+    else:
+        report.info(collision.at, said)
+
+
+def _arrays(mesh: Mesh) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+    """Vertices (N, 3) [m] and faces (M, 3) of a mesh."""
+    return mesh.vertices.astype(float), mesh.faces.astype(np.intp)
+
+
+def _mesh_of(collision: Collision) -> Mesh | None:
+    """Read the mesh of a collision, as large as it says; None where it has none.
+
+    Raises:
+        MeshError: it cannot be read.
+    """
+    geometry = collision.geometry
+    if not isinstance(geometry, MeshFile) or geometry.path is None:
+        return None
+    mesh = load_mesh(geometry.path, submesh=geometry.submesh, center=geometry.center_submesh)
+    return mesh.scaled(geometry.scale)
