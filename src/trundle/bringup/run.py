@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from trundle.diagnostics import Diagnostics
+from trundle.garbage import no_garbage
 from trundle.packages import Packages
 from trundle.page_address import AllowedNames, PageAddress
 from trundle.physics import SimulationUnstableError
@@ -86,8 +87,9 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
     warn_of_exposure(options.host, show.line)
     packages = Packages(env, start=Path.cwd())
     name_workspace(file, packages, show.line)
-    stage = set_stage(file, packages, report, seed=options.seed)
-    simulation = Simulation(stage.world, report, seed=options.seed)  # nothing is open yet: Ctrl-C ends it at once
+    with no_garbage():
+        stage = set_stage(file, packages, report, seed=options.seed)
+        simulation = Simulation(stage.world, report, seed=options.seed)  # nothing is open yet: Ctrl-C ends it at once
     with stop_flag() as stop, ExitStack() as open_things:
         cameras = mount_cameras(simulation, RENDERERS[options.renderer])
         sensors = mount_sensors(simulation)

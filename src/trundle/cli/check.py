@@ -5,7 +5,9 @@ import os
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, add_lenient, no_garbage, quiet_imports
+from trundle.garbage import no_garbage
+
+from .main import add_allow_outside, add_lenient, quiet_imports
 
 EXAMPLES = """
   trundle check model.sdf                             everything worth knowing, worst first

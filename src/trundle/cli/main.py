@@ -6,7 +6,6 @@ A command is a module `trundle.cli.<name>`: the first line of its docstring is i
 
 import argparse
 import errno
-import gc
 import importlib
 import os
 import signal
@@ -18,6 +17,7 @@ from typing import TYPE_CHECKING, Protocol, cast
 
 from trundle import __version__
 from trundle.diagnostics import TrundleError
+from trundle.garbage import no_garbage
 from trundle.names import Arguments, parse_arguments
 
 if TYPE_CHECKING:
@@ -196,34 +196,13 @@ def add_renderer(parser: argparse.ArgumentParser) -> None:
 
 @contextmanager
 def quiet_imports() -> Generator[None]:
-    """Let Ctrl-C end the process without a word while modules are loaded: some turn it into errors of their own.
-
-    Nobody looks for garbage meanwhile, nor later among what was loaded: it stays.
-    """
+    """Let Ctrl-C end the process without a word while modules are loaded: some turn it into errors of their own."""
     before = signal.signal(signal.SIGINT, signal.SIG_DFL)
-    gc.disable()
     try:
-        yield
+        with no_garbage():
+            yield
     finally:
-        gc.freeze()
-        gc.enable()
         signal.signal(signal.SIGINT, before)
-
-
-_SELDOM = 200_000
-"""Objects between two looks for garbage: those of an honest file live as long as the process, and there are fewer."""
-
-
-@contextmanager
-def no_garbage() -> Generator[None]:
-    """Look for garbage seldom in what ends with the process, and not again on the way out."""
-    before = gc.get_threshold()
-    gc.set_threshold(_SELDOM)
-    try:
-        yield
-    finally:
-        gc.set_threshold(*before)
-        gc.freeze()
 
 
 def _names_a_place(message: str) -> bool:

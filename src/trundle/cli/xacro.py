@@ -5,7 +5,9 @@ import os
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, add_lenient, no_garbage
+from trundle.garbage import no_garbage
+
+from .main import add_allow_outside, add_lenient
 
 EXAMPLES = """
   trundle xacro robot.urdf.xacro                      the expanded XML on standard output

@@ -8,9 +8,9 @@ if TYPE_CHECKING:
     from .cache import keep, load_kept
     from .heights import read_heights
     from .load import load_mesh
-    from .mesh import Mesh, MeshPart, Texture
+    from .mesh import Mesh, MeshError, MeshPart, Texture
     from .polygons import triangles_of
-    from .raw import MeshError, RawPart
+    from .raw import RawPart
     from .skeleton import Motion, Skin, matched, root_of
     from .skins import load_motion, load_skin
     from .solids import cone_mesh, prism_mesh, terrain_mesh
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "Mesh": "mesh",
-    "MeshError": "raw",
+    "MeshError": "mesh",
     "MeshPart": "mesh",
     "Motion": "skeleton",
     "RawPart": "raw",

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from .raw import MeshError
+from .mesh import MeshError
 from .skeleton import Bone, Motion, track_of
 
 _Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from trundle.xmlnode import XmlNode, parse_numbers
 
-from .raw import MeshError
+from .mesh import MeshError
 from .skeleton import Bone, Motion, Track, track_of
 
 _Array = NDArray[np.float64]

@@ -13,8 +13,8 @@ from trundle.diagnostics import DescriptionError
 from trundle.xmlnode import XmlNode, parse_xml
 
 from .collada_skin import read_skin
-from .mesh import Rgba
-from .raw import MOST_TRIANGLES, MeshError, RawPart, at_corners, fans, used_vertices
+from .mesh import MeshError, Rgba
+from .raw import MOST_TRIANGLES, RawPart, at_corners, fans, used_vertices
 
 _DEEPEST = 64
 _MOST_NODES = 100_000

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from .raw import MOST_TRIANGLES, MeshError, RawPart, at_corners
+from .mesh import MeshError
+from .raw import MOST_TRIANGLES, RawPart, at_corners
 from .texture import as_png
 
 _JSON = b"JSON"

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from .raw import MeshError
+from .mesh import MeshError
 from .texture import image_file, why_undecoded
 
 _MOST_PIXELS = 4096

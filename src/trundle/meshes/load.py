@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from trundle.files import read_file
 
 from . import cache
-from .mesh import Mesh, MeshPart, Rgba
-from .raw import MOST_TRIANGLES, MeshError, RawPart
+from .mesh import Mesh, MeshError, MeshPart, Rgba
+from .raw import MOST_TRIANGLES, RawPart
 from .texture import find_texture, mean_colour
 
 MOST_BYTES = 256 * 1024 * 1024

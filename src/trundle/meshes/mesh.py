@@ -8,9 +8,15 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from trundle.diagnostics import TrundleError
+
 Rgba: TypeAlias = tuple[float, float, float, float]
 Texture: TypeAlias = Path | bytes
 """An image: its file, or what a file of it would hold where it is inside the mesh's own."""
+
+
+class MeshError(TrundleError):
+    """A mesh file that cannot be used; the text says why."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,16 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.diagnostics import TrundleError
-
 from .mesh import Rgba
 
 MOST_TRIANGLES = 20_000_000
 """More than any robot; a file can ask for more by naming one part over and over."""
-
-
-class MeshError(TrundleError):
-    """A mesh file that cannot be used; the text says why."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

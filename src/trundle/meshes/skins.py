@@ -13,7 +13,7 @@ from .bvh import read_bvh
 from .collada_bones import metres_of, read_bones, read_motion
 from .collada_file import read_collada, read_tree
 from .load import MOST_BYTES, faults_of, joined
-from .raw import MeshError
+from .mesh import MeshError
 from .skeleton import Motion, Skin
 
 

@@ -4,7 +4,8 @@ import re
 
 import numpy as np
 
-from .raw import MeshError, RawPart
+from .mesh import MeshError
+from .raw import RawPart
 
 _HEADER = 84
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])

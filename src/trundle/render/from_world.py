@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
+from trundle import meshes
 from trundle.diagnostics import Diagnostics, Source
-from trundle.meshes import Mesh, MeshError, cone_mesh, load_mesh, prism_mesh
+from trundle.meshes import Mesh, MeshError, cone_mesh, prism_mesh
 from trundle.model import (
     EVERY_BIT,
     GREY,
@@ -179,7 +180,7 @@ def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeome
         case _:
             return geometry
     try:
-        mesh = load_mesh(path, submesh=geometry.submesh, center=geometry.center_submesh)
+        mesh = meshes.load_mesh(path, submesh=geometry.submesh, center=geometry.center_submesh)
     except MeshError as error:
         report.warn(at, f"{error}; the shape is left out")
         return None
