@@ -10,10 +10,10 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import mujoco
+from msgspec.structs import replace
 
 import trundle
 from bench.table import Row

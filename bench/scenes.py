@@ -1,11 +1,11 @@
 """The scenes that renderers are compared on: ten primitives (A, C), twenty meshes of 5,000 triangles (B)."""
 
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import trimesh
+from msgspec.structs import replace
 from PIL import Image
 
 from trundle.meshes import Mesh

@@ -72,3 +72,20 @@ def test_a_robot_loads_nothing_that_it_has_not() -> None:
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
 
     assert done.stderr.splitlines()[-1] == ""
+
+
+def test_the_simulator_makes_no_dataclass_at_its_start() -> None:
+    """Each takes half a millisecond; RP2W loaded 110."""
+    words = ["run", "model://rp2w", "--headless", "--no-ros", "--duration", "0.001"]
+    rooms = ["spatial", "model", "meshes", "description", "physics", "render", "simulation", "sensors", "control"]
+    code = (
+        f"import dataclasses, sys, trundle.cli as c; c.main({words});"
+        f"modules = [m for name, m in sys.modules.items() if name.split('.')[:1] == ['trundle']"
+        f" and name.split('.')[1:2] and name.split('.')[1] in {rooms}];"
+        "classes = {c for m in modules for c in vars(m).values() if dataclasses.is_dataclass(c)};"
+        "print(*sorted(c.__qualname__ for c in classes if isinstance(c, type)), file=sys.stderr)"
+    )
+
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+
+    assert done.stderr.splitlines()[-1] == ""

@@ -4,8 +4,9 @@ Pure Python: a model holds a few hundred of them, and nothing here runs at every
 """
 
 import math
-from dataclasses import dataclass
 from typing import Self, TypeAlias
+
+from msgspec import Struct
 
 Vector3: TypeAlias = tuple[float, float, float]
 Quaternion: TypeAlias = tuple[float, float, float, float]
@@ -94,8 +95,7 @@ def upright(normal: Vector3) -> Quaternion:
     return (w, -y / (2 * w), x / (2 * w), 0.0)
 
 
-@dataclass(frozen=True, slots=True)
-class Pose:
+class Pose(Struct, frozen=True):
     """A rigid transform `a_from_b`: where frame b's origin and axes are, seen from frame a."""
 
     position: Vector3 = ZERO
@@ -140,8 +140,7 @@ class Pose:
         return [*self.position, *self.rpy]
 
 
-@dataclass(frozen=True, slots=True)
-class Twist:
+class Twist(Struct, frozen=True):
     """Velocity of a point of a body and of the body's rotation, in one stated frame."""
 
     linear: Vector3 = ZERO
@@ -154,8 +153,7 @@ class Twist:
         return [*self.linear, *self.angular]
 
 
-@dataclass(frozen=True, slots=True)
-class Wrench:
+class Wrench(Struct, frozen=True):
     """Force at a point and torque, in one stated frame."""
 
     force: Vector3 = ZERO

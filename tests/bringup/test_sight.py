@@ -1,11 +1,11 @@
 """What the page shows of sensors, and whether it goes on as models come and go."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 import trundle
 from trundle.bringup.page import Page

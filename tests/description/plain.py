@@ -1,9 +1,10 @@
 """Models as plain values, so that two of them can be held against one another field by field."""
 
-import dataclasses
 import math
 from collections.abc import Iterator
 from typing import Any
+
+from msgspec import Struct
 
 from trundle.spatial import Pose
 from trundle.xmlnode import XmlNode
@@ -13,14 +14,13 @@ _CLOSE = 1e-9
 
 
 def plain(value: Any) -> Any:
-    """A dataclass as plain values, without where it was read; a plugin as it was written."""
+    """A struct as plain values, without where it was read; a plugin as it was written."""
     if isinstance(value, XmlNode):
         return value.xml()
     if isinstance(value, Pose):
         return value
-    if dataclasses.is_dataclass(value):
-        names = [field.name for field in dataclasses.fields(value) if field.name not in _WHERE]
-        return {name: plain(getattr(value, name)) for name in names}
+    if isinstance(value, Struct):
+        return {name: plain(getattr(value, name)) for name in value.__struct_fields__ if name not in _WHERE}
     return [plain(each) for each in value] if isinstance(value, tuple) else value
 
 

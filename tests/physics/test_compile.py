@@ -1,11 +1,11 @@
 """What the compile makes of a world: freedoms, mends, and who may touch whom."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from trundle import physics
 from trundle.diagnostics import Diagnostics, Source

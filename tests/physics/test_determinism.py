@@ -82,7 +82,7 @@ def test_a_state_can_be_gone_back_to_at_any_step(load: Callable[[], Simulation])
 
 ACTS = """
 import hashlib, sys
-from dataclasses import replace
+from msgspec.structs import replace
 import trundle
 from trundle.bringup.plugins import load_plugins, load_world_plugins
 from trundle.spatial import Pose, Wrench

@@ -4,12 +4,12 @@ import math
 import os
 import subprocess
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
+from msgspec.structs import replace
 from tests.pictures import drawn
 
 from trundle.diagnostics import UsageError

@@ -1,10 +1,10 @@
 """Surfaces that move and slip under a block of 2 kg, against m dv/dt = F − v / slip."""
 
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 import trundle
 from trundle.physics import Grip, TrackGrip

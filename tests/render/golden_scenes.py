@@ -2,9 +2,9 @@
 
 import hashlib
 import math
-from dataclasses import replace
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.meshes import Mesh

@@ -1,11 +1,11 @@
 """What of a world is drawn, where, and in which colour."""
 
-from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 
 import pytest
 import trimesh
+from msgspec.structs import replace
 from PIL import Image
 
 from trundle import render

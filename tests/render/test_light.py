@@ -1,10 +1,10 @@
 """How light falls: shadows, lamps, highlights, haze."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from numpy.typing import NDArray
 from tests.pictures import drawn
 

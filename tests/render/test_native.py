@@ -1,11 +1,11 @@
 """What a camera sees."""
 
 import math
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from numpy.typing import NDArray
 from tests.pictures import drawn
 

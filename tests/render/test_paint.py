@@ -1,11 +1,11 @@
 """Images on shapes."""
 
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from numpy.typing import NDArray
 from PIL import Image
 from tests.pictures import drawn

@@ -1,11 +1,11 @@
 """Cameras take pictures when they are due, of the instant they are due, and only for somebody."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle import sensors

@@ -1,11 +1,11 @@
 """Imus and ray sensors against what geometry and mechanics say."""
 
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 import trundle
 from trundle.model import MEASURING

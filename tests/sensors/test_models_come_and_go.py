@@ -1,11 +1,11 @@
 """Sensors go on as models come and go around them."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 import trundle
 from trundle.render import NativeRenderer

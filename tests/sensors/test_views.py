@@ -1,10 +1,10 @@
 """Lenses, distortion and pixels that are not square, against geometry."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.model import CameraOptics, Distortion, Lens, PixelIntrinsics

@@ -1,9 +1,9 @@
 """Models spawned, deleted and moved while everything else goes on."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 import trundle
 from trundle.diagnostics import UsageError

@@ -1,8 +1,7 @@
 """A time step that changes while the simulation runs."""
 
-from dataclasses import replace
-
 import pytest
+from msgspec.structs import replace
 from tests.simulation.test_hooks import MS, Acts, Looks, Track, empty_world
 
 from trundle.description import load

@@ -1,8 +1,7 @@
 """A URDF that cannot be simulated, as it is written: links without mass are left out of a simulation."""
 
-from dataclasses import replace
-
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics

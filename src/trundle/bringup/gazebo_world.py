@@ -5,8 +5,9 @@ import os
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
+
+from msgspec.structs import replace
 
 from trundle.bridge import ClockTopic, clock_rate_hz
 from trundle.description import load

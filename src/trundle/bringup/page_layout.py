@@ -1,10 +1,11 @@
 """What the page of a simulation shows: its bodies, frames, cameras, and a slider for each joint that can move."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
+from msgspec.structs import replace
 
 from trundle.bridge import WORLD_FRAME, link_frames
 from trundle.model import Joint, JointType

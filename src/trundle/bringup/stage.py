@@ -1,9 +1,11 @@
 """Puts what a file describes into a world that can be simulated."""
 
 import os
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from trundle.description import Loaded, load
 from trundle.diagnostics import Diagnostics

@@ -1,11 +1,11 @@
 """The law of two driven wheels: body speed to wheel speeds, and wheel travel back to where the body is."""
 
 import math
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DifferentialDrive:
+class DifferentialDrive(Struct, frozen=True, kw_only=True):
     """Two wheels on one axle."""
 
     wheel_radius: float
@@ -24,8 +24,7 @@ class DifferentialDrive:
         return (forward - half) / self.wheel_radius, (forward + half) / self.wheel_radius
 
 
-@dataclass(slots=True)
-class WheelOdometry:
+class WheelOdometry(Struct):
     """Where the wheels say the body is, from where it started."""
 
     drive: DifferentialDrive

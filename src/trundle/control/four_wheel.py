@@ -1,8 +1,9 @@
 """The law of four driven, steered wheels; the commands are four_wheel_steering_controller's."""
 
 import math
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from msgspec import Struct
 
 Wheels: TypeAlias = tuple[float, float, float, float]
 """Front left, front right, rear left, rear right."""
@@ -14,8 +15,7 @@ _SAME = 0.01
 """Tangents of the two angles of an axle that differ by less point at nothing near."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FourWheelSteering:
+class FourWheelSteering(Struct, frozen=True, kw_only=True):
     """Two steered axles."""
 
     track: float

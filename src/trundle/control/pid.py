@@ -1,10 +1,9 @@
 """A PID law with a clamped integral, of one sign with the error."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 
-@dataclass(slots=True, kw_only=True)
-class Pid:
+class Pid(Struct, kw_only=True):
     """Turns an error into a command; what is too large is wanted smaller."""
 
     p: float = 0.0

@@ -1,11 +1,11 @@
 """How fast a commanded speed may be, change, and change its change."""
 
 import math
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SpeedLimit:
+class SpeedLimit(Struct, frozen=True, kw_only=True):
     """Limits of one direction of motion; the smaller limit on the way to it wins."""
 
     slowest: float = -math.inf

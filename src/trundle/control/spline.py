@@ -2,11 +2,11 @@
 
 from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True)
-class JointPoint:
+class JointPoint(Struct, frozen=True):
     """Where a joint is to be at a time, and how fast, if that is stated."""
 
     time_s: float

@@ -1,10 +1,9 @@
 """The PID law of ros_control's controllers."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 
-@dataclass(slots=True, kw_only=True)
-class ToolboxPid:
+class ToolboxPid(Struct, kw_only=True):
     """Turns the error, what is wanted less what is, into a command; control_toolbox's, gain by gain."""
 
     p: float = 0.0

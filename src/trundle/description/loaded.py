@@ -1,15 +1,15 @@
 """What reading a description gives."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
+
+from msgspec import Struct
 
 if TYPE_CHECKING:
     from trundle.model import World
     from trundle.robot import Robot
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Loaded:
+class Loaded(Struct, frozen=True, kw_only=True):
     """Only what the file names: no added ground or sun."""
 
     kind: Literal["world", "model", "urdf"]

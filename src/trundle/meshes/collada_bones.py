@@ -2,10 +2,10 @@
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.xmlnode import XmlNode, parse_numbers
@@ -21,8 +21,7 @@ _Change: TypeAlias = tuple[_Array, _Array, int | None]
 """Times (T,), values (T, n), and which single number of a transform they are."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Step:
+class _Step(Struct, frozen=True, eq=False):
     """One of the transforms that a node's is the product of."""
 
     kind: str

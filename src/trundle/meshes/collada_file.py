@@ -2,11 +2,11 @@
 
 import io
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import Any
 from urllib.parse import unquote
 
 import numpy as np
+from msgspec import Struct, field
 from numpy.typing import NDArray
 
 from trundle.diagnostics import DescriptionError
@@ -69,8 +69,7 @@ def read_tree(data: bytes) -> XmlNode:
         raise MeshError(f"line {error.at.line}: {error.what}") from None
 
 
-@dataclass(slots=True)
-class _Walk:
+class _Walk(Struct):
     """Everything met on the way down."""
 
     metres: float

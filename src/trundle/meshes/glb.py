@@ -3,10 +3,10 @@
 import io
 import json
 import logging
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 
 from .mesh import MeshError
 from .raw import MOST_TRIANGLES, RawPart, at_corners

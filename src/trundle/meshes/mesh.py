@@ -1,11 +1,12 @@
 """Triangles, in parts that each have a colour."""
 
-from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.diagnostics import TrundleError
@@ -19,8 +20,7 @@ class MeshError(TrundleError):
     """A mesh file that cannot be used; the text says why."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MeshPart:
+class MeshPart(Struct, frozen=True, kw_only=True):
     """Some faces of a mesh in a row: what a file gives one material."""
 
     name: str
@@ -37,8 +37,7 @@ class MeshPart:
     """What the file names and is not there."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Mesh:
+class Mesh(Struct, frozen=True, eq=False):
     """A triangle mesh in its own frame, in metres, z up."""
 
     vertices: NDArray[np.float32]

@@ -1,9 +1,9 @@
 """Wavefront OBJ and its materials."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 
 import numpy as np
+from msgspec import Struct, field
 
 from .mesh import Rgba
 from .raw import RawPart, at_corners, fans, used_vertices
@@ -12,8 +12,7 @@ ReadBeside = Callable[[str], bytes | None]
 """A file beside the mesh, by its relative path; None where there is none."""
 
 
-@dataclass(slots=True)
-class _Group:
+class _Group(Struct):
     """Faces of one object and one material."""
 
     corners: list[int] = field(default_factory=list[int])
@@ -22,8 +21,7 @@ class _Group:
     counts: list[int] = field(default_factory=list[int])
 
 
-@dataclass(slots=True)
-class _Look:
+class _Look(Struct):
     """A material of a library."""
 
     diffuse: tuple[float, float, float] | None = None

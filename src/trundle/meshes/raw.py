@@ -1,8 +1,7 @@
 """What the readers of the formats give: loose parts in the file's own units, in double precision."""
 
-from dataclasses import dataclass
-
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from .mesh import Rgba
@@ -11,8 +10,7 @@ MOST_TRIANGLES = 20_000_000
 """More than any robot; a file can ask for more by naming one part over and over."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class RawSkin:
+class RawSkin(Struct, frozen=True, eq=False, kw_only=True):
     """How a part's vertices hang on bones."""
 
     bound: NDArray[np.float64]
@@ -26,8 +24,7 @@ class RawSkin:
     """(N, K) of each; each row's sum is 1."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RawPart:
+class RawPart(Struct, frozen=True, kw_only=True):
     """The triangles of one material in one node or object."""
 
     names: tuple[str, ...]

@@ -1,6 +1,6 @@
-"""World, Model, Link, Joint, …: frozen dataclasses with SDF's meaning, the narrow waist of Trundle.
+"""World, Model, Link, Joint, …: frozen structs with SDF's meaning, the narrow waist of Trundle.
 
-Names are imported on first use: a robot of boxes loads no cameras, and making a dataclass takes half a millisecond.
+Names are imported on first use: a robot of boxes loads no cameras.
 """
 
 from typing import TYPE_CHECKING

@@ -1,7 +1,8 @@
 """People and things that walk through a world by a script; nothing pushes them."""
 
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 from trundle.diagnostics import Source
 from trundle.spatial import Pose
@@ -11,8 +12,7 @@ from .link import Link
 from .plugin import PluginTag
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Skin:
+class Skin(Struct, frozen=True, kw_only=True):
     """A mesh with bones in it."""
 
     path: Path | None
@@ -21,8 +21,7 @@ class Skin:
     scale: float = 1.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Animation:
+class Animation(Struct, frozen=True, kw_only=True):
     """How the bones move, over and over."""
 
     name: str
@@ -34,8 +33,7 @@ class Animation:
     """Whether it goes on with the way that is covered, not with time."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Waypoint:
+class Waypoint(Struct, frozen=True, kw_only=True):
     """Where an actor is at a time of its trajectory."""
 
     time_s: float
@@ -44,8 +42,7 @@ class Waypoint:
     """In the world, as Gazebo has it, wherever the actor is put."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Trajectory:
+class Trajectory(Struct, frozen=True, kw_only=True):
     """A smooth way through waypoints."""
 
     id: int
@@ -57,8 +54,7 @@ class Trajectory:
     """By time."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Moment:
+class Moment(Struct, frozen=True, kw_only=True):
     """What the bones of an actor are at."""
 
     animation: str = ""
@@ -71,8 +67,7 @@ class Moment:
     """Whether the animation places and turns the root bone, too; else the actor's own pose does."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Actor:
+class Actor(Struct, frozen=True, kw_only=True):
     """Something that moves as its script or its plugins say."""
 
     name: str

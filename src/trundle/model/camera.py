@@ -1,6 +1,6 @@
 """What a camera is made of: picture, lens, distortion, clip and noise."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.spatial import Pose
 
@@ -8,8 +8,7 @@ from .noise import Noise
 from .visibility import EVERY_BIT
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Distortion:
+class Distortion(Struct, frozen=True, kw_only=True):
     """Brown's distortion of normalised image coordinates, as OpenCV's plumb_bob has it."""
 
     k1: float = 0.0
@@ -21,8 +20,7 @@ class Distortion:
     """Of the distortion, in widths and heights from the upper left corner."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PixelIntrinsics:
+class PixelIntrinsics(Struct, frozen=True, kw_only=True):
     """A pinhole in pixels: u = fx x + s y + cx, v = fy y + cy, for a ray through (x, y, 1)."""
 
     fx: float
@@ -32,8 +30,7 @@ class PixelIntrinsics:
     skew: float = 0.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Projection:
+class Projection(Struct, frozen=True, kw_only=True):
     """The 3×4 matrix P that camera_info is to tell."""
 
     fx: float
@@ -44,8 +41,7 @@ class Projection:
     ty: float = 0.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Lens:
+class Lens(Struct, frozen=True, kw_only=True):
     """A wide lens: a ray at an angle θ from the axis is seen r = c1 f fun(θ / c2 + c3) from the middle, where half the
     picture's width is 1."""
 
@@ -63,8 +59,7 @@ class Lens:
     """Width of each of the pinhole pictures that the lens looks at."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CameraOptics:
+class CameraOptics(Struct, frozen=True, kw_only=True):
     """A camera looking along +x of its frame, y to the left, z up."""
 
     name: str = ""

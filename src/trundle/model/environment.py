@@ -1,14 +1,13 @@
 """What is around the models: time and pull, air and earth."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.spatial import Vector3
 
 from .material import Rgba
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PhysicsSettings:
+class PhysicsSettings(Struct, frozen=True, kw_only=True):
     """How time passes and what pulls."""
 
     max_step_size_s: float = 0.001
@@ -20,8 +19,7 @@ class PhysicsSettings:
     """[m/s²] SDF's default, not 9.81."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SphericalCoordinates:
+class SphericalCoordinates(Struct, frozen=True, kw_only=True):
     """Where on Earth the world's origin is."""
 
     latitude_deg: float = 0.0
@@ -34,8 +32,7 @@ class SphericalCoordinates:
     world_frame_orientation: str = "ENU"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Atmosphere:
+class Atmosphere(Struct, frozen=True, kw_only=True):
     """Air that thins with height, adiabatically."""
 
     temperature: float = 288.15
@@ -46,8 +43,7 @@ class Atmosphere:
     """[K/m]"""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Fog:
+class Fog(Struct, frozen=True, kw_only=True):
     """Haze that hides what is far."""
 
     type: str = "none"
@@ -58,8 +54,7 @@ class Fog:
     density: float = 1.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SceneSettings:
+class SceneSettings(Struct, frozen=True, kw_only=True):
     """How the world looks where nothing else says."""
 
     ambient: Rgba = (0.4, 0.4, 0.4, 1.0)

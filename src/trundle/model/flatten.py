@@ -1,6 +1,6 @@
 """Models within models, as one: what physics, sensors and the graph see."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from trundle.spatial import Pose
 

@@ -1,22 +1,21 @@
 """Shapes of visuals and collisions, each centred on its own frame unless it says otherwise."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from trundle.spatial import Vector3
 
 
-@dataclass(frozen=True, slots=True)
-class Box:
+class Box(Struct, frozen=True):
     """An axis-aligned box."""
 
     size: Vector3
     """Full lengths along x, y, z [m]; zero is kept as written."""
 
 
-@dataclass(frozen=True, slots=True)
-class Cylinder:
+class Cylinder(Struct, frozen=True):
     """A cylinder along z."""
 
     radius: float
@@ -25,8 +24,7 @@ class Cylinder:
     """[m]"""
 
 
-@dataclass(frozen=True, slots=True)
-class Capsule:
+class Capsule(Struct, frozen=True):
     """A cylinder along z with a half sphere at each end."""
 
     radius: float
@@ -35,24 +33,21 @@ class Capsule:
     """Of the cylindrical part [m]."""
 
 
-@dataclass(frozen=True, slots=True)
-class Sphere:
+class Sphere(Struct, frozen=True):
     """A ball."""
 
     radius: float
     """[m]"""
 
 
-@dataclass(frozen=True, slots=True)
-class Ellipsoid:
+class Ellipsoid(Struct, frozen=True):
     """An ellipsoid along the axes."""
 
     radii: Vector3
     """Half lengths along x, y, z [m]."""
 
 
-@dataclass(frozen=True, slots=True)
-class Plane:
+class Plane(Struct, frozen=True):
     """A plane through the origin: infinite as a collision, a rectangle as a visual."""
 
     normal: Vector3
@@ -61,8 +56,7 @@ class Plane:
     """Lengths of the visual rectangle [m]."""
 
 
-@dataclass(frozen=True, slots=True)
-class Cone:
+class Cone(Struct, frozen=True):
     """A cone along z, its tip up, centred at half its height."""
 
     radius: float
@@ -71,8 +65,7 @@ class Cone:
     """[m]"""
 
 
-@dataclass(frozen=True, slots=True)
-class Polyline:
+class Polyline(Struct, frozen=True):
     """Closed outlines in the x-y plane, extruded along +z from z = 0; outlines inside others are holes."""
 
     outlines: tuple[tuple[tuple[float, float], ...], ...]
@@ -81,8 +74,7 @@ class Polyline:
     """[m]"""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TerrainLayer:
+class TerrainLayer(Struct, frozen=True, kw_only=True):
     """An image that is repeated over terrain."""
 
     size: float = 10.0
@@ -96,8 +88,7 @@ class TerrainLayer:
     """Height over which it does [m]."""
 
 
-@dataclass(frozen=True, slots=True)
-class Heightmap:
+class Heightmap(Struct, frozen=True):
     """Terrain from a grey image: black is the lowest, white the highest."""
 
     path: Path | None
@@ -114,13 +105,11 @@ class Heightmap:
     """What it is painted with, the lowest first."""
 
 
-@dataclass(frozen=True, slots=True)
-class Empty:
+class Empty(Struct, frozen=True):
     """No shape at all, as written or for want of one that is known."""
 
 
-@dataclass(frozen=True, slots=True)
-class MeshFile:
+class MeshFile(Struct, frozen=True):
     """Triangles from a file."""
 
     path: Path | None

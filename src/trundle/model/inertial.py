@@ -3,13 +3,12 @@
 SDF and URDF <inertial> both end here; `physics` alone reads it.
 """
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.spatial import Pose
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Inertial:
+class Inertial(Struct, frozen=True, kw_only=True):
     """Mass, centre of mass and rotational inertia of one link."""
 
     mass: float = 1.0

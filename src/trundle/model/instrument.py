@@ -1,13 +1,13 @@
 """What sensors other than cameras, rays and imus are set to."""
 
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from .noise import Noise
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LogicalCamera:
+class LogicalCamera(Struct, frozen=True, kw_only=True):
     """Tells which models are in a pyramid along +x."""
 
     near_m: float = 0.0
@@ -17,8 +17,7 @@ class LogicalCamera:
     horizontal_fov_rad: float = 1.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Sonar:
+class Sonar(Struct, frozen=True, kw_only=True):
     """Tells how near the nearest thing is in a cone along −z, as Gazebo has it, or in a ball."""
 
     geometry: str = "cone"
@@ -29,8 +28,7 @@ class Sonar:
     """Of the cone's far end, or of the ball [m]."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Transceiver:
+class Transceiver(Struct, frozen=True, kw_only=True):
     """A wireless transmitter or receiver."""
 
     essid: str = "wireless"
@@ -45,8 +43,7 @@ class Transceiver:
     """What is weaker a receiver does not hear."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Altimeter:
+class Altimeter(Struct, frozen=True, kw_only=True):
     """Tells height above where it started, and how fast that grows."""
 
     position: Noise = Noise()
@@ -55,16 +52,14 @@ class Altimeter:
     """[m/s]"""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Magnetometer:
+class Magnetometer(Struct, frozen=True, kw_only=True):
     """Tells the world's magnetic field along its own axes."""
 
     field: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
     """[T]"""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AirPressure:
+class AirPressure(Struct, frozen=True, kw_only=True):
     """Tells the pressure of still air."""
 
     reference_altitude: float = 0.0
@@ -73,8 +68,7 @@ class AirPressure:
     """[Pa]"""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AirSpeed:
+class AirSpeed(Struct, frozen=True, kw_only=True):
     """Tells the pressure of the air that meets it along +x."""
 
     pressure: Noise = Noise()

@@ -1,9 +1,10 @@
 """How two links may move relative to one another."""
 
 import math
-from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from trundle.diagnostics import Source
 from trundle.spatial import Pose, Vector3
@@ -31,8 +32,7 @@ UNLIMITED = 1e16
 """SDF's own word for no limit; anything this large or larger is none."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Mimic:
+class Mimic(Struct, frozen=True, kw_only=True):
     """A joint axis that follows another: multiplier · (leader − reference) + offset."""
 
     joint: str
@@ -45,8 +45,7 @@ class Mimic:
     """[rad] or [m]"""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class JointAxis:
+class JointAxis(Struct, frozen=True, kw_only=True):
     """One degree of freedom: its direction, limits and passive forces."""
 
     direction: Vector3
@@ -80,8 +79,7 @@ class JointAxis:
         return self.lower == self.upper
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Joint:
+class Joint(Struct, frozen=True, kw_only=True):
     """A joint between a parent and a child link of one model, or with the world."""
 
     name: str

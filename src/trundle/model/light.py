@@ -1,7 +1,8 @@
 """What lights the models."""
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+from msgspec import Struct
 
 from trundle.diagnostics import Source
 from trundle.spatial import Pose, Vector3
@@ -11,8 +12,7 @@ from .material import Rgba
 LightType: TypeAlias = Literal["directional", "point", "spot"]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Light:
+class Light(Struct, frozen=True, kw_only=True):
     """A source of light."""
 
     name: str

@@ -1,7 +1,8 @@
 """A rigid body with what is seen, touched and mounted on it."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from trundle.diagnostics import Source
 from trundle.spatial import Pose
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
     from .sensor import Sensor
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Visual:
+class Visual(Struct, frozen=True, kw_only=True):
     """A shape that is seen."""
 
     name: str
@@ -42,8 +42,7 @@ class Visual:
     """Those that alter it or draw beside it; labels and temperatures are read."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Collision:
+class Collision(Struct, frozen=True, kw_only=True):
     """A shape that is touched."""
 
     name: str
@@ -55,8 +54,7 @@ class Collision:
     """What a laser gets back, as its intensity."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Link:
+class Link(Struct, frozen=True, kw_only=True):
     """One rigid body of a model."""
 
     name: str

@@ -1,15 +1,15 @@
 """How a visual looks."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
+
+from msgspec import Struct
 
 Rgba: TypeAlias = tuple[float, float, float, float]
 """Red, green, blue, opacity, each 0 to 1."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Material:
+class Material(Struct, frozen=True, kw_only=True):
     """Colours of the Phong model that Gazebo draws with."""
 
     ambient: Rgba = (0.3, 0.3, 0.3, 1.0)

@@ -1,6 +1,6 @@
 """What rays, imus, fixes of position and force-torque sensors are set to."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.spatial import Vector3
 
@@ -8,8 +8,7 @@ from .noise import Noise
 from .visibility import EVERY_BIT
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ScanAxis:
+class ScanAxis(Struct, frozen=True, kw_only=True):
     """The angles of a fan of rays."""
 
     samples: int = 1
@@ -26,8 +25,7 @@ class ScanAxis:
         return max(1, int(self.samples * self.resolution))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RangeScan:
+class RangeScan(Struct, frozen=True, kw_only=True):
     """Rays from the sensor's origin, about its z axis and then up by its vertical angles; 0, 0 looks along +x."""
 
     horizontal: ScanAxis = ScanAxis()
@@ -39,8 +37,7 @@ class RangeScan:
     """Of rays on Gazebo's GPU: visuals are met whose flags share a bit with it."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class OrientationReference:
+class OrientationReference(Struct, frozen=True, kw_only=True):
     """The frame that an imu tells its orientation in."""
 
     localization: str = "CUSTOM"
@@ -54,8 +51,7 @@ class OrientationReference:
     gravity_parent_frame: str = ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ImuNoise:
+class ImuNoise(Struct, frozen=True, kw_only=True):
     """Noise about each axis of the sensor, x y z, and the frame of its orientation."""
 
     angular_velocity: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
@@ -66,16 +62,14 @@ class ImuNoise:
     """None: the sensor as it was at the start."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class GpsNoise:
+class GpsNoise(Struct, frozen=True, kw_only=True):
     """Noise of a position fix [m]."""
 
     horizontal: Noise = Noise()
     vertical: Noise = Noise()
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ForceTorque:
+class ForceTorque(Struct, frozen=True, kw_only=True):
     """How what a joint carries is told."""
 
     frame: str = "child"

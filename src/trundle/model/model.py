@@ -1,7 +1,8 @@
 """Links joined by joints, placed as one."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from trundle.diagnostics import Source
 from trundle.spatial import Pose
@@ -12,8 +13,7 @@ if TYPE_CHECKING:
     from .plugin import PluginTag
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Frame:
+class Frame(Struct, frozen=True, kw_only=True):
     """A named place that moves with what it is attached to."""
 
     name: str
@@ -24,8 +24,7 @@ class Frame:
     """As written: a link, joint, frame or nested model beside it, or the model itself."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Model:
+class Model(Struct, frozen=True, kw_only=True):
     """Links joined by joints, and models within the model."""
 
     name: str

@@ -1,10 +1,9 @@
 """Noise as a description states it."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Noise:
+class Noise(Struct, frozen=True, kw_only=True):
     """What is added to every value: a Gaussian, and a bias that is drawn once, of either sign, and may wander."""
 
     mean: float = 0.0

@@ -1,13 +1,12 @@
 """A plugin tag, kept as the author wrote it."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.diagnostics import Source
 from trundle.xmlnode import XmlNode
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PluginTag:
+class PluginTag(Struct, frozen=True, kw_only=True):
     """Names the plugin a model, world or sensor asks for; `plugins` looks for it."""
 
     name: str

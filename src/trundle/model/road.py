@@ -1,6 +1,6 @@
 """Ways painted on the ground."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.diagnostics import Source
 from trundle.spatial import Vector3
@@ -8,8 +8,7 @@ from trundle.spatial import Vector3
 from .material import Material
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Road:
+class Road(Struct, frozen=True, kw_only=True):
     """A strip along a line: seen, never touched."""
 
     name: str

@@ -1,7 +1,8 @@
 """Sensors as a description states them; the room `sensors` makes them measure."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from trundle.diagnostics import Source
 from trundle.spatial import Pose
@@ -38,8 +39,7 @@ MEASURING = frozenset(
 """Types that need no picture; tags and transmitters are measured by others."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Sensor:
+class Sensor(Struct, frozen=True, kw_only=True):
     """A sensor mounted on a link."""
 
     name: str

@@ -1,12 +1,11 @@
 """What a collision is like to touch."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.spatial import ZERO, Vector3
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Surface:
+class Surface(Struct, frozen=True, kw_only=True):
     """Contact parameters of one collision, in SDF's terms; defaults are SDF 1.4's and later."""
 
     mu: float = 1.0

@@ -1,7 +1,8 @@
 """The world that holds all models: what every reader makes and every consumer starts from."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from trundle.diagnostics import Source
 from trundle.spatial import ZERO, Vector3
@@ -17,8 +18,7 @@ if TYPE_CHECKING:
     from .road import Road
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class World:
+class World(Struct, frozen=True, kw_only=True):
     """Everything that is simulated together."""
 
     name: str

@@ -6,10 +6,10 @@ holds. A joint whose limits leave no freedom (the 0..0 of many published robots)
 
 import warnings
 from collections import Counter
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import mujoco
+from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import Collision, Heightmap, MeshFile, Plane, World, flattened

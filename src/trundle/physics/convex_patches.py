@@ -1,8 +1,7 @@
 """Neighbouring faces joined to convex patches: where a surface bulges, one convex body has all of them exactly."""
 
-from dataclasses import dataclass
-
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 _Points = NDArray[np.float64]
@@ -16,8 +15,7 @@ _MOST_FACES = 16
 _ROUNDS = 6
 
 
-@dataclass(frozen=True, slots=True)
-class Patches:
+class Patches(Struct, frozen=True):
     """Convex patches of a surface."""
 
     loops: _Numbers

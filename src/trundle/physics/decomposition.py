@@ -8,10 +8,11 @@ import hashlib
 import os
 from collections.abc import Iterable
 from contextlib import closing
-from dataclasses import dataclass, replace
 from typing import TypeAlias, TypeVar
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from .decomposition_cache import find_pieces, keep_pieces
@@ -37,8 +38,7 @@ _known: dict[str, Pieces] = {}
 """By part, likewise."""
 
 
-@dataclass(frozen=True, slots=True)
-class CutMesh:
+class CutMesh(Struct, frozen=True):
     """Convex pieces of a mesh."""
 
     pieces: Pieces

@@ -5,11 +5,11 @@ Nothing here runs in Python at every step: `step(n)` is one call, and the state 
 
 import copy
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.diagnostics import TrundleError, UsageError
@@ -46,8 +46,7 @@ class SimulationUnstableError(TrundleError):
         self.runaway = runaway
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class EngineState:
+class EngineState(Struct, frozen=True, eq=False):
     """Everything that decides how the world goes on."""
 
     compiled: CompiledWorld

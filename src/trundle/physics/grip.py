@@ -3,15 +3,14 @@
 ODE has motion1, slip1 and slip2 for them; `cpp/surface_motion.cc` acts on each contact of a link that has one.
 """
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.spatial import ZERO, Vector3
 
 _DIRECTION, _TRACK = 1.0, 2.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Grip:
+class Grip(Struct, frozen=True, kw_only=True):
     """How a link's surface holds on, wherever it touches."""
 
     along: Vector3
@@ -29,8 +28,7 @@ class Grip:
         return (_DIRECTION, *self.along, self.speed, self.slip, self.slip_across, 0.0, *ZERO)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TrackGrip:
+class TrackGrip(Struct, frozen=True, kw_only=True):
     """How a track holds on: its belt runs around it, and skids about the point that the robot turns about."""
 
     axis: Vector3

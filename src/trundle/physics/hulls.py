@@ -1,9 +1,8 @@
 """Convex hulls as MuJoCo makes them, and how far they are from what they stand for."""
 
-from dataclasses import dataclass
-
 import mujoco
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from .engine_words import muted
@@ -24,8 +23,7 @@ _NEAREST = 8
 """Points of a surface whose triangles are looked at closely."""
 
 
-@dataclass(frozen=True, slots=True)
-class Hull:
+class Hull(Struct, frozen=True):
     """The smallest convex body around some points."""
 
     corners: _Points

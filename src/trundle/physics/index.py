@@ -1,10 +1,10 @@
 """What was what: the way from a world's names to the engine's numbers."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import mujoco
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.model import JointAxis, World
@@ -17,8 +17,7 @@ _Indices = NDArray[np.intp]
 _WIDTH = {int(mujoco.mjtJoint.mjJNT_BALL): 3}
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class CompiledWorld:
+class CompiledWorld(Struct, frozen=True, eq=False):
     """A MuJoCo model and its index; links and joints are in file order, the joints between models last."""
 
     world: World

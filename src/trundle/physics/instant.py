@@ -1,12 +1,12 @@
 """The state of a world at one instant, worked out as far as somebody asks."""
 
 import copy
-from dataclasses import replace
 from functools import cached_property
 from threading import Lock
 
 import mujoco
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from . import _contact_laws

@@ -6,9 +6,10 @@ loop has its limits, its motor and its position as any other.
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
 
 import mujoco
+from msgspec import Struct
+from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import Joint, JointAxis, JointType, Mimic
@@ -27,8 +28,7 @@ _ACROSS = ("::x", "::y")
 _TWO_HINGES = frozenset({JointType.UNIVERSAL, JointType.REVOLUTE2})
 
 
-@dataclass(frozen=True, slots=True)
-class Axis:
+class Axis(Struct, frozen=True):
     """One freedom of a joint; a ball joint has one Axis that stands for three."""
 
     joint: str

@@ -5,10 +5,10 @@ A motor is a constraint that keeps a speed with a force up to a limit, as ODE's;
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import mujoco
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from . import _contact_laws
@@ -21,8 +21,7 @@ _HUGE = 1e10
 _NO_MOTORS = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class MotorOrders:
+class MotorOrders(Struct, frozen=True, eq=False):
     """Orders of a model's motors, without the speeds and positions, which are in its data."""
 
     most: NDArray[np.float64]

@@ -6,10 +6,11 @@ convex pieces if it is truly hollow; else, and where that makes nothing better, 
 """
 
 import hashlib
-from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from .decompose import MOST_FACES, MOST_SHEETED, cut_up, is_thin
@@ -48,8 +49,7 @@ class Detail(Enum):
     """It is filled."""
 
 
-@dataclass(frozen=True, slots=True)
-class Misfit:
+class Misfit(Struct, frozen=True):
     """How what is simulated differs from a mesh that is hollow."""
 
     times: float | None
@@ -60,8 +60,7 @@ class Misfit:
     """Whether something hollow was made solid."""
 
 
-@dataclass(frozen=True, slots=True)
-class Pieces:
+class Pieces(Struct, frozen=True):
     """Convex pieces of a mesh."""
 
     corners: list[_Points]
@@ -70,8 +69,7 @@ class Pieces:
     """One for each part that is not what it is in the mesh."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class HollowPart:
+class HollowPart(Struct, frozen=True, eq=False):
     """A connected, non-convex part of a mesh that moves; placed from its lowest corner: copies compare equal."""
 
     points: _Points
@@ -99,8 +97,7 @@ class HollowPart:
         return 0.5 + (1e-3 if is_shell else 5e-5) * count
 
 
-@dataclass(frozen=True, slots=True)
-class Split:
+class Split(Struct, frozen=True):
     """A mesh before its hollow parts are cut."""
 
     corners: list[_Points]

@@ -1,9 +1,8 @@
 """Finds out what blew up, at the step at which it did."""
 
-from dataclasses import dataclass
-
 import mujoco
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from .index import CompiledWorld
@@ -12,8 +11,7 @@ _HUGE = 1e10
 """MuJoCo's mjMAXVAL: what is larger, it calls unstable."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Runaway:
+class Runaway(Struct, frozen=True, kw_only=True):
     """What ran away, and what it may have to do with."""
 
     time_s: float

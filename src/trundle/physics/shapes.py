@@ -1,12 +1,12 @@
 """Collisions as MuJoCo geoms."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import Flag, auto
 from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
@@ -49,8 +49,7 @@ class Meets(Flag):
     ALL = PLANES | STANDING | MOVING
 
 
-@dataclass(frozen=True, slots=True)
-class ShapeEntry:
+class ShapeEntry(Struct, frozen=True):
     """One geom that can touch others."""
 
     geom: mujoco.MjsGeom

@@ -1,7 +1,8 @@
 """What two surfaces are like where they touch, by ODE's rules as Gazebo uses them."""
 
 import math
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from trundle.model import Surface
 from trundle.spatial import ZERO, Vector3
@@ -12,8 +13,7 @@ _LEAST = 1e-4
 """Least ratio of one friction to the other: none at all is more than MuJoCo's solver takes."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Touch:
+class Touch(Struct, frozen=True, kw_only=True):
     """Two surfaces as one."""
 
     mu: float

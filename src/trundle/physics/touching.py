@@ -1,9 +1,8 @@
 """What touches what at the moment."""
 
-from dataclasses import dataclass
-
 import mujoco
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.spatial import Vector3, Wrench
@@ -11,8 +10,7 @@ from trundle.spatial import Vector3, Wrench
 from .index import CompiledWorld
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Contact:
+class Contact(Struct, frozen=True, kw_only=True):
     """One point where two collisions meet, as the last step found it."""
 
     collisions: tuple[str, str]

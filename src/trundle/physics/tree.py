@@ -5,7 +5,9 @@ The engine wants each link to hang from one; a joint that cannot be part of a tr
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import Joint, JointAxis, JointType, Link, Model, World, model_from_joint, model_from_links
@@ -14,8 +16,7 @@ from trundle.spatial import Pose, Vector3
 WORLD = "world"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Place:
+class Place(Struct, frozen=True, eq=False):
     """A link and where it is."""
 
     name: str
@@ -30,8 +31,7 @@ class Place:
     """world_from_link with each joint that has no freedom where its limits hold it."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Hold:
+class Hold(Struct, frozen=True, eq=False):
     """A joint as the engine has it: `below` moves against `above`."""
 
     name: str
@@ -59,8 +59,7 @@ class Hold:
         return (-x, -y, -z) if self.turned else (x, y, z)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Tree:
+class Tree(Struct, frozen=True, eq=False):
     """Every link and joint of a world, in file order: models first, then the joints between models."""
 
     places: Mapping[str, Place]

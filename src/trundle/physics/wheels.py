@@ -5,7 +5,7 @@ should turn a robot by 5.0 rad turn it by 4.5. A wheel therefore rolls on a trea
 cylinder, which touches in the middle of its width; the cylinder, a tenth of a millimetre smaller, keeps it upright.
 """
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import Collision, Cylinder, Ellipsoid, JointType, World

@@ -1,7 +1,8 @@
 """libHarnessPlugin.so: a robot hung from a winch until it is let go."""
 
-from dataclasses import replace
 from typing import Self
+
+from msgspec.structs import replace
 
 from trundle.control import Pid
 from trundle.description import read_extra_joint

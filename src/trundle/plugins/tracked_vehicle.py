@@ -1,7 +1,8 @@
 """What vehicles on tracks have in common: a command, two track speeds, and the friction of the tracks."""
 
 from collections.abc import Iterable
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from trundle.model import Link, PluginTag
 from trundle.names import ros_name

@@ -1,7 +1,8 @@
 """A world's visuals, or its collision shapes, as a scene."""
 
 from collections.abc import Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from trundle import meshes
 from trundle.diagnostics import Diagnostics, Source

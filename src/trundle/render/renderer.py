@@ -2,10 +2,10 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.spatial import Pose
@@ -14,8 +14,7 @@ _LARGEST = 16384
 """[px]"""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Intrinsics:
+class Intrinsics(Struct, frozen=True, kw_only=True):
     """A pinhole without distortion."""
 
     width_px: int
@@ -45,8 +44,7 @@ class Intrinsics:
         return self.width_px / (2.0 * math.tan(self.horizontal_fov_rad / 2.0))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Picture:
+class Picture(Struct, frozen=True, eq=False):
     """What a camera saw."""
 
     rgb: NDArray[np.uint8]

@@ -4,10 +4,10 @@ A scene is plain data. Renderers and the viewer both draw it; neither knows wher
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.meshes import Mesh, Texture
@@ -20,8 +20,7 @@ if TYPE_CHECKING:
 ShapeGeometry = Box | Capsule | Cylinder | Ellipsoid | Mesh | Plane | Sphere
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Shape:
+class Shape(Struct, frozen=True, kw_only=True):
     """One thing that is seen, fixed to a body."""
 
     name: str
@@ -46,8 +45,7 @@ class Shape:
     """What a laser gets back, as its intensity."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SceneLight:
+class SceneLight(Struct, frozen=True, kw_only=True):
     """A source of light, fixed to a body or to the world."""
 
     kind: LightType = "directional"
@@ -68,8 +66,7 @@ class SceneLight:
     casts_shadows: bool = False
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SceneSkin:
+class SceneSkin(Struct, frozen=True, eq=False, kw_only=True):
     """An actor's skin: meshes whose vertices move in their body's frame."""
 
     actor: str
@@ -81,8 +78,7 @@ class SceneSkin:
     """(N, 3) All of them at a moment, in the body's frame [m]."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Scene:
+class Scene(Struct, frozen=True, kw_only=True):
     """Everything a picture can show."""
 
     bodies: tuple[str, ...]

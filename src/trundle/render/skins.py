@@ -1,9 +1,9 @@
 """Actors' skins: the shapes they are made of, and where their vertices are at a moment."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.meshes import MeshError, Motion, Skin, load_motion, load_skin, matched, root_of

@@ -1,7 +1,8 @@
 """Sensors of the air: its pressure at rest, and what it exerts on what flies."""
 
 import math
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from trundle.model import AirPressure, AirSpeed, Atmosphere
 from trundle.simulation import Snapshot
@@ -24,8 +25,7 @@ _COLDEST = 1.0
 """[K] Above where the air would be colder it is all the same."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PressureReading:
+class PressureReading(Struct, frozen=True, kw_only=True):
     """A pressure."""
 
     time_ns: int

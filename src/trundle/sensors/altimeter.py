@@ -1,6 +1,6 @@
 """Altimeters."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.model import Altimeter
 from trundle.simulation import Snapshot
@@ -9,8 +9,7 @@ from .mounted import MountedSensor, Spot
 from .noise import NoiseSource
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AltimeterReading:
+class AltimeterReading(Struct, frozen=True, kw_only=True):
     """How high it is."""
 
     time_ns: int

@@ -1,10 +1,10 @@
 """Camera sensors: a snapshot becomes a picture."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.model import CameraOptics, Noise
@@ -20,8 +20,7 @@ FASTEST_HZ = 30.0
 """Of a camera whose update_rate is 0. Gazebo then draws at every step, which nobody means."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SeenBox:
+class SeenBox(Struct, frozen=True, kw_only=True):
     """A thing that a bounding box camera found."""
 
     model: str
@@ -34,8 +33,7 @@ class SeenBox:
     """Of a box in space."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class CameraReading:
+class CameraReading(Struct, frozen=True, eq=False, kw_only=True):
     """What a camera saw, and when; what its kind does not see is None."""
 
     time_ns: int

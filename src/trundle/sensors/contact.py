@@ -2,7 +2,8 @@
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from trundle.physics import Contact
 from trundle.simulation import Simulation, Snapshot
@@ -14,8 +15,7 @@ MOST_STEPS = 100
 """That one reading tells of, the last ones: Gazebo keeps no more either."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Touch:
+class Touch(Struct, frozen=True, kw_only=True):
     """One point where something touches the sensor's link."""
 
     time_ns: int
@@ -34,8 +34,7 @@ class Touch:
     """On the sensor's link at that point, world axes."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ContactReading:
+class ContactReading(Struct, frozen=True, kw_only=True):
     """What touched in the steps since the reading before, step by step."""
 
     time_ns: int
@@ -106,8 +105,7 @@ class ContactSensor(MountedSensor[ContactReading]):
         )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Skin:
+class _Skin(Struct, frozen=True, eq=False):
     """A hook of its own, for a sensor feels more often than it tells."""
 
     after_step: Callable[[Snapshot], None]

@@ -1,7 +1,8 @@
 """Force-torque sensors: what a joint carries."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from trundle.model import ForceTorque, Joint
 from trundle.simulation import LinkHandle, Snapshot
@@ -11,8 +12,7 @@ from .mounted import MountedSensor, Spot
 from .noise import NoiseSource, disturbed
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ForceTorqueReading:
+class ForceTorqueReading(Struct, frozen=True, kw_only=True):
     """What went through the joint, at the joint."""
 
     time_ns: int

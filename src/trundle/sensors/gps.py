@@ -1,7 +1,8 @@
 """Receivers of satellite navigation."""
 
 import math
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from trundle.model import GpsNoise, Noise, SphericalCoordinates
 from trundle.simulation import Snapshot
@@ -21,8 +22,7 @@ _E2 = _FLATTENING * (2 - _FLATTENING)
 """Eccentricity, squared."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class GpsReading:
+class GpsReading(Struct, frozen=True, kw_only=True):
     """A fix on WGS84."""
 
     time_ns: int

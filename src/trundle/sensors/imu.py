@@ -1,6 +1,6 @@
 """Inertial measurement units."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.model import ImuNoise
 from trundle.simulation import Snapshot
@@ -10,8 +10,7 @@ from .mounted import NS, MountedSensor, Spot
 from .noise import NoiseSource, disturbed
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ImuReading:
+class ImuReading(Struct, frozen=True, kw_only=True):
     """What an imu felt."""
 
     time_ns: int

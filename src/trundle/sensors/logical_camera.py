@@ -2,9 +2,9 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.model import LogicalCamera
@@ -19,8 +19,7 @@ FASTEST_HZ = 30.0
 _Points = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Body:
+class Body(Struct, frozen=True, eq=False, kw_only=True):
     """A model that can be seen."""
 
     name: str
@@ -31,16 +30,14 @@ class Body:
     """Link index → (n, 3) corners of the link's collision shapes in its frame [m]."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SeenModel:
+class SeenModel(Struct, frozen=True, kw_only=True):
     """A model in view."""
 
     name: str
     camera_from_model: Pose
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LogicalCameraReading:
+class LogicalCameraReading(Struct, frozen=True, kw_only=True):
     """What is in view."""
 
     time_ns: int

@@ -1,6 +1,6 @@
 """Magnetometers."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.model import Magnetometer
 from trundle.simulation import Snapshot
@@ -10,8 +10,7 @@ from .mounted import MountedSensor, Spot
 from .noise import NoiseSource, disturbed
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MagnetometerReading:
+class MagnetometerReading(Struct, frozen=True, kw_only=True):
     """The field where the sensor is."""
 
     time_ns: int

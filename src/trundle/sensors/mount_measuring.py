@@ -2,8 +2,9 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from trundle.model import Model, RangeScan, World
 from trundle.simulation import Simulation
@@ -40,8 +41,7 @@ MeasuringSensor: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Site:
+class _Site(Struct, frozen=True, eq=False):
     """Where a sensor is to be mounted, and what is around it."""
 
     simulation: Simulation

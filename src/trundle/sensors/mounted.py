@@ -1,12 +1,12 @@
 """What all sensors share: a place on a link, a rate, and those who want its readings."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Generic, TypeVar
 
 import numpy as np
+from msgspec import Struct
 
 from trundle.diagnostics import UsageError
 from trundle.model import Link, Model, Sensor
@@ -19,8 +19,7 @@ NS = 1_000_000_000
 Reading = TypeVar("Reading")
 
 
-@dataclass(slots=True)
-class _Listener(Generic[Reading]):
+class _Listener(Struct, Generic[Reading]):
     call: Callable[[Reading], None]
     wanted: Callable[[], bool]
 
@@ -30,8 +29,7 @@ def _period_ns(rate_hz: float) -> Fraction:
     return NS / (Fraction(rate_hz).limit_denominator(1_000_000) or Fraction(rate_hz))
 
 
-@dataclass(frozen=True, eq=False)
-class Spot:
+class Spot(Struct, frozen=True, eq=False, dict=True):
     """Where a sensor is mounted."""
 
     model: Model

@@ -1,8 +1,7 @@
 """Ray sensors and lidars: how far it is, in many directions at once."""
 
-from dataclasses import dataclass
-
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.model import RangeScan, ScanAxis
@@ -17,8 +16,7 @@ FASTEST_HZ = 40.0
 """Of a sensor whose update_rate is 0."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class RangeReading:
+class RangeReading(Struct, frozen=True, eq=False, kw_only=True):
     """What a scan found."""
 
     time_ns: int

@@ -1,10 +1,11 @@
 """Rays, and what they find."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
@@ -21,8 +22,7 @@ _AWAY = 1e6
 """[m] Where links are put that are not to be met."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Found:
+class Found(Struct, frozen=True, eq=False):
     """What each ray met."""
 
     distances: _Array

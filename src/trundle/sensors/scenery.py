@@ -1,9 +1,9 @@
 """What all cameras look at: one renderer, and what each shape that it draws is."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.model import EVERY_BIT, Visual, World
@@ -15,8 +15,7 @@ _MOST_TOGETHER_PX = 1 << 22
 """Of one call: pictures that are large gain nothing by it, and all of them are kept until the last one is fetched."""
 
 
-@dataclass(slots=True, eq=False)
-class Order:
+class Order(Struct, eq=False):
     """Pictures that a camera wants of an instant."""
 
     snapshot: Snapshot

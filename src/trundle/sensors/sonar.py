@@ -1,9 +1,9 @@
 """Sonars: how near the nearest thing in a cone is."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.model import Sonar
@@ -20,8 +20,7 @@ _RINGS = 8
 _ALL_ROUND = math.pi
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SonarReading:
+class SonarReading(Struct, frozen=True, kw_only=True):
     """What came back."""
 
     time_ns: int

@@ -2,9 +2,9 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
+from msgspec import Struct
 
 from trundle.model import Transceiver
 from trundle.simulation import Snapshot
@@ -27,8 +27,7 @@ _TAG_REACH = 5.0
 """[m] Gazebo's."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Beacon:
+class Beacon(Struct, frozen=True, kw_only=True):
     """A transmitter or a tag, and where it is."""
 
     name: str
@@ -42,8 +41,7 @@ class Beacon:
         return Pose((x, y, z), (qw, qx, qy, qz)).point(self.link_from_beacon.position)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Heard:
+class Heard(Struct, frozen=True, kw_only=True):
     """A transmitter that a receiver hears."""
 
     name: str
@@ -52,8 +50,7 @@ class Heard:
     level_dbm: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WirelessReading:
+class WirelessReading(Struct, frozen=True, kw_only=True):
     """Who is heard."""
 
     time_ns: int
@@ -111,8 +108,7 @@ class WirelessSensor(MountedSensor[WirelessReading]):
         return bool(one + back <= distance)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RfidReading:
+class RfidReading(Struct, frozen=True, kw_only=True):
     """Which tags are near."""
 
     time_ns: int

@@ -4,8 +4,9 @@ A box as large as its skin, on the feet, stands for what has no bones; what has 
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import Box, Link, Model, Visual, World

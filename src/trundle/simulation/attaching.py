@@ -1,6 +1,6 @@
 """Joints that come while the world runs: where everything has to be for them, and what they are like."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from trundle.diagnostics import UsageError
 from trundle.model import Joint, JointAxis, JointType, World

@@ -1,8 +1,9 @@
 """Worlds that change while they run: what may come and go, and how the engine goes on with what there is then."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from itertools import count
+
+from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, World

@@ -1,12 +1,11 @@
 """Lines in the world that somebody draws while it runs; viewers show them, and they can be read."""
 
-from dataclasses import dataclass, field
+from msgspec import Struct, field
 
 from trundle.spatial import Vector3
 
 
-@dataclass(slots=True)
-class Line:
+class Line(Struct):
     """A line strip that grows."""
 
     rgb: tuple[float, float, float] = (0.0, 0.0, 0.0)

@@ -1,8 +1,9 @@
 """What pushes links and joints for a while, and how links grip what they touch."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
+
+from msgspec import Struct, field
 
 from trundle.physics import Engine
 from trundle.spatial import Wrench
@@ -14,8 +15,7 @@ if TYPE_CHECKING:  # a world without belts starts without them
     from trundle.physics import Grip, TrackGrip
 
 
-@dataclass(frozen=True, slots=True)
-class Ends:
+class Ends(Struct, frozen=True):
     """When what lasts a while is over, by step."""
 
     wrenches: dict[int, int] = field(default_factory=dict[int, int])

@@ -1,6 +1,6 @@
 """A simulation's state, kept to go back to it exactly."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.physics import EngineState
 
@@ -8,8 +8,7 @@ from .pushes import Ends
 from .timeline import Timeline
 
 
-@dataclass(frozen=True, slots=True)
-class SavedSimulation:
+class SavedSimulation(Struct, frozen=True):
     """A state to go back to."""
 
     steps: int

@@ -6,9 +6,10 @@ are due, let the engine step in C up to the next due time, call the `after_step`
 
 from collections import deque
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
+
+from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, Model, World

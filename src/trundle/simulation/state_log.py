@@ -11,11 +11,11 @@ or, without Trundle, `numpy.fromfile` after the first line.
 
 import contextlib
 import json
-from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.diagnostics import DescriptionError, Source
@@ -76,8 +76,7 @@ class StateRecorder:
             raise OSError(error.errno, error.strerror, str(self._path)) from None
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class StateLog:
+class StateLog(Struct, frozen=True, eq=False, kw_only=True):
     """A recording."""
 
     links: tuple[str, ...]

@@ -1,8 +1,9 @@
 """Which step ends when; the time step may be another one from some step on."""
 
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from trundle.model import World
 
@@ -16,8 +17,7 @@ def step_ns_of(world: World) -> int:
     return round(world.physics.max_step_size_s * NS)
 
 
-@dataclass(frozen=True, slots=True)
-class Timeline:
+class Timeline(Struct, frozen=True):
     """Steps of one length, counted from a step at which time was known."""
 
     step_ns: int

@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from trundle.model import CameraOptics, Distortion, Lens, PixelIntrinsics, Projection
 from trundle.xmlnode import XmlNode

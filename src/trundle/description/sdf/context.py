@@ -3,8 +3,10 @@
 import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
 from pathlib import Path
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics, Source
 from trundle.model import EVERY_BIT, Model
@@ -18,8 +20,7 @@ DEEPEST = 2_000
 """Elements within one another that are read; Gazebo has no bound. Nobody here goes down all of them."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Context:
+class Context(Struct, frozen=True, kw_only=True):
     """One file being read."""
 
     version: Version
@@ -57,8 +58,7 @@ def read_bits(node: XmlNode, tag: str, context: Context, *, default: int = EVERY
     return node.integer(tag, default=default, report=context.report) & EVERY_BIT
 
 
-@dataclass(frozen=True, slots=True)
-class RawPose:
+class RawPose(Struct, frozen=True):
     """A <pose> as written: where, and seen from which frame."""
 
     pose: Pose = Pose()

@@ -1,7 +1,8 @@
 """Reads what is around the models: <physics>, <scene>, air, earth and wind."""
 
 from collections.abc import Mapping
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from trundle.model import Atmosphere, Fog, PhysicsSettings, Rgba, SceneSettings, SphericalCoordinates
 from trundle.xmlnode import XmlNode

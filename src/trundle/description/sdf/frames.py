@@ -1,6 +1,6 @@
 """Where the frames of a model or world are: each is written relative to another, and the chain ends at the root."""
 
-from dataclasses import dataclass, field
+from msgspec import Struct, field
 
 from trundle.diagnostics import Diagnostics, Source
 from trundle.spatial import Pose
@@ -11,8 +11,7 @@ MODEL = "__model__"
 WORLD = "world"
 
 
-@dataclass(frozen=True, slots=True)
-class Scope:
+class Scope(Struct, frozen=True):
     """The frames of a model that has been read, by the names its surroundings use after `model::`."""
 
     poses: dict[str, Pose]
@@ -37,16 +36,14 @@ class Scope:
         )
 
 
-@dataclass(slots=True)
-class _Entry:
+class _Entry(Struct):
     raw: RawPose
     at: Source
     default: str
     attached_to: str
 
 
-@dataclass(slots=True)
-class FrameGraph:
+class FrameGraph(Struct):
     """Links, joints, <frame>s and nested models of one model, or everything in a world, by name."""
 
     root: str

@@ -1,9 +1,10 @@
 """Reads <include>: a model from another file, with what is to be different about it."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
+
+from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError, UsageError
 from trundle.model import Model, model_from_joint

@@ -1,6 +1,6 @@
 """Reads <light>: directional, point or spot."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from trundle.model import Light, LightType
 from trundle.spatial import normalized

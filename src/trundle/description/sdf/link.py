@@ -1,6 +1,6 @@
 """Reads <link>: what is seen, touched, weighed and mounted."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from trundle.model import Collision, Link, Visual
 from trundle.xmlnode import XmlNode

@@ -1,6 +1,6 @@
 """Reads what marks things for cameras that see more than colours: gz's Label and Thermal plugins."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import Model, PluginTag, Visual

@@ -1,7 +1,8 @@
 """Reads <material>: colours given outright, a Gazebo material by name, or the image of <pbr>."""
 
-from dataclasses import replace
 from pathlib import Path
+
+from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError
 from trundle.model import GREY, Material, Rgba

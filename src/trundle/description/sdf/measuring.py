@@ -1,6 +1,6 @@
 """Reads what sensors that need no picture measure, and with how much noise."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from trundle.model import ForceTorque, GpsNoise, ImuNoise, Noise, OrientationReference, RangeScan, ScanAxis, Sensor
 from trundle.xmlnode import XmlNode

@@ -1,6 +1,7 @@
 """Dissolves an included model in the model or world around it: <include merge="true">."""
 
-from dataclasses import dataclass, replace
+from msgspec import Struct
+from msgspec.structs import replace
 
 from trundle.model import Frame, Joint, JointAxis, Link, Model
 from trundle.spatial import Pose
@@ -10,8 +11,7 @@ from .frames import MODEL, FrameGraph
 from .part import Part
 
 
-@dataclass(frozen=True, slots=True)
-class Merged:
+class Merged(Struct, frozen=True):
     """A model whose parts have become known as the outer model's, or the world's."""
 
     part: Part

@@ -1,7 +1,8 @@
 """Reads <model>: links, joints, frames and nested models, with every pose resolved to the model's frame."""
 
 from collections.abc import Iterable
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError
 from trundle.model import Frame, Joint, Model

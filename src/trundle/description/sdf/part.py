@@ -1,6 +1,6 @@
 """A model that has been read but not placed."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from trundle.model import Model
 from trundle.spatial import Pose
@@ -9,8 +9,7 @@ from .context import RawPose
 from .frames import FrameGraph, Scope
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Part:
+class Part(Struct, frozen=True, kw_only=True):
     """A model, its frames, and where it is to go."""
 
     model: Model

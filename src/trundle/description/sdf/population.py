@@ -8,8 +8,9 @@ the edge and end one step before the other.
 import math
 import random
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TypeAlias
+
+from msgspec.structs import replace
 
 from trundle.spatial import Pose, Vector3
 from trundle.xmlnode import XmlNode

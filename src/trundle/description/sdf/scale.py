@@ -1,7 +1,8 @@
 """Stretches what is on the links of a model, as a saved <scale> asks."""
 
 import math
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics, Source
 from trundle.model import (

@@ -1,8 +1,9 @@
 """Reads <sensor>; what is simulated in full, the others by name and type."""
 
 from collections.abc import Iterable
-from dataclasses import replace
 from itertools import count
+
+from msgspec.structs import replace
 
 from trundle.model import MEASURING, PluginTag, Sensor
 from trundle.xmlnode import XmlNode

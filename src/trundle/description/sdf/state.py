@@ -1,7 +1,8 @@
 """Applies <state>: where models were when a world was saved, which is where Gazebo puts them at load."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from trundle.model import Light, Link, Model
 from trundle.spatial import Pose

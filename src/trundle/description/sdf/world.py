@@ -1,7 +1,8 @@
 """Reads <world>, and a model or light that stands alone in a file."""
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError
 from trundle.model import Light, Model, World

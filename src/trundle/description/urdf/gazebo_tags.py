@@ -4,8 +4,9 @@ The readers of SDF are loaded by the robots that hold some.
 """
 
 from collections.abc import Collection
-from dataclasses import replace
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError
 from trundle.model import Surface

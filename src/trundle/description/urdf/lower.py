@@ -7,9 +7,10 @@ child free. What Gazebo would also drop, a URDF's colours, is kept: it can be se
 import math
 import re
 from collections.abc import Container, Mapping
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
+
+from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import (

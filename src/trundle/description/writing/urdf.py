@@ -5,7 +5,8 @@ SDF's link frames may lie anywhere; what is on a link is moved along, so that ev
 
 import math
 from collections import Counter
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import (

@@ -2,8 +2,9 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from trundle.diagnostics import UsageError
 from trundle.model import Inertial, Joint, JointAxis, Light, Link, Model

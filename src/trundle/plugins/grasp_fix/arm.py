@@ -1,7 +1,8 @@
 """One hand: its palm, its fingers, and what is welded to it."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from trundle.model import Joint, JointType, Link, Model, Surface
 from trundle.simulation import LinkHandle, ModelHandle, Simulation

@@ -2,8 +2,10 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from itertools import pairwise
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from trundle.control import JointPoint, JointSpline
 from trundle.ros import Message, Settings, ns_of
@@ -24,8 +26,7 @@ class GoalError(ValueError):
         self.code = code
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Tolerances:
+class Tolerances(Struct, frozen=True, kw_only=True):
     """How exactly; 0 is any."""
 
     path: tuple[float, ...]
