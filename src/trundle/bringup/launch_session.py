@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
+from trundle.garbage import no_garbage
 from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import WINDOWS, WORLDS, Executable, Host, Simulator, find_node
 from trundle.page_address import PageAddress
@@ -70,7 +71,8 @@ class LaunchSession:
         self._page: GraphPage | None = None
         self._world: GazeboWorld | None = None
         try:
-            self._open(ports, rosout=rosout)
+            with no_garbage():
+                self._open(ports, rosout=rosout)
         except BaseException:
             self._open_things.close()
             raise
