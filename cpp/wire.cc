@@ -4,6 +4,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include "time_slice.h"
 #include "wire_layout.h"
 
 namespace nb = nanobind;
@@ -65,4 +66,5 @@ NB_MODULE(_wire, module) {
   module.def("receive", [](nb::handle recv_into, nb::handle room) {
     return answer([&] { return receive(recv_into.ptr(), room.ptr()); });
   });
+  module.def("request_time_slice", &request_time_slice);
 }

@@ -1,8 +1,12 @@
 """The loop that nodes share leaves nothing open."""
 
 import asyncio
+import ctypes
 import gc
+import os
+import platform
 import socket
+import struct
 import threading
 import time
 import warnings
@@ -141,3 +145,34 @@ def test_only_a_fault_of_the_program_is_logged_with_its_traceback(error: Excepti
         loop.stop()
 
     assert ("a task of the graph failed" in caplog.text) is is_logged
+
+
+_SCHED_GETATTR = {"x86_64": 315, "aarch64": 275, "riscv64": 275}
+"""Linux' number of the call."""
+
+
+def _slice_ns(thread: int) -> int:
+    """The time slice of a thread of this process, as the kernel tells it [ns]."""
+    number = _SCHED_GETATTR.get(platform.machine()) if platform.system() == "Linux" else None
+    if number is None:
+        pytest.skip(f"no time slices are known of {platform.system()} on {platform.machine()}")
+    answer = ctypes.create_string_buffer(48)
+    if ctypes.CDLL(None, use_errno=True).syscall(number, thread, answer, len(answer), 0) != 0:
+        pytest.skip(f"sched_getattr: {os.strerror(ctypes.get_errno())}")
+    *_, runtime_ns, _, _ = struct.unpack("<IIQiIQQQ", answer.raw)
+    if runtime_ns == 0:
+        pytest.skip(f"Linux {platform.release()} tells no slices; 6.12 does")
+    return runtime_ns
+
+
+def test_its_thread_asks_for_short_slices_and_whatever_that_starts_does_not() -> None:
+    """A message is read at once on a busy machine; a thread that calculates is not interrupted every 0.1 ms."""
+    usual = _slice_ns(threading.get_native_id())
+
+    async def slices() -> tuple[int, int]:
+        own = _slice_ns(threading.get_native_id())
+        return own, await asyncio.to_thread(lambda: _slice_ns(threading.get_native_id()))
+
+    with GraphLoop() as loop:
+        assert loop.run(slices()) == (100_000, usual)
+    assert _slice_ns(threading.get_native_id()) == usual != 100_000

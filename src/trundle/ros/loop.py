@@ -12,6 +12,7 @@ from weakref import WeakSet
 
 from trundle.diagnostics import DescriptionError, UsageError
 
+from . import _wire
 from .messages import Messages
 from .selector import ReadingSelector
 from .work import Work
@@ -34,6 +35,8 @@ nothing outside the process get this many steps."""
 _SPINS = 200
 """Passes after which `rested` no longer hurries round."""
 _NAP_S = 0.001
+_SLICE_NS = 100_000
+"""Linux' shortest time slice: a message that comes then waits for no busy thread to finish a slice of 3 ms."""
 _GRACE_S = 5.0
 
 
@@ -247,6 +250,7 @@ class GraphLoop:
             await asyncio.wait(farewells, timeout=timeout_s)
 
     def _work(self) -> None:
+        _wire.request_time_slice(_SLICE_NS)
         asyncio.set_event_loop(self._loop)
         try:
             self._loop.run_forever()
