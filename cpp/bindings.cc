@@ -5,8 +5,6 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/vector.h>
 
-#include <cstring>
-
 #include "renderer.h"
 
 namespace nb = nanobind;
@@ -18,18 +16,6 @@ template <typename Number, typename... Shape>
 using Array = nb::ndarray<Number, nb::numpy, nb::c_contig, nb::device::cpu, Shape...>;
 
 using Colour = std::array<float, 3>;
-
-// x, y and z of each pixel in the optical frame [m], and its colour as PCL packs it: 0x00rrggbb in a float's place.
-void fill_cloud(const float* depth, const uint8_t* rgb, const float* right, const float* down, size_t count,
-                float* points) {
-  for (size_t i = 0; i < count; ++i) {
-    const uint32_t colour = (uint32_t)rgb[3 * i] << 16 | (uint32_t)rgb[3 * i + 1] << 8 | rgb[3 * i + 2];
-    points[4 * i] = right[i] * depth[i];
-    points[4 * i + 1] = down[i] * depth[i];
-    points[4 * i + 2] = depth[i];
-    std::memcpy(points + 4 * i + 3, &colour, sizeof colour);
-  }
-}
 
 Frame frame_of(const std::array<double, 7>& pose, const char* whose) {
   const auto frame = Frame::of(pose.data());
@@ -212,6 +198,13 @@ NB_MODULE(_native, module) {
                best_kernel().add_colour_noise(noise_of(seed, mean, stddev), (int64_t)rgb.size() / 3, rgb.data());
              },
              nb::arg("rgb"), nb::kw_only(), nb::arg("seed"), nb::arg("mean"), nb::arg("stddev"));
+  module.def("clip_depths",
+             [](Array<const float, nb::ndim<2>> depths, float near, float far, Array<float, nb::ndim<2>> clipped) {
+               if (clipped.size() != depths.size()) throw std::invalid_argument("both must be of one height and width");
+               nb::gil_scoped_release unlocked;
+               best_kernel().clip_depths((int64_t)depths.size(), near, far, depths.data(), clipped.data());
+             },
+             nb::arg("depths"), nb::kw_only(), nb::arg("near"), nb::arg("far"), nb::arg("clipped"));
   module.def("fill_cloud",
              [](Array<float, nb::shape<-1, -1, 4>> points, Array<const float, nb::ndim<2>> depth,
                 Array<const uint8_t, nb::shape<-1, -1, 3>> rgb, Array<const float, nb::ndim<2>> right,
@@ -220,7 +213,7 @@ NB_MODULE(_native, module) {
                if (points.size() != 4 * count || rgb.size() != 3 * count || right.size() != count || down.size() != count)
                  throw std::invalid_argument("all must be of one height and width");
                nb::gil_scoped_release unlocked;
-               fill_cloud(depth.data(), rgb.data(), right.data(), down.data(), count, points.data());
+               best_kernel().fill_cloud((int64_t)count, depth.data(), rgb.data(), right.data(), down.data(), points.data());
              },
              nb::arg("points"), nb::kw_only(), nb::arg("depth"), nb::arg("rgb"), nb::arg("right"), nb::arg("down"));
 

@@ -1,18 +1,12 @@
 // Pictures of a scene: the maps of its lights, then what a camera sees.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <system_error>
 #include <thread>
 
 #include "renderer.h"
 
 namespace trundle {
-
-int32_t rows_of_tiles(int32_t rows) { return (rows + kTileHeight - 1) / kTileHeight; }
-
-size_t tiles_of(const View& view) { return (size_t)view.tile_stride() * (size_t)rows_of_tiles(view.height); }
 
 // The first tile of some rows, and how many there are.
 std::pair<size_t, size_t> tiles_between(const View& view, int32_t top, int32_t bottom) {
@@ -113,7 +107,9 @@ void Renderer::draw_maps() {
     std::vector<Solid> solids;
     for (const size_t caster : casters) {
       Solid solid;
-      if (place(view, maps_[i]->world_from_view, caster, Detail::kSeen, solid)) solids.push_back(solid);
+      if (!place(view, maps_[i]->world_from_view, caster, Detail::kSeen, solid)) continue;
+      solids.push_back(solid);
+      maps_[i]->cover(solid);
     }
     sort_by_nearness(solids);
     for (Room& room : rooms_) room.hidden.fit(tiles_of(view));
@@ -128,18 +124,6 @@ void Renderer::draw_maps() {
 }
 
 int32_t byte_of(double share) { return (int32_t)(std::isfinite(share) ? std::clamp(share, 0.0, 1.0) * 255.0 + 0.5 : 0); }
-
-// Words of three bytes into bytes, four at a time.
-void pack(const int32_t* words, int32_t count, uint8_t* bytes) {
-  int32_t i = 0;
-  for (; i + 4 <= count; i += 4, bytes += 12) {
-    const auto a = (uint32_t)words[i], b = (uint32_t)words[i + 1], c = (uint32_t)words[i + 2], d = (uint32_t)words[i + 3];
-    const uint32_t packed[3] = {a | b << 24, b >> 8 | c << 16, c >> 16 | d << 8};
-    for (int k = 0; k < 3; ++k) std::memcpy(bytes + 4 * k, packed + k, 4);  // all twelve at once would go by way of memory
-  }
-  for (; i < count; ++i, bytes += 3)
-    for (int channel = 0; channel < 3; ++channel) bytes[channel] = (uint8_t)(words[i] >> (8 * channel));
-}
 
 struct Renderer::Sight {
   std::vector<ShadowMap> maps;
@@ -234,15 +218,10 @@ void Renderer::draw(const Shot& shot, const View& view, const Sight& sight, cons
     see_all(view, {solid}, band, through);
     kernel.shade(view, *part, lighting, through);
   }
-  for (int32_t row = band.top; row < band.bottom; ++row) {
-    const size_t from = (size_t)row * stride, to = (size_t)row * (size_t)shot.width;
-    pack(buffers.colour + from, shot.width, shot.rgb + 3 * to);
-    if (shot.depth)
-      for (int32_t column = 0; column < shot.width; ++column)
-        shot.depth[to + column] = buffers.id[from + column] < 0 ? std::numeric_limits<float>::infinity()
-                                                                : 1.0f / buffers.nearness[from + column];
-    if (shot.segment) std::copy_n(buffers.segment + from, shot.width, shot.segment + to);
-  }
+  kernel.develop(view, band.top, band.bottom, buffers, shot.rgb, shot.depth);
+  if (!shot.segment) return;
+  for (int32_t row = band.top; row < band.bottom; ++row)
+    std::copy_n(buffers.segment + (size_t)row * stride, shot.width, shot.segment + (size_t)row * (size_t)shot.width);
 }
 
 }  // namespace trundle

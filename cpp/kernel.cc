@@ -6,6 +6,7 @@
 #include "intersect.h"
 #include "lanes.h"
 #include "noise.h"
+#include "pixels.h"
 #include "raster.h"
 #include "shade.h"
 
@@ -128,6 +129,7 @@ void shade(const View& view, const Solid& solid, const Lighting& lighting, const
 #define TRUNDLE_TEXT(name) #name
 #define TRUNDLE_NAME(name) TRUNDLE_TEXT(name)
 extern const Kernel kernel;
-const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), see, settle, fill, shade, cast, add_depth_noise, add_colour_noise};
+const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), see, settle, fill, shade, cast, develop,
+                       add_depth_noise, add_colour_noise, clip_depths, fill_cloud};
 
 }  // namespace trundle::TRUNDLE_ISA

@@ -116,6 +116,7 @@ struct Around {
 // What a light sees. Where something is nearer to it than a point, the point is in the shade.
 struct ShadowMap {
   const float* nearness;  // (height, stride), as a view's
+  const float* nearest;   // of each tile: no texel of it, or next to it on the right or below, has more nearness
   View view;
   float turn[9], shift[3];  // from the camera's frame to the view's
   float texel;              // [m] of a parallel view; of another one [m] at 1 m
@@ -178,8 +179,15 @@ struct Kernel {
   // `near` has room for a number for each target.
   void (*cast)(const Target*, const Around*, int32_t target_count, int32_t* near, const double* directions, int64_t count, double reach,
                double* ranges, int32_t* shapes);
+  // Rows of buffers into the arrays of a picture; depth may be null.
+  void (*develop)(const View&, int32_t top, int32_t bottom, const Buffers&, uint8_t* rgb, float* depth);
   void (*add_depth_noise)(const Noise&, int64_t count, float* depths);
   void (*add_colour_noise)(const Noise&, int64_t count, uint8_t* rgb);  // the same on each pixel's three colours
+  // What is not between the two, or endless, becomes not a number; both arrays may be one.
+  void (*clip_depths)(int64_t count, float near, float far, const float* depths, float* clipped);
+  // x, y and z of each pixel in the optical frame [m], and its colour as PCL packs it: 0x00rrggbb in a float's place.
+  void (*fill_cloud)(int64_t count, const float* depth, const uint8_t* rgb, const float* right, const float* down,
+                     float* points);
 };
 
 namespace baseline {

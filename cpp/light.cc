@@ -5,6 +5,10 @@
 
 namespace trundle {
 
+int32_t rows_of_tiles(int32_t rows) { return (rows + kTileHeight - 1) / kTileHeight; }
+
+size_t tiles_of(const View& view) { return (size_t)view.tile_stride() * (size_t)rows_of_tiles(view.height); }
+
 namespace {
 
 constexpr double kFinest = 0.01;  // [m] that a texel of a map should be
@@ -17,11 +21,22 @@ LightMap map_of(const Frame& world_from_view, int32_t size, double focal, double
   map.world_from_view = world_from_view;
   map.view = {size, size, size + kPadding, size * 0.5f, size * 0.5f, (float)focal, (float)near_, (float)far_, parallel};
   map.texel = (float)(1.0 / focal);
-  map.nearness.assign((size_t)map.view.stride * (size_t)size, parallel ? kNothing : 0.0f);
+  const float nothing = parallel ? kNothing : 0.0f;
+  map.nearness.assign((size_t)map.view.stride * (size_t)size, nothing);
+  map.nearest.assign(tiles_of(map.view), nothing);
   return map;
 }
 
 }  // namespace
+
+void LightMap::cover(const Solid& caster) {
+  const int32_t left = std::max(caster.left - 1, 0) / kTileWidth, right = (caster.right - 1) / kTileWidth;
+  for (int32_t top = std::max(caster.top - 1, 0) / kTileHeight; top <= (caster.bottom - 1) / kTileHeight; ++top)
+    for (int32_t tile = left; tile <= right; ++tile) {
+      float& most = nearest[(size_t)top * (size_t)view.tile_stride() + (size_t)tile];
+      most = std::max(most, caster.nearest);
+    }
+}
 
 std::optional<LightMap> look_from(const LightSpec& light, const Frame& world_from_body,
                                   const std::vector<Corners>& casters) {
@@ -48,7 +63,7 @@ std::optional<LightMap> look_from(const LightSpec& light, const Frame& world_fro
 }
 
 ShadowMap map_for(const LightMap& map, const Frame& world_from_camera) {
-  ShadowMap seen{map.nearness.data(), map.view, {}, {}, map.texel};
+  ShadowMap seen{map.nearness.data(), map.nearest.data(), map.view, {}, {}, map.texel};
   const Frame view_from_camera = map.world_from_view.inverse() * world_from_camera;
   for (int i = 0; i < 9; ++i) seen.turn[i] = (float)view_from_camera.rotation[i];
   for (int i = 0; i < 3; ++i) seen.shift[i] = (float)view_from_camera.position[i];

@@ -19,6 +19,9 @@ struct LightSpec {
   bool casts_shadows = false;
 };
 
+int32_t rows_of_tiles(int32_t rows);
+size_t tiles_of(const View& view);
+
 // A caster's corners in the world.
 using Corners = std::array<Vec3, 8>;
 
@@ -26,7 +29,10 @@ struct LightMap {
   Frame world_from_view;
   View view;
   float texel;
-  std::vector<float> nearness;
+  std::vector<float> nearness, nearest;  // as a ShadowMap's
+
+  // Takes note of what casts a shadow, before it is drawn.
+  void cover(const Solid& caster);
 };
 
 // A view from the light on everything that casts shadows; nothing where nothing does.

@@ -39,8 +39,12 @@ inline F lit_share(const ShadowMap& map, const F3& point, const F3& normal, F fa
   const F bias = texel * (1.0f + min(slope, splat(8.0f))) * 0.5f;
   const F nearness = view.parallel ? bias - depth : 1.0f / max(depth - bias, splat(1e-6f));
   const F left = floor(select(inside, u, F{})), top = floor(select(inside, v, F{}));
+  const I row = to_int(top), column = to_int(left);
+  static_assert(kTileWidth == 16 && kTileHeight == 8);
+  const F nearest = gather(map.nearest, (row >> 3) * view.tile_stride() + (column >> 4));
+  if (!any(inside & (nearest > nearness))) return splat(1.0f);
   const F x = select(inside, u, F{}) - left, y = select(inside, v, F{}) - top;
-  const I at = to_int(top) * view.stride + to_int(left);
+  const I at = row * view.stride + column;
   const F one = splat(1.0f);
   const F a = select(gather(map.nearness, at) > nearness, F{}, one);
   const F b = select(gather(map.nearness, at + 1) > nearness, F{}, one);
@@ -53,6 +57,16 @@ inline F lit_share(const ShadowMap& map, const F3& point, const F3& normal, F fa
 struct Lit {
   F3 diffuse, specular;
 };
+
+// Whether a highlight would be seen.
+inline bool is_glossy(const Look& look, const Light& lamp) {
+  float most = 0.0f;
+  for (int i = 0; i < 3; ++i) {
+    const float shine = look.specular[i] * lamp.specular[i];
+    if (shine > most) most = shine;
+  }
+  return most >= 0.5f / 255.0f;
+}
 
 __attribute__((always_inline)) inline void add_light(const Light& lamp, const Solid& solid, const F3& point, const F3& n,
                                                      const F3& back, Lit& lit) {
@@ -77,12 +91,7 @@ __attribute__((always_inline)) inline void add_light(const Light& lamp, const So
   if (lamp.shadow) strength *= lit_share(*lamp.shadow, point, n, facing, solid.off);
   strength = select(lit_side, strength, F{});
   lit.diffuse = lit.diffuse + splat(lamp.diffuse) * (facing * strength);
-  float most = 0.0f;
-  for (int i = 0; i < 3; ++i) {
-    const float shine = look.specular[i] * lamp.specular[i];
-    if (shine > most) most = shine;
-  }
-  if (most < 0.5f / 255.0f) return;  // nobody would see it
+  if (!is_glossy(look, lamp)) return;
   const F3 half = towards + back;
   const F gloss = pow(max(dot(n, half), F{}) / sqrt(max(dot(half, half), splat(1e-12f))), look.shininess) * strength;
   lit.specular = lit.specular + splat(lamp.specular) * gloss;
@@ -115,6 +124,8 @@ inline F3 normal_at_point(const Triangles& mesh, const F3& p, I faces, I mask) {
 
 inline F3 operator*(const F3& a, const F3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
+inline F3 unit(const F3& v) { return v * (1.0f / sqrt(max(dot(v, v), splat(1e-20f)))); }
+
 template <Kind kind>
 void shade_solid(const View& view, const Solid& solid, const Lighting& lighting, const Buffers& buffers) {
   const Look& look = *solid.look;
@@ -122,6 +133,9 @@ void shade_solid(const View& view, const Solid& solid, const Lighting& lighting,
   const bool see_through = look.opacity < 1.0f;
   const int first = solid.left / kLanes * kLanes;
   int usual_level = 0;
+  bool heeds_eye = look.texture;
+  for (int i = 0; i < lighting.light_count; ++i) heeds_eye |= is_glossy(look, lighting.lights[i]);
+  const F3 up = unit(turn_back(solid.axes, {F{}, F{}, splat(1.0f)}));
   for (int row = solid.top; row < solid.bottom; ++row) {
     const float z = (view.centre_v - ((float)row + 0.5f)) * step;
     for (int column = first; column < solid.right; column += kLanes) {
@@ -140,10 +154,13 @@ void shade_solid(const View& view, const Solid& solid, const Lighting& lighting,
       } else {
         outward = normal_at<kind>(solid, local);
       }
-      F3 n = turn_back(solid.axes, outward);
-      const bool is_unit = kind == Kind::kMesh && !solid.mesh->bend;
-      if (!is_unit) n = n * (1.0f / sqrt(max(dot(n, n), splat(1e-20f))));
-      const F3 back = point * (-1.0f / sqrt(dot(point, point)));
+      F3 n = up, back = {F{}, F{}, F{}};
+      if constexpr (kind != Kind::kPlane) {
+        const bool is_unit = kind == Kind::kMesh && !solid.mesh->bend;
+        n = turn_back(solid.axes, outward);
+        if (!is_unit) n = unit(n);
+      }
+      if (heeds_eye) back = point * (-1.0f / sqrt(dot(point, point)));
       const F none = F{};
       Lit lit = {{none, none, none}, {none, none, none}};
       for (int i = 0; i < lighting.light_count; ++i) add_light(lighting.lights[i], solid, point, n, back, lit);

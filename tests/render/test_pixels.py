@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from trundle.render import add_colour_noise, add_depth_noise, coloured_points
+from trundle.render import add_colour_noise, add_depth_noise, clip_depths, coloured_points
 
 _SEED = 0x1234_5678_9ABC_DEF0
 
@@ -47,11 +47,13 @@ def test_a_smaller_picture_has_the_first_numbers(count: int) -> None:
     assert _normal(count).tolist() == _normal(1000)[:count].tolist()
 
 
-def test_every_instruction_set_draws_the_same_noise() -> None:
+def test_every_instruction_set_makes_the_same_noise_and_points() -> None:
     program = (
-        "import numpy as np, sys; from trundle.render import add_depth_noise;"
+        "import numpy as np, sys; from trundle.render import add_depth_noise, clip_depths, coloured_points;"
         "d = np.ones((37, 41), np.float32); add_depth_noise(d, seed=99, mean=0.1, stddev=0.3);"
-        "sys.stdout.write(d.tobytes().hex())"
+        "c = np.arange(37 * 41 * 3).astype(np.uint8).reshape(37, 41, 3);"
+        "p = coloured_points(clip_depths(d, near_m=0.9, far_m=1.3), c, d, d);"
+        "sys.stdout.write(d.tobytes().hex() + p.tobytes().hex())"
     )
     told = {
         subprocess.run(
@@ -77,6 +79,21 @@ def test_depths_that_are_nothing_stay_so() -> None:
     assert depths[0, 2] == 1.5
 
 
+@pytest.mark.parametrize("in_place", [False, True])
+def test_depths_outside_a_range_are_not_numbers(in_place: bool) -> None:
+    """Its ends are inside, and nothing endless is, whatever the range."""
+    depths = np.array([[0.5, 1.0, 2.0, 3.0, 3.5], [np.nan, np.inf, -np.inf, -0.0, 1e30]], dtype=np.float32)
+    out = depths if in_place else None
+    expected = np.where((depths >= 1.0) & (depths <= 3.0), depths, np.float32(np.nan))
+    finite = np.where(np.isfinite(depths), depths, np.float32(np.nan))
+
+    assert clip_depths(depths).tobytes() == finite.tobytes()
+    clipped = clip_depths(depths, near_m=1.0, far_m=3.0, out=out)
+
+    assert clipped.tobytes() == expected.tobytes()
+    assert (clipped is depths) == in_place
+
+
 def test_the_colours_of_a_pixel_have_the_same_noise_within_black_and_white() -> None:
     rgb = np.zeros((200, 200, 3), dtype=np.uint8)
     rgb[:] = (0, 128, 255)
@@ -89,11 +106,13 @@ def test_the_colours_of_a_pixel_have_the_same_noise_within_black_and_white() -> 
     assert middle.std() == pytest.approx(20.4, rel=0.03)
 
 
-def test_a_point_is_where_its_pixel_looks_at_its_depth() -> None:
+@pytest.mark.parametrize("shape", [(5, 7), (1, 16), (3, 11), (2, 40)])
+def test_a_point_is_where_its_pixel_looks_at_its_depth(shape: tuple[int, int]) -> None:
+    """Of as many pixels as an instruction takes, and of some more."""
     random = np.random.default_rng(3)
-    depth, right, down = (random.random((5, 7), dtype=np.float32) for _ in range(3))
+    depth, right, down = (random.random(shape, dtype=np.float32) for _ in range(3))
     depth[0, 0] = np.nan
-    rgb = random.integers(0, 256, (5, 7, 3), dtype=np.uint8)
+    rgb = random.integers(0, 256, (*shape, 3), dtype=np.uint8)
 
     points = coloured_points(depth, rgb, right, down)
 

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from .extent import corners_of, outline_of
     from .from_world import scene_of
     from .native import NativeRenderer
-    from .pixels import add_colour_noise, add_depth_noise, coloured_points
+    from .pixels import add_colour_noise, add_depth_noise, clip_depths, coloured_points
     from .renderer import Intrinsics, Picture, Renderer, size_of
     from .scene import Scene, SceneLight, SceneSkin, Shape, ShapeGeometry
     from .skins import move_skins, why_stiff
@@ -17,6 +17,7 @@ _HOMES = {
     "coloured_points": "pixels",
     "add_depth_noise": "pixels",
     "add_colour_noise": "pixels",
+    "clip_depths": "pixels",
     "Intrinsics": "renderer",
     "NativeRenderer": "native",
     "Picture": "renderer",
@@ -47,6 +48,7 @@ __all__ = [
     "ShapeGeometry",
     "add_colour_noise",
     "add_depth_noise",
+    "clip_depths",
     "coloured_points",
     "corners_of",
     "move_skins",

@@ -1,5 +1,7 @@
 """Per-pixel operations on a drawn picture, in C++."""
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,6 +23,26 @@ def add_colour_noise(rgb: NDArray[np.uint8], *, seed: int, mean: float, stddev: 
 def add_depth_noise(depths: NDArray[np.float32], *, seed: int, mean: float, stddev: float) -> None:
     """Add Gaussian noise to (height, width) depths [m] where they are; see `add_colour_noise`."""
     _native.add_depth_noise(depths, seed=seed, mean=mean, stddev=stddev)
+
+
+def clip_depths(
+    depths: NDArray[np.float32],
+    *,
+    near_m: float = -math.inf,
+    far_m: float = math.inf,
+    out: NDArray[np.float32] | None = None,
+) -> NDArray[np.float32]:
+    """Replace depths outside a range, and endless ones, by not a number.
+
+    Args:
+        depths: (height, width) [m], in one piece.
+        near_m: the least one that is kept.
+        far_m: the largest.
+        out: (height, width) where the result goes, which may be `depths`; new memory if None.
+    """
+    clipped = np.empty_like(depths) if out is None else out
+    _native.clip_depths(depths, near=near_m, far=far_m, clipped=clipped)
+    return clipped
 
 
 def coloured_points(

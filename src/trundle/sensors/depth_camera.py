@@ -1,9 +1,11 @@
 """Depth cameras: how far away each pixel's surface is."""
 
+import math
+
 import numpy as np
 
 from trundle.model import Noise
-from trundle.render import add_depth_noise
+from trundle.render import add_depth_noise, clip_depths
 from trundle.simulation import Snapshot
 
 from .camera import CameraReading, CameraSensor
@@ -19,14 +21,10 @@ class DepthCameraSensor(CameraSensor):
         picture = self.look(snapshot)
         assert picture.depth is not None
         noise = self.optics.noise
-        near, far = self.optics.depth_near_m, self.optics.depth_far_m
+        near = -math.inf if self.optics.depth_near_m is None else self.optics.depth_near_m
+        far = math.inf if self.optics.depth_far_m is None else self.optics.depth_far_m
         depth = np.ascontiguousarray(picture.depth)
-        depth[~np.isfinite(depth)] = np.nan
         if noise != Noise():
             add_depth_noise(depth, seed=self.noise_seed(), mean=noise.mean, stddev=noise.stddev)
-        with np.errstate(invalid="ignore"):
-            if near is not None:
-                depth[depth < near] = np.nan
-            if far is not None:
-                depth[depth > far] = np.nan
+        clip_depths(depth, near_m=near, far_m=far, out=depth)
         return CameraReading(time_ns=snapshot.time_ns, rgb=picture.rgb, depth=depth)

@@ -7,6 +7,7 @@ import numpy as np
 from trundle.bridge import cloud_maker, depth_image, image_maker
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import PluginTag
+from trundle.render import clip_depths
 from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor, DepthCameraSensor
 
@@ -52,9 +53,7 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
     @lru_cache(maxsize=1)  # depths and points are of the same reading
     def cut(reading: CameraReading) -> CameraReading:
         assert reading.depth is not None
-        with np.errstate(invalid="ignore"):
-            within = (reading.depth >= near) & (reading.depth <= far)
-        depth = np.where(within, reading.depth, np.float32(np.nan))
+        depth = clip_depths(reading.depth, near_m=near, far_m=far)
         return CameraReading(time_ns=reading.time_ns, rgb=reading.rgb, depth=depth)
 
     def depth_of(reading: CameraReading) -> dict[str, object]:
