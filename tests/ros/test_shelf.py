@@ -90,6 +90,30 @@ def test_a_subscriber_answers_when_half_of_it_is_taken(
     reader.close()
 
 
+def test_clouds_of_depth_cameras_find_room(connected: socket.socket, new_shelf: Callable[[int], Shelf]) -> None:
+    """928 x 800 points of 16 bytes, and what is around them."""
+    content = bytes(928 * 800 * 16 + 300)
+    size = LENGTH.size + len(content)
+    shelf = new_shelf(size)
+    reader = ShelfReader(connected, _content(shelf.offer()))
+    shelf.take_note(_content(reader.seen()))
+
+    assert shelf.takes(size)
+    for _ in range(6):
+        note = shelf.lay(_framed(content), size)
+        assert note is not None
+        taken, answer = reader.take(_content(note))
+        assert taken == content
+        if answer is not None:
+            shelf.take_note(_content(answer))
+    reader.close()
+
+
+def test_no_memory_is_taken_that_would_hold_no_frame() -> None:
+    with pytest.raises(OSError, match="frames of 20000000 bytes are too long to be shared"):
+        Shelf(20_000_000)
+
+
 @pytest.mark.parametrize("size", [LONG_BYTES - 1, 10**6])
 def test_frames_too_short_or_too_long_go_over_the_socket(
     connected: socket.socket, new_shelf: Callable[[int], Shelf], size: int

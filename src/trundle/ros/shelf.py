@@ -18,9 +18,10 @@ from .nearby import peer_process
 
 LONG_BYTES: Final = 32 * 1024
 """Frames from here on; for shorter ones a socket is as fast."""
-_FRAMES = 8
-"""As many as the first one are to find room."""
-_LEAST_BYTES, _MOST_BYTES = 1024 * 1024, 32 * 1024 * 1024
+_FRAMES, _FEWEST_FRAMES = 8, 4
+"""As many as the first one are to find room; of long ones fewer."""
+_LEAST_BYTES, _PLENTY_BYTES, _MOST_BYTES = 1024 * 1024, 32 * 1024 * 1024, 64 * 1024 * 1024
+"""The second one is passed for the sake of the fewest frames only."""
 _OPENED = struct.Struct("<QQ")
 """Publisher to subscriber: the file's number in the publisher's process, and its size."""
 _LAID = struct.Struct("<QQQ")
@@ -39,9 +40,11 @@ class Shelf:
         """Make room for several frames of this length.
 
         Raises:
-            OSError: no such memory here.
+            OSError: no such memory here, or not as much as that takes.
         """
-        wanted = min(max(_FRAMES * longest, _LEAST_BYTES), _MOST_BYTES)
+        plenty = min(max(_FRAMES * longest, _LEAST_BYTES), _PLENTY_BYTES)
+        if (wanted := max(plenty, _FEWEST_FRAMES * longest)) > _MOST_BYTES:
+            raise OSError(f"frames of {longest} bytes are too long to be shared")
         self._size = -(-wanted // mmap.PAGESIZE) * mmap.PAGESIZE
         self._file = _sealed_memory(self._size)
         self._memory = mmap.mmap(self._file, self._size)
@@ -56,7 +59,7 @@ class Shelf:
 
     def takes(self, size: int) -> bool:
         """Whether frames of this length are laid here: with a half not yet told to be free, one always fits."""
-        return self.is_seen and LONG_BYTES <= size <= self._size // 4
+        return self.is_seen and LONG_BYTES <= size <= self._size // _FEWEST_FRAMES
 
     def lay(self, frame: Pieces, size: int) -> bytes | None:
         """Copy a frame, its length in front, and return the note to send; None: there is no room yet."""
