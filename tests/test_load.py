@@ -49,7 +49,6 @@ def test_a_robot_loads_nothing_that_it_has_not() -> None:
     """RP2W has cameras; each module and each dataclass of others would cost time at every start."""
     words = ["run", "model://rp2w", "--headless", "--no-ros", "--duration", "0.001"]
     others = {
-        "hashlib",
         "numpy.random",
         "secrets",
         "trundle.access",

@@ -236,7 +236,7 @@ def test_an_output_that_cannot_be_written_is_one_sentence_and_no_file(cart: Path
     [
         ("", "<stdin>:1: error: the file is empty"),
         ("<sdf", "<stdin>:1: error: not well-formed XML"),
-        (f"<robot name='r' {XACRO}><xacro:arm/></robot>", "<stdin>: error: unknown macro name: xacro:arm"),
+        (f"<robot name='r' {XACRO}><xacro:arm/></robot>", "<stdin>:1: error: unknown macro name: xacro:arm"),
         ("<launch><node pkg='p' exec='e'/></launch>", "<stdin>:1: error: <node exec>: this is a launch file of ROS 2"),
     ],
 )

@@ -14,11 +14,6 @@ LINK = '<sdf version="1.6"><model name="m">\n<link name="a"/>\n{}\n</model></sdf
     [
         ("empty.sdf", "", "empty.sdf:1: error: the file is empty"),
         ("words.sdf", "hello", "words.sdf:1: error: not well-formed XML: the root element has to start here, with '<'"),
-        (
-            "arm.xml",
-            "<launch/>",
-            "arm.xml:1: error: a launch file, not a robot or a world; `trundle launch` starts it",
-        ),
         ("other.sdf", "<html/>", "other.sdf:1: error: <html> starts neither an SDF (<sdf>) nor a URDF (<robot>)"),
         (
             "joint.sdf",
@@ -63,6 +58,15 @@ def test_a_missing_package_says_where_was_looked(trundle, tmp_path: Path) -> Non
 
     assert done.returncode == 1
     assert f"no package 'no_such_package'; looked below {tmp_path}" in done.stderr
+
+
+def test_a_launch_file_is_no_robot(trundle, tmp_path: Path) -> None:
+    (tmp_path / "arm.xml").write_text("<launch/>")
+
+    done = trundle("run", "arm.xml", "--headless", "--no-ros")
+
+    assert done.returncode == 1
+    assert done.stderr == "arm.xml:1: error: a launch file, not a robot or a world; `trundle launch` starts it\n"
 
 
 def test_a_launch_argument_that_is_not_there_names_those_that_are(trundle, tmp_path: Path) -> None:
