@@ -266,3 +266,11 @@ def test_the_rp2w_that_saves_its_pictures_is_the_rp2w() -> None:
         "/tmp/rp2w_camsave/my_sensor",
     ]
     assert report.warnings == []
+
+
+def test_a_world_of_the_examples_is_found_by_its_name() -> None:
+    found = PACKAGES.find_world("physics/cart.world")
+
+    assert found is not None
+    assert "libmotors.so" in found.read_text()
+    assert (found.parent / "motors.py").is_file()

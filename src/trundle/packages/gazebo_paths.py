@@ -15,7 +15,8 @@ from .workspace import distinct_folders, nearby
 
 SHIPPED = Path(__file__).parent
 """Has `models`, `stand_ins` and `worlds` of our own, laid out as /usr/share/gazebo is."""
-_CHECKOUT_EXAMPLES = Path(__file__).parents[3] / "examples"
+_CHECKOUT_EXAMPLES = [path for path in [Path(__file__).parents[3] / "examples"] if os.path.isdir(path / "rp2w")]
+"""What a wheel has among SHIPPED."""
 _FUEL_CACHES = (".gz/fuel", ".ignition/fuel")
 """Below HOME: where the tools of newer Gazebos keep what they fetched."""
 _SUFFIXES = (".", "worlds", "models", "media/models", "Media/models", "media")
@@ -51,7 +52,7 @@ class GazeboPaths:
                 *self._named_models,
                 *self._exported("gazebo_model_path"),
                 SHIPPED / "models",
-                *([_CHECKOUT_EXAMPLES] if os.path.isdir(_CHECKOUT_EXAMPLES / "rp2w") else []),
+                *_CHECKOUT_EXAMPLES,
             ]
         )
 
@@ -63,6 +64,7 @@ class GazeboPaths:
             *self._exported("gazebo_media_path"),
             *self._exported("gazebo_resource_path"),
             SHIPPED,
+            *_CHECKOUT_EXAMPLES,
         ]
 
     def find_model(self, name: str) -> Path | None:

@@ -118,7 +118,7 @@ class Packages:
 
     def worlds(self) -> list[str]:
         """The worlds of our own, by name."""
-        return sorted(path.name for path in (SHIPPED / "worlds").iterdir())
+        return sorted(path.name for path in (SHIPPED / "worlds").glob("*.world"))
 
     def material_folders(self) -> list[Path]:
         """Where Gazebo looks for material scripts without being told."""

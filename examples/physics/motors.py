@@ -1,0 +1,41 @@
+"""Turns the joints of the worlds in this folder: what a controller or a ROS node does for a robot.
+
+Each <motor> of <plugin filename="libmotors.so"> has the name of a <joint>, and any of <speed> [rad/s or m/s], which a
+motor keeps from then on, <effort> [N·m or N], the most that it may use, and <start> [rad/s or m/s], a speed that the
+joint is let go with. The physics engine does the rest: nothing here runs while the world does.
+"""
+
+import math
+
+from trundle import ros
+from trundle.model import PluginTag
+from trundle.plugins import Plugin
+from trundle.simulation import ModelHandle, Simulation
+
+
+class Motors(Plugin):
+    """Joints that begin at a speed or are kept at one."""
+
+    period_ns = 1 << 62  # never again
+
+    def __init__(self, sim: Simulation, model: ModelHandle, tag: PluginTag) -> None:
+        self.motors = list(tag.node.all("motor"))
+        self.model = model
+        self.report = sim.report
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: "ros.Node | None", tag: PluginTag) -> "Motors":
+        del node  # nobody commands them
+        motors = cls(sim, model, tag)
+        motors.reset()
+        tag.node.report_unread(sim.report)
+        return motors
+
+    def reset(self) -> None:
+        for motor in self.motors:
+            joint = self.model.joint(motor.string("joint", default=""))
+            effort = motor.number("effort", default=math.inf, report=self.report)
+            if motor.find("start") is not None:
+                joint.start(motor.number("start", default=0.0, report=self.report))
+            if motor.find("speed") is not None:
+                joint.set_velocity(motor.number("speed", default=0.0, report=self.report), max_effort=effort)

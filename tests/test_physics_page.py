@@ -1,0 +1,36 @@
+"""What docs/physics.md says of Trundle is what its worlds do."""
+
+import json
+from pathlib import Path
+
+import pytest
+from tests.physics_page import PAGE, WORLDS, Row, measure, read_rows
+
+import trundle
+from trundle.cli.main import main
+
+ROWS = read_rows()
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.world}-{row.measure}")
+def test_a_world_does_what_its_row_says(row: Row) -> None:
+    assert measure(row) == pytest.approx(row.figure, abs=row.tolerance)
+
+
+def test_every_world_is_on_the_page() -> None:
+    assert {row.world for row in ROWS} == {path.stem for path in WORLDS.glob("*.world")}
+
+
+@pytest.mark.parametrize("world", sorted(WORLDS.glob("*.world")), ids=lambda world: world.stem)
+def test_a_world_reads_without_a_warning(world: Path) -> None:
+    assert trundle.load(str(world)).report.warnings == []
+
+
+def test_the_page_s_own_command_prints_the_figure(capsys: pytest.CaptureFixture[str]) -> None:
+    command = next(line.split() for line in PAGE.read_text().splitlines() if line.endswith("--json"))
+    (row,) = (each for each in ROWS if each.world == "cart")
+
+    assert command[:3] == ["trundle", "run", "physics/cart.world"]
+    assert main([*command[1:], "--no-ros"]) == 0
+    cart = next(model for model in json.loads(capsys.readouterr().out)["models"] if model["name"] == "cart")
+    assert cart["pose"][0] == pytest.approx(row.figure, abs=row.tolerance)
