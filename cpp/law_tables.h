@@ -52,8 +52,11 @@ struct MotionRow {
 
 struct MotorRow {  // of the tendon of the same number
   double actuator;   // whose ctrl is the speed to keep, or the position to hold
-  double rate;       // [1/s] at which it closes in on the position; 0: it keeps a speed
+  double rate;       // [1/s] at which it closes in on the position; 0: it keeps a speed; below: kinematically
   double qpos, dof;  // of its joint
+
+  // Nothing feels that what it drives is moved, and its own weight is none of its effort.
+  bool is_kinematic() const { return rate < 0.0; }
 };
 
 struct ChainRow {  // links that hang from one another

@@ -14,6 +14,8 @@ constexpr double kSlowest = 1e-3;  // [rad/s or m/s] what is slower has no Corio
 
 // Chains of links that move and touch nothing, which are to be centred, by their first freedom.
 void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<int>& chains) {
+  chains.clear();
+  if (laws.chains.empty()) return;
   thread_local std::vector<char> touching;
   touching.assign(m->ntree, 0);
   for (int i = 0; i < d->ncon; ++i) {
@@ -22,7 +24,6 @@ void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::
       if (tree >= 0) touching[tree] = 1;
     }
   }
-  chains.clear();
   for (const ChainRow& row : laws.chains) {
     const int tree = static_cast<int>(row.tree);
     const double* speeds = d->qvel + m->tree_dofadr[tree];
@@ -31,14 +32,25 @@ void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::
   }
 }
 
+// Freedoms that kinematic motors move.
+void find_driven(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<int>& driven) {
+  driven.clear();
+  for (std::size_t i = 0; i < laws.motors.size(); ++i) {
+    const int dof = static_cast<int>(laws.motors[i].dof);
+    if (laws.motors[i].is_kinematic() && m->tendon_frictionloss[i] > 0.0 && std::abs(d->qvel[dof]) > kSlowest) {
+      driven.push_back(dof);
+    }
+  }
+}
+
 }  // namespace
 
 void center_bias(const LawTables& laws, const mjModel* m, mjData* d) {
-  if (laws.chains.empty()) return;
-  thread_local std::vector<int> chains;
+  thread_local std::vector<int> chains, driven;
   thread_local std::vector<double> speeds, velocities, axes, bias;
   find_chains(laws, m, d, chains);
-  if (chains.empty()) return;
+  find_driven(laws, m, d, driven);
+  if (chains.empty() && driven.empty()) return;
   speeds.assign(d->qvel, d->qvel + m->nv);
   velocities.assign(d->cvel, d->cvel + 6 * m->nbody);
   axes.assign(d->cdof_dot, d->cdof_dot + 6 * m->nv);
@@ -47,6 +59,11 @@ void center_bias(const LawTables& laws, const mjModel* m, mjData* d) {
     for (int i = m->tree_dofadr[tree]; i < m->tree_dofadr[tree] + m->tree_dofnum[tree]; ++i) {
       d->qvel[i] += 0.5 * m->opt.timestep * d->qacc_warmstart[i];
     }
+  }
+  for (const int dof : driven) {
+    d->qvel[dof] = 0.0;
+    const int tree = m->dof_treeid[dof];
+    if (std::find(chains.begin(), chains.end(), tree) == chains.end()) chains.push_back(tree);
   }
   mujoco.mj_comVel(m, d);
   mujoco.mj_rne(m, d, 0, bias.data());

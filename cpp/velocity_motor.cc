@@ -1,5 +1,7 @@
 #include "velocity_motor.h"
 
+#include <cmath>
+
 namespace trundle {
 
 namespace {
@@ -15,6 +17,12 @@ void for_each_motor(const LawTables& laws, const mjModel* m, const mjData* d, Fu
   }
 }
 
+// Have a motor exert so much more than its limit.
+void raise_limit(mjData* d, int row, double effort) {
+  d->efc_frictionloss[row] += effort;
+  if (d->nisland > 0) d->iefc_frictionloss[d->map_efc2iefc[row]] += effort;
+}
+
 }  // namespace
 
 void drive_motors(const LawTables& laws, const mjModel* m, mjData* d) {
@@ -27,6 +35,8 @@ void drive_motors(const LawTables& laws, const mjModel* m, mjData* d) {
     // A spring of 1 and a damper of 1/h, taken at the step's end, want the acceleration -(v/h + error) / 2.
     d->efc_pos[row] = (d->efc_vel[row] - 2.0 * wanted) / h;
     d->efc_margin[row] = 0.0;
+    const int dof = static_cast<int>(motor.dof);
+    if (motor.is_kinematic()) raise_limit(d, row, std::abs(d->qfrc_bias[dof] - d->qfrc_passive[dof]));
   });
 }
 

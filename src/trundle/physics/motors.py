@@ -17,6 +17,10 @@ from .law_tables import find_table
 
 HOLD_RATE = 3.0
 """[1/s] How fast a held joint closes in: a first-order lag of a third of a second, as its motor's torque allows."""
+_KINEMATIC = -1.0
+"""In place of such a rate."""
+_KEEPS_UP = 0.05, 0.01
+"""Part of its speed, and [rad/s or m/s], that a kinematic axis may be off, to be given another at once."""
 _HUGE = 1e10
 _NO_MOTORS = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
 
@@ -79,6 +83,20 @@ class Motors:
     def set_velocity(self, axis: int, velocity: float, max_effort: float) -> None:
         """Have a motor keep a speed [rad/s or m/s] with at most so much effort."""
         self._keep(axis, velocity, max_effort, rate=0.0)
+
+    def drive_kinematically(self, axis: int, velocity: float) -> None:
+        """Have an axis keep a speed [rad/s or m/s] that it takes at once; only what hangs from it feels that.
+
+        Its effort limit holds for what is in its way; its own weight does not count, and none or zero is no limit.
+        What is held up by something is pushed on by the motor alone.
+        """
+        dof, actuator = self._dofs[axis], self._actuators[axis]
+        last = self._orders.get(actuator)
+        speed = float(self._data.qvel[dof])
+        now = last[0] if last is not None and last[2] == _KINEMATIC else speed
+        self._order(axis, command=velocity, most=min(self._largest[axis] or _HUGE, _HUGE), rate=_KINEMATIC)
+        if velocity != now and abs(speed - now) <= _KEEPS_UP[0] * abs(now) + _KEEPS_UP[1]:
+            self._data.qvel[dof] = velocity
 
     def hold(self, axis: int, position: float, max_effort: float) -> None:
         """Have a motor go to a position [rad or m] and stay there."""

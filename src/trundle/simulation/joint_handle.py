@@ -106,6 +106,13 @@ class JointHandle(Handle):
         self._simulation.pushes.hold_effort(self, axis, until=None)
         self._simulation.engine.motors.set_velocity(self._driven(axis), velocity, max_effort)
 
+    def drive_kinematically(self, velocity: float, *, axis: int = 0) -> None:
+        """Move the child's side at this speed [rad/s or m/s], at once; the parent's side feels its weight alone."""
+        self._simulation.pushes.hold_effort(self, axis, until=None)
+        engine = self._simulation.engine
+        engine.motors.drive_kinematically(self._driven(axis), velocity)
+        engine.reader.changed()
+
     def hold(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
         """Go to a position [rad or m] and stay, with at most so much effort; limits are respected."""
         driven = self._driven(axis)

@@ -73,7 +73,7 @@ class TricycleDrive(GraphPlugin):
         if self._steering_speed > 0.0:
             angle = approach(self._angle, angle, self._steering_speed * dt_s)
         self._angle = angle
-        self._steering.set_velocity((angle - self._steering.position) / (_LAG * dt_s))
+        self._steering.drive_kinematically((angle - self._steering.position) / (_LAG * dt_s))
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell where that led."""

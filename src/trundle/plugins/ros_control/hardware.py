@@ -92,7 +92,7 @@ class JointHardware:
             self.handle.set_effort(self._within_effort(self._pid.command(error, dt)))
             return
         speed = error / self.lag_s
-        self.handle.set_velocity(min(max(speed, -self._most_speed), self._most_speed))
+        self.handle.drive_kinematically(min(max(speed, -self._most_speed), self._most_speed))
 
     def _within_effort(self, effort: float) -> float:
         return min(max(effort, -self._most_effort), self._most_effort)
