@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "contact_geometry.h"
 #include "mujoco_api.h"
+#include "velocity_motor.h"
 
 namespace trundle {
 
 namespace {
 
+constexpr double kJerk = 0.02;     // [m/s] past one another in one step; what is slower lifts nothing by 0.1 mm
 constexpr double kSlowest = 1e-6;  // [m/s] what slides slower does not lift by anything that counts
 
 struct Spring {
@@ -58,12 +62,89 @@ bool slides(const mjContact& contact, const mjData* d) {
   return sum > kSlowest * kSlowest;
 }
 
+// The trees of a contact, the one of the smaller number first; -1: the world.
+std::pair<int, int> trees(const mjModel* m, const mjContact& contact) {
+  return std::minmax(m->body_treeid[m->geom_bodyid[contact.geom[0]]], m->body_treeid[m->geom_bodyid[contact.geom[1]]]);
+}
+
+// Twice what friction holds a freedom with [N·m or N], where the lighter of two that touch rests on all of their contacts;
+// column: that freedom's in the constraints' Jacobian.
+double hold(const mjModel* m, const mjData* d, const double* column) {
+  double sum = 0;
+  for (int i = 0; i < d->ncon; ++i) {
+    const mjContact& contact = d->contact[i];
+    if (contact.efc_address < 0 || contact.dim < 3) continue;
+    const auto both = trees(m, contact);
+    const auto alike = [&](const mjContact& other) { return trees(m, other) == both; };
+    const auto points = std::count_if(d->contact, d->contact + d->ncon, alike);
+    double mass = mjMAXVAL;
+    for (const int tree : {both.first, both.second}) {
+      if (tree >= 0) mass = std::min(mass, m->body_subtreemass[m->tree_bodyadr[tree]]);
+    }
+    const double* across = column + contact.efc_address + 1;
+    const double load = 2.0 * std::sqrt(dot(m->opt.gravity, m->opt.gravity)) * mass / static_cast<double>(points);
+    sum += load * std::hypot(contact.friction[0] * across[0], contact.friction[1] * across[1]);
+  }
+  return sum;
+}
+
+// The accelerations by which contacts are shifted, one for each row of the constraints, worked out when one is asked for.
+class Accelerations {
+ public:
+  Accelerations(const LawTables& laws, const mjModel* m, mjData* d) : m_(m), d_(d) {
+    thread_local std::vector<Jump> jumps;
+    thread_local std::vector<double> next;
+    find_jumps(laws, m, d, jumps);
+    for (const Jump& jump : jumps) {
+      next.assign(m->nv, 0.0);
+      next[jump.dof] = 1.0;
+      find(next.data(), next_);
+      const double left = (jump.effort - hold(m, d, next_.data())) * m->dof_invweight0[jump.dof];
+      if (left <= 0.0) continue;
+      if (!jumps_) now_.assign(d->qacc_warmstart, d->qacc_warmstart + m->nv);
+      now_[jump.dof] = std::clamp(jump.acceleration, -left, left);
+      jumps_ = true;
+    }
+    if (jumps_) find(now_.data(), next_);
+  }
+
+  // Those of the step before.
+  const double* before() {
+    if (!known_) find(d_->qacc_warmstart, before_);
+    known_ = true;
+    return before_.data();
+  }
+
+  // Those of this step, where a motor's jump pulls a contact's surfaces past one another; null: none does.
+  const double* after_jump(const mjContact& contact) {
+    if (!jumps_) return nullptr;
+    double sum = 0;
+    for (int row = contact.efc_address + 1; row < contact.efc_address + contact.dim; ++row) {
+      const double change = m_->opt.timestep * (next_[row] - before()[row]);
+      sum += change * change;
+    }
+    return sum > kJerk * kJerk ? next_.data() : nullptr;
+  }
+
+ private:
+  void find(const double* accelerations, std::vector<double>& rows) {
+    rows.resize(d_->nefc);
+    mujoco.mj_mulJacVec(m_, d_, rows.data(), accelerations);
+  }
+
+  const mjModel* m_;
+  mjData* d_;
+  bool jumps_ = false, known_ = false;
+  static thread_local std::vector<double> now_, before_, next_;  // kept from step to step
+};
+
+thread_local std::vector<double> Accelerations::now_, Accelerations::before_, Accelerations::next_;
+
 }  // namespace
 
 void shift_contacts(const LawTables& laws, const mjModel* m, mjData* d) {
   if (m->opt.integrator != mjINT_DISCRETE || m->opt.cone != mjCONE_ELLIPTIC) return;
-  thread_local std::vector<double> accelerations;
-  bool known = false;
+  Accelerations accelerations(laws, m, d);
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
     if (contact.efc_address < 0) continue;
@@ -72,13 +153,10 @@ void shift_contacts(const LawTables& laws, const mjModel* m, mjData* d) {
       const DeadZoneRow* zone = find_pair(laws.dead_zones, pair_key(m, contact.geom));
       if (zone) margin = std::max(contact.dist, -zone->depth);
     }
-    if (contact.dim < 3 || !slides(contact, d)) continue;
-    if (!known) {
-      accelerations.resize(d->nefc);
-      mujoco.mj_mulJacVec(m, d, accelerations.data(), d->qacc_warmstart);
-      known = true;
-    }
-    margin -= lift(contact, d, m->opt.timestep, accelerations.data());
+    if (contact.dim < 3) continue;
+    const double* after = accelerations.after_jump(contact);
+    if (!after && !slides(contact, d)) continue;
+    margin -= lift(contact, d, m->opt.timestep, after ? after : accelerations.before());
   }
 }
 

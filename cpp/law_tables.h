@@ -80,7 +80,8 @@ struct LawTables {
   std::span<const ChainRow> chains;
   std::span<const SpringRow> springs;
   std::span<const DeadZoneRow> dead_zones;
-  int marks;   // numbers at the front of userdata, which mark what began deep; behind them, each body's load [N]
+  int marks;   // numbers at the front of userdata, which mark what began deep; behind them, each body's load
+               // [N], and the speed that each motor wants [rad/s or m/s]
   int motor_equality;  // whose spring and damper motors' constraints have
   bool on;     // contact laws act
   bool moves;  // some row of motions is of a kind

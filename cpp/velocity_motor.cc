@@ -6,6 +6,8 @@ namespace trundle {
 
 namespace {
 
+constexpr double kJump = 0.01;  // [rad/s or m/s] smaller changes of an order move nothing by a jerk
+
 // Have a function called with each row of friction that is a motor's, and the motor.
 template <typename Function>
 void for_each_motor(const LawTables& laws, const mjModel* m, const mjData* d, Function&& function) {
@@ -17,6 +19,11 @@ void for_each_motor(const LawTables& laws, const mjModel* m, const mjData* d, Fu
   }
 }
 
+double wanted_speed(const MotorRow& motor, const mjData* d) {
+  const double wanted = d->ctrl[static_cast<int>(motor.actuator)];
+  return motor.rate > 0.0 ? motor.rate * (wanted - d->qpos[static_cast<int>(motor.qpos)]) : wanted;
+}
+
 // Have a motor exert so much more than its limit.
 void raise_limit(mjData* d, int row, double effort) {
   d->efc_frictionloss[row] += effort;
@@ -25,11 +32,25 @@ void raise_limit(mjData* d, int row, double effort) {
 
 }  // namespace
 
+void find_jumps(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<Jump>& jumps) {
+  const double h = m->opt.timestep;
+  const double* last = d->userdata + laws.marks + m->nbody;
+  jumps.clear();
+  for_each_motor(laws, m, d, [&](int row, const MotorRow& motor) {
+    const double wanted = wanted_speed(motor, d);
+    if (std::abs(wanted - last[static_cast<int>(motor.actuator)]) < kJump) return;
+    const int dof = static_cast<int>(motor.dof);
+    jumps.push_back({dof, (wanted - d->qvel[dof]) / h, d->efc_frictionloss[row]});
+  });
+}
+
 void drive_motors(const LawTables& laws, const mjModel* m, mjData* d) {
   const double h = m->opt.timestep;
+  double* last = d->userdata + laws.marks + m->nbody;
+  for (const MotorRow& motor : laws.motors) last[static_cast<int>(motor.actuator)] = d->qvel[static_cast<int>(motor.dof)];
   for_each_motor(laws, m, d, [&](int row, const MotorRow& motor) {
-    double wanted = d->ctrl[static_cast<int>(motor.actuator)];
-    if (motor.rate > 0.0) wanted = motor.rate * (wanted - d->qpos[static_cast<int>(motor.qpos)]);
+    const double wanted = wanted_speed(motor, d);
+    last[static_cast<int>(motor.actuator)] = wanted;
     d->efc_type[row] = mjCNSTR_EQUALITY;
     d->efc_id[row] = laws.motor_equality;
     // A spring of 1 and a damper of 1/h, taken at the step's end, want the acceleration -(v/h + error) / 2.

@@ -74,6 +74,33 @@ def test_a_platform_carries_what_stands_on_it_up_without_a_hop(tmp_path) -> None
     assert heights == pytest.approx([0.15] * 300, abs=5e-4)
 
 
+@pytest.mark.parametrize("most", [1e6, 2e4, 500.0])
+def test_a_belt_that_starts_at_once_carries_its_box_without_a_hop(tmp_path, most: float) -> None:
+    """Coulomb: the box keeps up with 500 N (2.5 m/s²), else it slides for 0.03 s; it hopped by 1.1 mm for as long."""
+    box = """<inertial><mass>{}</mass><inertia><ixx>{}</ixx><iyy>{}</iyy><izz>{}</izz></inertia></inertial>
+    <collision name="c"><geometry><box><size>{}</size></box></geometry></collision>"""
+    large, small = box.format(200, 5, 900, 900, "8 0.5 0.1"), box.format(1, *["0.007"] * 3, "0.2 0.2 0.2")
+    models = f"""<model name="belt"><link name="l">{large}</link><joint name="j" type="prismatic"><child>l</child>
+    <parent>world</parent><axis><xyz>1 0 0</xyz></axis></joint></model>
+    <model name="box"><pose>0 0 0.15 0 0 0</pose><link name="l">{small}</link></model>"""
+    simulation = _load(tmp_path, f'<sdf version="1.6"><world name="w">{models}</world></sdf>')
+    belt, link = simulation["belt"].joint("j"), simulation["box"].base
+    simulation.step(300)
+    heights, speeds, rest = list[float](), list[float](), link.pose.position[2]
+    belt.set_velocity(0.3, max_effort=most)
+    for step in range(1, 401):
+        simulation.step()
+        heights.append(link.pose.position[2] - rest)
+        speeds.append(link.twist.linear[0])
+        # The box takes its share of the force while it slides or is carried along.
+        assert belt.velocity == pytest.approx(min(0.3, most * 1e-3 * step / 200), rel=0.01)
+
+    assert heights == pytest.approx([0.0] * 400, abs=1e-4)
+    fast = next(step for step, speed in enumerate(speeds, 1) if speed > 0.95 * 0.3)
+    assert fast == pytest.approx(max(0.3 / 9.8, 0.3 * 201 / most) * 1e3 * 0.95, rel=0.25)
+    assert speeds[-1] == pytest.approx(0.3, rel=1e-3)
+
+
 def test_an_effort_pushes_up_to_its_speed_limit_only(tmp_path) -> None:
     simulation = _load(tmp_path, _LIGHT.replace("<effort>10</effort>", "<velocity>2</velocity>"))
     axle = simulation["m"].joint("axle")

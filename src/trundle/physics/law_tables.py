@@ -63,7 +63,7 @@ def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[Shape
         # MuJoCo takes no custom number of size zero; less than a row is none.
         size = max(rows[name] * width, 1)
         spec.add_numeric(name=f"trundle::{name}", data=[0.0] * size, size=size)
-    spec.nuserdata = _marks(shapes) + len(spec.bodies)
+    spec.nuserdata = _marks(shapes) + len(spec.bodies) + len(spec.actuators)
     _reserve_motors(spec)
     # What brings MuJoCo to call mjcb_sensor; see `set_needstage`.
     stage = mujoco.mjtStage.mjSTAGE_POS
