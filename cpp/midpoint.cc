@@ -12,7 +12,22 @@ namespace {
 
 constexpr double kSlowest = 1e-3;  // [rad/s or m/s] what is slower has no Coriolis forces to speak of
 
-// Chains of links that move and touch nothing, which are to be centred, by their first freedom.
+bool moves(double speed) { return std::abs(speed) > kSlowest; }
+
+// Whether joints of a tree move that hang from others that do: wheels on a body have no Coriolis forces worth their price.
+bool swings(const mjModel* m, const mjData* d, int tree) {
+  const int first = m->tree_dofadr[tree], last = first + m->tree_dofnum[tree];
+  const int hung = m->jnt_type[m->dof_jntid[first]] == mjJNT_FREE ? first + 6 : first;
+  for (int i = hung; i < last; ++i) {
+    if (!moves(d->qvel[i])) continue;
+    for (int above = m->dof_parentid[i]; above >= hung; above = m->dof_parentid[above]) {
+      if (moves(d->qvel[above])) return true;
+    }
+  }
+  return false;
+}
+
+// The trees whose chains of links move, which are to be centred; of those that touch something, the ones that swing.
 void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<int>& chains) {
   chains.clear();
   if (laws.chains.empty()) return;
@@ -27,8 +42,8 @@ void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::
   for (const ChainRow& row : laws.chains) {
     const int tree = static_cast<int>(row.tree);
     const double* speeds = d->qvel + m->tree_dofadr[tree];
-    const auto moves = [](double speed) { return std::abs(speed) > kSlowest; };
-    if (!touching[tree] && std::any_of(speeds, speeds + m->tree_dofnum[tree], moves)) chains.push_back(tree);
+    const bool counts = touching[tree] ? swings(m, d, tree) : std::any_of(speeds, speeds + m->tree_dofnum[tree], moves);
+    if (counts) chains.push_back(tree);
   }
 }
 
@@ -37,7 +52,7 @@ void find_driven(const LawTables& laws, const mjModel* m, const mjData* d, std::
   driven.clear();
   for (std::size_t i = 0; i < laws.motors.size(); ++i) {
     const int dof = static_cast<int>(laws.motors[i].dof);
-    if (laws.motors[i].is_kinematic() && m->tendon_frictionloss[i] > 0.0 && std::abs(d->qvel[dof]) > kSlowest) {
+    if (laws.motors[i].is_kinematic() && m->tendon_frictionloss[i] > 0.0 && moves(d->qvel[dof])) {
       driven.push_back(dof);
     }
   }

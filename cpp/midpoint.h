@@ -9,8 +9,8 @@
 
 namespace trundle {
 
-// Take the Coriolis forces of chains of links at the middle of this step's speeds; not of what touches something. The
-// speeds of kinematic motors have none.
+// Take the Coriolis forces of chains of links at the middle of this step's speeds. The speeds of kinematic motors have
+// none.
 void center_bias(const LawTables& laws, const mjModel* m, mjData* d);
 
 // Add the forces of springs soft enough for that, which MuJoCo is not told of.
