@@ -107,14 +107,22 @@ class Vehicle:
         )
         return f'<model name="{name}">{chassis}{wheels}</model>'
 
-    def points(self, treads: Sequence[float] = ()) -> list[Point]:
-        """What it stands on, wheels first; a wheel counts twice."""
+    def points(self, treads: Sequence[float] = (), *, twist: Sequence[float] = (0.0, 0.0, 0.0)) -> list[Point]:
+        """What it stands on, wheels first; a wheel counts twice.
+
+        Args:
+            treads: see `Point`.
+            twist: forwards, sideways [m/s] and turning [rad/s], all steady: weight leans out of the curve.
+        """
         speeds = treads or [0.0] * len(self.wheels)
         wheels = [Point(x=x, y=y, count=2, mu=self.mu, tread=v) for (x, y), v in zip(self.wheels, speeds, strict=True)]
         points = wheels + [Point(x=x, y=y, mu=self.ball_mu) for x, y in self.balls]
         weight = (self.mass + len(self.wheels) * self.wheel_mass) * GRAVITY
         x = (self.mass * self.x + self.wheel_mass * sum(x for x, _ in self.wheels)) * GRAVITY / weight
         y = self.wheel_mass * sum(y for _, y in self.wheels) * GRAVITY / weight
+        forwards, sideways, turning = twist
+        lean = turning * self.radius / GRAVITY
+        x, y = x + lean * (sideways + turning * x), y - lean * (forwards - turning * y)
         return share_weight(points, weight, x=x, y=y)
 
 

@@ -29,6 +29,8 @@ MOST_MOVING_PAIRS = 1000
 MOST_GIVING_PAIRS = 20_000
 """Of shapes that give: beyond, they are as hard as all others that meet by search."""
 _BITS = 0x7FFFFFFF
+_TOUCHING = 1e-9
+"""[m] What is set down on a floor touches it from the first step on: MuJoCo wants it to be below its surface."""
 _NEVER_FELT = 1e3
 """[m] Deeper than any shape is in another: the two meet and feel nothing before."""
 
@@ -134,6 +136,7 @@ def _add_pair(spec: mujoco.MjSpec, a: ShapeEntry, b: ShapeEntry, touch: Touch) -
     pair.solref = limit_solref(h) if touch.min_depth > 0 else contact_solref(h)
     pair.solreffriction = sliding_solref(h)
     pair.solimp = SOLIMP
+    pair.margin = _TOUCHING
     if not touch.is_felt:
         pair.margin, pair.gap = -_NEVER_FELT, _NEVER_FELT
 
