@@ -24,9 +24,13 @@ double pull(const mjModel* m, const mjContact& contact) {
 }
 
 // The speed to leave at [m/s]: e times what it was at the surface, and what the way back to it takes.
-double leaving_speed(double restitution, double approach, double depth, double pull) {
-  const double at_surface = std::max(approach * approach - 2 * pull * depth, 0.0);
-  return std::sqrt(std::max(restitution * restitution * at_surface + 2 * pull * depth, 0.0));
+//
+// Steps that change the speed by a h and then the position by speed · h keep v² / 2 + a x - a h v / 2, x [m] away from
+// the surface and a the pull towards it.
+double leaving_speed(double restitution, double approach, double depth, double pull, double h) {
+  const double half = pull * h / 2;
+  const double at_surface = std::max(approach * approach + 2 * half * approach - 2 * pull * depth, 0.0);
+  return half + std::sqrt(std::max(half * half + restitution * restitution * at_surface + 2 * pull * depth, 0.0));
 }
 
 // Impulses of all contacts at once; memory is kept from step to step.
@@ -62,7 +66,7 @@ void Impacts::find(const LawTables& laws, const mjModel* m, const mjData* d) {
       rows_.resize(size);
       continue;
     }
-    const double leaving = leaving_speed(row->restitution, -speed, -contact.dist, pull(m, contact));
+    const double leaving = leaving_speed(row->restitution, -speed, -contact.dist, pull(m, contact), m->opt.timestep);
     impacts_.push_back({leaving, {contact.friction[0], contact.friction[1]}});
   }
 }
