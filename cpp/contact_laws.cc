@@ -17,6 +17,7 @@
 #include "law_tables.h"
 #include "midpoint.h"
 #include "mujoco_api.h"
+#include "plane_cylinder.h"
 #include "restitution.h"
 #include "surface_motion.h"
 #include "velocity_damping.h"
@@ -88,7 +89,7 @@ void install() {
 }
 
 std::vector<std::string> names() {
-  std::vector<std::string> found{"mjcb_control", "mjcb_sensor", "mjcb_time"};
+  std::vector<std::string> found{"mjCOLLISIONFUNC", "mjcb_control", "mjcb_sensor", "mjcb_time"};
 #define TRUNDLE_NAME(name) found.push_back(#name);
   TRUNDLE_MUJOCO_FUNCTIONS(TRUNDLE_NAME)
 #undef TRUNDLE_NAME
@@ -98,6 +99,7 @@ std::vector<std::string> names() {
 void bind(const std::vector<std::uintptr_t>& addresses) {
   if (addresses.size() != names().size()) throw std::invalid_argument("one address for each of names()");
   const std::uintptr_t* next = addresses.data();
+  install_plane_cylinder(reinterpret_cast<mjfCollision(*)[mjNGEOMTYPES]>(*next++));
   mujoco.control = reinterpret_cast<mjfGeneric*>(*next++);
   mujoco.sensor = reinterpret_cast<mjfSensor*>(*next++);
   mujoco.time = reinterpret_cast<mjfTime*>(*next++);

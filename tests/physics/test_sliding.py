@@ -9,6 +9,7 @@ from tests.physics.quasistatic import GRAVITY, Vehicle, drift
 
 import trundle
 from trundle.simulation import Simulation
+from trundle.spatial import Wrench
 
 Load = Callable[..., Simulation]
 
@@ -79,6 +80,36 @@ def test_a_block_slides_down_a_slope_and_never_leaves_it(
     pull = GRAVITY * (math.sin(tilt) - mu * math.cos(tilt))
     assert speed == pytest.approx(0.1 * pull, rel=0.03, abs=2e-3)
     assert way() - start == pytest.approx(speed * 0.9 + pull * 0.9**2 / 2, rel=2e-3)
+
+
+# Boxes that parted by 29 mm when the push ended, in the first of our contacts.
+@pytest.mark.parametrize(
+    ("masses", "size", "mu", "push"),
+    [
+        ((1.0, 1.0, 1.0, 1.0), 0.2, 0.5, 30.0),
+        ((5.0, 1.0, 1.0), 0.2, 0.3, 40.0),
+        ((1.0, 1.0, 5.0), 0.2, 0.8, 80.0),
+        ((0.05,) * 5, 0.05, 0.5, 3.0),
+        ((20.0,) * 3, 0.4, 0.2, 500.0),
+    ],
+)
+def test_boxes_pushed_in_a_row_stay_together_when_the_push_ends(
+    load: Load, masses: Sequence[float], size: float, mu: float, push: float
+) -> None:
+    row = ""
+    for i, mass in enumerate(masses):
+        box = block((size, size, size), mass, mu, 0.0).replace('name="b"', f'name="b{i}"', 1)
+        row += box.replace("<pose>0.0 0 ", f"<pose>{i * size} 0 ", 1)
+    sim = load(row)
+    sim.run(0.1)
+    sim["b0"].apply_wrench(Wrench((push, 0.0, 0.0)), duration_s=0.4)
+    sim.run(4.0)
+
+    drag, pull = mu * GRAVITY, push / sum(masses) - mu * GRAVITY
+    way = pull * 0.4**2 / 2 * (1 + pull / drag)
+    ways = [sim[f"b{i}"].pose.position[0] - i * size for i in range(len(masses))]
+    assert ways == pytest.approx([way] * len(masses), rel=2e-3)
+    assert max(ways) - min(ways) < 1e-3
 
 
 TUTORIAL = Vehicle(wheels=((0, 0.15), (0, -0.15)), balls=((0.15, 0), (-0.15, 0)))
