@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "contact_offset.h"
-#include "depenetration.h"
 #include "law_tables.h"
 #include "midpoint.h"
 #include "mujoco_api.h"
@@ -36,8 +35,7 @@ std::atomic<mjfSensor> previous_sensor = nullptr;
 
 void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
   align_friction(laws, m, d);
-  bool changed = move_surfaces(laws, m, d);
-  changed |= limit_depth(laws, m, d);
+  const bool changed = move_surfaces(laws, m, d);
   if (changed) {
     mujoco.mj_makeConstraint(m, d);
     mujoco.mj_island(m, d);
@@ -57,7 +55,7 @@ void on_control(const mjModel* m, mjData* d) {
   busy = true;
   if (const mjfGeneric first = previous.load()) first(m, d);
   LawTables laws;
-  if (LawTables::find(m, d, laws)) {
+  if (LawTables::find(m, laws)) {
     if (laws.on) apply_laws(laws, m, d);
     apply_springs(laws, m, d);
     center_bias(laws, m, d);
@@ -71,7 +69,7 @@ void on_sensor(const mjModel* m, mjData* d, int stage) {
   busy = true;
   if (const mjfSensor first = previous_sensor.load()) first(m, d, stage);
   LawTables laws;
-  if (stage == mjSTAGE_ACC && LawTables::find(m, d, laws) && laws.on) weigh_surfaces(laws, m, d);
+  if (stage == mjSTAGE_ACC && LawTables::find(m, laws) && laws.on) weigh_surfaces(laws, m, d);
   busy = false;
 }
 
@@ -117,14 +115,9 @@ struct Addressed {
 
   Addressed(std::uintptr_t model, std::uintptr_t data)
       : m(reinterpret_cast<const mjModel*>(model)), d(reinterpret_cast<mjData*>(data)) {
-    if (!LawTables::find(m, d, laws)) throw std::invalid_argument("this model has no laws");
+    if (!LawTables::find(m, laws)) throw std::invalid_argument("this model has no laws");
   }
 };
-
-void mark(std::uintptr_t model, std::uintptr_t data) {
-  const Addressed each(model, data);
-  mark_deep(each.laws, each.m, each.d);
-}
 
 void report(std::uintptr_t model, std::uintptr_t data) {
   const Addressed each(model, data);
@@ -140,6 +133,5 @@ NB_MODULE(_contact_laws, module) {
   module.def("names", trundle::names);
   module.def("bind", trundle::bind, nb::arg("addresses"));
   module.def("install", trundle::install);
-  module.def("mark_deep", trundle::mark, nb::arg("model"), nb::arg("data"));
   module.def("report_efforts", trundle::report, nb::arg("model"), nb::arg("data"));
 }

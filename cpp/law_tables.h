@@ -35,13 +35,7 @@ struct DeadZoneRow {
   double pair, depth;  // [m] up to which a contact holds and does not push
 };
 
-struct GeomRow {
-  double max_vel;  // [m/s] at which what begins deep comes out
-  double motion;   // its body's row of motions
-  double flag;     // its place in mjData's userdata, where 1 says that it began deep; -1: it stands
-};
-
-struct MotionRow {
+struct MotionRow {  // of the body of the same number
   double kind;           // MotionKind
   double axis[3];        // world: first friction direction, or the axis that a track's belt turns about
   double speed;          // [m/s] of the surface past its link
@@ -74,21 +68,18 @@ struct LawTables {
   std::span<const RestitutionRow> restitution;
   std::span<const DirectionRow> directions;
   std::span<const DampingRow> damping;
-  std::span<const GeomRow> geoms;
   std::span<const MotionRow> motions;
   std::span<const MotorRow> motors;
   std::span<const ChainRow> chains;
   std::span<const SpringRow> springs;
   std::span<const DeadZoneRow> dead_zones;
-  int marks;   // numbers at the front of userdata, which mark what began deep; behind them, each body's load
-               // [N], and the speed that each motor wants [rad/s or m/s]
+  // userdata: each body's load [N], then the speed that each motor wants [rad/s or m/s]
   int motor_equality;  // whose spring and damper motors' constraints have
   bool on;     // contact laws act
   bool moves;  // some row of motions is of a kind
-  bool parts;  // something that began deep is deep still
 
   // Those of a model; false: it has none.
-  static bool find(const mjModel* m, const mjData* d, LawTables& found);
+  static bool find(const mjModel* m, LawTables& found);
 };
 
 // The row of a contact's pair; null: none. Rows are in order of their pairs.

@@ -107,16 +107,16 @@ void let_slip(const mjModel* m, mjData* d, int number, int body, const double sl
   if (each.slip[0] > 0.0 || each.slip[1] > 0.0) slipping.push_back(each);
 }
 
-const MotionRow* motion_of(const LawTables& laws, int geom) {
-  const MotionRow& motion = laws.motions[static_cast<std::size_t>(laws.geoms[geom].motion)];
+const MotionRow* motion_of(const LawTables& laws, const mjModel* m, int geom) {
+  const MotionRow& motion = laws.motions[static_cast<std::size_t>(m->geom_bodyid[geom])];
   return motion.kind == 0 ? nullptr : &motion;
 }
 
 // The motion of a contact with friction, and which of its two geoms has it; null: none.
-std::pair<const MotionRow*, int> motion_at(const LawTables& laws, const mjContact& contact) {
+std::pair<const MotionRow*, int> motion_at(const LawTables& laws, const mjModel* m, const mjContact& contact) {
   if (contact.dim < 3) return {nullptr, 0};
-  const MotionRow* motion = motion_of(laws, contact.geom[1]);
-  return motion ? std::pair(motion, 1) : std::pair(motion_of(laws, contact.geom[0]), 0);
+  const MotionRow* motion = motion_of(laws, m, contact.geom[1]);
+  return motion ? std::pair(motion, 1) : std::pair(motion_of(laws, m, contact.geom[0]), 0);
 }
 
 }  // namespace
@@ -138,7 +138,7 @@ bool move_surfaces(const LawTables& laws, const mjModel* m, mjData* d) {
   if (!laws.moves) return false;
   for (int i = 0; i < d->ncon; ++i) {
     mjContact& contact = d->contact[i];
-    const auto [motion, second] = motion_at(laws, contact);
+    const auto [motion, second] = motion_at(laws, m, contact);
     if (!motion) continue;
     const double side = 2.0 * second - 1.0;  // the normal points out of the first
     double along[3], speed;
@@ -154,7 +154,7 @@ bool move_surfaces(const LawTables& laws, const mjModel* m, mjData* d) {
 
 void resist_slip(const LawTables& laws, const mjModel* m, mjData* d) {
   if (slipping.empty()) return;
-  const double* loads = d->userdata + laws.marks;
+  const double* loads = d->userdata;
   shares.assign(m->nbody, 0.0);
   for (const Slipping& each : slipping) shares[each.body] += 1.0;
   thread_local ContactJacobian jacobian;
@@ -177,11 +177,11 @@ void resist_slip(const LawTables& laws, const mjModel* m, mjData* d) {
 
 void weigh_surfaces(const LawTables& laws, const mjModel* m, mjData* d) {
   if (!laws.moves) return;
-  double* loads = d->userdata + laws.marks;
+  double* loads = d->userdata;
   std::fill(loads, loads + m->nbody, 0.0);
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
-    const auto [motion, second] = motion_at(laws, contact);
+    const auto [motion, second] = motion_at(laws, m, contact);
     if (motion && contact.efc_address >= 0) {
       loads[m->geom_bodyid[contact.geom[second]]] += d->efc_force[contact.efc_address];
     }

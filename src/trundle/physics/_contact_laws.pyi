@@ -10,8 +10,5 @@ def bind(addresses: Sequence[int]) -> None: ...
 def install() -> None:
     """Have MuJoCo call the laws in every step, behind whoever it calls now."""
 
-def mark_deep(model: int, data: int) -> None:
-    """Mark in userdata what is deep in something else. Both by their addresses."""
-
 def report_efforts(model: int, data: int) -> None:
     """Write what motors exert to qfrc_actuator, after a step. Both by their addresses."""

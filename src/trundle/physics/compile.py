@@ -81,13 +81,13 @@ class Compiler:
             DescriptionError: the engine refuses it.
         """
         touches = self.fill()
-        reserve_tables(self.spec, touches, self.shapes, self.world)
+        reserve_tables(self.spec, touches, self.world)
         collisions = {shape.name: shape.collision for shape in self.shapes}
         compiled = self.compile_spec()
         set_compliance(compiled, touches)
         look_ahead(compiled, self.shapes)
         world = index_world(self.world, self.tree, self.joints.axes, collisions, compiled)
-        fill_tables(compiled, touches, self.shapes, world.link_bodies.tolist(), self.world)
+        fill_tables(compiled, touches, world.link_bodies.tolist(), self.world)
         return replace(world, start=start_positions(compiled, self.tree, self.joints.axes, self.report))
 
     def fill(self) -> dict[tuple[str, str], Touch]:

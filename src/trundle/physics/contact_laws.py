@@ -1,7 +1,7 @@
 """Contact laws that MuJoCo does not have, in C++: installed in the MuJoCo that Python has loaded.
 
-Bounces, friction with a direction of its own, moving and slipping surfaces, velocities that decay, and what has to be
-parted. The tables of `law_tables` say which of them a model has; they act within `mj_step`, whoever calls it.
+Bounces, friction with a direction of its own, moving and slipping surfaces, and velocities that decay. The tables of
+`law_tables` say which of them a model has; they act within `mj_step`, whoever calls it.
 """
 
 import ctypes
@@ -56,7 +56,7 @@ class ContactLaws:
         self._head = find_table(compiled.model, "laws")[0]
         slides = bool((compiled.model.geom_bodyid > 0).any())
         decays = bool(find_table(compiled.model, "damping").any())
-        self._always = slides or decays or bool(self._head[5:].any())
+        self._always = slides or decays or bool(self._head[4:].any())
 
     @property
     def acts(self) -> bool:
@@ -65,8 +65,8 @@ class ContactLaws:
 
     @property
     def is_watched(self) -> bool:
-        """Whether nothing may sleep: surfaces move, or something is to be parted."""
-        return bool(self._head[2] or self._data.userdata[0])
+        """Whether nothing may sleep, for surfaces move."""
+        return bool(self._head[2])
 
     def install(self) -> None:
         """See that MuJoCo calls the laws, whatever callback somebody else has set since."""

@@ -139,8 +139,6 @@ class Engine:
         apart = self._looker.separated(self._state())
         if apart is not None:
             self._data.qpos[:] = apart
-        self._data.userdata[:] = self._looker.deep_marks(self._state())
-        self._watch()
 
     def _watch(self) -> None:
         """Wake everybody while a law acts on what might sleep."""

@@ -9,7 +9,6 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from . import _contact_laws
 from .index import CompiledWorld
 from .law_tables import switch_off
 from .motors import MotorOrders
@@ -67,17 +66,6 @@ class Looker:
         with self._lock:
             model, data = self._placed(state)
             return separate(model, data) if find_deep(model, data).any() else None
-
-    def deep_marks(self, state: _Array) -> _Array:
-        """The userdata that marks what is deeper in something than it may come out of at once.
-
-        Args:
-            state: as mjSTATE_INTEGRATION has it.
-        """
-        with self._lock:
-            model, data = self._placed(state)
-            _contact_laws.mark_deep(model._address, data._address)
-            return data.userdata.copy()
 
     def _placed(self, state: _Array) -> tuple[mujoco.MjModel, mujoco.MjData]:
         """Put everything where a state has it, with the contacts there."""

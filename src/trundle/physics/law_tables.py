@@ -14,15 +14,13 @@ from numpy.typing import NDArray
 from trundle.model import Link, World
 from trundle.spatial import ZERO
 
-from .shapes import ShapeEntry
 from .surfaces import Touch
 
 _WIDTHS = {
-    "laws": 7,
+    "laws": 6,
     "restitution": 3,
     "directions": 5,
     "damping": 3,
-    "geoms": 3,
     "motions": 11,
     "motors": 4,
     "chains": 1,
@@ -30,8 +28,7 @@ _WIDTHS = {
     "dead_zones": 2,
 }
 """Numbers in a row of each table; the first is a single row: a magic number, on or off, whether surfaces
-move, how many numbers at the front of userdata mark what began deep, the equality that motors take after, and how many
-rows of the tables of chains and springs are in use."""
+move, the equality that motors take after, and how many rows of the tables of chains and springs are in use."""
 _MAGIC = 7.2751
 _SLOWEST = 3.0
 """Steps' worth of falling: what comes slower than that is at rest, and does not bounce."""
@@ -45,14 +42,13 @@ _Pair: TypeAlias = tuple[int, int, Touch]
 Touches: TypeAlias = Mapping[tuple[str, str], Touch]
 
 
-def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[ShapeEntry], world: World) -> None:
+def reserve_tables(spec: mujoco.MjSpec, touches: Touches, world: World) -> None:
     """Give a model room for its tables before it is compiled."""
     rows = {
         "laws": 1,
         "restitution": sum(map(_bounces, touches.values())),
         "directions": sum(map(_has_grain, touches.values())),
         "damping": sum(map(_decays, _links(world))),
-        "geoms": len(spec.geoms),
         "motions": len(spec.bodies),
         "motors": len(spec.actuators),
         "chains": len(spec.bodies),
@@ -63,7 +59,8 @@ def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[Shape
         # MuJoCo takes no custom number of size zero; less than a row is none.
         size = max(rows[name] * width, 1)
         spec.add_numeric(name=f"trundle::{name}", data=[0.0] * size, size=size)
-    spec.nuserdata = _marks(shapes) + len(spec.bodies) + len(spec.actuators)
+    # How hard each body is pushed [N], where surfaces slip; then the speed that each motor wants.
+    spec.nuserdata = len(spec.bodies) + len(spec.actuators)
     _reserve_motors(spec)
     # What brings MuJoCo to call mjcb_sensor; see `set_needstage`.
     stage = mujoco.mjtStage.mjSTAGE_POS
@@ -82,10 +79,6 @@ def _reserve_motors(spec: mujoco.MjSpec) -> None:
         equality.solref, equality.solimp = (-1.0, -1.0 / spec.option.timestep), _MOTOR_SOLIMP
 
 
-def _marks(shapes: Sequence[ShapeEntry]) -> int:
-    return 1 + sum(not shape.fixed for shape in shapes)
-
-
 def find_table(model: mujoco.MjModel, name: str) -> _Table:
     """(rows, width) A table of a compiled model, to read and write."""
     number = list(_WIDTHS).index(name)
@@ -93,20 +86,17 @@ def find_table(model: mujoco.MjModel, name: str) -> _Table:
     return model.numeric_data[first : first + size // width * width].reshape(-1, width)
 
 
-def fill_tables(
-    model: mujoco.MjModel, touches: Touches, shapes: Sequence[ShapeEntry], bodies: Sequence[int], world: World
-) -> None:
+def fill_tables(model: mujoco.MjModel, touches: Touches, bodies: Sequence[int], world: World) -> None:
     """Write the tables of a compiled model.
 
     Args:
         model: to be written.
         touches: how two shapes touch, by their names.
-        shapes: all of them.
         bodies: number of each link's body, in the order of the world's links.
         world: without nested models.
     """
     equality = model.equality(_EQUALITY).id if model.nu else -1
-    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, _marks(shapes), equality, 0.0, 0.0
+    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, equality, 0.0, 0.0
     pairs = [(int(model.geom(a).id), int(model.geom(b).id), touch) for (a, b), touch in touches.items()]
     pairs.sort(key=lambda pair: _key(model, pair[0], pair[1]))
     _write(model, "restitution", _restitution(model, pairs))
@@ -117,15 +107,6 @@ def fill_tables(
         row[:] = motor, 0.0, model.jnt_qposadr[joint], model.jnt_dofadr[joint]
     _center(model)
     _write(model, "dead_zones", ((_key(model, a, b), touch.min_depth) for a, b, touch in pairs if touch.min_depth > 0))
-    geoms = find_table(model, "geoms")
-    geoms[:, 0], geoms[:, 1], geoms[:, 2] = np.inf, model.geom_bodyid, -1.0
-    moving = 0
-    for shape in shapes:
-        geom = int(model.geom(shape.name).id)
-        geoms[geom, 0] = max(shape.surface.max_vel, 0.0)
-        if not shape.fixed:
-            moving += 1
-            geoms[geom, 2] = moving
 
 
 def set_needstage(model: mujoco.MjModel, *, solved: bool) -> None:
@@ -143,7 +124,7 @@ def _center(model: mujoco.MjModel) -> None:
         qpos = int(model.jnt_qposadr[joint])
         row[:] = model.jnt_dofadr[joint], qpos, model.jnt_stiffness[joint], model.qpos_spring[qpos]
         model.jnt_stiffness[joint] = 0.0
-    head[0, 5:] = len(chained), len(soft)
+    head[0, 4:] = len(chained), len(soft)
 
 
 def _is_lone(model: mujoco.MjModel, tree: int) -> bool:
