@@ -16,6 +16,7 @@ from trundle.physics.decomposition import Decomposition, convex_pieces
 from trundle.physics.hulls import hull_of
 from trundle.render import scene_of
 from trundle.simulation import Simulation
+from trundle.spatial import Twist
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.intp]]
 
@@ -87,7 +88,7 @@ def test_faces_of_a_bulge_are_one_patch_and_of_a_hollow_many() -> None:
     assert convex_patches(points, faces, depth=0.0025).counts.max() == 2  # the two of each quadrangle, which is flat
 
 
-def load(folder: Path, mesh: Mesh) -> Simulation:
+def load(folder: Path, mesh: Mesh, *, radius: float = 0.1) -> Simulation:
     points, faces = mesh
     text = [f"v {x:.5f} {y:.5f} {z:.5f}" for x, y, z in points] + [f"f {a} {b} {c}" for a, b, c in faces + 1]
     (folder / "track.obj").write_text("\n".join(text))
@@ -96,7 +97,8 @@ def load(folder: Path, mesh: Mesh) -> Simulation:
         '<sdf version="1.6"><world name="w"><model name="track"><static>1</static><link name="l"><collision name="c">'
         "<geometry><mesh><uri>track.obj</uri></mesh></geometry></collision></link></model><model name='ball'><pose>"
         "1 0 0.6 0 0 0</pose><link name='l'><inertial><mass>1</mass><inertia><ixx>0.004</ixx><iyy>0.004</iyy><izz>0.004"
-        "</izz></inertia></inertial><collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry>"
+        "</izz></inertia></inertial><collision name='c'><geometry><sphere>"
+        f"<radius>{radius}</radius></sphere></geometry>"
         "</collision></link></model></world></sdf>"
     )
     return trundle.load(str(file))
@@ -119,6 +121,16 @@ def test_a_track_is_compiled_as_its_surface_whatever_is_added_at_once(
     sim = load(tmp_path, mesh)
     sim.run(0.6)
     assert sim["ball"].pose == before
+
+
+@pytest.mark.parametrize("speed", [3.0, 10.0, 14.0])
+@pytest.mark.parametrize("radius", [0.004, 0.02, 0.03])
+def test_what_is_fast_and_small_does_not_go_through_a_slab(tmp_path: Path, radius: float, speed: float) -> None:
+    mesh = strip(960, noise=0.0)
+    sim = load(tmp_path, mesh, radius=radius)
+    sim["ball"].set_twist(Twist((0.0, 0.0, -speed)))
+    sim.run(0.3)
+    assert sim["ball"].pose.position[2] > surface_height(mesh, np.array([sim["ball"].pose.position[:2]]))[0]
 
 
 def test_a_track_is_as_large_in_mjcf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,8 +9,8 @@ from .surface_parts import WELD, islands_of
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
-_THICKEST = 0.01
-"""[m] Of a slab: what comes at 10 m/s still meets it in a step of 1 ms."""
+_THICKEST = 2.5e-3
+"""[m] Of a slab, so that it ends within all but sheet metal; what is small and fast is looked ahead for, see `thin`."""
 _THINNEST = 1e-4
 """[m] What is thinner is flat."""
 _FILLS = 1.001
@@ -43,7 +43,7 @@ def slabs_of(points: _Points, faces: _Faces, own: _Points) -> list[_Points]:
         own: those of the points that faces use.
     """
     sides = np.ptp(own, axis=0)
-    thickness = float(np.clip(sides[sides > WELD].min(initial=_THICKEST) / 4, 1e-3, _THICKEST))
+    thickness = float(np.clip(sides[sides > WELD].min(initial=np.inf) / 4, 1e-3, _THICKEST))
     a, b, c = (points[faces[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)
     areas = np.linalg.norm(normals, axis=1)
