@@ -45,17 +45,21 @@ double approach_speed(const mjModel* m, const mjData* d, const mjContact& contac
   return speeds[0] - speeds[1];
 }
 
-void ContactJacobian::find(const mjModel* m, const mjData* d, const mjContact& contact, double* rows) {
-  const int nv = m->nv;
-  first_.resize(3 * nv);
-  second_.resize(3 * nv);
-  mujoco.mj_jac(m, d, first_.data(), nullptr, contact.pos, m->geom_bodyid[contact.geom[0]]);
-  mujoco.mj_jac(m, d, second_.data(), nullptr, contact.pos, m->geom_bodyid[contact.geom[1]]);
-  for (int i = 0; i < 3 * nv; ++i) second_[i] -= first_[i];
-  for (int row = 0; row < 3; ++row) {
-    const double* axis = contact.frame + 3 * row;
+void ContactJacobian::find(const mjModel* m, const mjData* d, const mjContact& contact, double* rows, int count) {
+  const int nv = m->nv, size = (count > 3 ? 6 : 3) * nv;
+  first_.resize(size);
+  second_.resize(size);
+  for (int side = 0; side < 2; ++side) {
+    std::vector<double>& motion = side == 0 ? first_ : second_;
+    double* turning = count > 3 ? motion.data() + 3 * nv : nullptr;
+    mujoco.mj_jac(m, d, motion.data(), turning, contact.pos, m->geom_bodyid[contact.geom[side]]);
+  }
+  for (int i = 0; i < size; ++i) second_[i] -= first_[i];
+  for (int row = 0; row < count; ++row) {
+    const double* axis = contact.frame + 3 * (row % 3);
+    const double* motion = second_.data() + 3 * nv * (row / 3);
     for (int i = 0; i < nv; ++i) {
-      rows[row * nv + i] = axis[0] * second_[i] + axis[1] * second_[nv + i] + axis[2] * second_[2 * nv + i];
+      rows[row * nv + i] = axis[0] * motion[i] + axis[1] * motion[nv + i] + axis[2] * motion[2 * nv + i];
     }
   }
 }

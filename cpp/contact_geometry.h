@@ -10,6 +10,14 @@ namespace trundle {
 
 inline double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+inline double normalize(double v[3]) {
+  const double length = std::sqrt(dot(v, v));
+  if (length > 0) {
+    for (int i = 0; i < 3; ++i) v[i] /= length;
+  }
+  return length;
+}
+
 inline void cross(double out[3], const double a[3], const double b[3]) {
   out[0] = a[1] * b[2] - a[2] * b[1];
   out[1] = a[2] * b[0] - a[0] * b[2];
@@ -19,11 +27,11 @@ inline void cross(double out[3], const double a[3], const double b[3]) {
 // How fast the two bodies of a contact come closer along its normal [m/s].
 double approach_speed(const mjModel* m, const mjData* d, const mjContact& contact);
 
-// Velocity of the second body against the first, along the normal out of the first and two tangents.
+// Velocity of the second body against the first, along the normal out of the first and two tangents, and about it.
 class ContactJacobian {
  public:
-  // Write (3, nv) rows.
-  void find(const mjModel* m, const mjData* d, const mjContact& contact, double* rows);
+  // Write (count, nv) rows, three or four.
+  void find(const mjModel* m, const mjData* d, const mjContact& contact, double* rows, int count = 3);
 
  private:
   std::vector<double> first_, second_;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "contact_offset.h"
+#include "friction_slip.h"
 #include "law_tables.h"
 #include "midpoint.h"
 #include "mujoco_api.h"
@@ -35,7 +36,8 @@ std::atomic<mjfSensor> previous_sensor = nullptr;
 
 void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
   align_friction(laws, m, d);
-  const bool changed = move_surfaces(laws, m, d);
+  move_surfaces(laws, m, d);
+  const bool changed = release_slipping(laws, m, d);
   if (changed) {
     mujoco.mj_makeConstraint(m, d);
     mujoco.mj_island(m, d);
@@ -69,7 +71,7 @@ void on_sensor(const mjModel* m, mjData* d, int stage) {
   busy = true;
   if (const mjfSensor first = previous_sensor.load()) first(m, d, stage);
   LawTables laws;
-  if (stage == mjSTAGE_ACC && LawTables::find(m, laws) && laws.on) weigh_surfaces(laws, m, d);
+  if (stage == mjSTAGE_ACC && LawTables::find(m, laws) && laws.on) keep_loads(laws, m, d);
   busy = false;
 }
 

@@ -17,16 +17,18 @@ std::span<const Row> table(const mjModel* m, int number) {
 
 bool LawTables::find(const mjModel* m, LawTables& found) {
   if (m->nnumeric != kTables) return false;
-  const double* head = m->numeric_data + m->numeric_adr[0];  // magic, on, moving surfaces, equality, chains, springs
+  // Magic, on, moving surfaces, equality, chains, springs, groups.
+  const double* head = m->numeric_data + m->numeric_adr[0];
   if (head[0] != kMagic) return false;
   found = {table<RestitutionRow>(m, 1),
-           table<DirectionRow>(m, 2),
+           table<FrictionRow>(m, 2),
            table<DampingRow>(m, 3),
            table<MotionRow>(m, 4),
            table<MotorRow>(m, 5),
            table<ChainRow>(m, 6).first(static_cast<std::size_t>(head[4])),
            table<SpringRow>(m, 7).first(static_cast<std::size_t>(head[5])),
            table<DeadZoneRow>(m, 8),
+           static_cast<int>(head[6]),
            static_cast<int>(head[3]),
            head[1] > 0.0,
            head[2] > 0.0};

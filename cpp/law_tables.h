@@ -22,9 +22,12 @@ struct RestitutionRow {
   double slowest;  // [m/s] what approaches slower, does not bounce
 };
 
-struct DirectionRow {
-  double pair, geom;
-  double along[3];  // first friction direction in that geom's frame
+struct FrictionRow {
+  double pair;
+  double geom, along[3];  // first friction direction in that geom's frame; -1: ODE's own
+  double slip[3];         // [m/s/N] along it and across it, [rad/s/(N·m)] about the normal
+  double patch;           // [m²/N] (largest torque / load)² for each newton of load; 0: that ratio is the pair's own
+  double group;           // its two collisions' number; -1: nothing of it slips or grows
 };
 
 struct DampingRow {
@@ -37,9 +40,9 @@ struct DeadZoneRow {
 
 struct MotionRow {  // of the body of the same number
   double kind;           // MotionKind
-  double axis[3];        // world: first friction direction, or the axis that a track's belt turns about
+  double axis[3];        // world: first friction direction, or the axis that a track's belt turns about; body: a wheel's
   double speed;          // [m/s] of the surface past its link
-  double slip[2];        // [m/s/N] along the first direction and across it
+  double slip[2];        // [m/s/N] along the first direction and across it; a wheel's: for each rad/s that it turns
   double has_centre;     // a track's robot turns
   double centre[3];      // about this point of the world [m]
 };
@@ -62,18 +65,22 @@ struct SpringRow {
   double stiffness, reference;  // [N·m/rad or N/m], [rad or m]
 };
 
-enum class MotionKind { kNone = 0, kDirection = 1, kTrack = 2 };
+enum class MotionKind { kNone = 0, kDirection = 1, kTrack = 2, kWheel = 3 };
+
+inline MotionKind motion_kind(const MotionRow& motion) { return static_cast<MotionKind>(static_cast<int>(motion.kind)); }
 
 struct LawTables {
   std::span<const RestitutionRow> restitution;
-  std::span<const DirectionRow> directions;
+  std::span<const FrictionRow> friction;
   std::span<const DampingRow> damping;
   std::span<const MotionRow> motions;
   std::span<const MotorRow> motors;
   std::span<const ChainRow> chains;
   std::span<const SpringRow> springs;
   std::span<const DeadZoneRow> dead_zones;
-  // userdata: each body's load [N], then the speed that each motor wants [rad/s or m/s]
+  // userdata: the speed that each motor wants [rad/s or m/s], then how contacts push in groups: those of each body with a
+  // motion, then those of two collisions
+  int pair_groups;  // how many there are of the latter
   int motor_equality;  // whose spring and damper motors' constraints have
   bool on;     // contact laws act
   bool moves;  // some row of motions is of a kind

@@ -34,7 +34,7 @@ void raise_limit(mjData* d, int row, double effort) {
 
 void find_jumps(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<Jump>& jumps) {
   const double h = m->opt.timestep;
-  const double* last = d->userdata + m->nbody;
+  const double* last = d->userdata;
   jumps.clear();
   for_each_motor(laws, m, d, [&](int row, const MotorRow& motor) {
     const double wanted = wanted_speed(motor, d);
@@ -46,7 +46,7 @@ void find_jumps(const LawTables& laws, const mjModel* m, const mjData* d, std::v
 
 void drive_motors(const LawTables& laws, const mjModel* m, mjData* d) {
   const double h = m->opt.timestep;
-  double* last = d->userdata + m->nbody;
+  double* last = d->userdata;
   for (const MotorRow& motor : laws.motors) last[static_cast<int>(motor.actuator)] = d->qvel[static_cast<int>(motor.dof)];
   for_each_motor(laws, m, d, [&](int row, const MotorRow& motor) {
     const double wanted = wanted_speed(motor, d);

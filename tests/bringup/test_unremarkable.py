@@ -61,8 +61,8 @@ def test_a_robot_that_physics_takes_as_it_is_needs_no_engine() -> None:
         ("<child>arm", "<child>world"),
         ("</joint>", "</joint><joint name='b' type='fixed'><parent>base</parent><child>arm</child></joint>"),
         ("</joint>", "</joint><joint name='b' type='fixed'><parent>arm</parent><child>base</child></joint>"),
-        ("<plane/></geometry>", "<plane/></geometry><surface><friction><torsional><surface_radius>1</surface_radius>"
-         "<use_patch_radius>0</use_patch_radius></torsional></friction></surface>"),
+        ("<plane/></geometry>", "<plane/></geometry><surface><friction><ode><fdir1>1 0 0</fdir1></ode></friction>"
+         "</surface>"),
     ],
 )  # fmt: skip
 def test_what_physics_may_mend_cut_or_refuse_is_left_to_it(was: str, now: str) -> None:

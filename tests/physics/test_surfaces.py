@@ -1,121 +1,22 @@
 """Surfaces and bodies, from the file to the motion, beside what mechanics says."""
 
-import math
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
+from tests.physics.surface_world import BALL, BLOCK, G, body, floor, friction, load_models
 
-import trundle
 from trundle.simulation import Simulation
 from trundle.spatial import Twist, Wrench
 
-G = 9.8
 Load = Callable[..., Simulation]
 
 
 @pytest.fixture
 def load(tmp_path: Path) -> Load:
     """Load models in a world."""
-
-    def load(*models: str, gravity: float = G) -> Simulation:
-        file = tmp_path / "w.world"
-        file.write_text(
-            f'<sdf version="1.7"><world name="w"><gravity>0 0 {-gravity}</gravity>{"".join(models)}</world></sdf>'
-        )
-        return trundle.load(str(file))
-
-    return load
-
-
-def friction(mu: float, mu2: float | None = None, inside: str = "", torsional: str = "") -> str:
-    mu2 = mu if mu2 is None else mu2
-    return f"<friction><ode><mu>{mu}</mu><mu2>{mu2}</mu2>{inside}</ode>{torsional}</friction>"
-
-
-def body(
-    name: str,
-    shape: str,
-    surface: str = "",
-    *,
-    pose: str = "0 0 0 0 0 0",
-    mass: float = 1.0,
-    link: str = "",
-    model: str = "",
-    static: bool = False,
-) -> str:
-    moments = "".join(f"<{m}>{0.01 * mass}</{m}>" for m in ("ixx", "iyy", "izz"))
-    return (
-        f'<model name="{name}"><static>{static}</static><pose>{pose}</pose>{model}<link name="l">{link}'
-        f"<inertial><mass>{mass}</mass><inertia>{moments}<ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>"
-        f'<collision name="c"><geometry>{shape}</geometry><surface>{surface}</surface></collision></link></model>'
-    )
-
-
-def floor(surface: str = "", *, tilt: float = 0.0) -> str:
-    plane = "<plane><normal>0 0 1</normal><size>100 100</size></plane>"
-    return body("floor", plane, surface, static=True, pose=f"0 0 0 0 {tilt} 0")
-
-
-BLOCK = "<box><size>0.4 0.4 0.1</size></box>"
-BALL = "<sphere><radius>0.1</radius></sphere>"
-
-
-@pytest.mark.parametrize(("direction", "slides"), [("1 0 0", True), ("0 1 0", False), ("0.001 2 5", False)])
-def test_a_block_slides_along_its_grain_and_sticks_across_it(load: Load, direction: str, slides: bool) -> None:
-    # Down a slope of 20 degrees along the block's x.
-    tilt = math.radians(20.0)
-    surface = friction(0.1, 5.0, f"<fdir1>{direction}</fdir1>")
-    sim = load(floor(friction(10.0), tilt=tilt), body("b", BLOCK, surface, pose=f"0.0171 0 0.047 0 {tilt} 0"))
-    sim.run(0.3)
-    x = sim["b"].pose.position[0]
-    speed = sim["b"].link("l").twist.linear[0]
-    sim.run(1.0)
-    moved = sim["b"].pose.position[0] - x
-    a = G * (math.sin(tilt) - 0.1 * math.cos(tilt)) * math.cos(tilt)
-    assert moved == pytest.approx(speed * 1.0 + a / 2 if slides else 0.0, rel=0.01, abs=1e-4)
-    assert (speed > 0.3) is slides
-
-
-@pytest.mark.parametrize("fdir1", ["", "<fdir1>1 0 0</fdir1>", "<fdir1>0 1 0</fdir1>", "<fdir1>1 1 0</fdir1>"])
-@pytest.mark.parametrize(("mu", "mu2"), [(0.5, 0.0), (0.0, 0.5)])
-def test_friction_in_one_direction_acts_where_there_is_none_in_the_other(
-    load: Load, mu: float, mu2: float, fdir1: str
-) -> None:
-    """ODE's first direction on a level floor is y where the file names none."""
-    x, y = {"": (0, 1), "<fdir1>1 0 0</fdir1>": (1, 0), "<fdir1>0 1 0</fdir1>": (0, 1)}.get(fdir1, (1, 1))
-    first = (x / math.hypot(x, y), y / math.hypot(x, y))
-    second = (-first[1], first[0])
-    sim = load(floor(friction(10.0)), body("b", BLOCK, friction(mu, mu2, fdir1), pose="0 0 0.05 0 0 0"))
-    sim.run(0.05)
-    block = sim["b"].link("l")
-    for way, grip in ((first, mu), (second, mu2)):
-        before = block.twist.linear
-        push = 0.8 * G  # more than friction holds
-        block.apply_wrench(Wrench(force=(push * way[0], push * way[1], 0.0)), duration_s=0.2)
-        sim.run(0.2)
-        gained = [after - old for after, old in zip(block.twist.linear, before, strict=True)]
-        along = gained[0] * way[0] + gained[1] * way[1]
-        assert along == pytest.approx(0.2 * (push - grip * G), rel=0.01)
-
-
-def test_a_patch_of_contact_resists_turning(load: Load) -> None:
-    torsional = "<torsional><coefficient>0.8</coefficient><patch_radius>0.05</patch_radius></torsional>"
-    sim = load(floor(friction(1.0)), body("b", BALL, friction(1.0, torsional=torsional), pose="0 0 0.1 0 0 0"))
-    ball = sim["b"].link("l")
-    ball.set_twist(Twist(angular=(0.0, 0.0, 5.0)))
-    torque = 3 * math.pi / 16 * 0.05 * 0.8 * G
-    sim.run(0.1)
-    assert ball.twist.angular[2] == pytest.approx(5.0 - torque / 0.01 * 0.1, rel=0.01)
-    sim.run(0.5)
-    assert ball.twist.angular[2] == pytest.approx(0.0, abs=1e-3)
-
-
-def test_a_patch_that_grows_from_a_radius_is_named(load: Load) -> None:
-    torsional = "<torsional><use_patch_radius>false</use_patch_radius><surface_radius>0.1</surface_radius></torsional>"
-    sim = load(floor(), body("b", BALL, friction(1.0, torsional=torsional), pose="0 0 0.1 0 0 0"))
-    said = "collision 'c': torsional friction by surface_radius is left out; patch_radius is simulated"
-    assert any(said in warning for warning in sim.report.warnings)
+    return partial(load_models, tmp_path)
 
 
 def test_a_soft_contact_gives_by_its_stiffness(load: Load) -> None:

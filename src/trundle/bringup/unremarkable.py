@@ -24,6 +24,7 @@ from trundle.model import (
     Sphere,
     World,
 )
+from trundle.spatial import ZERO
 
 _TYPES = frozenset({JointType.REVOLUTE, JointType.PRISMATIC, JointType.FIXED})
 _SMALLEST = 1e-3
@@ -134,7 +135,8 @@ def _has_plain_shapes(link: Link, *, can_move: bool) -> bool:
 def _is_plain_collision(collision: Collision, *, can_move: bool) -> bool:
     surface = collision.surface
     numbers = (surface.mu, surface.mu2, surface.kp, surface.kd, surface.restitution, surface.patch_radius)
-    if surface.surface_radius > 0.0 or not all(map(math.isfinite, numbers)):
+    has_idle_direction = not can_move and surface.fdir1 != ZERO
+    if has_idle_direction or not all(map(math.isfinite, numbers)):
         return False
     lengths = _lengths(collision.geometry)
     if lengths is None:

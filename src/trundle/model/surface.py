@@ -14,12 +14,20 @@ class Surface(Struct, frozen=True, kw_only=True):
     """Along the second."""
     fdir1: Vector3 = ZERO
     """First friction direction in the collision's frame; zero: left to the engine."""
+    slip1: float = 0.0
+    """[m/s/N] Speed along the first friction direction that a force along it causes, without sliding."""
+    slip2: float = 0.0
+    """Along the second."""
     torsional_coefficient: float = 1.0
     """Friction against turning on the spot, for a patch of contact as large as the next two say."""
+    torsional_slip: float = 0.0
+    """[rad/s/(N·m)] Speed about the normal that a torque about it causes."""
     patch_radius: float = 0.0
     """Of the patch [m]; 0: none."""
     surface_radius: float = 0.0
-    """Curvature [m] that the patch grows from, where the file wants that in place of `patch_radius`; 0: none."""
+    """Curvature [m] that the patch grows from; 0: none."""
+    use_patch_radius: bool = True
+    """Where both of two surfaces want it, `patch_radius` counts, else `surface_radius`."""
     kp: float = 1e12
     """Contact stiffness [N/m]."""
     kd: float = 1.0

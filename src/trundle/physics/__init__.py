@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from .compile import compile_world
     from .egl_renderer import EglRenderer
     from .engine import Engine, EngineState, SimulationUnstableError
-    from .grip import Grip, TrackGrip
+    from .grip import Grip, LinkGrip, TrackGrip, WheelGrip
     from .index import CompiledWorld
     from .instant import Instant
     from .mjcf import compile_mjcf
@@ -24,9 +24,11 @@ _HOMES = {
     "EngineState": "engine",
     "Grip": "grip",
     "Instant": "instant",
+    "LinkGrip": "grip",
     "Runaway": "postmortem",
     "SimulationUnstableError": "engine",
     "TrackGrip": "grip",
+    "WheelGrip": "grip",
     "compile_mjcf": "mjcf",
     "compile_world": "compile",
     "name_wheels": "wheels",
@@ -41,9 +43,11 @@ __all__ = [
     "EngineState",
     "Grip",
     "Instant",
+    "LinkGrip",
     "Runaway",
     "SimulationUnstableError",
     "TrackGrip",
+    "WheelGrip",
     "compile_mjcf",
     "compile_world",
     "name_wheels",

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import Collision, Heightmap, MeshFile, Plane, World, flattened
-from trundle.spatial import Pose
+from trundle.spatial import ZERO, Pose
 
 from .compliance import set_compliance
 from .contacts import add_contacts
@@ -81,13 +81,13 @@ class Compiler:
             DescriptionError: the engine refuses it.
         """
         touches = self.fill()
-        reserve_tables(self.spec, touches, self.world)
+        reserve_tables(self.spec, touches, self.shapes, self.world)
         collisions = {shape.name: shape.collision for shape in self.shapes}
         compiled = self.compile_spec()
         set_compliance(compiled, touches)
         look_ahead(compiled, self.shapes)
         world = index_world(self.world, self.tree, self.joints.axes, collisions, compiled)
-        fill_tables(compiled, touches, world.link_bodies.tolist(), self.world)
+        fill_tables(compiled, touches, self.shapes, world.link_bodies.tolist(), self.world)
         return replace(world, start=start_positions(compiled, self.tree, self.joints.axes, self.report))
 
     def fill(self) -> dict[tuple[str, str], Touch]:
@@ -178,9 +178,9 @@ class Compiler:
             what = "plane" if isinstance(collision.geometry, Plane) else "heightmap"
             self.report.warn(collision.at, f"collision {collision.name!r}: a {what} cannot move; it is left out")
             return
-        if collision.surface.surface_radius > 0 and collision.surface.patch_radius <= 0:
-            what = "torsional friction by surface_radius is left out; patch_radius is simulated"
-            self.report.warn(collision.at, f"collision {collision.name!r}: {what}")
+        if fixed and collision.surface.fdir1 != ZERO:
+            what = "its <fdir1> does not count: as in Gazebo, that of what moves on it does"
+            self.report.info(collision.at, f"collision {collision.name!r}: {what}")
         name = self._shape_name(f"{place.name}::{collision.name}")
         parts = [(collision, name, Meets.ALL, 1)]
         tread = tread_of(collision, place, self.tree)

@@ -20,7 +20,7 @@ from .index import CompiledWorld
 from .law_tables import find_table, set_needstage
 
 if TYPE_CHECKING:
-    from .grip import Grip, TrackGrip
+    from .grip import LinkGrip
 
 _LIBRARIES = {"win32": "mujoco.dll", "darwin": "libmujoco.*.dylib"}
 
@@ -72,10 +72,10 @@ class ContactLaws:
         """See that MuJoCo calls the laws, whatever callback somebody else has set since."""
         _contact_laws.install()
 
-    def set_grips(self, grips: "Mapping[int, Grip | TrackGrip]") -> None:
+    def set_grips(self, grips: "Mapping[int, LinkGrip]") -> None:
         """Have the surfaces of bodies, by number, move and slip like this; all others are ordinary."""
         self._motions[:] = 0.0
         for body, grip in grips.items():
             self._motions[body] = grip.row
         self._head[2] = self._model.flg_surfacevel = bool(grips)
-        set_needstage(self._model, solved=bool(grips))
+        set_needstage(self._model, solved=bool(grips) or self._head[6] > 0)

@@ -122,7 +122,7 @@ def _add_pairs(
     for a, b in pairs:
         if rules.may_touch(a, b):
             points = max(a.points, b.points)
-            touch = touches[a.name, b.name] = touch_of(a.surface, b.surface, points=points)
+            touch = touches[a.name, b.name] = touch_of(a.surface, b.surface, b_stands=b.fixed, points=points)
             _add_pair(spec, a, b, touch)
 
 
@@ -130,7 +130,7 @@ def _add_pair(spec: mujoco.MjSpec, a: ShapeEntry, b: ShapeEntry, touch: Touch) -
     h = spec.option.timestep
     pair = spec.add_pair(name=pair_name(a.name, b.name), geomname1=a.name, geomname2=b.name)
     slides_freely = touch.mu <= 0 and touch.mu2 <= 0
-    pair.condim = 1 if slides_freely else 4 if touch.torsion > 0 else 3
+    pair.condim = 1 if slides_freely else 4 if touch.torsion > 0 or touch.patch > 0 else 3
     # On a horizontal floor MuJoCo's first tangent lies along y, as ODE's does where no fdir1 is given.
     pair.friction = [max(touch.mu, 1e-5), max(touch.mu2, 1e-5), max(touch.torsion, 1e-5), 0.0001, 0.0001]
     pair.solref = limit_solref(h) if touch.min_depth > 0 else contact_solref(h)

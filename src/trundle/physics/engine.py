@@ -28,7 +28,7 @@ from .touching import Contact
 from .transfer import carry_over
 
 if TYPE_CHECKING:  # a world without belts starts without them
-    from .grip import Grip, TrackGrip
+    from .grip import LinkGrip
 
 _BAD = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
 FASTEST = 1e6
@@ -176,7 +176,7 @@ class Engine:
         fx, fy, fz, tx, ty, tz = self._data.xfrc_applied[self.compiled.link_bodies[link]].tolist()
         return Wrench((fx, fy, fz), (tx, ty, tz))
 
-    def set_grips(self, grips: "Mapping[int, Grip | TrackGrip]") -> None:
+    def set_grips(self, grips: "Mapping[int, LinkGrip]") -> None:
         """Have the surfaces of these links, by index, move and slip from now on; all others are ordinary."""
         self._laws.set_grips({int(self.compiled.link_bodies[link]): grip for link, grip in grips.items()})
         self._watch()

@@ -1,13 +1,16 @@
 """Surfaces that move under a contact, or give way to a force: belts, tracks, slipping wheels.
 
-ODE has motion1, slip1 and slip2 for them; `cpp/surface_motion.cc` acts on each contact of a link that has one.
+ODE has motion1, slip1 and slip2 for them; `cpp/surface_motion.cc` and `cpp/friction_slip.cc` act on each contact of a
+link that has one.
 """
+
+from typing import TypeAlias
 
 from msgspec import Struct
 
 from trundle.spatial import ZERO, Vector3
 
-_DIRECTION, _TRACK = 1.0, 2.0
+_DIRECTION, _TRACK, _WHEEL = 1.0, 2.0, 3.0
 
 
 class Grip(Struct, frozen=True, kw_only=True):
@@ -43,3 +46,22 @@ class TrackGrip(Struct, frozen=True, kw_only=True):
         """As a row of the table of motions."""
         is_turning = self.centre is not None
         return (_TRACK, *self.axis, self.speed, 0.0, 0.0, float(is_turning), *(self.centre or ZERO))
+
+
+class WheelGrip(Struct, frozen=True, kw_only=True):
+    """How a tyre holds on: the faster it turns, the more a force lets it slip."""
+
+    axis: Vector3
+    """It turns about, in the link's frame, and its first friction direction."""
+    slip: float
+    """[m/s/N per rad/s] Speed along the axis that a friction force of all the link's contacts causes."""
+    slip_across: float
+    """[m/s/N per rad/s] Across it, along the wheel's way."""
+
+    @property
+    def row(self) -> tuple[float, ...]:
+        """As a row of the table of motions."""
+        return (_WHEEL, *self.axis, 0.0, self.slip, self.slip_across, 0.0, *ZERO)
+
+
+LinkGrip: TypeAlias = Grip | TrackGrip | WheelGrip

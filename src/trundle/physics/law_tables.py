@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 from trundle.model import Link, World
 from trundle.spatial import ZERO
 
+from .shapes import ShapeEntry
 from .surfaces import Touch
 
 _WIDTHS = {
-    "laws": 6,
+    "laws": 7,
     "restitution": 3,
-    "directions": 5,
+    "friction": 10,
     "damping": 3,
     "motions": 11,
     "motors": 4,
@@ -28,7 +29,10 @@ _WIDTHS = {
     "dead_zones": 2,
 }
 """Numbers in a row of each table; the first is a single row: a magic number, on or off, whether surfaces
-move, the equality that motors take after, and how many rows of the tables of chains and springs are in use."""
+move, the equality that motors take after, how many rows of the tables of chains and springs are in use, and how many
+groups of contacts slip or grow."""
+_GROUP_WIDTH = 5
+"""Numbers of a group of contacts in userdata: its load, a force in the world, a torque."""
 _MAGIC = 7.2751
 _SLOWEST = 3.0
 """Steps' worth of falling: what comes slower than that is at rest, and does not bounce."""
@@ -42,12 +46,12 @@ _Pair: TypeAlias = tuple[int, int, Touch]
 Touches: TypeAlias = Mapping[tuple[str, str], Touch]
 
 
-def reserve_tables(spec: mujoco.MjSpec, touches: Touches, world: World) -> None:
+def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[ShapeEntry], world: World) -> None:
     """Give a model room for its tables before it is compiled."""
     rows = {
         "laws": 1,
         "restitution": sum(map(_bounces, touches.values())),
-        "directions": sum(map(_has_grain, touches.values())),
+        "friction": sum(map(_has_friction, touches.values())),
         "damping": sum(map(_decays, _links(world))),
         "motions": len(spec.bodies),
         "motors": len(spec.actuators),
@@ -59,8 +63,9 @@ def reserve_tables(spec: mujoco.MjSpec, touches: Touches, world: World) -> None:
         # MuJoCo takes no custom number of size zero; less than a row is none.
         size = max(rows[name] * width, 1)
         spec.add_numeric(name=f"trundle::{name}", data=[0.0] * size, size=size)
-    # How hard each body is pushed [N], where surfaces slip; then the speed that each motor wants.
-    spec.nuserdata = len(spec.bodies) + len(spec.actuators)
+    # The speed that each motor wants; then how contacts push that slip or grow with their load, in groups.
+    groups = len(spec.bodies) + len(set(_groups(touches, shapes).values()))
+    spec.nuserdata = len(spec.actuators) + _GROUP_WIDTH * groups
     _reserve_motors(spec)
     # What brings MuJoCo to call mjcb_sensor; see `set_needstage`.
     stage = mujoco.mjtStage.mjSTAGE_POS
@@ -86,21 +91,27 @@ def find_table(model: mujoco.MjModel, name: str) -> _Table:
     return model.numeric_data[first : first + size // width * width].reshape(-1, width)
 
 
-def fill_tables(model: mujoco.MjModel, touches: Touches, bodies: Sequence[int], world: World) -> None:
+def fill_tables(
+    model: mujoco.MjModel, touches: Touches, shapes: Sequence[ShapeEntry], bodies: Sequence[int], world: World
+) -> None:
     """Write the tables of a compiled model.
 
     Args:
         model: to be written.
         touches: how two shapes touch, by their names.
+        shapes: all of them.
         bodies: number of each link's body, in the order of the world's links.
         world: without nested models.
     """
     equality = model.equality(_EQUALITY).id if model.nu else -1
-    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, equality, 0.0, 0.0
+    named = _groups(touches, shapes)
+    groups = {_key(model, int(model.geom(a).id), int(model.geom(b).id)): n for (a, b), n in named.items()}
+    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, equality, 0.0, 0.0, len(set(groups.values()))
     pairs = [(int(model.geom(a).id), int(model.geom(b).id), touch) for (a, b), touch in touches.items()]
     pairs.sort(key=lambda pair: _key(model, pair[0], pair[1]))
     _write(model, "restitution", _restitution(model, pairs))
-    _write(model, "directions", _directions(model, pairs))
+    _write(model, "friction", _friction(model, pairs, groups))
+    set_needstage(model, solved=bool(groups))
     _write(model, "damping", _damping(model, bodies, world))
     for motor, row in enumerate(find_table(model, "motors")):
         joint = model.actuator_trnid[motor, 0]
@@ -124,7 +135,7 @@ def _center(model: mujoco.MjModel) -> None:
         qpos = int(model.jnt_qposadr[joint])
         row[:] = model.jnt_dofadr[joint], qpos, model.jnt_stiffness[joint], model.qpos_spring[qpos]
         model.jnt_stiffness[joint] = 0.0
-    head[0, 4:] = len(chained), len(soft)
+    head[0, 4:6] = len(chained), len(soft)
 
 
 def _is_lone(model: mujoco.MjModel, tree: int) -> bool:
@@ -158,6 +169,23 @@ def _bounces(touch: Touch) -> bool:
     return touch.restitution > 0 and touch.is_felt
 
 
+def _has_friction(touch: Touch) -> bool:
+    return _has_grain(touch) or _gives(touch)
+
+
+def _gives(touch: Touch) -> bool:
+    """Whether something of it slips or grows with the load."""
+    return touch.mu + touch.mu2 > 0 and (any(touch.slip) or touch.patch > 0)
+
+
+def _groups(touches: Touches, shapes: Sequence[ShapeEntry]) -> dict[tuple[str, str], int]:
+    """By two shapes' names, the number of the two collisions that they are of, where contacts slip or grow."""
+    of = {shape.name: shape.collision for shape in shapes}
+    numbers: dict[tuple[str, str], int] = {}
+    giving = [pair for pair, touch in touches.items() if _gives(touch)]
+    return {(a, b): numbers.setdefault((of[a], of[b]), len(numbers)) for a, b in giving}
+
+
 def _has_grain(touch: Touch) -> bool:
     return touch.fdir1 != ZERO and touch.mu != touch.mu2 and min(touch.mu, touch.mu2) > 0
 
@@ -177,10 +205,12 @@ def _restitution(model: mujoco.MjModel, pairs: Sequence[_Pair]) -> Iterator[tupl
             yield _key(model, a, b), touch.restitution, max(touch.threshold, slowest)
 
 
-def _directions(model: mujoco.MjModel, pairs: Sequence[_Pair]) -> Iterator[tuple[float, ...]]:
+def _friction(model: mujoco.MjModel, pairs: Sequence[_Pair], groups: Mapping[int, int]) -> Iterator[tuple[float, ...]]:
     for a, b, touch in pairs:
-        if _has_grain(touch):
-            yield _key(model, a, b), (a, b)[touch.fdir1_of], *touch.fdir1
+        if _has_friction(touch):
+            key = _key(model, a, b)
+            geom = -1 if touch.fdir1 == ZERO else (a, b)[touch.fdir1_of]
+            yield key, geom, *touch.fdir1, *touch.slip, touch.patch, groups.get(key, -1)
 
 
 def _damping(model: mujoco.MjModel, bodies: Sequence[int], world: World) -> Iterator[tuple[float, ...]]:

@@ -19,7 +19,7 @@ from .handle import Handle, expect_finite
 from .joint_handle import JointHandle
 
 if TYPE_CHECKING:
-    from trundle.physics import Grip, TrackGrip
+    from trundle.physics import LinkGrip
 
     from .simulation import Simulation
 
@@ -92,7 +92,7 @@ class LinkHandle(Handle):
             wrench = wrench + Wrench(torque=turning)
         self._simulation.pushes.add_wrench(self.index, wrench)
 
-    def set_grip(self, grip: "Grip | TrackGrip | None") -> None:
+    def set_grip(self, grip: "LinkGrip | None") -> None:
         """Have the link's surface move and slip where it touches, from now on.
 
         Args:

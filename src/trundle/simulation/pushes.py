@@ -12,7 +12,7 @@ from .joint_handle import JointHandle
 from .timeline import Timeline
 
 if TYPE_CHECKING:  # a world without belts starts without them
-    from trundle.physics import Grip, TrackGrip
+    from trundle.physics import LinkGrip
 
 
 class Ends(Struct, frozen=True):
@@ -36,7 +36,7 @@ class Pushes:
         self.ends = Ends()
         self._added_to: dict[int, Wrench] = {}
         """Link → its lasting wrench, below what was added for the coming step."""
-        self._grips: dict[int, Grip | TrackGrip] = {}
+        self._grips: dict[int, LinkGrip] = {}
 
     def clear(self) -> None:
         """Nothing pushes any more; grips stay."""
@@ -82,7 +82,7 @@ class Pushes:
         if until is not None:
             self.ends.efforts[joint, axis] = until
 
-    def set_grip(self, link: int, grip: "Grip | TrackGrip | None") -> None:
+    def set_grip(self, link: int, grip: "LinkGrip | None") -> None:
         """Have a link's surface move and slip, or hold on as any other."""
         if self._grips.get(link) == grip:
             return

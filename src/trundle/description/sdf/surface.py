@@ -6,9 +6,6 @@ from trundle.xmlnode import XmlNode
 from .context import Context
 
 _TUNING = (
-    "slip1",
-    "slip2",
-    "slip",
     "soft_cfm",
     "soft_erp",
     "poissons_ratio",
@@ -36,6 +33,7 @@ def read_surface(collision: XmlNode, context: Context) -> Surface:
     friction, contact, bounce = node.find("friction"), node.find("contact"), node.find("bounce")
     ode, contact_ode = _find(friction, "ode"), _find(contact, "ode")
     torsional = _find(friction, "torsional")
+    torsional_ode = _find(torsional, "ode")
 
     def number(parent: XmlNode | None, tag: str, otherwise: float) -> float:
         return otherwise if parent is None else parent.number(tag, default=otherwise, report=report)
@@ -43,15 +41,17 @@ def read_surface(collision: XmlNode, context: Context) -> Surface:
     def integer(tag: str, otherwise: int) -> int:
         return otherwise if contact is None else contact.integer(tag, default=otherwise, report=report)
 
-    by_patch = torsional is None or torsional.flag("use_patch_radius", default=True, report=report)
-    patch, curvature = number(torsional, "patch_radius", 0.0), number(torsional, "surface_radius", 0.0)
     surface = Surface(
         mu=number(ode, "mu", default.mu),
         mu2=number(ode, "mu2", default.mu2),
         fdir1=default.fdir1 if ode is None else ode.vector("fdir1", default=default.fdir1, report=report),
+        slip1=number(ode, "slip1", default.slip1),
+        slip2=number(ode, "slip2", default.slip2),
         torsional_coefficient=number(torsional, "coefficient", default.torsional_coefficient),
-        patch_radius=patch if by_patch else 0.0,
-        surface_radius=0.0 if by_patch else curvature,
+        torsional_slip=number(torsional_ode, "slip", default.torsional_slip),
+        patch_radius=number(torsional, "patch_radius", default.patch_radius),
+        surface_radius=number(torsional, "surface_radius", default.surface_radius),
+        use_patch_radius=torsional is None or torsional.flag("use_patch_radius", default=True, report=report),
         kp=number(contact_ode, "kp", default.kp),
         kd=number(contact_ode, "kd", default.kd),
         min_depth=number(contact_ode, "min_depth", default.min_depth),
@@ -63,7 +63,7 @@ def read_surface(collision: XmlNode, context: Context) -> Surface:
         collide_without_contact=contact is not None
         and contact.flag("collide_without_contact", default=False, report=report),
     )
-    for each in (node, friction, ode, torsional, _find(torsional, "ode"), contact, contact_ode, bounce):
+    for each in (node, friction, ode, torsional, torsional_ode, contact, contact_ode, bounce):
         if each is not None:
             _name_tuning(each, context)
             each.report_unread(report)

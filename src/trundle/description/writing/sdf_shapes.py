@@ -118,14 +118,13 @@ def _add_surface(tag: Tag, surface: Surface) -> None:
     default = Surface()
     friction = tag.add_optional("friction")
     ode = friction.add_optional("ode")
-    for name in ("mu", "mu2", "fdir1"):
+    for name in ("mu", "mu2", "fdir1", "slip1", "slip2"):
         ode.add_unless(name, getattr(surface, name), default=getattr(default, name))
     torsional = friction.add_optional("torsional")
     torsional.add_unless("coefficient", surface.torsional_coefficient, default=default.torsional_coefficient)
-    torsional.add_unless("patch_radius", surface.patch_radius, default=default.patch_radius)
-    if surface.surface_radius:
-        torsional.add("use_patch_radius", False)
-        torsional.add("surface_radius", surface.surface_radius)
+    for name in ("patch_radius", "surface_radius", "use_patch_radius"):
+        torsional.add_unless(name, getattr(surface, name), default=getattr(default, name))
+    torsional.add_optional("ode").add_unless("slip", surface.torsional_slip, default=default.torsional_slip)
     contact = tag.add_optional("contact")
     contact.add_unless("collide_bitmask", surface.collide_bitmask, default=default.collide_bitmask)
     contact.add_unless("category_bitmask", surface.category_bitmask, default=default.category_bitmask)
