@@ -23,6 +23,14 @@ LIFT = driven(
     axis="0 0 1",
     limit='<limit lower="-1" upper="1" effort="500" velocity="9"/>',
 )
+CAR = """<sdf version="1.6"><model name="car"><link name="base"><pose>0 0 0.1 0 0 0</pose><inertial><mass>6</mass>
+<inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial></link>{}<plugin name="tyres"
+filename="libgazebo_ros_wheel_slip.so">{}</plugin></model></sdf>"""
+WHEEL = """<link name="{name}"><pose>{x} {y} 0.1 -1.5707963 0 0</pose><inertial><mass>1</mass><inertia><ixx>0.005</ixx>
+<iyy>0.005</iyy><izz>0.008</izz></inertia></inertial><collision name="c"><geometry><cylinder><radius>0.1</radius>
+<length>0.02</length></cylinder></geometry></collision></link><joint name="{name}" type="revolute"><parent>base</parent>
+<child>{name}</child><axis><xyz>0 0 1</xyz></axis></joint>"""
+TYRE = """<wheel link_name="{name}"><wheel_normal_force>24.5</wheel_normal_force></wheel>"""
 
 
 def options(gazebo: Gazebo, name: str) -> dict[str, Option]:
@@ -87,6 +95,36 @@ def test_both_eyes_of_a_multicamera_keep_step_at_another_rate(gazebo: Gazebo) ->
     until(lambda: all(infos.values()))
     assert infos["left"][-1].P[3] == 0.0
     assert infos["right"][-1].P[3] == pytest.approx(-0.1 * infos["right"][-1].P[0])
+
+
+def test_tyres_slip_as_much_as_they_are_set_to(gazebo: Gazebo) -> None:
+    """A car of 10 kg that rolls and is pushed sideways drifts by compliance · force / load of the way it rolls."""
+    places = {"w0": (0.2, 0.2), "w1": (0.2, -0.2), "w2": (-0.2, 0.2), "w3": (-0.2, -0.2)}
+    wheels = "".join(WHEEL.format(name=name, x=x, y=y) for name, (x, y) in places.items())
+    tyres = "".join(TYRE.format(name=name) for name in places)
+    assert gazebo.spawn(CAR.format(wheels, tyres), "car").success
+    name = "/car/wheel_slip"
+    ways = [f"slip_compliance_unitless_{way}" for way in ("lateral", "longitudinal")]
+    assert {key: option.value for key, option in options(gazebo, name).items()} == dict.fromkeys(ways, -1.0)
+    change(gazebo, name, **{ways[0]: 0.5})
+    gazebo.call("unpause_physics")
+    gazebo.call(
+        "set_model_state",
+        "gazebo_msgs/SetModelState",
+        model_state={"model_name": "car", "twist": {"linear": {"x": 5.0}}},
+    )
+    gazebo.call(
+        "apply_body_wrench",
+        "gazebo_msgs/ApplyBodyWrench",
+        body_name="car::base",
+        wrench={"force": {"y": 20.0}},
+        duration={"secs": -1},
+    )
+
+    gazebo.until_s(gazebo.time_s + 1.0)
+    speed = gazebo.state("car").twist.linear
+    assert speed.x == pytest.approx(5.0 * 10.0 / 13.2, rel=0.01)  # its wheels began to turn
+    assert speed.y == pytest.approx(0.5 * 20.0 / 98.0 * speed.x, rel=0.05)
 
 
 def test_gains_are_changed_while_they_are_in_use(gazebo: Gazebo) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
+from trundle.physics import Engine
 from trundle.simulation import Simulation
 from trundle.spatial import Wrench
 
@@ -77,7 +78,9 @@ def test_wheels_of_a_side_turn_as_one(tmp_path: Path) -> None:
     assert sim["m"].joint("r2").velocity == pytest.approx(-0.5 * 0.2 / 0.5 / 0.1, rel=0.05)
 
 
-def slipping(folder: Path, *, lateral: float, longitudinal: float, wires: Wires | None = None) -> Simulation:
+def slipping(
+    folder: Path, *, lateral: float, longitudinal: float, turning: float = 20.0, wires: Wires | None = None
+) -> Simulation:
     """A car of 10 kg whose wheels turn at 20 rad/s, 2 m/s without slip; each carries 24.5 N."""
     wheels = "".join(
         f'<wheel link_name="{name}"><slip_compliance_lateral>{lateral}</slip_compliance_lateral>'
@@ -89,20 +92,39 @@ def slipping(folder: Path, *, lateral: float, longitudinal: float, wires: Wires 
     sim = load(folder, CAR + plugin, gravity=GRAVITY, ground=True, wires=wires)
     assert sim.report.warnings == []
     for name in NAMES:
-        sim["m"].joint(name).set_velocity(20.0, max_effort=100.0)
+        sim["m"].joint(name).set_velocity(turning, max_effort=100.0)
     return sim
 
 
 @pytest.mark.parametrize("compliance", [0.1, 0.5])
-def test_a_wheel_slips_along_by_its_compliance_times_its_share_of_the_force(tmp_path: Path, compliance: float) -> None:
-    sim = slipping(tmp_path, lateral=0.0, longitudinal=compliance)
+@pytest.mark.parametrize("turning", [20.0, 2.0])
+def test_a_wheel_slips_along_by_its_compliance_times_its_share_of_the_force(
+    tmp_path: Path, compliance: float, turning: float
+) -> None:
+    sim = slipping(tmp_path, lateral=0.0, longitudinal=compliance, turning=turning)
     sim.run(1.0)
-    assert sim["m"].link("base").twist.linear[0] == pytest.approx(2.0, rel=2e-3)
+    assert sim["m"].link("base").twist.linear[0] == pytest.approx(0.1 * turning, rel=2e-3)
 
     sim["m"].link("base").apply_wrench(Wrench(force=(-20.0, 0.0, 0.0)))
     sim.run(1.0)
     tread = sim["m"].joint("l1").velocity * 0.1
     assert sim["m"].link("base").twist.linear[0] == pytest.approx(tread * (1 - compliance * 5.0 / 24.5), rel=2e-3)
+
+
+def test_wheels_slip_without_python_at_each_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nobody listens: the engine steps on by itself, a second in some strides."""
+    sim = slipping(tmp_path, lateral=0.1, longitudinal=0.1)
+    strides: list[int] = []
+    step = Engine.step
+
+    def counted(engine: Engine, count: int) -> None:
+        strides.append(count)
+        step(engine, count)
+
+    monkeypatch.setattr(Engine, "step", counted)
+    sim.run(1.0)
+    assert sum(strides) == 1000
+    assert len(strides) < 20
 
 
 def test_a_wheel_slips_across_by_the_other_compliance_and_not_while_it_stands(tmp_path: Path) -> None:

@@ -174,5 +174,5 @@ def _hook_in(simulation: Simulation, plugin: Hooks, model: ModelHandle | None) -
         if is_there():
             plugin.reset()
 
-    simulation.add_hook(plugin, period_ns=plugin.period_ns, wanted=is_there)
+    simulation.add_hook(plugin, period_ns=plugin.period_ns, wanted=lambda: is_there() and plugin.is_wanted())
     simulation.on_reset(reset)

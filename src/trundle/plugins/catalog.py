@@ -58,7 +58,7 @@ BUILTIN: dict[str, str] = {
     "libgazebo_ros_skid_steer_drive.so": "trundle.plugins.gazebo_ros.skid_steer_drive:SkidSteerDrive",
     "libgazebo_ros_tricycle_drive.so": "trundle.plugins.gazebo_ros.tricycle_drive:TricycleDrive",
     "libgazebo_ros_vacuum_gripper.so": "trundle.plugins.gazebo_ros.vacuum_gripper:VacuumGripper",
-    "libgazebo_ros_wheel_slip.so": "trundle.plugins.wheel_slip:WheelSlip",
+    "libgazebo_ros_wheel_slip.so": "trundle.plugins.gazebo_ros.wheel_slip:RosWheelSlip",
     "libhector_gazebo_ros_baro.so": "trundle.plugins.hector_gazebo.baro:Baro",
     "libhector_gazebo_ros_gps.so": "trundle.plugins.hector_gazebo.gps:Gps",
     "libhector_gazebo_ros_imu.so": "trundle.plugins.hector_gazebo.imu:Imu",

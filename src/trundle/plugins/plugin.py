@@ -39,6 +39,10 @@ class Hooks:
     def after_step(self, snapshot: Snapshot) -> None:
         """Read what came of it and publish; called when due, after the physics moved."""
 
+    def is_wanted(self) -> bool:
+        """Whether the two hooks have anything to do now; while not, they cost nothing."""
+        return True
+
     def reset(self) -> None:
         """Forget what was commanded and integrated; called when the simulation is reset."""
 

@@ -6,7 +6,7 @@ from typing import Self
 from trundle.diagnostics import UsageError
 from trundle.model import Cylinder, Joint, JointType, PluginTag, Sphere
 from trundle.names import ros_name
-from trundle.physics import Grip
+from trundle.physics import WheelGrip
 from trundle.ros import Message, Node, Publisher
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Vector3, cross, normalized
@@ -37,7 +37,8 @@ class WheelSlip(Plugin):
     slip), <wheel_normal_force> [N] (required, about what the wheel carries) and <wheel_radius> [m], else that of its
     only collision, a cylinder or sphere. `/<model>/wheel_slip/<link>` has each wheel's slip (geometry_msgs/Vector3: x
     along, y across, z speed of the tread [m/s]); `…/lateral_compliance` and `…/longitudinal_compliance` (Float64) set
-    all wheels'. What slips less than its force changes within a step holds.
+    all wheels'. The wheel's axle is the first friction direction, whatever its <fdir1>. What slips less than a tenth of
+    what its force changes within a step holds.
     """
 
     def __init__(self, model: ModelHandle, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
@@ -49,44 +50,52 @@ class WheelSlip(Plugin):
                 self._wheels.append(_read(wheel, model, sim))
             except UsageError as error:
                 sim.report.warn(wheel.at, f"<wheel>: {error}; it holds on as before")
-        tag.node.report_unread(sim.report)
         if node is not None:
             base = f"/{ros_name(model.name)}/wheel_slip"
             for wheel in self._wheels:
                 topic = f"{base}/{ros_name(wheel.link.name)}"
                 wheel.topic = node.advertise(topic, "geometry_msgs/Vector3", queue_size=10)
-            node.subscribe(f"{base}/lateral_compliance", "std_msgs/Float64", self._set_lateral)
-            node.subscribe(f"{base}/longitudinal_compliance", "std_msgs/Float64", self._set_longitudinal)
+            node.subscribe(f"{base}/lateral_compliance", "std_msgs/Float64", self._take_lateral)
+            node.subscribe(f"{base}/longitudinal_compliance", "std_msgs/Float64", self._take_longitudinal)
+        self.set_compliance()
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
         """See `Plugin.load`."""
-        return cls(model, node, tag, sim)
+        plugin = cls(model, node, tag, sim)
+        tag.node.report_unread(sim.report)
+        return plugin
+
+    def set_compliance(self, *, lateral: float = -1.0, longitudinal: float = -1.0) -> None:
+        """Have all wheels slip so much from now on; below zero: as they do."""
+        for wheel in self._wheels:
+            wheel.lateral = lateral if lateral >= 0.0 else wheel.lateral
+            wheel.longitudinal = longitudinal if longitudinal >= 0.0 else wheel.longitudinal
+            per_turn = wheel.radius / wheel.normal_force
+            wheel.link.set_grip(
+                WheelGrip(axis=wheel.axis, slip=per_turn * wheel.lateral, slip_across=per_turn * wheel.longitudinal)
+            )
+
+    def is_wanted(self) -> bool:
+        """Whether somebody listens: the wheels slip by themselves."""
+        return any(wheel.topic is not None and wheel.topic.has_subscribers for wheel in self._wheels)
 
     def before_step(self, sim: Simulation) -> None:
-        """Work out how much each wheel may slip."""
+        """Publish how much each wheel slips."""
         del sim
         for wheel in self._wheels:
-            pose, twist = wheel.link.pose, wheel.link.twist
-            axis = pose.direction(wheel.axis)
+            if wheel.topic is None:
+                continue
+            twist, axis = wheel.link.twist, wheel.link.pose.direction(wheel.axis)
             tread = wheel.radius * _dot(twist.angular, axis)
-            per_newton = abs(tread) / wheel.normal_force
-            slip, across = per_newton * wheel.lateral, per_newton * wheel.longitudinal
-            wheel.link.set_grip(Grip(along=axis, slip=slip, slip_across=across))
-            if wheel.topic is not None and wheel.topic.has_subscribers:
-                along = self._model.pose.direction(
-                    cross(self._down, self._model.pose.inverse().direction(axis)),
-                )
-                slip = _dot(along, twist.linear) - tread
-                wheel.topic.publish({"x": slip, "y": _dot(axis, twist.linear), "z": tread})
+            along = self._model.pose.direction(cross(self._down, self._model.pose.inverse().direction(axis)))
+            wheel.topic.publish({"x": _dot(along, twist.linear) - tread, "y": _dot(axis, twist.linear), "z": tread})
 
-    def _set_lateral(self, message: Message) -> None:
-        for wheel in self._wheels:
-            wheel.lateral = max(float(message.data), 0.0)
+    def _take_lateral(self, message: Message) -> None:
+        self.set_compliance(lateral=max(float(message.data), 0.0))
 
-    def _set_longitudinal(self, message: Message) -> None:
-        for wheel in self._wheels:
-            wheel.longitudinal = max(float(message.data), 0.0)
+    def _take_longitudinal(self, message: Message) -> None:
+        self.set_compliance(longitudinal=max(float(message.data), 0.0))
 
 
 def _read(node: XmlNode, model: ModelHandle, sim: Simulation) -> _Wheel:
