@@ -57,7 +57,7 @@ bool add_motion(const LawTables& laws, const mjModel* m, const mjData* d, const 
 
 bool find_slip(const LawTables& laws, const mjModel* m, const mjData* d, const mjContact& contact, SlipOf& found) {
   found = {};
-  if (contact.dim < 3) return false;
+  if (contact.dim < 3 || contact.exclude != 0) return false;
   bool slips = false;
   if (laws.pair_groups > 0) {
     const FrictionRow* row = find_pair(laws.friction, pair_key(m, contact.geom));
