@@ -173,3 +173,25 @@ def test_a_torque_makes_a_patch_slip_up_to_its_friction(load: Load, torque: floa
         assert ball.twist.angular[2] - before == pytest.approx((torque - most) / 0.01 * 0.5, rel=0.01)
     else:
         assert ball.twist.angular[2] == pytest.approx(slip * torque, rel=2e-3)
+
+
+@pytest.mark.parametrize(("gain", "swings"), [(1.0, True), (0.5, False)])
+def test_a_wheels_loop_swings_where_its_gain_overshoots(load: Load, gain: float, swings: bool) -> None:
+    """Gain · step / inertia is 2.43 and 1.21; beyond 2 a step overshoots by more than was missing, up to the limit."""
+    inertia, limit, target = 4.1226e-4, 10.0, 10.0
+    moments = "".join(f"<{m}>{inertia}</{m}>" for m in ("ixx", "iyy", "izz"))
+    wheel = (
+        f'<link name="w"><inertial><mass>0.3</mass><inertia>{moments}</inertia></inertial></link>'
+        '<joint name="w" type="revolute"><parent>world</parent><child>w</child><axis><xyz>0 1 0</xyz></axis></joint>'
+    )
+    sim = load(f'<model name="m">{wheel}</model>')
+    joint, speed = sim["m"].joint("w"), 0.0
+    speeds: list[float] = []
+    for _ in range(200):
+        effort = min(max(gain * (target - speed), -limit), limit)
+        speed += effort / inertia * 0.001
+        joint.set_effort(effort)
+        sim.step()
+        speeds.append(joint.velocity)
+        assert joint.velocity == pytest.approx(speed, abs=1e-6)
+    assert (max(speeds[100:]) - min(speeds[100:]) > 20.0) is swings

@@ -140,3 +140,15 @@ def test_among_many_shapes_it_slips_all_the_same(load: Load) -> None:
     sim = load(body(collision(BOX, slips(0.1))), *walls, *others)
 
     assert way(sim, (FORCE, 0.0), seconds=0.5)[0] == pytest.approx(exact(0.1, seconds=0.5), rel=5e-3)
+
+
+def test_saved_states_slip_on_alike(load: Load) -> None:
+    sim = load(body(collision(BOX, slips(0.002))))
+    way(sim, (FORCE, 0.0), seconds=0.005)
+    saved = sim.save()
+    ends: list[tuple[float, ...]] = []
+    for _ in range(2):
+        sim.restore(saved)
+        sim.run(0.1)
+        ends.append(sim["b"].pose.position)
+    assert ends[0] == ends[1]
