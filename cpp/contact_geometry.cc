@@ -71,7 +71,9 @@ bool align_tangents(const mjModel* m, mjData* d, mjContact& contact, const doubl
   const double length = std::sqrt(dot(within, within));
   if (!(length > kShortest * std::sqrt(dot(along, along)))) return false;
   for (double& each : within) each /= length;
-  turn_rows(m, d, contact, dot(within, frame + 3), dot(within, frame + 6));
+  const double cosine = dot(within, frame + 3), sine = dot(within, frame + 6);
+  if (sine == 0 && cosine > 0) return true;
+  turn_rows(m, d, contact, cosine, sine);
   std::copy(within, within + 3, frame + 3);
   cross(frame + 6, frame, frame + 3);
   return true;

@@ -45,12 +45,13 @@ bool first_direction(const mjData* d, const MotionRow& motion, int body, const m
   return true;
 }
 
-// ODE's first friction direction where a file gives none (dPlaneSpace): along y on a level floor.
+// ODE's first friction direction where a file gives none (dPlaneSpace), forwards or backwards: along y on a level floor,
+// level on a wall.
 void plane_direction(const double normal[3], double along[3]) {
-  const bool level = std::abs(normal[2]) > std::sqrt(0.5);
+  const bool level = normal[2] * normal[2] > 0.5;
   along[0] = level ? 0.0 : -normal[1];
-  along[1] = level ? -normal[2] : normal[0];
-  along[2] = level ? normal[1] : 0.0;
+  along[1] = level ? normal[2] : normal[0];
+  along[2] = level ? -normal[1] : 0.0;
 }
 
 const MotionRow* motion_of(const LawTables& laws, const mjModel* m, int geom) {

@@ -20,7 +20,9 @@ def load(tmp_path: Path) -> Load:
     return partial(load_models, tmp_path)
 
 
-@pytest.mark.parametrize(("direction", "slides"), [("1 0 0", True), ("0 1 0", False), ("0.001 2 5", False)])
+@pytest.mark.parametrize(
+    ("direction", "slides"), [("1 0 0", True), ("0 1 0", False), ("0.001 2 5", False), ("0 0 1", False)]
+)
 def test_a_block_slides_along_its_grain_and_sticks_across_it(load: Load, direction: str, slides: bool) -> None:
     # Down a slope of 20 degrees along the block's x.
     tilt = math.radians(20.0)
@@ -101,6 +103,23 @@ def test_friction_in_one_direction_acts_where_there_is_none_in_the_other(
         gained = [after - old for after, old in zip(block.twist.linear, before, strict=True)]
         along = gained[0] * way[0] + gained[1] * way[1]
         assert along == pytest.approx(0.2 * (push - grip * G), rel=0.01)
+
+
+@pytest.mark.parametrize(("normal", "across"), [("1 0 0", (0.0, 1.0, 0.0)), ("0 1 0", (1.0, 0.0, 0.0))])
+def test_on_a_wall_the_first_direction_is_level(load: Load, normal: str, across: tuple[float, ...]) -> None:
+    """ODE's own (dPlaneSpace), whichever way the wall looks, where the file names none: so a gripper holds by mu2."""
+    plane = f"<plane><normal>{normal}</normal><size>100 100</size></plane>"
+    out = [float(number) for number in normal.split()]
+    cube = "<box><size>0.2 0.2 0.2</size></box>"
+    pose = " ".join(str(0.1 * number) for number in out)
+    wall = body("wall", plane, friction(10.0), static=True)
+    sim = load(wall, body("b", cube, friction(0.2, 0.5), pose=f"{pose} 0 0 0"), gravity=0.0)
+    block = sim["b"].link("l")
+    for way, speed in (((0.0, 0.0, 1.0), 0.0), (across, 10.0 * 0.3)):
+        pushed = (30.0 * along - 100.0 * away for along, away in zip(way, out, strict=True))
+        block.apply_wrench(Wrench(force=(next(pushed), next(pushed), next(pushed))))
+        sim.run(0.3)
+        assert math.hypot(*block.twist.linear) == pytest.approx(speed, rel=0.02, abs=1e-3)
 
 
 def test_a_patch_of_contact_resists_turning(load: Load) -> None:

@@ -187,7 +187,7 @@ def _groups(touches: Touches, shapes: Sequence[ShapeEntry]) -> dict[tuple[str, s
 
 
 def _has_grain(touch: Touch) -> bool:
-    return touch.fdir1 != ZERO and touch.mu != touch.mu2 and min(touch.mu, touch.mu2) > 0
+    return touch.mu != touch.mu2 and min(touch.mu, touch.mu2) > 0
 
 
 def _decays(link: Link) -> bool:
