@@ -24,6 +24,7 @@ struct Slipping {
   double change[3];    // what a force changes within a step, in the same units
   double friction[3];  // [-], [-], [m]
   double speed[3];     // of the surface [m/s]
+  double force[3];     // that resists [N], [N], [N·m]
 };
 
 // Contacts that slip as one: their load, and the force and torque about the normal of the last step.
@@ -40,6 +41,7 @@ struct SlipOf {
 };
 
 thread_local std::vector<Slipping> slipping;
+thread_local const mjData* slipping_in = nullptr;
 thread_local std::vector<double> rows, moved, shares;  // kept from step to step
 
 Group* groups(const mjModel* m, mjData* d) { return reinterpret_cast<Group*>(d->userdata + m->nu); }
@@ -138,13 +140,14 @@ double force_along(const Slipping& each, int t, double share, double speed, doub
   return (each.change[t] * last - speed) / (share * (each.slip[t] + each.change[t]));
 }
 
-void push(const mjModel* m, mjData* d, const Slipping& each, Group& group, const Group& last, double share) {
+void push(const mjModel* m, mjData* d, Slipping& each, Group& group, const Group& last, double share) {
   thread_local ContactJacobian jacobian;
   const int nv = m->nv;
   const mjContact& contact = d->contact[each.contact];
   rows.resize(kRows * nv);
   jacobian.find(m, d, contact, rows.data(), kRows);
-  double force[3], over[3];
+  double over[3];
+  double* force = each.force;
   for (int t = 0; t < 3; ++t) {
     double speed = each.speed[t];
     for (int i = 0; i < nv; ++i) speed += rows[(t + 1) * nv + i] * d->qvel[i];
@@ -164,10 +167,24 @@ void push(const mjModel* m, mjData* d, const Slipping& each, Group& group, const
   group.torque += each.side * force[2];
 }
 
+// Have contacts say what they resist with: who asks for their forces reads those of the solver's rows.
+void show_slipping(mjData* d) {
+  if (slipping_in != d) return;
+  for (const Slipping& each : slipping) {
+    if (each.contact >= d->ncon) return;
+    const int first = d->contact[each.contact].efc_address;
+    for (int t = 0; first >= 0 && t < 3; ++t) {
+      if (each.slip[t] > 0.0) d->efc_force[first + 1 + t] = each.force[t];
+    }
+  }
+  slipping_in = nullptr;
+}
+
 }  // namespace
 
 bool release_slipping(const LawTables& laws, const mjModel* m, mjData* d) {
   slipping.clear();
+  slipping_in = d;
   if (!laws.moves && laws.pair_groups == 0) return false;
   shares.assign(static_cast<std::size_t>(m->nbody + laws.pair_groups), 0.0);
   SlipOf found;
@@ -181,7 +198,7 @@ bool release_slipping(const LawTables& laws, const mjModel* m, mjData* d) {
       size_patch(d->contact[i], found.patch, groups(m, d)[found.group].load / shares[found.group]);
       changed = true;
     }
-    Slipping each{i, found.group, found.side, {found.slip[0], found.slip[1], found.slip[2]}, {}, {}, {}};
+    Slipping each{i, found.group, found.side, {found.slip[0], found.slip[1], found.slip[2]}, {}, {}, {}, {}};
     if (*std::max_element(each.slip, each.slip + 3) > 0.0 && release(m, d, each)) slipping.push_back(each);
   }
   return changed || !slipping.empty();
@@ -193,7 +210,7 @@ void resist_slip(const LawTables& laws, const mjModel* m, mjData* d) {
   thread_local std::vector<Group> last;
   last.assign(kept, kept + m->nbody + laws.pair_groups);
   for (std::size_t i = 0; i < last.size(); ++i) kept[i] = {last[i].load, {}, {}};
-  for (const Slipping& each : slipping) {
+  for (Slipping& each : slipping) {
     push(m, d, each, kept[each.group], last[each.group], shares[each.group]);
   }
 }
@@ -209,6 +226,7 @@ void keep_loads(const LawTables& laws, const mjModel* m, mjData* d) {
       kept[found.group].load += d->efc_force[contact.efc_address];
     }
   }
+  show_slipping(d);
 }
 
 }  // namespace trundle

@@ -17,8 +17,8 @@ bool release_slipping(const LawTables& laws, const mjModel* m, mjData* d);
 // Push against what slips in this step, once the constraints are made.
 void resist_slip(const LawTables& laws, const mjModel* m, mjData* d);
 
-// Keep how hard each group of contacts is pressed, which limits its friction in the next step [N]; once the constraints
-// are solved.
+// Keep how hard each group of contacts is pressed, which limits its friction in the next step [N], and have contacts that
+// slip say what they resist with; once the constraints are solved.
 void keep_loads(const LawTables& laws, const mjModel* m, mjData* d);
 
 }  // namespace trundle

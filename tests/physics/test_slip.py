@@ -121,6 +121,16 @@ def test_each_collision_of_a_link_slips_by_itself(load: Load) -> None:
     assert way(sim, (FORCE, 0.0))[0] == pytest.approx(exact(0.05), rel=2e-3)
 
 
+@pytest.mark.parametrize("shape", [BOX, BALL])
+def test_contacts_that_slip_say_what_they_resist_with(load: Load, shape: str) -> None:
+    sim = load(body(collision(shape, slips(0.01))))
+    way(sim, (FORCE, 0.0), seconds=0.5)
+    forces = [contact.force.force for contact in sim.contacts()]
+    away = 1.0 if sim.contacts()[0].collisions[0].startswith("floor") else -1.0
+    assert sum(force[0] for force in forces) * away == pytest.approx(-FORCE, rel=2e-3)
+    assert sum(force[2] for force in forces) * away == pytest.approx(MASS * 9.8, rel=1e-3)
+
+
 def test_slip_does_not_keep_a_body_from_sliding(load: Load) -> None:
     """Beyond friction of 0.5 it speeds up."""
     sim = load(body(collision(BOX, slips(0.01), mu=0.5)))
