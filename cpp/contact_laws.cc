@@ -34,20 +34,36 @@ namespace {
 std::atomic<mjfGeneric> previous = nullptr;
 std::atomic<mjfSensor> previous_sensor = nullptr;
 
-void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
+// Turn and release friction; return whether constraints are to be made again.
+bool turn_friction(const LawTables& laws, const mjModel* m, mjData* d) {
   align_friction(laws, m, d);
   move_surfaces(laws, m, d);
-  const bool changed = release_slipping(laws, m, d);
-  if (changed) {
-    mujoco.mj_makeConstraint(m, d);
-    mujoco.mj_island(m, d);
-    mujoco.mj_projectConstraint(m, d);
-  }
+  return release_slipping(laws, m, d);
+}
+
+void make_constraints(const mjModel* m, mjData* d) {
+  mujoco.mj_makeConstraint(m, d);
+  mujoco.mj_island(m, d);
+  mujoco.mj_projectConstraint(m, d);
+}
+
+void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
+  const bool changed = turn_friction(laws, m, d);
+  if (changed) make_constraints(m, d);
   const bool bounced = !laws.restitution.empty() && apply_restitution(laws, m, d);
   if (bounced || changed) mujoco.mj_fwdVelocity(m, d);
   resist_slip(laws, m, d);
   apply_damping(laws, m, d);
   shift_contacts(laws, m, d);
+}
+
+// A state that is evaluated and not stepped on has its friction, and nothing that acts over a step.
+void apply_friction(const LawTables& laws, const mjModel* m, mjData* d) {
+  if (turn_friction(laws, m, d)) {
+    make_constraints(m, d);
+    mujoco.mj_fwdVelocity(m, d);
+  }
+  resist_slip(laws, m, d);
 }
 
 thread_local bool busy = false;  // whoever is called first may call us in turn
@@ -59,6 +75,7 @@ void on_control(const mjModel* m, mjData* d) {
   LawTables laws;
   if (LawTables::find(m, laws)) {
     if (laws.on) apply_laws(laws, m, d);
+    else if (laws.evaluates) apply_friction(laws, m, d);
     apply_springs(laws, m, d);
     center_bias(laws, m, d);
     drive_motors(laws, m, d);
@@ -71,7 +88,7 @@ void on_sensor(const mjModel* m, mjData* d, int stage) {
   busy = true;
   if (const mjfSensor first = previous_sensor.load()) first(m, d, stage);
   LawTables laws;
-  if (stage == mjSTAGE_ACC && LawTables::find(m, laws) && laws.on) keep_loads(laws, m, d);
+  if (stage == mjSTAGE_ACC && LawTables::find(m, laws) && (laws.on || laws.evaluates)) keep_loads(laws, m, d);
   busy = false;
 }
 

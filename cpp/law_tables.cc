@@ -31,6 +31,7 @@ bool LawTables::find(const mjModel* m, LawTables& found) {
            static_cast<int>(head[6]),
            static_cast<int>(head[3]),
            head[1] > 0.0,
+           head[1] < 0.0,
            head[2] > 0.0};
   return true;
 }

@@ -83,6 +83,7 @@ struct LawTables {
   int pair_groups;  // how many there are of the latter
   int motor_equality;  // whose spring and damper motors' constraints have
   bool on;     // contact laws act
+  bool evaluates;  // those of friction alone
   bool moves;  // some row of motions is of a kind
 
   // Those of a model; false: it has none.

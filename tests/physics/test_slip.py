@@ -131,6 +131,15 @@ def test_contacts_that_slip_say_what_they_resist_with(load: Load, shape: str) ->
     assert sum(force[2] for force in forces) * away == pytest.approx(MASS * 9.8, rel=1e-3)
 
 
+def test_a_joint_above_what_slips_feels_the_force_that_passes_through_it(load: Load) -> None:
+    inertial = "<inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>"
+    foot = f'<link name="foot"><pose>0 0 0.05 0 0 0</pose>{inertial}{collision(BOX, slips(0.01))}</link>'
+    joint = '<joint name="j" type="revolute"><parent>foot</parent><child>l</child><axis><xyz>0 0 1</xyz></axis></joint>'
+    sim = load(f'<model name="b">{foot}<link name="l"><pose>0 0 0.06 0 0 0</pose>{inertial}</link>{joint}</model>')
+    assert way(sim, (FORCE, 0.0), seconds=0.5)[0] > 0.01
+    assert sim["b"].joint("j").reaction.force == pytest.approx((-FORCE, 0.0, 9.8), rel=5e-3, abs=1e-3)
+
+
 def test_slip_does_not_keep_a_body_from_sliding(load: Load) -> None:
     """Beyond friction of 0.5 it speeds up."""
     sim = load(body(collision(BOX, slips(0.01), mu=0.5)))

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
-from trundle.physics import Engine
+from trundle.physics import Engine, WheelGrip
 from trundle.simulation import Simulation
 from trundle.spatial import Wrench
 
@@ -125,6 +125,19 @@ def test_wheels_slip_without_python_at_each_step(tmp_path: Path, monkeypatch: py
     sim.run(1.0)
     assert sum(strides) == 1000
     assert len(strides) < 20
+
+
+def test_an_axle_feels_the_force_at_which_its_tyre_slips(tmp_path: Path) -> None:
+    """Also where the plugin changes what tyres do after somebody has asked."""
+    sim = slipping(tmp_path, lateral=0.0, longitudinal=0.0)
+    assert sim["m"].joint("l1").reaction.force[1] == pytest.approx(0.0, abs=1.0)
+    sim.run(1.0)
+    for name in NAMES:
+        sim["m"].link(name).set_grip(WheelGrip(axis=(0.0, 0.0, 1.0), slip=2e-3, slip_across=0.0))
+    sim["m"].link("base").apply_wrench(Wrench(force=(0.0, 20.0, 0.0)))
+    sim.run(1.5)
+    assert sim["m"].link("base").twist.linear[1] == pytest.approx(20.0 * 2e-3 / 4 * 20.0, rel=0.03)
+    assert sum(sim["m"].joint(name).reaction.force[1] for name in NAMES) == pytest.approx(20.0, rel=0.02)
 
 
 def test_a_wheel_slips_across_by_the_other_compliance_and_not_while_it_stands(tmp_path: Path) -> None:

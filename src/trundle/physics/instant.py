@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from .index import CompiledWorld
-from .law_tables import switch_off
+from .law_tables import follow_friction
 from .motors import MotorOrders
 from .reader import StateReader
 from .separation import find_deep, separate
@@ -32,7 +32,7 @@ class Looker:
         model = copy.copy(self._compiled.model)
         model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_ISLAND)
-        switch_off(model)
+        follow_friction(model, self._compiled.model)
         data = mujoco.MjData(model)
         return model, data, StateReader(replace(self._compiled, model=model), data)
 
@@ -92,6 +92,7 @@ class Looker:
 
     def _solve(self, state: _Array) -> tuple[mujoco.MjModel, mujoco.MjData]:
         model, data, reader = self._second
+        follow_friction(model, self._compiled.model)
         MotorOrders.of(self._compiled.model).put(model)
         model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
         mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)

@@ -28,9 +28,9 @@ _WIDTHS = {
     "springs": 4,
     "dead_zones": 2,
 }
-"""Numbers in a row of each table; the first is a single row: a magic number, on or off, whether surfaces
-move, the equality that motors take after, how many rows of the tables of chains and springs are in use, and how many
-groups of contacts slip or grow."""
+"""Numbers in a row of each table; the first is a single row: a magic number, on (1), off (0) or friction alone (-1),
+whether surfaces move, the equality that motors take after, how many rows of the tables of chains and springs are in
+use, and how many groups of contacts slip or grow."""
 _GROUP_WIDTH = 5
 """Numbers of a group of contacts in userdata: its load, a force in the world, a torque."""
 _MAGIC = 7.2751
@@ -154,6 +154,14 @@ def _is_slow(model: mujoco.MjModel, joint: int) -> bool:
 def switch_off(model: mujoco.MjModel) -> None:
     """Have a copy of a model go without its laws."""
     find_table(model, "laws")[0, 1] = 0.0
+
+
+def follow_friction(model: mujoco.MjModel, other: mujoco.MjModel) -> None:
+    """Have a copy that evaluates states go with the laws of friction alone, as another model has them now."""
+    model.numeric_data[:] = other.numeric_data
+    find_table(model, "laws")[0, 1] = -1.0
+    model.flg_surfacevel = other.flg_surfacevel
+    model.sensor_needstage[0] = other.sensor_needstage[0]
 
 
 def _write(model: mujoco.MjModel, name: str, rows: Iterator[tuple[float, ...]]) -> None:
