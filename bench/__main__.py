@@ -14,6 +14,7 @@ BENCHES = (
     "robots",
     "hooks",
     "contacts",
+    "house",
     "images",
     "renderer",
     "startup",

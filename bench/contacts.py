@@ -4,19 +4,14 @@ The loop steps the same bodies with the same options, without those laws, from w
 this process' CPU. Figures of Gazebo 11, for reading, are of another run.
 """
 
-import copy
 import statistics
 import tempfile
-import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import mujoco
-
 import trundle
+from bench.loop import bare_loop, cpu_rate
 from bench.table import Row
-from trundle.physics.law_tables import switch_off
 from trundle.simulation import Simulation
 
 _PAIRS = 5
@@ -46,10 +41,10 @@ def run() -> list[Row]:
     rows: list[Row] = []
     for scene in (_skid(), _balls(), _wall()):
         sim = _load(scene)
-        loop = _bare(sim)
+        loop = bare_loop(sim)
         sim.step(scene.steps // 4)
         loop(scene.steps // 4)
-        pairs = [(_rate(sim.step, scene.steps), _rate(loop, scene.steps)) for _ in range(_PAIRS)]
+        pairs = [(cpu_rate(sim.step, scene.steps), cpu_rate(loop, scene.steps)) for _ in range(_PAIRS)]
         value = statistics.median(a for a, _ in pairs)
         name = f"{scene.name} (Gazebo 11: {scene.gazebo:,.0f})"
         rows.append(Row(name, value, "steps/s", "mj_step on the same", statistics.median(a / b for a, b in pairs)))
@@ -116,15 +111,3 @@ def _load(scene: _Scene) -> Simulation:
     for i in range(scene.wheels):
         sim["m0"].joint(f"w{i}").set_velocity(2.0 + 2.0 * (i % 2), max_effort=50.0)
     return sim
-
-
-def _bare(sim: Simulation) -> Callable[[int], None]:
-    model, data = copy.copy(sim.engine.compiled.model), sim.engine.save().data
-    switch_off(model)
-    return lambda steps: mujoco.mj_step(model, data, nstep=steps)
-
-
-def _rate(work: Callable[[int], None], steps: int) -> float:
-    start = time.process_time()
-    work(steps)
-    return steps / (time.process_time() - start)

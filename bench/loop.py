@@ -1,0 +1,24 @@
+"""The peer of most rows: a plain loop of `mj_step` on the same compiled model, without contact laws."""
+
+import copy
+import time
+from collections.abc import Callable
+
+import mujoco
+
+from trundle.physics.law_tables import switch_off
+from trundle.simulation import Simulation
+
+
+def bare_loop(sim: Simulation) -> Callable[[int], None]:
+    """Steps of the same bodies with the same options, from where the simulation is."""
+    model, data = copy.copy(sim.engine.compiled.model), sim.engine.save().data
+    switch_off(model)
+    return lambda steps: mujoco.mj_step(model, data, nstep=steps)
+
+
+def cpu_rate(work: Callable[[int], None], steps: int) -> float:
+    """[steps/s] Of this process' CPU."""
+    start = time.process_time()
+    work(steps)
+    return steps / (time.process_time() - start)
