@@ -15,6 +15,7 @@
 #include "contact_offset.h"
 #include "friction_slip.h"
 #include "law_tables.h"
+#include "look_ahead.h"
 #include "midpoint.h"
 #include "mujoco_api.h"
 #include "plane_cylinder.h"
@@ -79,6 +80,7 @@ void on_control(const mjModel* m, mjData* d) {
     apply_springs(laws, m, d);
     center_bias(laws, m, d);
     drive_motors(laws, m, d);
+    look_ahead(laws, m, d);
   }
   busy = false;
 }

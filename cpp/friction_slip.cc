@@ -48,9 +48,9 @@ Group* groups(const mjModel* m, mjData* d) { return reinterpret_cast<Group*>(d->
 
 // How much a contact slips by the motion of one of its bodies.
 bool add_motion(const LawTables& laws, const mjModel* m, const mjData* d, const mjContact& contact, SlipOf& found) {
-  const auto [motion, second] = motion_at(laws, m, contact);
+  const auto [motion, second] = motion_at(laws, contact);
   if (!motion || (motion->slip[0] <= 0 && motion->slip[1] <= 0)) return false;
-  found.group = m->geom_bodyid[contact.geom[second]];
+  found.group = laws.body_of(contact.geom[second]);
   found.side = 2.0 * second - 1.0;
   const double scale = motion_kind(*motion) == MotionKind::kWheel ? std::abs(spin_of(d, found.group, *motion)) : 1.0;
   for (int t = 0; t < 2; ++t) found.slip[t] += motion->slip[t] * scale;

@@ -38,6 +38,10 @@ struct DeadZoneRow {
   double pair, depth;  // [m] up to which a contact holds and does not push
 };
 
+struct GeomRow {
+  double body;  // of its link: what stands may be a shape of the world's body
+};
+
 struct MotionRow {  // of the body of the same number
   double kind;           // MotionKind
   double axis[3];        // world: first friction direction, or the axis that a track's belt turns about; body: a wheel's
@@ -78,13 +82,19 @@ struct LawTables {
   std::span<const ChainRow> chains;
   std::span<const SpringRow> springs;
   std::span<const DeadZoneRow> dead_zones;
+  std::span<const GeomRow> geoms;
   // userdata: the speed that each motor wants [rad/s or m/s], then how contacts push in groups: those of each body with a
   // motion, then those of two collisions
   int pair_groups;  // how many there are of the latter
   int motor_equality;  // whose spring and damper motors' constraints have
+  std::uintptr_t stepped;  // the data that an engine steps with this model, which it has for itself
+  double thin_speed;       // [m/s] from which on something may go through what is thin; 0: nothing may
   bool on;     // contact laws act
   bool evaluates;  // those of friction alone
   bool moves;  // some row of motions is of a kind
+
+  // The body of the link that a geom is of.
+  int body_of(int geom) const { return static_cast<int>(geoms[static_cast<std::size_t>(geom)].body); }
 
   // Those of a model; false: it has none.
   static bool find(const mjModel* m, LawTables& found);

@@ -54,17 +54,17 @@ void plane_direction(const double normal[3], double along[3]) {
   along[2] = level ? -normal[1] : 0.0;
 }
 
-const MotionRow* motion_of(const LawTables& laws, const mjModel* m, int geom) {
-  const MotionRow& motion = laws.motions[static_cast<std::size_t>(m->geom_bodyid[geom])];
+const MotionRow* motion_of(const LawTables& laws, int geom) {
+  const MotionRow& motion = laws.motions[static_cast<std::size_t>(laws.body_of(geom))];
   return motion.kind == 0 ? nullptr : &motion;
 }
 
 }  // namespace
 
-std::pair<const MotionRow*, int> motion_at(const LawTables& laws, const mjModel* m, const mjContact& contact) {
+std::pair<const MotionRow*, int> motion_at(const LawTables& laws, const mjContact& contact) {
   if (contact.dim < 3) return {nullptr, 0};
-  const MotionRow* motion = motion_of(laws, m, contact.geom[1]);
-  return motion ? std::pair(motion, 1) : std::pair(motion_of(laws, m, contact.geom[0]), 0);
+  const MotionRow* motion = motion_of(laws, contact.geom[1]);
+  return motion ? std::pair(motion, 1) : std::pair(motion_of(laws, contact.geom[0]), 0);
 }
 
 double spin_of(const mjData* d, int body, const MotionRow& motion) {
@@ -93,10 +93,10 @@ void move_surfaces(const LawTables& laws, const mjModel* m, mjData* d) {
   if (!laws.moves) return;
   for (int i = 0; i < d->ncon; ++i) {
     mjContact& contact = d->contact[i];
-    const auto [motion, second] = motion_at(laws, m, contact);
+    const auto [motion, second] = motion_at(laws, contact);
     if (!motion) continue;
     const double side = 2.0 * second - 1.0;  // the normal points out of the first
-    const int body = m->geom_bodyid[contact.geom[second]];
+    const int body = laws.body_of(contact.geom[second]);
     double along[3], speed;
     if (!first_direction(d, *motion, body, contact, side, along, speed) || !align_tangents(m, d, contact, along)) {
       continue;

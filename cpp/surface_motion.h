@@ -16,7 +16,7 @@ void align_friction(const LawTables& laws, const mjModel* m, mjData* d);
 void move_surfaces(const LawTables& laws, const mjModel* m, mjData* d);
 
 // The motion of a contact with friction, and which of its two geoms has it; null: none.
-std::pair<const MotionRow*, int> motion_at(const LawTables& laws, const mjModel* m, const mjContact& contact);
+std::pair<const MotionRow*, int> motion_at(const LawTables& laws, const mjContact& contact);
 
 // How fast a body with a wheel's motion turns about the wheel's axis [rad/s].
 double spin_of(const mjData* d, int body, const MotionRow& motion);

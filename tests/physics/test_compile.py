@@ -229,6 +229,18 @@ def test_only_what_may_go_through_something_is_watched_ahead(radius: float, is_w
     assert [bool(each & mujoco.mjtEnableBit.mjENBL_SPECULATIVE) for each in flags] == [is_watched, False]
 
 
+def test_shapes_of_what_only_stands_are_the_worlds_own() -> None:
+    """What something hangs from keeps its own: MuJoCo keeps apart bodies, not shapes."""
+    wall = model(link("l", x=1.0), name="wall", static=True)
+    post = model(link("l", x=3.0), name="post", static=True)
+    gate = model(link("l", x=4.0), name="gate")
+    held = replace(hinge("post::l", "gate::l"), name="h")
+    world = compile_world(World(name="w", at=AT, models=(wall, post, gate), joints=(held,)), Diagnostics()).model
+    bodies = {world.geom(i).name: world.body(world.geom_bodyid[i]).name for i in range(world.ngeom)}
+    assert bodies == {"wall::l::c": "world", "post::l::c": "post::l", "gate::l::c": "gate::l"}
+    assert world.geom("wall::l::c").pos == pytest.approx((1.0, 0.0, 1.0))
+
+
 def test_links_of_one_model_touch_only_where_it_says_so_and_never_across_a_joint() -> None:
     parts = (link("a"), link("b", x=0.5), link("c", x=1.0))
     joints = (hinge("a", "b"), hinge("b", "c"))

@@ -42,6 +42,21 @@ def test_a_belt_carries_a_block_against_its_own_motion(sim: Simulation) -> None:
     assert sim["block"].link("l").twist.linear == pytest.approx((0, 0, 0), abs=1e-5)
 
 
+def test_of_two_belts_that_stand_only_the_one_that_runs_carries(tmp_path: Path) -> None:
+    belt = """<model name="{}"><static>true</static><pose>{} 0 0.05 0 0 0</pose><link name="l"><collision name="c">
+    <geometry><box><size>2 2 0.1</size></box></geometry></collision></link></model>"""
+    models = belt.format("runs", 0) + belt.format("rests", 5) + BLOCK.format("block", 0) + BLOCK.format("other", 5)
+    file = tmp_path / "w.sdf"
+    models = models.replace(" 0 0.1 0 0 0<", " 0 0.2 0 0 0<")
+    file.write_text(f'<sdf version="1.6"><world name="w"><gravity>0 0 -10</gravity>{models}</world></sdf>')
+    sim = trundle.load(str(file))
+    sim["runs"].link("l").set_grip(Grip(along=X, speed=0.5))
+    sim.run(1.0)
+
+    assert sim["block"].link("l").twist.linear == pytest.approx((0.5, 0, 0), abs=1e-5)
+    assert sim["other"].link("l").twist.linear == pytest.approx((0, 0, 0), abs=1e-5)
+
+
 def test_a_track_runs_its_robot_forwards_and_skids_about_the_point_it_turns_about(tmp_path: Path) -> None:
     """Straight on it drives at the belt's speed; turning, friction acts across the way to that point alone."""
     file = tmp_path / "w.sdf"

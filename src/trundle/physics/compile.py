@@ -22,7 +22,7 @@ from .index import CompiledWorld, index_world
 from .inertia import principal_inertia
 from .joints import JointMaker
 from .law_tables import fill_tables, reserve_tables
-from .settings import apply_settings
+from .settings import apply_settings, choose_jacobian
 from .shapes import Meets, ShapeEntry, add_shape
 from .starting import start_positions
 from .surfaces import Touch
@@ -67,6 +67,13 @@ class Compiler:
         self.spec.option.gravity = world.physics.gravity
         self.tree = Tree.of(world, report)
         self.joints = JointMaker(self.spec, report)
+        joined = {end for hold in self.tree.joints for end in (hold.above, hold.below)}
+        self.scenery = frozenset(
+            place.name
+            for place in self.tree.places.values()
+            if world.models[place.model].static and place.name not in joined
+        )
+        """Links whose shapes are the world body's: MuJoCo looks at every shape of any other body at every step."""
         parts = Counter(hold.below for hold in self.tree.loops)
         self.share = {name: 1 / (1 + parts[name]) for name in self.tree.places}
         """Of a link's mass that its body has: links that close a loop are cut in equal parts."""
@@ -84,10 +91,11 @@ class Compiler:
         reserve_tables(self.spec, touches, self.shapes, self.world)
         collisions = {shape.name: shape.collision for shape in self.shapes}
         compiled = self.compile_spec()
+        choose_jacobian(compiled)
         set_compliance(compiled, touches)
-        look_ahead(compiled, self.shapes)
         world = index_world(self.world, self.tree, self.joints.axes, collisions, compiled)
         fill_tables(compiled, touches, self.shapes, world.link_bodies.tolist(), self.world)
+        look_ahead(compiled, self.shapes)
         return replace(world, start=start_positions(compiled, self.tree, self.joints.axes, self.report))
 
     def fill(self) -> dict[tuple[str, str], Touch]:
@@ -174,6 +182,7 @@ class Compiler:
 
     def _add_collision(self, place: Place, collision: Collision) -> None:
         fixed = place.name in self.tree.still
+        body = self.bodies[place.name]
         if isinstance(collision.geometry, Plane | Heightmap) and not fixed:
             what = "plane" if isinstance(collision.geometry, Plane) else "heightmap"
             self.report.warn(collision.at, f"collision {collision.name!r}: a {what} cannot move; it is left out")
@@ -188,8 +197,10 @@ class Compiler:
             on = Meets.PLANES | Meets.STANDING
             rolling = replace(collision, geometry=tread)
             parts = [(rolling, f"{name}::tread", on, TREAD_POINTS), (without_tread(collision), name, Meets.ALL, 1)]
+        if place.name in self.scenery:
+            body = self.spec.worldbody
+            parts = [(_in_world(collision, place), name, Meets.ALL, 1)]
         for part, part_name, on, points in parts:
-            body = self.bodies[place.name]
             for geom, meets in add_shape(
                 self.spec, body, part, part_name, self.report, fixed=fixed, decomposition=self.decomposition
             ):
@@ -236,3 +247,8 @@ class Compiler:
         motor.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
         motor.forcerange = [-1.0, 1.0]
         motor.ctrllimited = mujoco.mjtLimited.mjLIMITED_FALSE
+
+
+def _in_world(collision: Collision, place: Place) -> Collision:
+    """The same, posed in the world."""
+    return replace(collision, link_from_collision=place.at_start @ collision.link_from_collision)

@@ -22,6 +22,7 @@ from .law_tables import find_table, set_needstage
 if TYPE_CHECKING:
     from .grip import LinkGrip
 
+_SPECULATIVE = int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
 _LIBRARIES = {"win32": "mujoco.dll", "darwin": "libmujoco.*.dylib"}
 
 
@@ -54,9 +55,10 @@ class ContactLaws:
         self._data = data
         self._motions = find_table(compiled.model, "motions")
         self._head = find_table(compiled.model, "laws")[0]
+        self._head[7] = data._address
         slides = bool((compiled.model.geom_bodyid > 0).any())
         decays = bool(find_table(compiled.model, "damping").any())
-        self._always = slides or decays or bool(self._head[4:].any())
+        self._always = slides or decays or bool(self._head[4:7].any())
 
     @property
     def acts(self) -> bool:
@@ -71,6 +73,11 @@ class ContactLaws:
     def install(self) -> None:
         """See that MuJoCo calls the laws, whatever callback somebody else has set since."""
         _contact_laws.install()
+
+    def look_ahead(self) -> None:
+        """Have whoever steps next look ahead where the model needs it: the laws switch that while the engine steps."""
+        if self._head[8] > 0.0:
+            self._model.opt.enableflags |= _SPECULATIVE
 
     def set_grips(self, grips: "Mapping[int, LinkGrip]") -> None:
         """Have the surfaces of bodies, by number, move and slip like this; all others are ordinary."""

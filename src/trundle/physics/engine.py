@@ -108,6 +108,7 @@ class Engine:
             self._laws.install()
         efforts, taken = self._data.qfrc_actuator.copy(), self._taken
         self._advance(count)
+        self._laws.look_ahead()
         self.reader.changed()
         if self._is_unstable():
             self._go_back(efforts, taken)

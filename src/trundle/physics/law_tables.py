@@ -18,7 +18,7 @@ from .shapes import ShapeEntry
 from .surfaces import Touch
 
 _WIDTHS = {
-    "laws": 7,
+    "laws": 9,
     "restitution": 3,
     "friction": 10,
     "damping": 3,
@@ -27,10 +27,12 @@ _WIDTHS = {
     "chains": 1,
     "springs": 4,
     "dead_zones": 2,
+    "geoms": 1,
 }
 """Numbers in a row of each table; the first is a single row: a magic number, on (1), off (0) or friction alone (-1),
 whether surfaces move, the equality that motors take after, how many rows of the tables of chains and springs are in
-use, and how many groups of contacts slip or grow."""
+use, how many groups of contacts slip or grow, where the data is that an engine steps, and the speed at which `thin`
+counts."""
 _GROUP_WIDTH = 5
 """Numbers of a group of contacts in userdata: its load, a force in the world, a torque."""
 _MAGIC = 7.2751
@@ -58,6 +60,7 @@ def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[Shape
         "chains": len(spec.bodies),
         "springs": len(spec.joints),
         "dead_zones": sum(touch.min_depth > 0 for touch in touches.values()),
+        "geoms": len(spec.geoms),
     }
     for name, width in _WIDTHS.items():
         # MuJoCo takes no custom number of size zero; less than a row is none.
@@ -106,7 +109,8 @@ def fill_tables(
     equality = model.equality(_EQUALITY).id if model.nu else -1
     named = _groups(touches, shapes)
     groups = {_key(model, int(model.geom(a).id), int(model.geom(b).id)): n for (a, b), n in named.items()}
-    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, equality, 0.0, 0.0, len(set(groups.values()))
+    count = len(set(groups.values()))
+    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, equality, 0.0, 0.0, count, 0.0, 0.0
     pairs = [(int(model.geom(a).id), int(model.geom(b).id), touch) for (a, b), touch in touches.items()]
     pairs.sort(key=lambda pair: _key(model, pair[0], pair[1]))
     _write(model, "restitution", _restitution(model, pairs))
@@ -118,6 +122,9 @@ def fill_tables(
         row[:] = motor, 0.0, model.jnt_qposadr[joint], model.jnt_dofadr[joint]
     _center(model)
     _write(model, "dead_zones", ((_key(model, a, b), touch.min_depth) for a, b, touch in pairs if touch.min_depth > 0))
+    geoms = find_table(model, "geoms")
+    for shape in shapes:  # what stands may be a shape of the world's body
+        geoms[model.geom(shape.name).id] = model.body(shape.link).id
 
 
 def set_needstage(model: mujoco.MjModel, *, solved: bool) -> None:

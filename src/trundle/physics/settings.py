@@ -10,6 +10,8 @@ CONTACT_DAMPING_RATIO = 2.8
 """1 lets a box bounce 25 to 35 mm after a drop of 1 m. 2 does not, but 19 mm when it comes at 10 m/s; 2.8 not even
 then, for it comes up so slowly that gravity stops it.
 """
+_MANY = 6
+"""Trees of bodies from which on each meets few of the others."""
 SOLIMP = (0.99, 0.99, 0.001, 0.5, 2.0)
 
 
@@ -56,6 +58,15 @@ def apply_settings(spec: mujoco.MjSpec) -> None:
     spec.compiler.fusestatic = False
     spec.compiler.discardvisual = False
     spec.compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
+
+
+def choose_jacobian(model: mujoco.MjModel) -> None:
+    """Have MuJoCo write constraints sparsely where many things move; by itself it does from 60 freedoms on.
+
+    Boxes that rest side by side: 2 cost 14 % more so, 5 3 % less, 9 21 % less.
+    """
+    if model.ntree >= _MANY:
+        model.opt.jacobian = mujoco.mjtJacobian.mjJAC_SPARSE
 
 
 def silence_log() -> None:
