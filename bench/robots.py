@@ -16,6 +16,7 @@ import mujoco
 from msgspec.structs import replace
 
 import trundle
+from bench.loop import bare_loop, cpu_rate
 from bench.table import Row
 from trundle.diagnostics import Diagnostics
 from trundle.simulation import Simulation
@@ -23,6 +24,8 @@ from trundle.spatial import Pose
 
 ROBOT = Path(__file__).parents[1] / "examples/rp2w"
 _COUNTS = (1, 10, 50)
+_GAZEBO = {1: 10_208, 10: 1_168, 50: 188}
+"""[steps/s] Of Gazebo 11.1 on two cores of another machine, as many robots rolling."""
 _PAIRS = 15
 _SPEED = 2.0
 """[rad/s] Of driven wheels."""
@@ -43,14 +46,16 @@ def run() -> list[Row]:
             steps, rolling = 8_000 // count, min(least, count)
             if what == "of which one rolls" and count == 1:
                 continue
-            ours, theirs = _ours(count, rolling=rolling), _by_hand(count, rolling=rolling)
-            ours(1024)
+            sim, theirs = _ours(count, rolling=rolling), _by_hand(count, rolling=rolling)
+            sim.step(1024)
             theirs(1024)
-            pairs = [(_rate(ours, steps), _rate(theirs, steps)) for _ in range(_PAIRS)]
+            pairs = [(cpu_rate(sim.step, steps), cpu_rate(theirs, steps)) for _ in range(_PAIRS)]
             value = statistics.median(a for a, _ in pairs)
             ratio = statistics.median(a / b for a, b in pairs)
             rows.append(Row(f"{count} RP2W {what}", value, "steps/s", "MuJoCo by hand", ratio))
             costs[what, count] = 1e6 / (value * count)
+            if rolling == count:
+                rows.append(_beside_loop(sim, count, steps))
     for (what, count), cost in costs.items():
         if (what, 1) not in costs:
             continue
@@ -58,9 +63,9 @@ def run() -> list[Row]:
         rows.append(Row(f"one of {count} RP2W {what}", cost, "µs a step", "one alone", ratio))
     most = _COUNTS[-1]
     start = time.process_time()
-    _ours(most, rolling=0)
+    _ours(most, rolling=0).step(1)
     took = time.process_time() - start
-    _by_hand(most, rolling=0)
+    _by_hand(most, rolling=0)(1)
     ratio = took / (time.process_time() - start - took)
     rows.append(Row(f"{most} RP2W, from the SDF to the first step", took, "CPU s", "MuJoCo by hand", ratio))
     code = f"from bench.robots import print_peak; print_peak({most})"
@@ -74,11 +79,18 @@ def run() -> list[Row]:
 
 def print_peak(count: int) -> None:
     """Simulate some robots for two seconds, and print the largest resident memory of this process [MB]."""
-    _ours(count, rolling=count)(2000)
+    _ours(count, rolling=count).step(2000)
     print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
 
 
-def _ours(count: int, *, rolling: int) -> Callable[[int], None]:
+def _beside_loop(sim: Simulation, count: int, steps: int) -> Row:
+    loop = bare_loop(sim)
+    pairs = [(cpu_rate(sim.step, steps), cpu_rate(loop, steps)) for _ in range(_PAIRS)]
+    value, ratio = statistics.median(a for a, _ in pairs), statistics.median(a / b for a, b in pairs)
+    return Row(f"the same {count} (Gazebo 11: {_GAZEBO[count]:,})", value, "steps/s", "mj_step on the same", ratio)
+
+
+def _ours(count: int, *, rolling: int) -> Simulation:
     alone = trundle.load(str(ROBOT)).world
     robot = replace(next(m for m in alone.models if not m.static), plugins=())
     robots = [
@@ -90,7 +102,7 @@ def _ours(count: int, *, rolling: int) -> Callable[[int], None]:
     for name in (r.name for r in robots[:rolling]):
         for wheel in ("chassis_left_wheel", "chassis_right_wheel"):
             sim[name].joint(wheel).set_velocity(_SPEED, max_effort=2.0)
-    return sim.step
+    return sim
 
 
 def _by_hand(count: int, *, rolling: int) -> Callable[[int], None]:
@@ -149,9 +161,3 @@ def _mjcf(i: int, x: float, y: float) -> str:
         f'<body name="body{i}" pos="{x} {y + 0.0381} 0.7747"><freejoint/>{mass(4.5, 2.0)}{pole}{boxes("body")}'
         f"{base}{wheels}</body>"
     )
-
-
-def _rate(work: Callable[[int], None], steps: int) -> float:
-    start = time.process_time()
-    work(steps)
-    return steps / (time.process_time() - start)
