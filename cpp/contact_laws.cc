@@ -18,6 +18,7 @@
 #include "look_ahead.h"
 #include "midpoint.h"
 #include "mujoco_api.h"
+#include "plain_metric.h"
 #include "plane_cylinder.h"
 #include "restitution.h"
 #include "surface_motion.h"
@@ -81,6 +82,7 @@ void on_control(const mjModel* m, mjData* d) {
     center_bias(laws, m, d);
     drive_motors(laws, m, d);
     look_ahead(laws, m, d);
+    if (laws.on) take_plain_metric(m, d);
   }
   busy = false;
 }

@@ -1,0 +1,61 @@
+#include "plain_metric.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace trundle {
+
+namespace {
+
+bool is_zero(double value) { return value == 0.0; }
+
+// Whether dampers, springs, a medium or motors may have a part in the metric. Motors' comes after this callback, and
+// without it they were seen not to act at all.
+bool has_terms(const mjModel* m, const mjData* d) {
+  if (d->efm_active != 1 || m->nu || m->ntendon || m->neq) return true;
+  if (m->opt.density != 0.0 || m->opt.viscosity != 0.0) return true;
+  return d->efm_diag && !std::all_of(d->efm_diag, d->efm_diag + m->nv, is_zero);
+}
+
+// Trees of bodies that touch something.
+const std::vector<char>& find_touching(const mjModel* m, const mjData* d) {
+  thread_local std::vector<char> touching;
+  touching.assign(m->ntree, 0);
+  for (int i = 0; i < d->ncon; ++i) {
+    if (d->contact[i].efc_address < 0) continue;
+    for (const int geom : d->contact[i].geom) {
+      const int tree = m->body_treeid[m->geom_bodyid[geom]];
+      if (tree >= 0) touching[tree] = 1;
+    }
+  }
+  return touching;
+}
+
+// Whether gyroscopic forces can turn a free body: not one that is round, and whose centre is its origin.
+bool wobbles(const mjModel* m, int body) {
+  const double* inertia = m->body_inertia + 3 * body;
+  const double* centre = m->body_ipos + 3 * body;
+  const bool is_round = inertia[0] == inertia[1] && inertia[1] == inertia[2];
+  return !is_round || !std::all_of(centre, centre + 3, is_zero);
+}
+
+// Whether MuJoCo takes the gyroscopic forces of some body implicitly, which goes with the metric: of those that hang from
+// nothing, carry nothing and touch nothing.
+bool any_flies(const mjModel* m, const mjData* d) {
+  const std::vector<char>& touching = find_touching(m, d);
+  for (int joint = 0; joint < m->njnt; ++joint) {
+    if (m->jnt_type[joint] != mjJNT_FREE) continue;
+    const int body = m->jnt_bodyid[joint], tree = m->body_treeid[body];
+    const bool moves = d->tree_asleep[tree] < 0;
+    if (m->tree_dofnum[tree] == 6 && moves && !touching[tree] && wobbles(m, body)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void take_plain_metric(const mjModel* m, mjData* d) {
+  if (m->opt.integrator == mjINT_DISCRETE && !has_terms(m, d) && !any_flies(m, d)) d->efm_active = 0;
+}
+
+}  // namespace trundle
