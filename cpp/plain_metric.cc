@@ -39,8 +39,8 @@ bool wobbles(const mjModel* m, int body) {
   return !is_round || !std::all_of(centre, centre + 3, is_zero);
 }
 
-// Whether MuJoCo takes the gyroscopic forces of some body implicitly, which goes with the metric: of those that hang from
-// nothing, carry nothing and touch nothing.
+// Whether MuJoCo takes the gyroscopic forces of some body implicitly, which goes with the metric: of those that hang
+// from nothing, carry nothing and touch nothing.
 bool any_flies(const mjModel* m, const mjData* d) {
   const std::vector<char>& touching = find_touching(m, d);
   for (int joint = 0; joint < m->njnt; ++joint) {

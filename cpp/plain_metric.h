@@ -1,4 +1,4 @@
-// MuJoCo's discrete integrator solves in the metric M + h D + h² K, with all that it takes to carry D and K along, also
+// MuJoCo's discrete integrator solves in the metric M + h D + h² K, with all it takes to carry D and K along, also
 // where no joint has a damper or spring and the metric is M.
 #pragma once
 
