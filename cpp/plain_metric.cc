@@ -9,10 +9,9 @@ namespace {
 
 bool is_zero(double value) { return value == 0.0; }
 
-// Whether dampers, springs, a medium or motors may have a part in the metric. Motors' comes after this callback, and
-// without it they were seen not to act at all.
+// Whether dampers, springs, tendons or a medium have a part in the metric; motors have none, for they have no gains.
 bool has_terms(const mjModel* m, const mjData* d) {
-  if (d->efm_active != 1 || m->nu || m->ntendon || m->neq) return true;
+  if (d->efm_active != 1 || d->nefmT > 0) return true;
   if (m->opt.density != 0.0 || m->opt.viscosity != 0.0) return true;
   return d->efm_diag && !std::all_of(d->efm_diag, d->efm_diag + m->nv, is_zero);
 }
@@ -55,7 +54,10 @@ bool any_flies(const mjModel* m, const mjData* d) {
 }  // namespace
 
 void take_plain_metric(const mjModel* m, mjData* d) {
-  if (m->opt.integrator == mjINT_DISCRETE && !has_terms(m, d) && !any_flies(m, d)) d->efm_active = 0;
+  if (m->opt.integrator != mjINT_DISCRETE || has_terms(m, d) || any_flies(m, d)) return;
+  d->efm_active = 0;
+  // MuJoCo writes the second after this callback, and not for a metric that is off; its solver would add what is there.
+  d->efm_diag = d->efm_sdiag = nullptr;
 }
 
 }  // namespace trundle

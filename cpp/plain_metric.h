@@ -6,8 +6,8 @@
 
 namespace trundle {
 
-// Have this step solved in M alone where that is the same, in worlds without motors. It takes a sixth off a wall of
-// bricks, and a quarter off balls that fly.
+// Have this step solved in M alone where that is the same. It takes a sixth off a wall of bricks, and a quarter off balls
+// that fly.
 void take_plain_metric(const mjModel* m, mjData* d);
 
 }  // namespace trundle

@@ -128,7 +128,13 @@ def test_a_world_with_something_thin_looks_ahead_only_while_something_is_fast(tm
 
 @pytest.mark.parametrize(
     ("what", "is_plain"),
-    [("ball in the air", True), ("brick in the air", False), ("brick that lies", True), ("brick that damps", False)],
+    [
+        ("ball in the air", True),
+        ("brick in the air", False),
+        ("brick that lies", True),
+        ("brick that damps", False),
+        ("brick that turns", True),
+    ],
 )
 def test_a_step_is_solved_in_the_metric_that_it_needs(tmp_path: Path, what: str, is_plain: bool) -> None:
     """What dampers and springs add to it is nothing where there are none; a brick's spin has to be taken implicitly."""
@@ -139,6 +145,30 @@ def test_a_step_is_solved_in_the_metric_that_it_needs(tmp_path: Path, what: str,
         shape = shape.replace("0 0 0.6 0 0 0", "0 0 0.1 0 0 0")
     if "damps" in what:
         shape = shape.replace("</model>", DAMPED)
+    if "turns" in what:
+        shape = shape.replace("</model>", DAMPED.replace(">0.1<", ">0<"))
     sim = _load(tmp_path, shape + FLOOR.format(""))
+    if "turns" in what:
+        sim["ball"].joint("j").set_velocity(1.0)
     sim.step(5)
     assert sim.engine.save().data.efm_active == (0 if is_plain else 1)
+
+
+def test_a_plain_metric_takes_nothing_from_the_memory_where_the_other_would_be(tmp_path: Path) -> None:
+    """MuJoCo reserves what motors add to it before the laws act, and writes it after them, if it is on."""
+    turned: list[float] = []
+    for left_there in (0.0, 1e6):
+        sim = _load(tmp_path, BALL.format(0, "").replace("</model>", DAMPED.replace(">0.1<", ">0<")))
+
+        def leave(model: mujoco.MjModel, data: mujoco.MjData, left_there: float = left_there) -> None:
+            del model
+            data.efm_sdiag[:] = left_there
+
+        mujoco.set_mjcb_control(leave)
+        try:
+            sim["ball"].joint("j").set_velocity(1.0, max_effort=0.5)
+            sim.step(50)
+        finally:
+            mujoco.set_mjcb_control(None)
+        turned.append(sim["ball"].joint("j").position)
+    assert turned[0] == turned[1]
