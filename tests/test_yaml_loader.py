@@ -34,6 +34,7 @@ def billions(first: str, again: str) -> str:
         ("!!timestamp x", "NoneType"),
         ("{[1]: 2}", "line 1, column 2: found unhashable key"),
         ("[1", "line 1, column 3"),
+        ('a:\n  "\\ud800"', "line 2: a text with half of a surrogate pair"),
         ("\x00", "special characters are not allowed"),
         ("x" * (16 * 1024 * 1024 + 1), "characters of YAML; the most read is 16777216"),
     ],

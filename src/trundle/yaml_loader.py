@@ -31,6 +31,16 @@ class BoundedLoader(yaml.SafeLoader):
             raise yaml.YAMLError(f"more than {_MOST_NODES} values")
         return super().compose_node(parent, index)
 
+    def compose_scalar_node(self, anchor: Any) -> Any:
+        """Compose a text or number; one with a lone `\\ud800` could be neither sent nor written."""
+        node = super().compose_scalar_node(anchor)
+        try:
+            node.value.encode()
+        except UnicodeEncodeError:
+            line = node.start_mark.line + 1
+            raise yaml.YAMLError(f"line {line}: a text with half of a surrogate pair, which no file can hold") from None
+        return node
+
     def compose_document(self) -> Any:
         """Compose a document and count what its aliases stand for."""
         try:

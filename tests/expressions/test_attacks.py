@@ -203,3 +203,13 @@ def test_a_function_of_python_that_was_not_offered_is_not_called() -> None:
         evaluate("function(1)", function=called.append)
     assert called == []
     assert isinstance(function_of(len), Function)
+
+
+@pytest.mark.parametrize("text", [r"'\ud800'", "'%c' % 55296", "'{:c}'.format(55296)", r"['a', '\udfff'][1]"])
+def test_a_text_that_no_file_can_hold_is_refused(text: str) -> None:
+    with pytest.raises(ExpressionError, match="half of a surrogate pair"):
+        evaluate(text)
+
+
+def test_letters_of_every_alphabet_are_text() -> None:
+    assert evaluate(r"'\u00e9' + '\U0001f916'") == "é🤖"

@@ -69,7 +69,11 @@ class Interpreter:
             value = compiled.code(Evaluation(self, names), None)
             if value.__class__ not in _SHORT:
                 self.budget.weigh(value)
+            elif value.__class__ is str and not value.isascii():
+                value.encode()
             return value
+        except UnicodeEncodeError:
+            raise ExpressionError("a text with half of a surrogate pair, which no file can hold") from None
         except (RecursionError, MemoryError):
             raise ExpressionError("an expression or a value nested too deeply") from None
 
