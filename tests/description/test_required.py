@@ -39,6 +39,21 @@ def test_a_missing_attribute_is_named(tmp_path: Path, body: str, tag: str, attri
     assert said == [f"<{tag}> without {attribute!r}, for which Gazebo refuses the whole file"]
 
 
+@pytest.mark.parametrize(
+    ("body", "tag", "attribute"),
+    [
+        ("<world name=''/>", "world", "name"),
+        ("<world name='w'><plugin name='p' filename=' '/></world>", "plugin", "filename"),
+        (f"<model name='m'><link name='l'><collision name=''>{BALL}</collision></link></model>", "collision", "name"),
+    ],
+)
+def test_an_empty_attribute_is_named(tmp_path: Path, body: str, tag: str, attribute: str) -> None:
+    """Param::SetFromString of libsdformat 9.9.1: an empty string used when setting a required parameter."""
+    said = warnings(tmp_path, f'<sdf version="1.7">{body}</sdf>')
+
+    assert said == [f"<{tag}> with an empty {attribute!r}, for which Gazebo refuses the whole file"]
+
+
 def test_what_needs_none_is_not_named(tmp_path: Path) -> None:
     """Tags of the same name elsewhere, and plugins since SDF 1.10."""
     inside = '<plugin filename="p"><light/><plugin/></plugin>'

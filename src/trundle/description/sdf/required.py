@@ -1,4 +1,4 @@
-"""Attributes that SDF requires: Gazebo refuses a whole file that lacks one; here it is read with a warning."""
+"""Attributes that SDF requires: Gazebo refuses a file where one is missing or empty; here it is read with a warning."""
 
 from trundle.diagnostics import Diagnostics
 from trundle.xmlnode import XmlNode
@@ -22,7 +22,7 @@ _PLUGIN, _PLUGIN_FROM_1_10 = ("name", "filename"), ("filename",)
 
 
 def name_missing_attributes(root: XmlNode, version: Version, report: Diagnostics) -> None:
-    """Warn of each attribute that is missing below a root element or a URDF's <gazebo> block."""
+    """Warn of each attribute that is missing or empty below a root element or a URDF's <gazebo> block."""
     plugin = _PLUGIN if version < (1, 10) else _PLUGIN_FROM_1_10
     pending = [root]
     while pending:
@@ -31,7 +31,9 @@ def name_missing_attributes(root: XmlNode, version: Version, report: Diagnostics
         for child in node.children:
             tag = child.tag
             for attribute in plugin if tag == "plugin" else required.get(tag, ()):
-                if child.attribute(attribute) is None:
-                    report.warn(child.at, f"<{tag}> without {attribute!r}, for which Gazebo refuses the whole file")
+                value = child.attribute(attribute)
+                if value is None or not value.strip():
+                    fault = f"without {attribute!r}" if value is None else f"with an empty {attribute!r}"
+                    report.warn(child.at, f"<{tag}> {fault}, for which Gazebo refuses the whole file")
             if tag in _HOLDERS:
                 pending.append(child)
