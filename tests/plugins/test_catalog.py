@@ -54,6 +54,24 @@ def test_a_missing_plugin_says_where_was_looked(tmp_path: Path) -> None:
     )
 
 
+def test_a_plugin_of_sensors_that_a_model_has_says_where_it_belongs(tmp_path: Path) -> None:
+    with pytest.raises(DescriptionError) as error:
+        find_plugin(tag(tmp_path, "libgazebo_ros_laser.so"), {})
+
+    assert str(error.value) == (
+        f"{tmp_path}/model.sdf:7: error: plugin 'spin' (libgazebo_ros_laser.so) is a sensor's; "
+        "it belongs into a <sensor>"
+    )
+
+
+def test_a_user_s_file_called_like_a_plugin_of_sensors_runs(tmp_path: Path) -> None:
+    (tmp_path / "gazebo_ros_laser.py").write_text(PLUGIN)
+
+    found, _ = find_plugin(tag(tmp_path, "libgazebo_ros_laser.so"), {})
+
+    assert found.__name__ == "Spin"
+
+
 @pytest.mark.parametrize(
     ("text", "line", "words"),
     [

@@ -176,6 +176,8 @@ def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> 
         path = folder / python_name(filename)
         if os.path.isfile(path):
             return _load_file(path, kind), str(path)
+    if filename in OF_SENSORS:
+        raise _misplaced(tag, "sensor")
     what = f"plugin {tag.name!r}: no {filename}; Trundle runs Python plugins"
     looked = ", ".join(map(str, folders))
     raise DescriptionError(tag.at, f"{what}: looked for {python_name(filename)} in {looked}")
@@ -183,10 +185,13 @@ def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> 
 
 def _of_kind(found: type[Hooks], kind: type[_Kind], tag: PluginTag) -> type[_Kind]:
     if not issubclass(found, kind):
-        owner = next(name for base, name in _OWNERS.items() if issubclass(found, base))
-        what = f"plugin {tag.name!r} ({tag.filename}) is a {owner}'s; it belongs into a <{owner}>"
-        raise DescriptionError(tag.at, what)
+        raise _misplaced(tag, next(name for base, name in _OWNERS.items() if issubclass(found, base)))
     return found
+
+
+def _misplaced(tag: PluginTag, owner: str) -> DescriptionError:
+    what = f"plugin {tag.name!r} ({tag.filename}) is a {owner}'s; it belongs into a <{owner}>"
+    return DescriptionError(tag.at, what)
 
 
 def python_name(filename: str) -> str:
