@@ -11,6 +11,7 @@ namespace trundle {
 namespace {
 
 constexpr int kSweeps = 50;
+constexpr int kRounds = 50;  // what an impulse sets in motion hits what it touches in the next round of the same step
 
 struct Impact {
   double speed;  // [m/s] to leave at
@@ -54,7 +55,7 @@ void Impacts::find(const LawTables& laws, const mjModel* m, const mjData* d) {
   rows_.clear();
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
-    if (contact.dist > 0) continue;
+    if (contact.efc_address < 0) continue;  // all others MuJoCo would stop, those a margin apart, too
     const RestitutionRow* row = find_pair(laws.restitution, pair_key(m, contact.geom));
     if (!row || !(approach_speed(m, d, contact) > row->slowest * (1 - 1e-6))) continue;
     const std::size_t size = rows_.size();
@@ -124,9 +125,12 @@ double Impacts::change(int row) const {
 
 bool apply_restitution(const LawTables& laws, const mjModel* m, mjData* d) {
   thread_local Impacts impacts;
-  impacts.find(laws, m, d);
-  if (impacts.empty()) return false;
-  impacts.push(m, d);
+  for (int round = 0; round < kRounds; ++round) {
+    impacts.find(laws, m, d);
+    if (impacts.empty()) return round > 0;
+    impacts.push(m, d);
+    mujoco.mj_comVel(m, d);  // by which `find` knows what approaches
+  }
   return true;
 }
 

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pytest
 from tests.physics.quasistatic import GRAVITY
+from tests.physics.surface_world import body, load_models
 
 import trundle
 from trundle.simulation import Simulation
+from trundle.spatial import Twist
 
 Load = Callable[..., Simulation]
 BALL = "<sphere><radius>0.1</radius></sphere>"
@@ -69,3 +71,38 @@ def test_what_loses_nothing_keeps_its_height(load: Load, step: float, height: fl
     # A peak lies between two steps, up to half a step from one of them.
     missed = GRAVITY * (step / 2) ** 2
     assert apexes(sim, 20, tilt=tilt) == pytest.approx([height] * 20, rel=1e-3, abs=missed)
+
+
+def collide(folder: Path, restitution: float, gap: float, speed: float, *, moving: int = 1) -> list[float]:
+    """Speeds of a row of five balls this far apart long after the first of them hit the others, over theirs."""
+    surface = (
+        f"<bounce><restitution_coefficient>{restitution}</restitution_coefficient><threshold>0</threshold></bounce>"
+    )
+    places = [i * (0.2 + gap) - (0.05 if i < moving else 0.0) for i in range(5)]
+    sim = load_models(
+        folder, *(body(f"b{i}", BALL, surface, pose=f"{x} 0 0 0 0 0") for i, x in enumerate(places)), gravity=0
+    )
+    for i in range(moving):
+        sim[f"b{i}"].set_twist(Twist(linear=(speed, 0.0, 0.0), angular=(0.0, 0.0, 0.0)))
+    sim.step(round(1000 * (0.1 / speed + 0.1)))
+    return [sim[f"b{i}"].twist.linear[0] / speed for i in range(5)]
+
+
+# Before, balls that had come as near as they touch, a gap of n steps' way, were stopped as if they did not bounce:
+# 0, 0, 0, 0.25, 0.75; and what touched from the start, was so at 3 m/s.
+@pytest.mark.parametrize("speed", [0.3, 1.0, 3.0])
+@pytest.mark.parametrize("gap", [0.0, 0.0001, 0.0003, 0.0015, 0.001, 0.002, 0.003, 0.0042, 0.005])
+def test_the_last_of_a_row_leaves_with_the_speed_of_the_first(tmp_path: Path, gap: float, speed: float) -> None:
+    assert collide(tmp_path, 1.0, gap, speed) == pytest.approx([0, 0, 0, 0, 1], abs=1e-2)
+
+
+def test_of_two_that_hit_a_row_two_leave(tmp_path: Path) -> None:
+    """What stands between is hit twice in one step."""
+    assert collide(tmp_path, 1.0, 0.0, 1.0, moving=2) == pytest.approx([0, 0, 0, 1, 1], abs=1e-2)
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.0003, 0.001])
+def test_a_row_that_loses_speed_keeps_its_momentum(tmp_path: Path, gap: float) -> None:
+    speeds = collide(tmp_path, 0.5, gap, 1.0)
+    assert sum(speeds) == pytest.approx(1.0, abs=1e-6)
+    assert speeds[4] == pytest.approx(0.75**4, abs=1e-4)
