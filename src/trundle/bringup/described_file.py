@@ -13,7 +13,7 @@ _STANDARD_INPUT = "-"
 
 
 class Piped(NamedTuple):
-    """What came through a pipe or standard input."""
+    """Contents that came through a pipe or standard input."""
 
     name: str
     """As messages call it."""

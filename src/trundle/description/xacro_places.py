@@ -73,7 +73,7 @@ class Cursor:
         return go_through
 
     def _at(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """What is read of an element of xacro's own is looked into after this."""
+        """Called before the contents of one of xacro's own elements are evaluated."""
 
         def read(element: Any, *rest: Any) -> Any:
             self.at = place_of(element)

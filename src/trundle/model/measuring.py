@@ -1,4 +1,4 @@
-"""What rays, imus, fixes of position and force-torque sensors are set to."""
+"""Settings of rays, imus, satellite receivers and force-torque sensors."""
 
 from msgspec import Struct
 
@@ -34,7 +34,7 @@ class RangeScan(Struct, frozen=True, kw_only=True):
     max_m: float = 0.0
     noise: Noise = Noise()
     visibility_mask: int = EVERY_BIT
-    """Of rays on Gazebo's GPU: visuals are met whose flags share a bit with it."""
+    """For gpu_ray sensors: they see the visuals whose flags share a bit with it."""
 
 
 class OrientationReference(Struct, frozen=True, kw_only=True):
@@ -43,7 +43,7 @@ class OrientationReference(Struct, frozen=True, kw_only=True):
     localization: str = "CUSTOM"
     """ENU, NED, NWU, GRAV_UP, GRAV_DOWN or CUSTOM."""
     custom_rpy: Vector3 = (0.0, 0.0, 0.0)
-    """Of a custom frame in its parent [rad]."""
+    """Roll, pitch and yaw of a custom frame in its parent [rad]."""
     parent_frame: str = ""
     """world, or empty: the sensor's own frame at the start."""
     gravity_x: Vector3 = (1.0, 0.0, 0.0)
