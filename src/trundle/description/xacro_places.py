@@ -73,7 +73,7 @@ class Cursor:
         return go_through
 
     def _at(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """Called before the contents of one of xacro's own elements are evaluated."""
+        """Wrap a function of xacro so that the element it reads becomes the current place."""
 
         def read(element: Any, *rest: Any) -> Any:
             self.at = place_of(element)
