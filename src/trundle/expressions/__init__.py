@@ -1,19 +1,5 @@
 """Expressions that a file holds: text and names enter, a value leaves; no code of Python runs."""
 
-from .budget import Budget, ExpressionError
-from .functions import MATH_NAMES, PYTHON_NAMES
-from .interpreter import Interpreter
-from .methods import is_method
-from .values import Caller, Function, function_of
+import lazy_loader
 
-__all__ = [
-    "MATH_NAMES",
-    "PYTHON_NAMES",
-    "Budget",
-    "Caller",
-    "ExpressionError",
-    "Function",
-    "Interpreter",
-    "function_of",
-    "is_method",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,35 +1,5 @@
 """Launch files: what enters is roslaunch XML, what leaves is a plan; nothing is started here."""
 
-from .commands import CommandRunner, XacroExpander, resolve_params
-from .packages import PackageFinder
-from .plan import (
-    LaunchArgument,
-    LaunchNode,
-    LaunchParam,
-    LaunchPlan,
-    LaunchTest,
-    ParamCommand,
-    ParamStep,
-    ParamType,
-    ParamValue,
-)
-from .reader import read_arguments, read_launch, read_launch_text
+import lazy_loader
 
-__all__ = [
-    "CommandRunner",
-    "LaunchArgument",
-    "LaunchNode",
-    "LaunchParam",
-    "LaunchPlan",
-    "LaunchTest",
-    "PackageFinder",
-    "ParamCommand",
-    "ParamStep",
-    "ParamType",
-    "ParamValue",
-    "XacroExpander",
-    "read_arguments",
-    "read_launch",
-    "read_launch_text",
-    "resolve_params",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

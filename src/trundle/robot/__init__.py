@@ -1,38 +1,5 @@
 """A URDF's own tree as written, and its kinematics."""
 
-from .kinematics import parent_from_child, root_from_links
-from .read import read_robot
-from .robot import (
-    JointLimit,
-    Mimic,
-    Robot,
-    RobotBox,
-    RobotCylinder,
-    RobotGeometry,
-    RobotInertial,
-    RobotJoint,
-    RobotJointType,
-    RobotLink,
-    RobotMesh,
-    RobotShape,
-    RobotSphere,
-)
+import lazy_loader
 
-__all__ = [
-    "JointLimit",
-    "Mimic",
-    "Robot",
-    "RobotBox",
-    "RobotCylinder",
-    "RobotGeometry",
-    "RobotInertial",
-    "RobotJoint",
-    "RobotJointType",
-    "RobotLink",
-    "RobotMesh",
-    "RobotShape",
-    "RobotSphere",
-    "parent_from_child",
-    "read_robot",
-    "root_from_links",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,5 +1,5 @@
 """Colours and textures from Ogre's material scripts, which SDF's <material><script> names."""
 
-from .find import find_material
+import lazy_loader
 
-__all__ = ["find_material"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

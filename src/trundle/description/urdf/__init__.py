@@ -1,5 +1,5 @@
 """URDF lowered to SDF's meaning, as Gazebo does it."""
 
-from .lower import lower_robot
+import lazy_loader
 
-__all__ = ["lower_robot"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

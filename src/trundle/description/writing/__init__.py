@@ -1,7 +1,5 @@
 """Model becomes text: SDF and URDF."""
 
-from .files import UriOf, written_uri
-from .sdf import write_sdf
-from .urdf import write_urdf
+import lazy_loader
 
-__all__ = ["UriOf", "write_sdf", "write_urdf", "written_uri"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

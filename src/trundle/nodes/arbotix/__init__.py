@@ -1,6 +1,5 @@
 """arbotix_python in its simulated mode, and the gripper of arbotix_controllers."""
 
-from .driver import ArbotixDriver
-from .gripper import GripperController
+import lazy_loader
 
-__all__ = ["ArbotixDriver", "GripperController"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

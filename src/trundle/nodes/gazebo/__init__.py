@@ -1,7 +1,5 @@
 """gazebo_ros in this process: the node /gazebo with its services and topics, spawn_model, and the window."""
 
-from .client import GazeboClient
-from .server import Gazebo, GazeboServer
-from .spawn_model import SpawnModel
+import lazy_loader
 
-__all__ = ["Gazebo", "GazeboClient", "GazeboServer", "SpawnModel"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

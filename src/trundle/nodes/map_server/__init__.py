@@ -1,6 +1,5 @@
 """map_server's two nodes: a map from a picture onto /map, and from /map into a picture."""
 
-from .saver import MapSaver
-from .server import MapServer
+import lazy_loader
 
-__all__ = ["MapSaver", "MapServer"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,9 +1,5 @@
 """The nodes of topic_tools: messages of any type passed on, thinned out, chosen among or computed from."""
 
-from .drop import Drop
-from .mux import Mux
-from .relay import Relay
-from .throttle import Throttle
-from .transform import Transform
+import lazy_loader
 
-__all__ = ["Drop", "Mux", "Relay", "Throttle", "Transform"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

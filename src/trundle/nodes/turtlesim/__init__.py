@@ -1,8 +1,5 @@
 """turtlesim: turtles that draw, and the nodes of its tutorials."""
 
-from .draw_square import DrawSquare
-from .mimic import Mimic
-from .simulator import TurtleSim
-from .teleop_key import TurtleTeleopKey
+import lazy_loader
 
-__all__ = ["DrawSquare", "Mimic", "TurtleSim", "TurtleTeleopKey"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,5 +1,5 @@
 """libgazebo_grasp_fix.so: what fingers hold is welded to the palm while they hold it."""
 
-from .plugin import GraspFix
+import lazy_loader
 
-__all__ = ["GraspFix"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

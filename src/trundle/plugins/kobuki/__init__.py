@@ -1,5 +1,5 @@
 """libgazebo_ros_kobuki.so: the base of a TurtleBot 2."""
 
-from .base import Kobuki
+import lazy_loader
 
-__all__ = ["Kobuki"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

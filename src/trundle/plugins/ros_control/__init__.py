@@ -1,6 +1,5 @@
 """ros_control: joints behind transmissions, and the controllers that drive them."""
 
-from .catalog import CONTROLLERS
-from .plugin import GazeboRosControl
+import lazy_loader
 
-__all__ = ["CONTROLLERS", "GazeboRosControl"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,25 +1,5 @@
 """Bags: recorded, played, read and written, as ROS 1 bags and as MCAP."""
 
-from .bag import BagConnection, BagError, BagMessage, BagReader, BagWriter, Chunk, UnindexedBagError
-from .files import create_bag, open_bag, recovered
-from .play import Player, PlayOptions
-from .record import Recorder, RecordOptions
-from .steps import StepRecorder
+import lazy_loader
 
-__all__ = [
-    "BagConnection",
-    "BagError",
-    "BagMessage",
-    "BagReader",
-    "BagWriter",
-    "Chunk",
-    "PlayOptions",
-    "Player",
-    "RecordOptions",
-    "Recorder",
-    "StepRecorder",
-    "UnindexedBagError",
-    "create_bag",
-    "open_bag",
-    "recovered",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

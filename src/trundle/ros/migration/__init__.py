@@ -1,21 +1,5 @@
 """Old messages brought up to the types of today, by rule files as rosbag has them."""
 
-from .classes import MessageClass, MessageClasses
-from .generated import GeneratedRule, HalfRule
-from .migrator import Migrator, Step, missing_rules
-from .rule import MessageUpdateRule, MigrationError, Rule
-from .rule_files import RuleFile
+import lazy_loader
 
-__all__ = [
-    "GeneratedRule",
-    "HalfRule",
-    "MessageClass",
-    "MessageClasses",
-    "MessageUpdateRule",
-    "MigrationError",
-    "Migrator",
-    "Rule",
-    "RuleFile",
-    "Step",
-    "missing_rules",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,11 @@
+from .drive import DifferentialDrive as DifferentialDrive
+from .drive import WheelOdometry as WheelOdometry
+from .drive import approach as approach
+from .four_wheel import FourWheelSteering as FourWheelSteering
+from .four_wheel import Wheels as Wheels
+from .four_wheel import axle_angle as axle_angle
+from .pid import Pid as Pid
+from .speed_limit import SpeedLimit as SpeedLimit
+from .spline import JointPoint as JointPoint
+from .spline import JointSpline as JointSpline
+from .toolbox_pid import ToolboxPid as ToolboxPid

@@ -1,0 +1,11 @@
+from .loaded import Loaded as Loaded
+from .read import load as load
+from .read import load_text as load_text
+from .read import load_urdf as load_urdf
+from .sdf import GAZEBO_MATERIALS as GAZEBO_MATERIALS
+from .sdf import read_extra_joint as read_extra_joint
+from .writing import UriOf as UriOf
+from .writing import write_sdf as write_sdf
+from .writing import write_urdf as write_urdf
+from .writing import written_uri as written_uri
+from .xacro import expand_xacro as expand_xacro

@@ -1,0 +1,1 @@
+from .find import find_material as find_material

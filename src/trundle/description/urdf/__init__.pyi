@@ -1,0 +1,1 @@
+from .lower import lower_robot as lower_robot

@@ -1,0 +1,9 @@
+from .budget import Budget as Budget
+from .budget import ExpressionError as ExpressionError
+from .functions import MATH_NAMES as MATH_NAMES
+from .functions import PYTHON_NAMES as PYTHON_NAMES
+from .interpreter import Interpreter as Interpreter
+from .methods import is_method as is_method
+from .values import Caller as Caller
+from .values import Function as Function
+from .values import function_of as function_of

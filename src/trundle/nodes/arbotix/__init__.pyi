@@ -1,0 +1,2 @@
+from .driver import ArbotixDriver as ArbotixDriver
+from .gripper import GripperController as GripperController

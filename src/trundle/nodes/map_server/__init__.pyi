@@ -1,0 +1,2 @@
+from .saver import MapSaver as MapSaver
+from .server import MapServer as MapServer

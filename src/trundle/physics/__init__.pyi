@@ -1,0 +1,15 @@
+from .compile import compile_world as compile_world
+from .egl_renderer import EglRenderer as EglRenderer
+from .engine import Engine as Engine
+from .engine import EngineState as EngineState
+from .engine import SimulationUnstableError as SimulationUnstableError
+from .grip import Grip as Grip
+from .grip import LinkGrip as LinkGrip
+from .grip import TrackGrip as TrackGrip
+from .grip import WheelGrip as WheelGrip
+from .index import CompiledWorld as CompiledWorld
+from .instant import Instant as Instant
+from .mjcf import compile_mjcf as compile_mjcf
+from .postmortem import Runaway as Runaway
+from .touching import Contact as Contact
+from .wheels import name_wheels as name_wheels

@@ -1,0 +1,2 @@
+from .catalog import CONTROLLERS as CONTROLLERS
+from .plugin import GazeboRosControl as GazeboRosControl

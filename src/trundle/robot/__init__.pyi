@@ -1,0 +1,16 @@
+from .kinematics import parent_from_child as parent_from_child
+from .kinematics import root_from_links as root_from_links
+from .read import read_robot as read_robot
+from .robot import JointLimit as JointLimit
+from .robot import Mimic as Mimic
+from .robot import Robot as Robot
+from .robot import RobotBox as RobotBox
+from .robot import RobotCylinder as RobotCylinder
+from .robot import RobotGeometry as RobotGeometry
+from .robot import RobotInertial as RobotInertial
+from .robot import RobotJoint as RobotJoint
+from .robot import RobotJointType as RobotJointType
+from .robot import RobotLink as RobotLink
+from .robot import RobotMesh as RobotMesh
+from .robot import RobotShape as RobotShape
+from .robot import RobotSphere as RobotSphere

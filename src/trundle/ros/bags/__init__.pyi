@@ -1,0 +1,15 @@
+from .bag import BagConnection as BagConnection
+from .bag import BagError as BagError
+from .bag import BagMessage as BagMessage
+from .bag import BagReader as BagReader
+from .bag import BagWriter as BagWriter
+from .bag import Chunk as Chunk
+from .bag import UnindexedBagError as UnindexedBagError
+from .files import create_bag as create_bag
+from .files import open_bag as open_bag
+from .files import recovered as recovered
+from .play import Player as Player
+from .play import PlayOptions as PlayOptions
+from .record import Recorder as Recorder
+from .record import RecordOptions as RecordOptions
+from .steps import StepRecorder as StepRecorder

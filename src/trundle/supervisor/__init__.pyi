@@ -1,0 +1,11 @@
+from .job import Job as Job
+from .job import JobError as JobError
+from .job import Patience as Patience
+from .job import Policy as Policy
+from .process import Command as Command
+from .process import ProcessJob as ProcessJob
+from .process_tree import ProcessTree as ProcessTree
+from .supervisor import Event as Event
+from .supervisor import EventKind as EventKind
+from .supervisor import Supervisor as Supervisor
+from .task import TaskJob as TaskJob
