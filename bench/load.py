@@ -73,7 +73,7 @@ def run_load(seconds: float) -> Report:
         publishers = [talker.advertise(f"/t{i}", _TWIST, queue_size=100) for i in range(_TOPICS)]
         clock = talker.advertise("/clock", "rosgraph_msgs/Clock", queue_size=100)
         talker.advertise("/latched", _STRING, latch=True).publish({"data": "here"})
-        loop.run(talker.ready(), _PATIENCE_S)
+        loop.run(talker.wait_registered(), _PATIENCE_S)
         words = [sys.executable, "-m", "bench.load", "--listen", core.uri]
         pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
         with subprocess.Popen(words, cwd=Path(__file__).parents[1], text=True, **pipes) as listener:

@@ -33,7 +33,7 @@ class Graph:
     def ready(self, *nodes: Node) -> None:
         """Wait until all that the nodes asked for is known to the master."""
         for node in nodes:
-            self.loop.run(node.ready(), PATIENCE_S)
+            self.loop.run(node.wait_registered(), PATIENCE_S)
 
     def until(self, condition: Callable[[], object]) -> None:
         until(condition)

@@ -18,7 +18,7 @@ from trundle.meshes import RawPart, keep, load_kept
 from trundle.outputs import write_whole
 from trundle.ownership import home_folder, is_ours
 from trundle.ros import blocking_call
-from trundle.ros.nearby import UNIXROS, connect_nearby
+from trundle.ros.transport.unix_sockets import UNIXROS, connect_unix
 from trundle.viewer.mailbox import Mailbox
 
 _OTHER = 65534
@@ -119,7 +119,7 @@ sys.stdin.read()
 
     async def connect() -> None:
         with pytest.raises(PermissionError, match="another user's"):
-            await connect_nearby(asyncio.get_running_loop(), "\0trundle-of-another-user")
+            await connect_unix(asyncio.get_running_loop(), "\0trundle-of-another-user")
 
     with stranger.start(program) as other:
         assert other.stdout is not None

@@ -12,7 +12,7 @@ from trundle.bringup.graph import Graph
 from trundle.diagnostics import Diagnostics
 from trundle.nodes import Host
 from trundle.nodes.gazebo import GazeboServer
-from trundle.ros import PROFILES, GraphLoop, Message, Node
+from trundle.ros import DISTROS, GraphLoop, Message, Node
 
 
 class Gazebo:
@@ -41,11 +41,11 @@ class Gazebo:
             (self.folder / "w.world").write_text(world)
             words.append(str(self.folder / "w.world"))
         self.server = Node("/gazebo", loop=self.loop, master_uri=self.client.master_uri)
-        self.server.profile = PROFILES[distro]
+        self.server.profile = DISTROS[distro]
         self.loop.spawn(GazeboServer(self.server, words, self.host).run())
         wait = self.client.wait_for_service("/gazebo/unpause_physics", PATIENCE_S)
         self.loop.run(wait, timeout_s=PATIENCE_S)
-        self.loop.run(self.server.ready())
+        self.loop.run(self.server.wait_registered())
 
     def call(self, name: str, kind: str = "std_srvs/Empty", **fields: Any) -> Message:
         """Call a service of the server's."""

@@ -279,7 +279,7 @@ def test_a_server_that_was_killed_can_be_started_again(gazebo: Gazebo, tmp_path:
     again = Node("/gazebo", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
     gazebo.loop.spawn(GazeboServer(again, ["-u"], gazebo.host).run())
     gazebo.loop.run(gazebo.client.wait_for_service("/gazebo/unpause_physics", PATIENCE_S), timeout_s=PATIENCE_S)
-    gazebo.loop.run(again.ready())
+    gazebo.loop.run(again.wait_registered())
     models = gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties").model_names
     assert list(models) == ["ground_plane"]
 

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from tests.bringup.conftest import Gazebo, until
 
-from trundle.ros import PROFILES
+from trundle.ros import DISTROS
 
 _INERTIA = "<inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia>"
 TWIST, ODOMETRY = "geometry_msgs/Twist", "nav_msgs/Odometry"
@@ -77,7 +77,7 @@ def test_two_wheels_drive_and_tell_where_to(gazebo: Gazebo, source: str) -> None
     [("noetic", "<legacyMode>true</legacyMode>", -1), ("kinetic", "", -1), ("melodic", "", 1)],
 )
 def test_an_old_package_has_its_sides_swapped(gazebo: Gazebo, distro: str, legacy: str, sign: int) -> None:
-    gazebo.server.profile = PROFILES[distro]
+    gazebo.server.profile = DISTROS[distro]
     gazebo.spawn(_car(_plugin("diff_drive", f"{_DIFF}{legacy}"), _TWO), "car")
     gazebo.call("unpause_physics")
     odometry = gazebo.hear("/r/odom", ODOMETRY)

@@ -17,7 +17,7 @@ def _record(gazebo: Gazebo, folder: Path) -> None:
     server = Node("/gazebo", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
     gazebo.loop.spawn(GazeboServer(server, ["-u", "-r", "--record_path", str(folder)], gazebo.host).run())
     gazebo.loop.run(gazebo.client.wait_for_service("/gazebo/unpause_physics", PATIENCE_S), timeout_s=PATIENCE_S)
-    gazebo.loop.run(server.ready())
+    gazebo.loop.run(server.wait_registered())
 
 
 def test_each_file_holds_a_world_until_a_model_comes(bare_gazebo: Gazebo, tmp_path: Path) -> None:

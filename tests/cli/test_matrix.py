@@ -176,7 +176,7 @@ def test_every_original_tool_works_on_our_graph(tmp_path: Path, capsys: pytest.C
                 node.log_warn("hello")
                 await WallClock().sleep(0.02)
 
-        loop.run(node.ready())
+        loop.run(node.wait_registered())
         talking = loop.spawn(talk())
         env = _environment(core.uri, tmp_path)
         _judge(_go(env, tmp_path, originals=True), "Debian's tools on our master and node", capsys)

@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import Callable, Coroutine
 from typing import Any
 
-from trundle.ros import PROFILES, Message, Messages
+from trundle.ros import DISTROS, Message, Messages
 
 MESSAGES = Messages()
 
@@ -50,7 +50,7 @@ class FakeNode:
         self, clock: FakeClock, params: dict[str, Any] | None = None, name: str = "/n", *, distro: str = "noetic"
     ) -> None:
         self.name = name
-        self.profile = PROFILES[distro]
+        self.profile = DISTROS[distro]
         self.clock = clock
         self.messages = MESSAGES
         self.params = params or {}

@@ -12,7 +12,7 @@ from trundle.nodes import Host
 from trundle.nodes.arbotix import ArbotixDriver
 from trundle.nodes.arbotix.diff import Unicycle
 from trundle.nodes.arbotix.servos import HobbyServo
-from trundle.ros import Settings
+from trundle.ros import NodeParams
 
 S = 1_000_000_000
 SMARTCAR: dict[str, Any] = {
@@ -197,7 +197,7 @@ def test_a_servo_moves_by_its_speed_limit_in_whole_ticks() -> None:
 
 def test_a_servo_that_a_controller_moves_does_not_obey_its_topic() -> None:
     node = FakeNode(FakeClock(end_ns=S), {})
-    servo = HobbyServo(node, "arm", Settings({"id": 1}, "/n"))  # pyright: ignore[reportArgumentType]
+    servo = HobbyServo(node, "arm", NodeParams({"id": 1}, "/n"))  # pyright: ignore[reportArgumentType]
     servo.is_taken = lambda: True
     node.hear("/arm/command", {"data": 0.5}, "std_msgs/Float64")
     servo.interpolate(1.0)

@@ -7,7 +7,7 @@ from tests.nodes.conftest import PATIENCE_S
 
 from trundle.nodes import Host
 from trundle.nodes.twist_mux import Source, find_driver, read_sources
-from trundle.ros import Node, SettingError
+from trundle.ros import Node, ParamError
 
 TWIST = "geometry_msgs/Twist"
 S = 1_000_000_000
@@ -49,7 +49,7 @@ def test_a_lock_that_falls_silent_masks() -> None:
 
 @pytest.mark.parametrize("value", [{"a": 1}, [{"name": "a"}], [{"name": "a", "topic": "t"}], ["x"]])
 def test_sources_that_are_none_are_refused(value: object) -> None:
-    with pytest.raises(SettingError):
+    with pytest.raises(ParamError):
         read_sources(value, "/twist_mux/topics")
 
 

@@ -10,7 +10,7 @@ from tests.nodes.fakes import MESSAGES, FakeClock, FakeNode, run_to_end
 from trundle.diagnostics import Diagnostics
 from trundle.nodes import Host, Slider
 from trundle.nodes.joint_state_publisher import JointSet, JointStatePublisher, JointStatePublisherGui
-from trundle.ros import NOETIC, Settings
+from trundle.ros import NOETIC, NodeParams
 from trundle.xmlnode import parse_xml
 
 S = 1_000_000_000
@@ -56,7 +56,7 @@ def test_parameters_of_the_namespace_count_where_the_node_has_none() -> None:
 
 
 def test_other_publishers_move_free_joints() -> None:
-    joints = JointSet(Settings({}, "/n"), NOETIC)
+    joints = JointSet(NodeParams({}, "/n"), NOETIC)
     joints.read(parse_xml(ROBOT, name="r.urdf"), Diagnostics())
     state = {"name": ["wheel", "nobody"], "position": [0.75, 9.0]}
     joints.hear(MESSAGES.new("sensor_msgs/JointState", state))

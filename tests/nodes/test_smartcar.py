@@ -226,7 +226,7 @@ def test_extra_frames_keep_their_slashes(smartcar: Smartcar) -> None:
 def test_the_car_drives_and_never_stops_by_itself(smartcar: Smartcar) -> None:
     """Last in this file: the car is not at its start any more."""
     publisher = smartcar.onlooker.advertise("/cmd_vel", "geometry_msgs/Twist")
-    smartcar.onlooker.loop.run(smartcar.onlooker.ready(), TIMEOUT_S)
+    smartcar.onlooker.loop.run(smartcar.onlooker.wait_registered(), TIMEOUT_S)
     smartcar.forget()
     for _ in range(600):
         publisher.publish({"linear": {"x": 0.5}, "angular": {"z": 0.5}})

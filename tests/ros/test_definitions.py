@@ -102,7 +102,7 @@ def test_an_installed_definition_is_sent_along_with_its_comments(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, wanted: str
 ) -> None:
     """`rosbag check` compares a bag's text with the installed one; md5 sums and fields stay what they are."""
-    monkeypatch.setattr("trundle.ros.sources.DEBIAN_SHARE", "")
+    monkeypatch.setattr("trundle.ros.messages.definition_search.DEBIAN_SHARE", "")
     known = Messages().definition("geometry_msgs/Pose")
     file = tmp_path / "geometry_msgs" / "msg" / "Pose.msg"
     file.parent.mkdir(parents=True)
@@ -124,7 +124,7 @@ def test_an_installed_definition_without_fields_is_sent_along_too(
     file = tmp_path / "std_msgs" / "msg" / "Empty.msg"
     file.parent.mkdir(parents=True)
     file.write_text("# nothing to say\n")
-    monkeypatch.setattr("trundle.ros.sources.DEBIAN_SHARE", "")
+    monkeypatch.setattr("trundle.ros.messages.definition_search.DEBIAN_SHARE", "")
     monkeypatch.setenv("ROS_PACKAGE_PATH", f"/nowhere:{tmp_path}")
     assert Messages().definition("std_msgs/Empty") == "# nothing to say\n"
     assert Messages().md5("std_msgs/Empty") == "d41d8cd98f00b204e9800998ecf8427e"

@@ -4,7 +4,7 @@ import pytest
 
 import trundle.names
 import trundle.ros
-from trundle.ros.network import server_address
+from trundle.ros.transport.network import server_address
 
 
 def test_every_public_name_is_there_once() -> None:

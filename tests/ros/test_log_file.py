@@ -7,7 +7,7 @@ import pytest
 from tests.graphs import until
 
 from trundle.ros import Core, GraphLoop, LogFile, Messages, Node
-from trundle.ros.core_logs import rosout_line
+from trundle.ros.core.logs import rosout_line
 
 
 def test_lines_go_behind_what_is_there(tmp_path: Path) -> None:
@@ -70,7 +70,7 @@ def test_a_core_writes_what_nodes_say_and_who_comes_and_goes(tmp_path: Path, mes
         loop.run(core.start())
         loop.run(core.ready())
         node = _node(loop, core)
-        loop.run(node.ready())
+        loop.run(node.wait_registered())
         until(lambda: _says(node, "first") and "first" in _text(tmp_path / "rosout.log"))
         loop.run(node.set_param("/rosout/omit_topics", True))
         until(lambda: _says(node, "second") and "second" in _text(tmp_path / "rosout.log"))

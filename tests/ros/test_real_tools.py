@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from trundle.ros import Node, WallClock
-from trundle.ros.rpc_client import call, call_value
+from trundle.ros.xmlrpc.rpc_client import call, call_value
 
 pytestmark = [
     pytest.mark.real_ros,

@@ -16,8 +16,8 @@ import pytest
 from tests.ros.conftest import PATIENCE_S
 
 from trundle.ros import Core, GraphLoop, MasterProxy, Node, ServiceError, blocking_call
-from trundle.ros.headers import decode_header, encode_header
-from trundle.ros.rpc_server import RpcServer
+from trundle.ros.transport.headers import decode_header, encode_header
+from trundle.ros.xmlrpc.rpc_server import RpcServer
 
 STRING = "std_msgs/String"
 MD5 = "992ce8a1687cec8c8bd883ec73ca41d1"
@@ -306,8 +306,8 @@ def test_a_server_whose_opening_is_cancelled_is_closed(messages: Any) -> None:
 def test_a_flood_of_silent_connections_shuts_nobody_out(
     graph: Any, monkeypatch: pytest.MonkeyPatch, server: str
 ) -> None:
-    monkeypatch.setattr("trundle.ros.rpc_server._MAX_CLIENTS", 20)
-    monkeypatch.setattr("trundle.ros.slave._MAX_NEWCOMERS", 20)
+    monkeypatch.setattr("trundle.ros.xmlrpc.rpc_server._MAX_CLIENTS", 20)
+    monkeypatch.setattr("trundle.ros.node.slave._MAX_NEWCOMERS", 20)
     node = graph.node("n")
     node.advertise("/a", STRING)
     port = _tcpros_port(graph, node) if server == "node" else graph.core.port

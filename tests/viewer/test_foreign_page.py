@@ -11,7 +11,7 @@ from tests.graphs import running_graph
 from tests.viewer.conftest import make_scene, make_state
 
 from trundle.ros import MasterProxy, Messages
-from trundle.ros.xmlrpc import encode_call
+from trundle.ros.xmlrpc.xmlrpc import encode_call
 from trundle.viewer import Viewer
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]

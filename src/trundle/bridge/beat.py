@@ -26,10 +26,10 @@ class Beat:
     def join(self, simulation: Simulation) -> None:
         """Begin; what nobody listens to costs no stride."""
         simulation.add_hook(_Tick(self._tell), period_ns=_SPARING_NS, wanted=self._is_sparing)
-        simulation.add_hook(_Tick(self._tell), wanted=lambda: self._topic.wants_every)
+        simulation.add_hook(_Tick(self._tell), wanted=lambda: self._topic.needs_every_message)
 
     def _is_sparing(self) -> bool:
-        return self._topic.has_subscribers and not self._topic.wants_every
+        return self._topic.has_subscribers and not self._topic.needs_every_message
 
 
 class _Tick:

@@ -3,7 +3,7 @@
 from trundle.bridge import FrameNames, camera_topics, sensor_topics
 from trundle.diagnostics import Diagnostics
 from trundle.robot import Robot
-from trundle.ros import End, Node, StaticTransformBroadcaster
+from trundle.ros import Endpoint, Node, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, MeasuringSensor, Surroundings, mount_cameras, mount_sensors
 from trundle.simulation import Simulation
 
@@ -22,7 +22,7 @@ class GazeboSensors:
         self._renderer: RendererName = renderer
         self._report = report
         self._around = Surroundings(simulation)
-        self._ends: dict[str, list[End]] = {}
+        self._ends: dict[str, list[Endpoint]] = {}
         """Model → topics and services of its sensors."""
         self._robots: dict[str, Robot] = {}
         """Model → the URDF that it was spawned from."""
@@ -46,7 +46,7 @@ class GazeboSensors:
             sensor.start(simulation)
         self.all += [*cameras, *sensors]
         for owner in dict.fromkeys(sensor.model.name for sensor in (*cameras, *sensors)):
-            with self._node.noting() as self._ends[owner]:
+            with self._node.recording_endpoints() as self._ends[owner]:
                 self._speak(
                     [camera for camera in cameras if camera.model.name == owner],
                     [sensor for sensor in sensors if sensor.model.name == owner],

@@ -102,7 +102,7 @@ class GazeboWorld:
         self._record = (
             None if record is None else Path(record).expanduser() if record else self._folder.parent / "gazebo"
         )
-        with self._graph.loop.work.under_way():
+        with self._graph.loop.work.pending():
             await self._open(node, world, paused=paused, env=env)
 
     async def _open(self, node: Node, world: str, *, paused: bool, env: Mapping[str, str]) -> None:
@@ -278,7 +278,7 @@ class GazeboWorld:
 
     def _work(self) -> None:
         if self._steps is not None:
-            self._graph.loop.gather()
+            self._graph.loop.begin_batch()
         try:
             while not self._ending.is_set():
                 self._calls.obey()
@@ -297,7 +297,7 @@ class GazeboWorld:
         if self._paused or not (self._steps is None or self._steps.may_pass):
             self._pacer.restart()
             simulation.advance(simulation.time_ns)
-            self._graph.loop.release()
+            self._graph.loop.end_batch()
             self._ending.wait(_IDLE_S)
             return
         try:
@@ -312,7 +312,7 @@ class GazeboWorld:
             self._stand_still(f"{type(error).__name__}: {error}")
         self._clock.set(simulation.time_ns)
         if self._steps is None and self._pacer.speed is None:
-            self._graph.loop.settle()  # who hears what when does not depend on how fast the machine is
+            self._graph.loop.flush_deliveries()  # who hears what when does not depend on how fast the machine is
 
     def _go_in_step(self, simulation: Simulation, steps: Steps, until_ns: int) -> None:
         """Go from instant to instant, and at each let the nodes do what it brings."""

@@ -45,7 +45,7 @@ class Steps:
             is_ending: whether to come back at once.
         """
         remaining_s = max(0.0, self._due - time.monotonic())
-        has_rested = await self._loop.rested(remaining_s, unless=is_ending, passes=_STARTING_PASSES)
+        has_rested = await self._loop.idle(remaining_s, unless=is_ending, passes=_STARTING_PASSES)
         if not has_rested and not is_ending():
             self._give_up()
 
@@ -73,7 +73,7 @@ class Steps:
         due = time.monotonic() + _REST_S
         while not is_ending():
             obey()
-            if self._loop.rest(_TURN_S, unless=is_called) and not is_called():
+            if self._loop.wait_idle(_TURN_S, unless=is_called) and not is_called():
                 return
             if time.monotonic() > due:
                 self._give_up()
@@ -87,7 +87,7 @@ class Steps:
             self.over.set()
 
     def _give_up(self) -> None:
-        self._loop.work.give_up()
+        self._loop.work.abandon()
         if self._say is not None:
             self._say(
                 "a node keeps waiting while time stands still; time goes on, but another run may differ from this"

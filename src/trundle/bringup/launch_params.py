@@ -16,7 +16,7 @@ async def set_params(node: Node, plan: LaunchPlan, params: Sequence[LaunchParam]
     Raises:
         DescriptionError: a value that parameters cannot hold, or a file that cannot be written.
     """
-    await node.ready()
+    await node.wait_registered()
     for step in plan.steps:
         if step.command == "delete":
             if await node.has_param(step.name):

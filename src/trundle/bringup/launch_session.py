@@ -11,7 +11,7 @@ from trundle.garbage import no_garbage
 from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import WINDOWS, WORLDS, Executable, Host, Simulator, find_node
 from trundle.page_address import PageAddress
-from trundle.ros import PROFILES, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
+from trundle.ros import DISTROS, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
 from trundle.supervisor import Event, Patience, ProcessTree
 
 from . import launch_print
@@ -91,7 +91,7 @@ class LaunchSession:
         self._open_things.callback(self._log.close)
         show.log_to(self._log.write)
         if options.distro is not None:
-            profile = PROFILES[options.distro]
+            profile = DISTROS[options.distro]
             for name, value in (("/rosdistro", profile.distro), ("/rosversion", profile.version)):
                 graph.loop.run(launcher.set_param(name, f"{value}\n"))
         if options.summary and not options.core_only:

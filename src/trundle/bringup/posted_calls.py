@@ -29,7 +29,7 @@ class PostedCalls:
             try:
                 call()
             finally:
-                self._loop.release()
+                self._loop.end_batch()
                 self._loop.work.end(token)
 
     def drop(self) -> None:

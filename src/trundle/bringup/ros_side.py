@@ -43,7 +43,7 @@ class RosSide:
         self.clock = RunningClock(graph.loop, simulation)
         self.node = self.make_node(NODE_NAME)
         loop = graph.loop
-        loop.run(self.node.ready())
+        loop.run(self.node.wait_registered())
         loop.run(self.node.set_param("/use_sim_time", True))
         ClockTopic(self.node).join(simulation)
         still = StaticTransformBroadcaster(self.node)
@@ -104,7 +104,7 @@ class RosSide:
         """
         self.clock.set(self._simulation.time_ns)
         if wait:
-            self._graph.loop.settle()
+            self._graph.loop.flush_deliveries()
 
     def drive(self, linear: float, angular: float) -> None:
         """Publish a velocity command [m/s, rad/s], as the page's drive pad asks."""

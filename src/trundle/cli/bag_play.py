@@ -41,7 +41,7 @@ def main(args: argparse.Namespace) -> int:
         publishers = player.advertise()
         player.is_paused = args.pause
         _provide_pausing(node, player)
-        loop.run(node.ready(), None)
+        loop.run(node.wait_registered(), None)
         say(f"Waiting {args.delay:g} seconds after advertising topics...")
         time.sleep(max(0.0, args.delay))
         say(" done.\n")

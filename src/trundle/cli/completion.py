@@ -74,7 +74,7 @@ def _frames() -> set[str]:
         listener = TransformListener(node)
 
         async def frames() -> set[str]:
-            await node.linked()
+            await node.wait_connected()
             await asyncio.sleep(_PATIENCE_S)
             while not listener.buffer.frames():
                 await asyncio.sleep(_PATIENCE_S)

@@ -12,7 +12,7 @@ from queue import Empty, SimpleQueue
 from trundle.bringup.exposure import warn_of_exposure
 from trundle.bringup.launch_logs import log_folder
 from trundle.diagnostics import UsageError
-from trundle.ros import NOETIC, PROFILES, Core, GraphLoop, RosError, host_and_port
+from trundle.ros import DISTROS, NOETIC, Core, GraphLoop, RosError, host_and_port
 
 from .running import ending_signals
 
@@ -27,7 +27,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("-p", "--port", type=int, default=11311, help="port to listen at; 0: any free one")
     parser.add_argument("--host", help="address to listen at, such as 0.0.0.0 for all; this machine only by default")
-    parser.add_argument("--distro", choices=PROFILES, default=NOETIC.distro, help="what to be (noetic)")
+    parser.add_argument("--distro", choices=DISTROS, default=NOETIC.distro, help="what to be (noetic)")
     # roscore's other switches tune its worker threads, sockets and logs; there is nothing here to tune.
     parser.add_argument("-v", "--verbose", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("-w", "--numworkers", type=int, help=argparse.SUPPRESS)
@@ -50,7 +50,7 @@ def main(args: argparse.Namespace) -> int:
             loop,
             port=args.port,
             host=args.host,
-            profile=PROFILES[args.distro],
+            profile=DISTROS[args.distro],
             on_shutdown=reasons.put,
             log_folder=_log_folder,
         )

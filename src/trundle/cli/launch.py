@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from trundle.diagnostics import UsageError
-from trundle.ros import PROFILES
+from trundle.ros import DISTROS
 
 from .main import add_allow_outside, add_lenient, add_page_access, add_renderer, page_access, quiet_imports
 from .speed import read_speed
@@ -36,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="write every topic into a bag, or into FILE.mcap; with --speed max, where all nodes run within trundle, "
         "the same bytes every time, without /rosout and what other programs publish",
     )
-    add("--distro", choices=PROFILES, help="which ROS to be like (what the master says, or noetic)")
+    add("--distro", choices=DISTROS, help="which ROS to be like (what the master says, or noetic)")
     add("-p", "--port", type=int, metavar="N", help="the master's port (that of ROS_MASTER_URI, 11311)")
     add("--view-port", type=int, metavar="N", help="the page's port (8080 or a free one); Gazebo's beside rviz: N + 1")
     add("--host", default="127.0.0.1", help="address that everything binds (127.0.0.1)")

@@ -14,10 +14,10 @@ from trundle.ros import (
     Field,
     GraphLoop,
     Messages,
-    Trace,
+    TopicSeries,
     curves_of,
+    follow_series,
     follow_time,
-    follow_trace,
     open_bag,
     split_topic,
     spread_fields,
@@ -64,12 +64,12 @@ def _from_bag(names: Sequence[str], path: Path) -> list[Curve]:
     messages = Messages(bare=True)
     with open_bag(path) as bag:
         types = {connection.topic: connection.type for connection in bag.connections}
-        traces: list[Trace] = []
+        traces: list[TopicSeries] = []
         for name in names:
             found = split_topic(global_name(name, "plot"), types)
             if found is None:
                 raise UsageError(f"no topic of {name} in {path}; topics there: {', '.join(sorted(types))}")
-            traces.append(Trace(name, Field(topic=found[0], type=types[found[0]], path=found[1])))
+            traces.append(TopicSeries(name, Field(topic=found[0], type=types[found[0]], path=found[1])))
         checked: set[str] = set()
         for message in bag.messages(lambda c: any(c.topic == trace.where.topic for trace in traces)):
             kind = message.connection.type
@@ -88,10 +88,11 @@ def _from_graph(names: Sequence[str], duration_s: float | None, *, draws: bool) 
     with running_node("plot") as (loop, node):
         clock = loop.run(follow_time(node))
         traces = [
-            Trace(name, wait_for_topic(master("plot"), global_name(name, "plot"), loop.messages)) for name in names
+            TopicSeries(name, wait_for_topic(master("plot"), global_name(name, "plot"), loop.messages))
+            for name in names
         ]
         for trace in traces:
-            follow_trace(trace, node, clock)
+            follow_series(trace, node, clock)
         until_s = duration_s if duration_s is not None else None if draws else 10.0
         try:
             for curves in _gathering(loop, traces):
@@ -105,14 +106,14 @@ def _from_graph(names: Sequence[str], duration_s: float | None, *, draws: bool) 
         return loop.run(_snapshot(traces))
 
 
-def _gathering(loop: GraphLoop, traces: Sequence[Trace]) -> Iterator[list[Curve]]:
+def _gathering(loop: GraphLoop, traces: Sequence[TopicSeries]) -> Iterator[list[Curve]]:
     """What there is, again and again."""
     while True:
         time.sleep(_REDRAWN_S)
         yield loop.run(_snapshot(traces))
 
 
-async def _snapshot(traces: Sequence[Trace]) -> list[Curve]:
+async def _snapshot(traces: Sequence[TopicSeries]) -> list[Curve]:
     return curves_of(traces)
 
 

@@ -37,7 +37,7 @@ def main(args: argparse.Namespace) -> int:
             except TransformError as error:
                 return f"{error}\nThe current list of frames is:\n{_frames(listener.buffer)}"
 
-        loop.run(node.linked(), timeout_s=None)
+        loop.run(node.wait_connected(), timeout_s=None)
         until = time.monotonic() + _FIRST_S
         while isinstance(found := loop.run(look()), str) and time.monotonic() < until:
             time.sleep(0.01)

@@ -23,7 +23,7 @@ def main(args: argparse.Namespace) -> int:
         clock = loop.run(follow_time(node))
         traffic = TransformTraffic(node, clock)
         watched = _Watched.on(node, clock, *args.frames) if args.frames else None
-        loop.run(node.linked(), timeout_s=None)
+        loop.run(node.wait_connected(), timeout_s=None)
         if watched is not None:
             _wait(loop, watched)
 

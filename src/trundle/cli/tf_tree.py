@@ -27,7 +27,7 @@ def main(args: argparse.Namespace) -> int:
         traffic = TransformTraffic(node, clock)
         if target is not None:
             print(f"Listening to /tf for {args.time:.1f} seconds", flush=True)
-        loop.run(node.linked(), timeout_s=None)
+        loop.run(node.wait_connected(), timeout_s=None)
         time.sleep(max(0.0, args.time))
         now_s = clock.now_ns() / 1e9
 

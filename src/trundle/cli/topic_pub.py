@@ -43,7 +43,7 @@ def main(args: argparse.Namespace) -> int:
         publisher = node.advertise(
             global_name(args.topic, "rostopic"), args.type, latch=args.rate is None or args.latch, queue_size=100
         )
-        loop.run(node.ready(), timeout_s=None)
+        loop.run(node.wait_registered(), timeout_s=None)
         if is_piped:
             _publish_documents(args, node, publisher)
         else:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import yaml
 
 from trundle.files import read_file
-from trundle.ros import Message, Node, SettingError, Settings
+from trundle.ros import Message, Node, NodeParams, ParamError
 from trundle.yaml_loader import load_yaml
 
 from .host import Host
@@ -49,7 +49,7 @@ class CmdVelMux:
         path = str(await node.get_param("~yaml_cfg_file", ""))
         try:
             sources, output = await asyncio.to_thread(_read, path)
-        except SettingError as error:
+        except ParamError as error:
             node.log_error(str(error))
             return 1
         self._active = node.advertise("~active", "std_msgs/String", latch=True, queue_size=1)
@@ -81,17 +81,17 @@ def _read(path: str) -> tuple[list[Source], str]:
     """Read a configuration.
 
     Raises:
-        SettingError: there is none, or it is of no use.
+        ParamError: there is none, or it is of no use.
     """
     try:
         tree = load_yaml(read_file(path).decode())
     except (OSError, ValueError, yaml.YAMLError) as error:
-        raise SettingError(f"yaml_cfg_file {path!r} cannot be read: {error}") from None
-    settings = Settings(tree, path)
+        raise ParamError(f"yaml_cfg_file {path!r} cannot be read: {error}") from None
+    settings = NodeParams(tree, path)
     sources: list[Source] = []
     for number, item in enumerate(settings.items("subscribers") or []):
-        each = Settings(item, f"{path}/subscribers[{number}]")
+        each = NodeParams(item, f"{path}/subscribers[{number}]")
         sources.append(Source(each.text("name"), each.text("topic"), each.number("timeout"), each.number("priority")))
     if not sources:
-        raise SettingError(f"{path}: no subscribers")
+        raise ParamError(f"{path}: no subscribers")
     return sources, settings.text("publisher", "output")

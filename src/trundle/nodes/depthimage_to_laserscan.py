@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.ros import Message, Node, Option, Options, ReconfigureServer, Settings
+from trundle.ros import Message, Node, NodeParams, Option, Options, ReconfigureServer
 
 from .host import Host
 
@@ -71,7 +71,7 @@ class DepthImageToLaserScan:
     async def run(self) -> int:
         """Convert until cancelled."""
         node = self._node
-        settings = Settings(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.get_param("~", {}), node.name)
         self._rows = int(settings.number("scan_height", 1.0))
         self._scan_time_s = settings.number("scan_time", 1.0 / 30.0)
         self._nearest_m, self._farthest_m = settings.number("range_min", 0.45), settings.number("range_max", 10.0)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
-from trundle.ros import Message, Node, Profile, SettingError, Settings
+from trundle.ros import Distro, Message, Node, NodeParams, ParamError
 from trundle.xmlnode import XmlNode, parse_numbers, parse_xml
 
 from .host import Host, Slider
@@ -68,7 +68,7 @@ class DependentJoint:
 class JointSet:
     """The joints of a robot, as the original picks them out of its URDF."""
 
-    def __init__(self, options: Settings, profile: Profile) -> None:
+    def __init__(self, options: NodeParams, profile: Distro) -> None:
         self.names: list[str] = []
         """In file order."""
         self.free: dict[str, FreeJoint] = {}
@@ -130,20 +130,20 @@ class JointSet:
         """Follow a chain of dependent joints: the free joint at its end, factor and offset.
 
         Raises:
-            SettingError: the chain is a circle, or ends at a joint that is not there.
+            ParamError: the chain is a circle, or ends at a joint that is not there.
         """
         factor, offset = 1.0, 0.0
         chain: list[str] = []
         while name in self.dependent:
             if name in chain:
-                raise SettingError(f"Found an infinite recursive mimic chain: {', '.join([*chain, name])}")
+                raise ParamError(f"Found an infinite recursive mimic chain: {', '.join([*chain, name])}")
             chain.append(name)
             joint = self.dependent[name]
             offset += factor * joint.offset
             factor *= joint.factor
             name = joint.parent
         if name not in self.free:
-            raise SettingError(f"joint {chain[0] if chain else name!r} follows {name!r}, which is no free joint")
+            raise ParamError(f"joint {chain[0] if chain else name!r} follows {name!r}, which is no free joint")
         return self.free[name], factor, offset
 
     def message(self) -> dict[str, Any]:
@@ -175,7 +175,7 @@ class JointStatePublisher:
         """Read the robot, then publish."""
         node = self._node
         try:
-            options = Settings(await self._options(), node.name)
+            options = NodeParams(await self._options(), node.name)
             joints = JointSet(options, node.profile)
             report = Diagnostics()
             joints.read(self._robot(options), report)
@@ -227,7 +227,7 @@ class JointStatePublisher:
 
         self._display.offer_sliders(sliders, move)
 
-    def _robot(self, options: Settings) -> XmlNode:
+    def _robot(self, options: NodeParams) -> XmlNode:
         name = f"{self._node.name}/robot_description"
         robot = parse_xml(options.text("robot_description"), name=name)
         if robot.tag != "robot":
@@ -243,7 +243,7 @@ class JointStatePublisherGui(JointStatePublisher):
         self._always_sliders = True
 
 
-def _dependent(settings: Settings) -> dict[str, DependentJoint]:
+def _dependent(settings: NodeParams) -> dict[str, DependentJoint]:
     return {
         name: DependentJoint(
             parent=settings.section(name).text("parent"),

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from itertools import zip_longest
 
-from trundle.ros import Message, Node, Settings
+from trundle.ros import Message, Node, NodeParams
 
 from .host import Host
 from .rate import Rate
@@ -30,7 +30,7 @@ class JoyNode:
     async def run(self) -> int:
         """Publish until cancelled."""
         node = self._node
-        settings = Settings(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.get_param("~", {}), node.name)
         repeat_hz = settings.number("autorepeat_rate", 0.0)
         self._dead_zone = min(max(settings.number("deadzone", 0.05), 0.0), _WIDEST)
         self._sticky = settings.flag("sticky_buttons", default=False)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.ros import Message, Node, Settings, Subscription, TransformError, TransformListener, ns_of
+from trundle.ros import Message, Node, NodeParams, Subscription, TransformError, TransformListener, ns_of
 from trundle.spatial import Pose
 
 from .host import Host
@@ -64,7 +64,7 @@ class PointCloudToLaserScan:
     async def run(self) -> int:
         """Convert until cancelled."""
         node = self._node
-        settings = Settings(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.get_param("~", {}), node.name)
         farthest = settings.number("range_max", _HUGE)
         endless = settings.flag("use_inf", default=True)
         self._slice = Slice(

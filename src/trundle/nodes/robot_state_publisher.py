@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.robot import Robot, RobotJoint, parent_from_child, read_robot
-from trundle.ros import Message, Node, Settings, StaticTransformBroadcaster, Transform, TransformBroadcaster, ns_of
+from trundle.ros import Message, Node, NodeParams, StaticTransformBroadcaster, Transform, TransformBroadcaster, ns_of
 from trundle.xmlnode import parse_xml
 
 from .host import Host
@@ -80,7 +80,7 @@ class RobotStatePublisher:
         """Read the robot once, then publish until cancelled."""
         node = self._node
         try:
-            settings = Settings(await node.get_param("~", {}), node.name)
+            settings = NodeParams(await node.get_param("~", {}), node.name)
             # Below 1 Hz the original takes 1 Hz.
             self._interval_ns = period_ns(max(settings.number("publish_frequency", 50.0), 1.0))
             self._ignores_stamps = settings.flag("ignore_timestamp", default=False)
@@ -111,7 +111,7 @@ class RobotStatePublisher:
         """Read the description from the nearest parameter upwards."""
         node = self._node
         name = await node.search_param("robot_description") or "robot_description"
-        text = Settings({name: await node.get_param(name, None)}, "").text(name)
+        text = NodeParams({name: await node.get_param(name, None)}, "").text(name)
         report = Diagnostics()
         robot = read_robot(parse_xml(text, name=node.resolve(name)), report)
         for finding in report.findings:

@@ -2,7 +2,7 @@
 
 import asyncio
 
-from trundle.ros import NOETIC, PROFILES, Node, follow_time
+from trundle.ros import DISTROS, NOETIC, Node, follow_time
 
 from .find import Replacement
 from .host import Host
@@ -20,10 +20,10 @@ async def run_stand_in(replacement: Replacement, node: Node, arguments: list[str
     killed = asyncio.Event()
     node.on_shutdown(lambda _: killed.set())
     try:
-        await node.ready()  # its `_name:=value` parameters are set
+        await node.wait_registered()  # its `_name:=value` parameters are set
         await follow_time(node)
         distro = str(await node.get_param("/rosdistro", "")).strip()
-        node.profile = PROFILES.get(distro, NOETIC)
+        node.profile = DISTROS.get(distro, NOETIC)
         running = asyncio.create_task(replacement.load()(node, arguments, host).run())
         waiting = asyncio.create_task(killed.wait())
         try:

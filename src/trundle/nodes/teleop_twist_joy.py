@@ -1,6 +1,6 @@
 """teleop_twist_joy/teleop_node: a joystick's axes as a velocity, while a button is held."""
 
-from trundle.ros import Message, Node, Settings
+from trundle.ros import Message, Node, NodeParams
 
 from .host import Host
 
@@ -19,7 +19,7 @@ class TeleopTwistJoy:
     async def run(self) -> int:
         """Drive until cancelled."""
         node = self._node
-        settings = Settings(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.get_param("~", {}), node.name)
         self._enable = int(settings.number("enable_button", 0.0))
         self._turbo = int(settings.number("enable_turbo_button", -1.0))
         self._moves = [
@@ -52,7 +52,9 @@ class TeleopTwistJoy:
 _Move = tuple[tuple[str, str], int, float, float]
 
 
-def _axes(settings: Settings, part: str, names: dict[str, tuple[str, str]], *, single: tuple[str, int]) -> list[_Move]:
+def _axes(
+    settings: NodeParams, part: str, names: dict[str, tuple[str, str]], *, single: tuple[str, int]
+) -> list[_Move]:
     """Read axis_… and scale_…: maps of names, or in the old form one number for the one axis there is."""
     axes, scales = settings.section(f"axis_{part}"), settings.section(f"scale_{part}")
     turbos = settings.section(f"scale_{part}_turbo")

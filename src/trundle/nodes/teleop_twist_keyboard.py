@@ -3,7 +3,7 @@
 import asyncio
 import math
 
-from trundle.ros import Node, Settings
+from trundle.ros import Node, NodeParams
 
 from .host import Host
 from .keyboard import Keyboard
@@ -75,7 +75,7 @@ class TeleopTwistKeyboard:
     async def run(self) -> int:
         """Read keys until cancelled; the robot is stopped at the end."""
         node = self._node
-        settings = Settings(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.get_param("~", {}), node.name)
         speed, turn = settings.number("speed", self.speed), settings.number("turn", self.turn)
         repeat_hz, timeout_s = settings.number("repeat_rate", 0.0), settings.number("key_timeout", 0.5)
         stamped = settings.flag("stamped", default=False)

@@ -3,7 +3,7 @@
 import os
 
 from trundle.control import approach
-from trundle.ros import Node, Settings
+from trundle.ros import Node, NodeParams
 
 from .host import Host
 from .keyboard import Keyboard
@@ -41,7 +41,7 @@ class Turtlebot3TeleopKey:
     async def run(self) -> int:
         """Read keys until cancelled; the robot is stopped at the end."""
         node = self._node
-        settings = Settings(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.get_param("~", {}), node.name)
         model = settings.text("model", self._env.get("TURTLEBOT3_MODEL", "burger"))
         fastest = _FASTEST.get(model, _OTHERS)
         commands = node.advertise("cmd_vel", "geometry_msgs/Twist", queue_size=10)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from trundle.ros import Message, Node, SettingError, Settings
+from trundle.ros import Message, Node, NodeParams, ParamError
 
 from .host import Host
 
@@ -40,13 +40,13 @@ def read_sources(value: object, what: str) -> list[Source]:
     """Read a list of {name, topic, timeout, priority}.
 
     Raises:
-        SettingError: it is none.
+        ParamError: it is none.
     """
     if not isinstance(value, list):
-        raise SettingError(f"parameter {what} is not a list of topics")
+        raise ParamError(f"parameter {what} is not a list of topics")
     sources: list[Source] = []
     for number, item in enumerate(value):
-        section = Settings(item, f"{what}[{number}]")
+        section = NodeParams(item, f"{what}[{number}]")
         sources.append(
             Source(
                 section.text("name"),
@@ -85,7 +85,7 @@ class TwistMux:
         try:
             self._sources = read_sources(await node.get_param("~topics", []), f"{node.name}/topics")
             self._locks = read_sources(await node.get_param("~locks", []), f"{node.name}/locks")
-        except SettingError as error:
+        except ParamError as error:
             node.log_fatal(str(error))
             return 1
         self._output = node.advertise("cmd_vel_out", _KIND, queue_size=1)

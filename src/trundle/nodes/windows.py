@@ -1,7 +1,7 @@
 """Programs that are windows on the graph: image_view, and those of rqt; the page stands in for all of them."""
 
 from trundle.diagnostics import TrundleError
-from trundle.ros import Message, Node, Settings
+from trundle.ros import Message, Node, NodeParams
 
 from .host import Display, Host
 
@@ -64,7 +64,7 @@ class RqtRobotSteering(Window):
         """Steer until the page is closed for good."""
         node = self._node
         try:
-            self._topic = Settings(await node.get_param("~", {}), node.name).text("default_topic", "/cmd_vel")
+            self._topic = NodeParams(await node.get_param("~", {}), node.name).text("default_topic", "/cmd_vel")
         except TrundleError as error:
             node.log_error(str(error))
             return 1

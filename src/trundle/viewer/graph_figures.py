@@ -5,7 +5,7 @@ import contextlib
 
 from trundle.diagnostics import TrundleError
 from trundle.drawing import Drawing, curves_svg, graph_of, graph_svg
-from trundle.ros import Field, Node, Trace, curves_of, follow_trace, split_topic, spread_fields
+from trundle.ros import Field, Node, TopicSeries, curves_of, follow_series, split_topic, spread_fields
 
 _PERIOD_S = 1.0
 _SHOWN_S = 30.0
@@ -21,7 +21,7 @@ class GraphFigures:
         self._node = node
         self._shows_graph = False
         self._fields: list[str] = []
-        self._traces: list[Trace] = []
+        self._traces: list[TopicSeries] = []
         self._task: asyncio.Task[None] | None = None
         self.drawings: dict[str, str] = {}
         """The newest, by title."""
@@ -70,9 +70,9 @@ class GraphFigures:
             if found is None:
                 continue
             self._fields.remove(name)
-            trace = Trace(name, Field(topic=found[0], type=types[found[0]], path=found[1]))
+            trace = TopicSeries(name, Field(topic=found[0], type=types[found[0]], path=found[1]))
             try:
-                follow_trace(trace, self._node, self._node.clock)
+                follow_series(trace, self._node, self._node.clock)
             except TrundleError as error:
                 self._node.log_error(f"rqt_plot: {error}")
             else:

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from trundle.ros import Message, Node, Settings, Transform, TransformBroadcaster
+from trundle.ros import Message, Node, NodeParams, Transform, TransformBroadcaster
 
 from ..rate import Cadence
 from .part import JointReading, Status
@@ -38,11 +38,11 @@ class Unicycle:
 class DiffController:
     """Drives the base and publishes odom and its transform."""
 
-    def __init__(self, node: Node, name: str, settings: Settings) -> None:
+    def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
         """Read `~controllers/<name>`.
 
         Raises:
-            SettingError: the geometry is missing, or a parameter is of no use.
+            ParamError: the geometry is missing, or a parameter is of no use.
         """
         rate_hz = settings.rate_hz("rate", 10.0)
         ticks_meter = settings.number("ticks_meter")

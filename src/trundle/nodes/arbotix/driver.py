@@ -1,6 +1,6 @@
 """arbotix_python/arbotix_driver in its simulated mode: kinematic, no serial port, no physics."""
 
-from trundle.ros import Message, MessageError, Node, SettingError, Settings
+from trundle.ros import Message, MessageError, Node, NodeParams, ParamError
 
 from ..host import Host
 from ..rate import Cadence, Rate
@@ -24,17 +24,17 @@ class ArbotixDriver:
         """Read the parameters, then loop at `~rate`."""
         node = self._node
         try:
-            settings = Settings(await node.get_param("~", {}), node.name)
+            settings = NodeParams(await node.get_param("~", {}), node.name)
             if not settings.flag("sim", default=False):
                 port = settings.text("port", "/dev/ttyUSB0")
                 node.log_error(f"no ArbotiX board can be driven through {port}: set {node.name}/sim to true")
                 return 1
             return await self._loop(settings)
-        except SettingError as error:
+        except ParamError as error:
             node.log_error(str(error))
             return 1
 
-    async def _loop(self, settings: Settings) -> int:
+    async def _loop(self, settings: NodeParams) -> int:
         node = self._node
         rate_hz = settings.rate_hz("rate", 100.0)
         diagnostics = Cadence(node.clock.now_ns, settings.rate_hz("diagnostic_rate", 1.0))
@@ -57,7 +57,7 @@ class ArbotixDriver:
                 self._publish_diagnostics()
             await rate.sleep()
 
-    def _add_joints(self, settings: Settings) -> None:
+    def _add_joints(self, settings: NodeParams) -> None:
         for name in settings.names():
             section = settings.section(name)
             match kind := section.text("type", "dynamixel"):
@@ -70,7 +70,7 @@ class ArbotixDriver:
                 case _:
                     self._node.log_warn(f"joint {name}: no type {kind!r}; it is left out")
 
-    def _add_controllers(self, settings: Settings) -> None:
+    def _add_controllers(self, settings: NodeParams) -> None:
         """Add what can be added; the original, too, goes on without a controller that it cannot make."""
         for name in settings.names():
             section = settings.section(name)
@@ -86,7 +86,7 @@ class ArbotixDriver:
                         self._controllers.append(FollowController(self._node, name, section, self._joints))
                     case _:
                         self._node.log_error(f"Unrecognized controller: {kind}")
-            except (SettingError, MessageError) as error:
+            except (ParamError, MessageError) as error:
                 self._node.log_error(f"controller {name}: {error}; it is left out")
 
     def _readings(self) -> list[JointReading]:

@@ -3,7 +3,7 @@
 import asyncio
 from collections.abc import Callable
 
-from trundle.ros import ActionOutcome, ActionServer, Message, Node, SettingError, Settings, ns_of
+from trundle.ros import ActionOutcome, ActionServer, Message, Node, NodeParams, ParamError, ns_of
 
 from ..rate import Rate
 from .part import Joint, JointReading, Status
@@ -17,11 +17,11 @@ _NEAR_RAD = 0.001
 class FollowController:
     """Hands its servos a position in every cycle, on the straight line to the next point."""
 
-    def __init__(self, node: Node, name: str, settings: Settings, joints: dict[str, Joint]) -> None:
+    def __init__(self, node: Node, name: str, settings: NodeParams, joints: dict[str, Joint]) -> None:
         """Read `~controllers/<name>`.
 
         Raises:
-            SettingError: no joints, or one that is no servo of this driver.
+            ParamError: no joints, or one that is no servo of this driver.
         """
         self.readings: list[JointReading] = []
         self._node = node
@@ -29,11 +29,11 @@ class FollowController:
         self._rate_hz = settings.rate_hz("rate", 50.0)
         self._joints = settings.texts("joints")
         if not self._joints:
-            raise SettingError("joints is not set; it names the servos to move")
+            raise ParamError("joints is not set; it names the servos to move")
         servos = {joint: joints.get(joint) for joint in self._joints}
         self._servos = {joint: servo for joint, servo in servos.items() if isinstance(servo, Servo)}
         if missing := sorted(set(servos) - set(self._servos)):
-            raise SettingError(f"no servo {missing[0]!r}; servos here: {', '.join(joints) or 'none'}")
+            raise ParamError(f"no servo {missing[0]!r}; servos here: {', '.join(joints) or 'none'}")
         action = settings.text("action_name", "follow_joint_trajectory")
         # Not below the controller's name: configurations write `action_name: arm_controller/follow_joint_trajectory`.
         self._server = ActionServer(node, action, "control_msgs/FollowJointTrajectory", self._asked)

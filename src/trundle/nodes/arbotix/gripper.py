@@ -5,7 +5,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from trundle.ros import ActionOutcome, ActionServer, Message, Node, SettingError, Settings
+from trundle.ros import ActionOutcome, ActionServer, Message, Node, NodeParams, ParamError
 
 from ..host import Host
 
@@ -54,11 +54,11 @@ class Gripper:
         return {jaw.joint: jaw.sign * math.asin(sine) + jaw.center for jaw in self.jaws}
 
 
-def read_gripper(settings: Settings) -> Gripper:
+def read_gripper(settings: NodeParams) -> Gripper:
     """Read the node's parameters.
 
     Raises:
-        SettingError: no model, or one that is not known.
+        ParamError: no model, or one that is not known.
     """
     model = settings.text("model")
     if model == "parallel":
@@ -72,7 +72,7 @@ def read_gripper(settings: Settings) -> Gripper:
             _jaw(settings, "joint_right", "r_gripper_joint", "center_right", "invert_right", sign=-1.0),
         )
     else:
-        raise SettingError(f"no gripper model {model!r}; there are dualservo, parallel, singlesided")
+        raise ParamError(f"no gripper model {model!r}; there are dualservo, parallel, singlesided")
     return Gripper(
         jaws=jaws,
         pad_width_m=settings.number("pad_width", 0.01),
@@ -83,7 +83,7 @@ def read_gripper(settings: Settings) -> Gripper:
     )
 
 
-def _jaw(settings: Settings, joint: str, default: str, center: str, invert: str, *, sign: float) -> Jaw:
+def _jaw(settings: NodeParams, joint: str, default: str, center: str, invert: str, *, sign: float) -> Jaw:
     turned = -sign if settings.flag(invert, default=False) else sign
     return Jaw(joint=settings.text(joint, default), center=settings.number(center, 0.0), sign=turned)
 
@@ -99,11 +99,11 @@ class GripperController:
     async def run(self) -> int:
         """Serve until cancelled."""
         node = self._node
-        settings = Settings(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.get_param("~", {}), node.name)
         try:
             self._gripper = read_gripper(settings)
             self._stalled_s = settings.number("stalled_time", 0.2)
-        except SettingError as error:
+        except ParamError as error:
             node.log_error(str(error))
             return 1
         self._commands = {

@@ -1,6 +1,6 @@
 """arbotix_python's linear joints and their controllers, simulated: they are where they are told to be."""
 
-from trundle.ros import Message, Node, Settings
+from trundle.ros import Message, Node, NodeParams
 
 from .part import JointReading, Status
 
@@ -8,7 +8,7 @@ from .part import JointReading, Status
 class LinearJoint:
     """A joint that jumps to its command; the original checks no limits when simulated."""
 
-    def __init__(self, node: Node, name: str, settings: Settings) -> None:
+    def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
         for limit, default in (("min_position", 0.0), ("max_position", 0.5), ("max_speed", 0.0508)):
             settings.number(limit, default)
         self.reading = JointReading(name=name)
@@ -28,11 +28,11 @@ class LinearJoint:
 class LinearController:
     """linear_controller and linear_controller_i; the latter can be zeroed."""
 
-    def __init__(self, node: Node, name: str, settings: Settings, *, incremental: bool = False) -> None:
+    def __init__(self, node: Node, name: str, settings: NodeParams, *, incremental: bool = False) -> None:
         """Read `~controllers/<name>`.
 
         Raises:
-            SettingError: no joint, or a parameter is of no use.
+            ParamError: no joint, or a parameter is of no use.
         """
         settings.text("joint")
         settings.rate_hz("rate", 10.0)

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 
-from trundle.ros import Message, Node, Settings
+from trundle.ros import Message, Node, NodeParams
 
 from ..rate import Cadence
 from .part import Joint, JointReading, Status
@@ -16,7 +16,7 @@ class Servo:
         self,
         node: Node,
         name: str,
-        settings: Settings,
+        settings: NodeParams,
         *,
         ticks: float,
         neutral: float | None,
@@ -26,7 +26,7 @@ class Servo:
         """Read `~joints/<name>`; the other arguments are the defaults of the servo's kind.
 
         Raises:
-            SettingError: no id, or a parameter is of no use.
+            ParamError: no id, or a parameter is of no use.
         """
         settings.number("id")
         self.reading = JointReading(name=name)
@@ -79,7 +79,7 @@ class Servo:
 class HobbyServo(Servo):
     """A servo that follows blindly and says nothing."""
 
-    def __init__(self, node: Node, name: str, settings: Settings) -> None:
+    def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
         super().__init__(node, name, settings, ticks=2000, neutral=1500, range_deg=180.0, max_speed_deg=90.0)
         node.subscribe(f"{name}/command", "std_msgs/Float64", self.hear)
 
@@ -87,7 +87,7 @@ class HobbyServo(Servo):
 class DynamixelServo(Servo):
     """A servo that can be relaxed and disabled, and tells its speed."""
 
-    def __init__(self, node: Node, name: str, settings: Settings) -> None:
+    def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
         super().__init__(node, name, settings, ticks=1024, neutral=None, range_deg=None, max_speed_deg=684.0)
         self._enabled = True
         self._active = False
@@ -140,7 +140,7 @@ class DynamixelServo(Servo):
 class ServoController:
     """The built-in controller "servos": moves all servos at `~write_rate`."""
 
-    def __init__(self, node: Node, joints: dict[str, Joint], settings: Settings) -> None:
+    def __init__(self, node: Node, joints: dict[str, Joint], settings: NodeParams) -> None:
         self.readings: list[JointReading] = []
         self._servos = [joint for joint in joints.values() if isinstance(joint, Servo)]
         self._write_rate_hz = settings.rate_hz("write_rate", 10.0)

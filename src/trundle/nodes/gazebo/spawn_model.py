@@ -88,11 +88,11 @@ class SpawnModel:
         texts = request.texts
         source = request.source
         if request.kind == "trimesh":
-            with self._node.loop.work.under_way():
+            with self._node.loop.work.pending():
                 return await asyncio.to_thread(trimesh_sdf, texts["-file"], request.trimesh), "sdf"
         match source:
             case "-file":
-                with self._node.loop.work.under_way():
+                with self._node.loop.work.pending():
                     xml = await asyncio.to_thread(_read, texts["-file"])
             case "-param":
                 xml = await self._parameter(texts["-param"])

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from trundle.diagnostics import UsageError
-from trundle.ros import Message, Node, SettingError, Settings
+from trundle.ros import Message, Node, NodeParams, ParamError
 
 from ..host import Host
 from .occupancy import OccupancyMap, positive, read_cells, read_map
@@ -29,7 +29,7 @@ class MapServer:
     async def run(self) -> int:
         """Serve until cancelled."""
         node = self._node
-        settings = Settings(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.get_param("~", {}), node.name)
         self._frame = settings.text("frame_id", "map")
         if len(self._arguments) not in (1, 2):
             node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
@@ -43,7 +43,7 @@ class MapServer:
                 await self._load(partial(_read_picture, file, self._arguments[1], settings))
             else:
                 await self._load(partial(read_map, file))
-        except (SettingError, UsageError) as error:
+        except (ParamError, UsageError) as error:
             node.log_error(str(error))
             return 255
         node.advertise_service("static_map", "nav_msgs/GetMap", self._give)
@@ -52,7 +52,7 @@ class MapServer:
         return 0
 
     async def _load(self, read: Callable[[], OccupancyMap]) -> None:
-        with self._node.loop.work.under_way():
+        with self._node.loop.work.pending():
             grid = await asyncio.to_thread(read)
         self._fields = grid_fields(grid, frame=self._frame, stamp_ns=self._node.clock.now_ns())
         height, width = grid.cells.shape
@@ -73,7 +73,7 @@ class MapServer:
         return {"map": self._fields, "result": _SUCCESS}
 
 
-def _read_picture(picture: Path, resolution: str, settings: Settings) -> OccupancyMap:
+def _read_picture(picture: Path, resolution: str, settings: NodeParams) -> OccupancyMap:
     """Read a picture as the command line of old has it: thresholds are parameters, its corner is the origin."""
     try:
         resolution_m = positive(float(resolution), picture)

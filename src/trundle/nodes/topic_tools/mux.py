@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from trundle.ros import Message, Node, RawMessage, ServiceError, Settings
+from trundle.ros import Message, Node, NodeParams, RawMessage, ServiceError
 
 from ..host import Host
 from .passing import Inlet, Outlet, listen_lazily
@@ -27,7 +27,7 @@ class Mux:
         if len(words) < 2:
             node.log_error(f"usage: mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 …]; got {' '.join(words)!r}")
             return 1
-        settings = Settings(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.get_param("~", {}), node.name)
         self._outlet = Outlet(node, words[0], latch=settings.flag("latch", default=False))
         self._said = node.advertise("mux/selected", "std_msgs/String", latch=True, queue_size=1)
         for topic in words[1:]:

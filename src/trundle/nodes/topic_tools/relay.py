@@ -2,7 +2,7 @@
 
 import asyncio
 
-from trundle.ros import Node, RawMessage, Settings
+from trundle.ros import Node, NodeParams, RawMessage
 
 from ..host import Host
 from .passing import Inlet, Outlet, listen_lazily
@@ -25,7 +25,7 @@ class Relay:
             node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 1
         source, target = (*self._arguments, f"{self._arguments[0]}_relay")[:2]
-        settings = Settings(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.get_param("~", {}), node.name)
         is_stealthy = settings.flag("stealth", default=False)
         outlet = Outlet(node, target)
 

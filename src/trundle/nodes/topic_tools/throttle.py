@@ -4,7 +4,7 @@ import time
 from collections import deque
 from collections.abc import Callable
 
-from trundle.ros import Node, RawMessage, Settings
+from trundle.ros import Node, NodeParams, RawMessage
 
 from ..host import Host
 from .passing import Inlet, Outlet, listen_lazily
@@ -69,7 +69,7 @@ class Throttle:
     async def run(self) -> int:
         """Throttle until cancelled."""
         node = self._node
-        settings = Settings(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.get_param("~", {}), node.name)
         # The program reads the first; its manual, and so launch files, name the second.
         wall = settings.flag("wall_clock", default=settings.flag("use_wall_clock", default=False))
         latch = settings.flag("force_latch", default=False) if "force_latch" in settings.names() else None

@@ -2,7 +2,7 @@
 
 import importlib
 
-from trundle.ros import SettingError
+from trundle.ros import ParamError
 
 from .controller import Controller
 
@@ -37,9 +37,9 @@ def find_controller(kind: str) -> type[Controller]:
     """The class of a controller's type.
 
     Raises:
-        SettingError: there is none, with those there are.
+        ParamError: there is none, with those there are.
     """
     if kind not in CONTROLLERS:
-        raise SettingError(f"no controller of type {kind!r}; there are: {', '.join(sorted(CONTROLLERS))}")
+        raise ParamError(f"no controller of type {kind!r}; there are: {', '.join(sorted(CONTROLLERS))}")
     module, _, name = CONTROLLERS[kind].partition(":")
     return getattr(importlib.import_module(module), name)

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Protocol, Self
 
-from trundle.ros import Message, Node, Publisher, ReconfigureServer, Service, SettingError, Settings, Subscription
+from trundle.ros import Message, Node, NodeParams, ParamError, Publisher, ReconfigureServer, Service, Subscription
 from trundle.simulation import ModelHandle
 
 from .hardware import Hardware, JointHardware
@@ -20,7 +20,7 @@ class Site:
     namespace: str
     """Of the robot."""
     node: Node
-    settings: Settings
+    settings: NodeParams
     hardware: Hardware
     model: ModelHandle
 
@@ -28,24 +28,24 @@ class Site:
         """A joint with the interface that a controller needs; None: any.
 
         Raises:
-            SettingError: there is none, with those there are.
+            ParamError: there is none, with those there are.
         """
         found = self.hardware.get(name)
         there = ", ".join(sorted(j.name for j in self.hardware.values() if interface in (None, j.interface)))
         if found is None or interface not in (None, found.interface):
             wanted = "" if interface is None else f" with {interface}"
-            raise SettingError(f"{self.name}: no joint {name!r}{wanted}; there are: {there or 'none'}")
+            raise ParamError(f"{self.name}: no joint {name!r}{wanted}; there are: {there or 'none'}")
         return found
 
     def joint_setting(self) -> list[str]:
         """What `joint` or `joints` names.
 
         Raises:
-            SettingError: neither is set.
+            ParamError: neither is set.
         """
         names = self.settings.texts("joints") if "joints" in self.settings.names() else [self.settings.text("joint")]
         if not names:
-            raise SettingError(f"parameter {self.name}/joints names no joint")
+            raise ParamError(f"parameter {self.name}/joints names no joint")
         return names
 
 
@@ -60,7 +60,7 @@ class Controller(Protocol):
         """Read parameters, advertise and subscribe.
 
         Raises:
-            SettingError: a parameter is missing or of no use.
+            ParamError: a parameter is missing or of no use.
         """
         ...
 

@@ -5,7 +5,7 @@ from collections import deque
 from typing import Self
 
 from trundle.control import DifferentialDrive, WheelOdometry
-from trundle.ros import Message, SettingError, Settings
+from trundle.ros import Message, NodeParams, ParamError
 
 from .base_odometry import BaseOdometry
 from .controller import Ends, Site
@@ -32,7 +32,7 @@ class DiffDriveController:
         self._left = [site.joint(name, _VELOCITY) for name in joint_names(settings, "left_wheel")]
         self._right = [site.joint(name, _VELOCITY) for name in joint_names(settings, "right_wheel")]
         if len(self._left) != len(self._right):
-            raise SettingError(
+            raise ParamError(
                 f"{site.name}: {len(self._left)} left wheels, but {len(self._right)} right ones; as many are needed"
             )
         self.claims: dict[Interface | str, list[str]] = {_VELOCITY: [j.name for j in (*self._left, *self._right)]}
@@ -52,7 +52,7 @@ class DiffDriveController:
         self._advertise(settings)
         self._forget()
 
-    def _advertise(self, settings: Settings) -> None:
+    def _advertise(self, settings: NodeParams) -> None:
         site = self._site
         self._ends = Ends()
         self._odometry = BaseOdometry(site, self._ends, frame=settings.text("odom_frame_id", "odom"))
@@ -152,7 +152,7 @@ class DiffDriveController:
         linear, angular = (sum(speed[i] for speed in self._speeds) / count for i in (0, 1))
         self._odometry.tell(time_ns, (place.x, place.y, place.yaw), (linear, 0.0, angular))
 
-    def _geometry(self, settings: Settings) -> DifferentialDrive:
+    def _geometry(self, settings: NodeParams) -> DifferentialDrive:
         """As the parameters say, else as the model has it."""
         site, left, right = self._site, self._left[0], self._right[0]
         separation = length(site, "wheel_separation", math.dist(origin(site, left), origin(site, right)))

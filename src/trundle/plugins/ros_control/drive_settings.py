@@ -5,25 +5,25 @@ from typing import Any
 
 from trundle.control import SpeedLimit
 from trundle.model import Cylinder, Sphere, model_from_joint
-from trundle.ros import SettingError, Settings
+from trundle.ros import NodeParams, ParamError
 from trundle.spatial import Vector3
 
 from .controller import Site
 from .hardware import JointHardware
 
 
-def joint_names(settings: Settings, name: str) -> list[str]:
+def joint_names(settings: NodeParams, name: str) -> list[str]:
     """One joint, or a list of them."""
     try:
         return [settings.text(name)]
-    except SettingError:
+    except ParamError:
         names = settings.texts(name)
         if not names:
             raise
         return names
 
 
-def speed_limit(settings: Settings) -> SpeedLimit:
+def speed_limit(settings: NodeParams) -> SpeedLimit:
     """max_… and min_…, of which the one that is missing is the other's negative."""
 
     def bounds(what: str) -> tuple[float, float]:
@@ -45,11 +45,11 @@ def speed_limit(settings: Settings) -> SpeedLimit:
     )
 
 
-def covariance(settings: Settings, name: str) -> list[float]:
+def covariance(settings: NodeParams, name: str) -> list[float]:
     """A 6×6 covariance from its diagonal; absent is zero."""
     values: list[Any] = settings.items(name) or [0.0] * 6
     if len(values) != 6 or not all(isinstance(value, int | float) for value in values):
-        raise SettingError(f"{name} must be 6 numbers, got {values!r}")
+        raise ParamError(f"{name} must be 6 numbers, got {values!r}")
     return [float(values[row]) if row == column else 0.0 for row in range(6) for column in range(6)]
 
 
@@ -57,11 +57,11 @@ def length(site: Site, name: str, otherwise: float | None) -> float:
     """A length [m]: the parameter, else as the model has it; None: it does not say.
 
     Raises:
-        SettingError: there is none, or it is not > 0.
+        ParamError: there is none, or it is not > 0.
     """
     value = site.settings.number(name, otherwise)
     if value <= 0.0:
-        raise SettingError(f"parameter {site.name}/{name} must be > 0 m, got {value:g}")
+        raise ParamError(f"parameter {site.name}/{name} must be > 0 m, got {value:g}")
     return value
 
 
@@ -74,13 +74,13 @@ def wheel_radius(site: Site, wheel: JointHardware) -> float:
     """The parameter wheel_radius, else that of the wheel's collision [m].
 
     Raises:
-        SettingError: there is neither, or it is of no use.
+        ParamError: there is neither, or it is of no use.
     """
     link = site.model.link(wheel.handle.joint.child).link
     round_ones = (each.geometry for each in link.collisions if isinstance(each.geometry, Cylinder | Sphere))
     found = next((geometry.radius for geometry in round_ones), None)
     if found is None and "wheel_radius" not in site.settings.names():
-        raise SettingError(
+        raise ParamError(
             f"parameter {site.name}/wheel_radius is not set, and link {link.name!r} has neither a cylinder nor "
             "a sphere to measure"
         )

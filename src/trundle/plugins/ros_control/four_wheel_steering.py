@@ -5,7 +5,7 @@ from collections import deque
 from typing import Any, Self
 
 from trundle.control import FourWheelSteering, Wheels, axle_angle
-from trundle.ros import Message, SettingError
+from trundle.ros import Message, ParamError
 
 from .base_odometry import BaseOdometry
 from .controller import Ends, Site
@@ -180,5 +180,5 @@ def _pair(site: Site, name: str, interface: Interface) -> list[JointHardware]:
     """A left and a right joint."""
     names = joint_names(site.settings, name)
     if len(names) != 2:
-        raise SettingError(f"parameter {site.name}/{name} must be a left and a right joint, got {', '.join(names)}")
+        raise ParamError(f"parameter {site.name}/{name} must be a left and a right joint, got {', '.join(names)}")
     return [site.joint(each, interface) for each in names]

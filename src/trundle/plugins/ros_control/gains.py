@@ -1,7 +1,7 @@
 """PID gains of controllers and joints: read from parameters, changed while they run."""
 
 from trundle.control import ToolboxPid
-from trundle.ros import Node, Option, Options, ReconfigureServer, Settings
+from trundle.ros import Node, NodeParams, Option, Options, ReconfigureServer
 
 from .controller import Ends
 
@@ -10,7 +10,7 @@ _MOST = 1_000.0
 """control_toolbox's bounds, of p and of everything else."""
 
 
-def tunable_pid(node: Node, settings: Settings, ends: Ends) -> ToolboxPid:
+def tunable_pid(node: Node, settings: NodeParams, ends: Ends) -> ToolboxPid:
     """Gains p, i, d, i_clamp (or i_clamp_min and i_clamp_max, whose smaller magnitude counts) and antiwindup.
 
     Users may change them while they are in use, as control_toolbox's.
@@ -21,7 +21,7 @@ def tunable_pid(node: Node, settings: Settings, ends: Ends) -> ToolboxPid:
         ends: of who uses them.
 
     Raises:
-        SettingError: p is missing, or one is no number.
+        ParamError: p is missing, or one is no number.
     """
     pid = _read_pid(settings)
     options = (
@@ -43,7 +43,7 @@ def tunable_pid(node: Node, settings: Settings, ends: Ends) -> ToolboxPid:
     return pid
 
 
-def _read_pid(settings: Settings) -> ToolboxPid:
+def _read_pid(settings: NodeParams) -> ToolboxPid:
     clamps = [abs(settings.number(name)) for name in ("i_clamp_min", "i_clamp_max") if name in settings.names()]
     return ToolboxPid(
         p=settings.number("p"),

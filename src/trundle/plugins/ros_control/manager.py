@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from trundle.ros import Message, Node, SettingError, Settings
+from trundle.ros import Message, Node, NodeParams, ParamError
 from trundle.simulation import ModelHandle
 
 from .catalog import CONTROLLERS, find_controller
@@ -91,10 +91,10 @@ class ControllerManager:
             return False
         full = f"{self._namespace}/{name}"
         tree = self._node.loop.run(self._node.get_param(full, {}))
-        settings = Settings(tree, full)
+        settings = NodeParams(tree, full)
         try:
             kind = settings.text("type")
-        except SettingError:
+        except ParamError:
             self._node.log_error(
                 f"Could not load controller '{name}' because the type was not specified. Did you load the controller "
                 f"configuration on the parameter server (namespace: '{self._namespace or '/'}')?"
@@ -110,7 +110,7 @@ class ControllerManager:
         )
         try:
             controller = find_controller(kind).make(site)
-        except SettingError as error:
+        except ParamError as error:
             self._node.log_error(f"Could not load controller '{name}': {error}")
             return False
         self._loaded[name] = _Loaded(name=name, type=kind, controller=controller)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Self
 
 from trundle.control import ToolboxPid
-from trundle.ros import Message, Settings
+from trundle.ros import Message, NodeParams
 
 from .controller import Ends, Site, group_command
 from .gains import tunable_pid
@@ -155,7 +155,7 @@ class EffortGroupPosition:
         for loop, value in zip(self._loops, values, strict=False):
             loop.wanted = value
 
-    def _pid(self, settings: Settings, joint: str) -> ToolboxPid:
+    def _pid(self, settings: NodeParams, joint: str) -> ToolboxPid:
         return tunable_pid(self._node, settings.section(joint).section("pid"), self._ends)
 
 

@@ -5,7 +5,7 @@ from typing import Self
 
 from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
-from trundle.ros import Node, Settings
+from trundle.ros import Node, NodeParams
 from trundle.simulation import ModelHandle, Simulation
 from trundle.xmlnode import XmlNode
 
@@ -109,7 +109,7 @@ class GazeboRosControl(Plugin):
 
     def _begin(self, urdf: str, name: str, gains: object) -> None:
         report = self._sim.report
-        settings = Settings(gains, f"{self._namespace}/gazebo_ros_control/pid_gains")
+        settings = NodeParams(gains, f"{self._namespace}/gazebo_ros_control/pid_gains")
         lag_s = self._lag_s
         try:
             for driven in read_transmissions(urdf, name, report):

@@ -2,7 +2,7 @@
 
 from typing import ClassVar, Never
 
-from trundle.ros import SettingError
+from trundle.ros import ParamError
 
 from .controller import Site
 
@@ -17,9 +17,9 @@ class SensorController:
         """Refuse.
 
         Raises:
-            SettingError: always.
+            ParamError: always.
         """
-        raise SettingError(
+        raise ParamError(
             f"{site.name} requires a hardware interface of type 'hardware_interface::{cls.interface}', which "
             "gazebo_ros_control's default hardware has not; a sensor's own plugin publishes without a controller"
         )

@@ -8,7 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from trundle.control import JointPoint, JointSpline
-from trundle.ros import Message, Settings, ns_of
+from trundle.ros import Message, NodeParams, ns_of
 
 _STOPPED = 0.01
 """[rad/s or m/s] The original's idea of a joint that stands still."""
@@ -55,7 +55,7 @@ class Tolerances(Struct, frozen=True, kw_only=True):
         )
 
 
-def read_tolerances(constraints: Settings, joints: Sequence[str]) -> Tolerances:
+def read_tolerances(constraints: NodeParams, joints: Sequence[str]) -> Tolerances:
     """The parameters `constraints`."""
     own = [constraints.section(joint) for joint in joints]
     return Tolerances(

@@ -13,7 +13,7 @@ from mcap.records import Channel, Message, Schema
 from mcap.stream_reader import StreamReader
 from mcap.writer import CompressionType, Writer
 
-from ..messages import Messages
+from ..messages.messages import Messages
 from .bag import BagConnection, BagError, BagMessage, Chunk, UnindexedBagError, Wanted
 
 _MAGIC = b"\x89MCAP0\r\n"

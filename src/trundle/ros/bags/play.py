@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 
-from ..messages import RawMessage
-from ..node import Node
-from ..publisher import Publisher
+from ..messages.messages import RawMessage
+from ..node.node import Node
+from ..node.publisher import Publisher
 from .bag import BagConnection, BagMessage, BagReader
 
 _HEADER_FIRST = re.compile(r"(\s|#.*\n)*(std_msgs/)?Header\s")

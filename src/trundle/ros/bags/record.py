@@ -10,13 +10,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..clock import Clock, WallClock
 from ..errors import RosError
-from ..messages import RawMessage
-from ..node import Node
-from ..rpc_client import call_value
-from ..subscription import Subscription
-from ..xmlrpc import FaultError
+from ..messages.messages import RawMessage
+from ..node.clock import Clock, WallClock
+from ..node.node import Node
+from ..node.subscription import Subscription
+from ..xmlrpc.rpc_client import call_value
+from ..xmlrpc.xmlrpc import FaultError
 from .bag import BagConnection, BagMessage, BagWriter, broken_off
 from .files import create_bag
 

@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from ..loop import GraphLoop
-from ..messages import Message
-from ..publisher import Publisher
+from ..messages.messages import Message
+from ..node.loop import GraphLoop
+from ..node.publisher import Publisher
 from .bag import BagConnection, BagError, BagMessage, broken_off
 from .files import create_bag
 
@@ -18,7 +18,7 @@ class StepRecorder:
     """Hears each publisher of a loop from its birth on; messages of one instant go into the bag in a fixed order."""
 
     is_raw = True
-    wants_every = False
+    needs_every_message = False
     """It writes what is said; nothing is said more often for its sake."""
 
     def __init__(self, loop: GraphLoop, path: Path, *, complain: Callable[[str], None]) -> None:

@@ -1,0 +1,153 @@
+"""An actionlib server on plain topics: goal and cancel in; status, feedback and result out."""
+
+import asyncio
+import itertools
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from ..messages.messages import Message
+from ..node.clock import ns_of
+from ..node.node import Node
+
+_STATUS_RATE_HZ = 5.0
+_KEPT_S = 5.0
+"""How long a finished goal stays in the status list, as in actionlib."""
+_PENDING, _ACTIVE = 0, 1
+_NUMBERS = {"preempted": 2, "succeeded": 3, "aborted": 4, "rejected": 5}
+_MOST_GOALS = 1000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ActionOutcome:
+    """How a goal ended."""
+
+    status: Literal["succeeded", "aborted", "preempted", "rejected"] = "succeeded"
+    result: dict[str, Any] = field(default_factory=dict[str, Any])
+    text: str = ""
+
+
+@dataclass(slots=True, kw_only=True)
+class _Goal:
+    id: dict[str, Any]
+    stamp_ns: int
+    status: int = _PENDING
+    text: str = ""
+    task: asyncio.Task[None] | None = None
+    ended_ns: int | None = None
+
+
+class ActionServer:
+    """Works on goals; unless they may run side by side, a new one preempts the one before it."""
+
+    def __init__(
+        self,
+        node: Node,
+        name: str,
+        type_name: str,
+        work: Callable[[Message, Callable[[], None]], Awaitable[ActionOutcome]],
+        *,
+        side_by_side: bool = False,
+    ) -> None:
+        """Register.
+
+        Args:
+            node: whose topics they are.
+            name: the action's namespace, resolved as a topic is.
+            type_name: without the suffix Action: 'control_msgs/FollowJointTrajectory'.
+            work: a coroutine function of the goal, and of a function to call, on the loop, once the goal is taken and
+                not rejected; it is cancelled when the goal is.
+            side_by_side: whether a goal leaves those before it alone; `work` may preempt them.
+        """
+        self._node = node
+        self._work = work
+        self._side_by_side = side_by_side
+        self._goals: dict[str, _Goal] = {}
+        self._numbers = itertools.count(1)
+        self._result = node.advertise(f"{name}/result", f"{type_name}ActionResult", queue_size=50)
+        self._feedback = node.advertise(f"{name}/feedback", f"{type_name}ActionFeedback", queue_size=50)
+        self._status = node.advertise(f"{name}/status", "actionlib_msgs/GoalStatusArray", latch=True, queue_size=50)
+        goals = node.subscribe(f"{name}/goal", f"{type_name}ActionGoal", self._take, queue_size=None, on_loop=True)
+        cancels = node.subscribe(f"{name}/cancel", "actionlib_msgs/GoalID", self._cancel, queue_size=None, on_loop=True)
+        self._ends = (self._result, self._feedback, self._status, goals, cancels)
+        self._teller = node.loop.spawn(self._tell_states())
+
+    @property
+    def active(self) -> bool:
+        """Whether a goal is being worked on."""
+        return any(goal.status == _ACTIVE for goal in self._goals.values())
+
+    def tell(self, feedback: dict[str, Any]) -> None:
+        """Say how the goals that are being worked on go; any thread."""
+        if not self._feedback.has_subscribers:
+            return
+        for goal in [goal for goal in list(self._goals.values()) if goal.status == _ACTIVE]:
+            header = {"stamp": self._node.clock.now_ns()}
+            self._feedback.publish({"header": header, "status": _status(goal), "feedback": feedback})
+
+    def close(self) -> None:
+        """Unregister; any thread."""
+        self._teller.cancel()
+        for end in self._ends:
+            end.unregister()
+
+    def _take(self, message: Message) -> None:
+        now = self._node.clock.now_ns()
+        key = message.goal_id.id or f"{self._node.name}-{next(self._numbers)}-{now / 1e9:.9f}"
+        stamp = ns_of(message.goal_id.stamp) or now
+        if key in self._goals:
+            return
+        if len(self._goals) >= _MOST_GOALS:
+            self._node.log_error(f"more than {_MOST_GOALS} goals at once; one is not taken")
+            return
+        if not self._side_by_side:
+            for other in self._goals.values():
+                self._stop(other)
+        goal = _Goal(id={"stamp": stamp, "id": key}, stamp_ns=stamp)
+        self._goals[key] = goal
+        goal.task = asyncio.get_running_loop().create_task(self._run(goal, message.goal))
+
+    def _cancel(self, message: Message) -> None:
+        """By id; an empty id means all, a stamp all that came until then."""
+        stamp = ns_of(message.stamp)
+        for key, goal in self._goals.items():
+            everything = not message.id and stamp == 0
+            if everything or key == message.id or (stamp and goal.stamp_ns <= stamp):
+                self._stop(goal)
+
+    def _stop(self, goal: _Goal) -> None:
+        if goal.task is not None and goal.status in (_PENDING, _ACTIVE):
+            goal.task.cancel()
+
+    async def _run(self, goal: _Goal, asked: Message) -> None:
+        def accept() -> None:
+            if goal.status == _PENDING:  # and not cancelled meanwhile
+                goal.status = _ACTIVE
+                self._publish_status()
+
+        try:
+            outcome = await self._work(asked, accept)
+        except asyncio.CancelledError:
+            outcome = ActionOutcome(status="preempted")
+        goal.status, goal.text = _NUMBERS[outcome.status], outcome.text
+        goal.ended_ns = self._node.clock.now_ns()
+        self._publish_status()
+        header = {"stamp": goal.ended_ns}
+        self._result.publish({"header": header, "status": _status(goal), "result": outcome.result})
+
+    async def _tell_states(self) -> None:
+        while not self._node.closed.is_set():
+            now = self._node.clock.now_ns()
+            old = [k for k, g in self._goals.items() if g.ended_ns is not None and now - g.ended_ns > _KEPT_S * 1e9]
+            for key in old:
+                del self._goals[key]
+            self._publish_status()
+            await self._node.clock.sleep(1.0 / _STATUS_RATE_HZ)
+
+    def _publish_status(self) -> None:
+        statuses = [_status(goal) for goal in self._goals.values()]
+        self._status.publish({"header": {"stamp": self._node.clock.now_ns()}, "status_list": statuses})
+
+
+def _status(goal: _Goal) -> dict[str, Any]:
+    return {"goal_id": goal.id, "status": goal.status, "text": goal.text}

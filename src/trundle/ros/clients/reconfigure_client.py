@@ -1,0 +1,96 @@
+"""Options of other nodes, by dynamic_reconfigure: which there are, and changing them."""
+
+import asyncio
+import contextlib
+from collections.abc import Mapping
+from typing import Any
+
+from ..errors import ServiceError
+from ..messages.messages import Message
+from ..node.node import Node
+from .reconfigure_server import Option, Options, OptionValue, config_of, values_of
+
+_DESCRIPTIONS = "/parameter_descriptions"
+_KIND = "dynamic_reconfigure"
+_TRUTHS = {"true": True, "1": True, "yes": True, "on": True, "false": False, "0": False, "no": False, "off": False}
+
+
+async def find_reconfigurable(node: Node) -> list[str]:
+    """Names of what has options, sorted: nodes, and namespaces of parts of nodes."""
+    topics = await node.ask("getTopicTypes")
+    kind = f"{_KIND}/ConfigDescription"
+    return sorted(name.removesuffix(_DESCRIPTIONS) for name, type_ in topics if type_ == kind and _DESCRIPTIONS in name)
+
+
+async def read_options(node: Node, name: str, *, timeout_s: float | None = None) -> list[Option]:
+    """The options of a node, with their values now.
+
+    Raises:
+        ServiceError: nobody of that name tells in time.
+    """
+    space = node.resolve(name).rstrip("/")
+    try:
+        async with asyncio.timeout(timeout_s):
+            description, config = await asyncio.gather(
+                _first(node, f"{space}{_DESCRIPTIONS}", f"{_KIND}/ConfigDescription"),
+                _first(node, f"{space}/parameter_updates", f"{_KIND}/Config"),
+            )
+    except TimeoutError:
+        raise ServiceError(f"{space} told no options within {timeout_s:g} s") from None
+    lower, upper, now = values_of(description.min), values_of(description.max), values_of(config)
+    found = [parameter for group in description.groups for parameter in group.parameters if parameter.name in now]
+    return [_option(parameter, now[parameter.name], lower, upper) for parameter in found]
+
+
+async def set_options(
+    node: Node, name: str, values: Mapping[str, object], *, timeout_s: float | None = None
+) -> Options:
+    """Change some options of a node; returns what all of them are then.
+
+    Raises:
+        ServiceError: there is no such node or option, a value does not fit, or the node says no.
+    """
+    there = {option.name: option for option in await read_options(node, name, timeout_s=timeout_s)}
+    asked: Options = {}
+    for key, value in values.items():
+        if key not in there:
+            raise ServiceError(f"don't know parameter: {key}; there are: {', '.join(there)}")
+        asked[key] = _typed(key, value, type(there[key].value))
+    service = f"{node.resolve(name).rstrip('/')}/set_parameters"
+    answer = await node.call_service(service, f"{_KIND}/Reconfigure", {"config": config_of(asked)})
+    return values_of(answer.config)
+
+
+async def _first(node: Node, topic: str, kind: str) -> Message:
+    """The message that is latched there."""
+    future: asyncio.Future[Message] = asyncio.get_running_loop().create_future()
+
+    def take(message: Message) -> None:
+        if not future.done():
+            future.set_result(message)
+
+    subscription = node.subscribe(topic, kind, take, queue_size=1, on_loop=True)
+    try:
+        return await future
+    finally:
+        subscription.unregister()
+
+
+def _option(parameter: Message, value: OptionValue, lower: Options, upper: Options) -> Option:
+    bounds: dict[str, Any] = {}
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        bounds = {"lower": float(lower[parameter.name]), "upper": float(upper[parameter.name])}
+    return Option(name=parameter.name, value=value, description=parameter.description, **bounds)
+
+
+def _typed(name: str, value: object, kind: type[OptionValue]) -> OptionValue:
+    """A value as text or YAML gave it, in the option's own type."""
+    if kind is bool and isinstance(value, str):
+        value = _TRUTHS.get(value.lower(), value)
+    if kind is bool:
+        if isinstance(value, bool | int):
+            return bool(value)
+    elif kind is str or isinstance(value, str | int | float):
+        with contextlib.suppress(ValueError):
+            return kind(str(value)) if kind is not float else float(str(value))
+    raise ServiceError(f"option {name!r}: {value!r} is no {kind.__name__}")

@@ -1,0 +1,148 @@
+"""dynamic_reconfigure: options of a node that users change while it runs."""
+
+import contextlib
+import math
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from ..errors import MasterUnreachableError
+from ..messages.messages import Message
+from ..node.callback_dispatch import run_on_callback_thread
+from ..node.node import Node
+
+OptionValue: TypeAlias = bool | int | float | str
+Options: TypeAlias = dict[str, OptionValue]
+_FIELDS: dict[type[OptionValue], str] = {bool: "bools", int: "ints", float: "doubles", str: "strs"}
+_TYPES: dict[type[OptionValue], str] = {bool: "bool", int: "int", float: "double", str: "str"}
+_GROUP = "Default"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Option:
+    """One option; the type of its value is its type for ever."""
+
+    name: str
+    value: OptionValue
+    """At first, and by default."""
+    lower: float = -math.inf
+    upper: float = math.inf
+    description: str = ""
+
+    def read(self, value: OptionValue) -> OptionValue | None:
+        """A value of this option's type within its bounds; None: it is no such value."""
+        kind = type(self.value)
+        if kind is str or kind is bool:
+            return value if type(value) is kind else None
+        if isinstance(value, str) or not math.isfinite(value):
+            return None
+        return kind(min(max(value, self.lower), self.upper))
+
+
+class ReconfigureServer:
+    """Topics `parameter_descriptions` and `parameter_updates`, service `set_parameters`, and the parameters themselves.
+
+    Clients are `dynparam`, rqt_reconfigure and `dynamic_reconfigure.client`, the real ones or ours.
+    """
+
+    def __init__(
+        self, node: Node, options: Iterable[Option], apply: Callable[[Options], Options], *, namespace: str = "~"
+    ) -> None:
+        """Offer options; any thread.
+
+        Args:
+            node: that has them.
+            options: in the order in which they are shown.
+            apply: called with all of them where the node's callbacks run; returns what they are then.
+            namespace: of the topics, the service and the parameters: '~' or '/robot/camera'.
+        """
+        self._node = node
+        self._options = {option.name: option for option in options}
+        self._values: Options = {option.name: option.value for option in self._options.values()}
+        self._apply = apply
+        self._space = namespace if namespace == "~" else f"{namespace}/"
+        kind = "dynamic_reconfigure"
+        descriptions = node.advertise(f"{self._space}parameter_descriptions", f"{kind}/ConfigDescription", latch=True)
+        self._updates = node.advertise(f"{self._space}parameter_updates", f"{kind}/Config", latch=True)
+        self._ends = (
+            descriptions,
+            self._updates,
+            node.advertise_service(f"{self._space}set_parameters", f"{kind}/Reconfigure", self._set),
+        )
+        descriptions.publish(self._described())
+        self._updates.publish(config_of(self._values))
+        node.loop.spawn(self._write(self._values))
+
+    def unregister(self) -> None:
+        """Offer nothing any more; any thread."""
+        for end in self._ends:
+            end.unregister()
+
+    async def _set(self, request: Message) -> dict[str, Any]:
+        asked = {**self._values, **self._read(request.config)}
+        node = self._node
+        self._values = await run_on_callback_thread(node.deliver, node.loop, lambda: self._apply(asked))
+        await self._write(self._values)
+        self._updates.publish(config_of(self._values))
+        return {"config": config_of(self._values)}
+
+    def _read(self, config: Message) -> Options:
+        """What is asked for, within bounds; what cannot be is said."""
+        taken: Options = {}
+        for item in (item for field in _FIELDS.values() for item in getattr(config, field)):
+            option = self._options.get(item.name)
+            value = None if option is None else option.read(item.value)
+            if option is None:
+                there = ", ".join(self._options)
+                self._node.log_warn(f"no option {item.name!r} in {self._node.resolve(self._space)}; there are: {there}")
+            elif value is None:
+                kind = _TYPES[type(option.value)]
+                self._node.log_warn(f"option {item.name!r} stays as it is: {item.value!r} is no finite {kind}")
+            else:
+                taken[item.name] = value
+        return taken
+
+    async def _write(self, values: Mapping[str, OptionValue]) -> None:
+        with contextlib.suppress(MasterUnreachableError):  # the graph is ending
+            for name, value in values.items():
+                await self._node.set_param(f"{self._space}{name}", value)
+
+    def _described(self) -> dict[str, Any]:
+        options = self._options.values()
+        parameters = [
+            {"name": option.name, "type": _TYPES[type(option.value)], "description": option.description}
+            for option in options
+        ]
+        return {
+            "groups": [{"name": _GROUP, "parameters": parameters}],
+            "min": config_of({option.name: _end(option, option.lower) for option in options}),
+            "max": config_of({option.name: _end(option, option.upper) for option in options}),
+            "dflt": config_of({option.name: option.value for option in options}),
+        }
+
+
+def _end(option: Option, bound: float) -> OptionValue:
+    """A bound as clients expect it, in the option's own type."""
+    match option.value:
+        case bool():
+            return bound > 0.0
+        case str():
+            return ""
+        case int():
+            return int(min(max(bound, -(2**31)), 2**31 - 1))
+        case float():
+            return min(max(bound, -sys.float_info.max), sys.float_info.max)
+
+
+def config_of(values: Mapping[str, OptionValue]) -> dict[str, Any]:
+    """Fields of a dynamic_reconfigure/Config."""
+    config: dict[str, Any] = {field: [] for field in _FIELDS.values()}
+    for name, value in values.items():
+        config[_FIELDS[type(value)]].append({"name": name, "value": value})
+    return {**config, "groups": [{"name": _GROUP, "state": True}]}
+
+
+def values_of(config: Message) -> Options:
+    """What a dynamic_reconfigure/Config says."""
+    return {str(item.name): item.value for field in _FIELDS.values() for item in getattr(config, field)}

@@ -1,0 +1,230 @@
+"""A transform tree over time: the last ten seconds of each frame, interpolated."""
+
+import math
+from bisect import bisect_left, insort
+from dataclasses import dataclass
+
+from trundle.spatial import IDENTITY_QUATERNION, ZERO, Pose, Quaternion, Vector3
+
+from ..errors import TransformError
+
+NS = 1_000_000_000
+_MAX_DEPTH = 1000
+"""A chain longer than this is a loop; tf2 uses the same bound."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Transform:
+    """Where `child` is in `parent` at one time."""
+
+    parent: str
+    child: str
+    stamp_ns: int = 0
+    """ROS time [ns]; in a lookup's answer, 0 where every part is static."""
+    translation: Vector3 = ZERO
+    """[m], in `parent`."""
+    rotation: Quaternion = IDENTITY_QUATERNION
+    """(w, x, y, z)."""
+
+    @property
+    def pose(self) -> Pose:
+        """`parent_from_child`."""
+        return Pose(self.translation, self.rotation)
+
+
+class TransformBuffer:
+    """Keeps transforms and answers where one frame is in another.
+
+    Frames are named without a leading slash; one is stripped wherever it comes in, as tf2 does.
+    """
+
+    def __init__(self, cache_s: float = 10.0) -> None:
+        self._cache_ns = round(cache_s * NS)
+        self._static: dict[str, Transform] = {}
+        self._moving: dict[str, list[Transform]] = {}
+        """Child → its transforms, oldest first."""
+
+    def insert(self, transform: Transform, *, static: bool = False) -> bool:
+        """Take a transform; False if it is of no use (older than the cache, not finite, or a frame in itself)."""
+        parent, child = frame_name(transform.parent), frame_name(transform.child)
+        norm = math.hypot(*transform.rotation)
+        if not parent or not child or parent == child or not math.isfinite(norm + sum(transform.translation)):
+            return False
+        # Publishers in the wild send float32 quaternions and all zeros; the first are made unit, the second mean none.
+        rotation = tuple(v / norm for v in transform.rotation) if norm > 0 else IDENTITY_QUATERNION
+        clean = Transform(
+            parent=parent,
+            child=child,
+            stamp_ns=transform.stamp_ns,
+            translation=transform.translation,
+            rotation=(rotation[0], rotation[1], rotation[2], rotation[3]),
+        )
+        if static:
+            self._moving.pop(child, None)
+            self._static[child] = clean
+            return True
+        history = self._moving.setdefault(child, [])
+        if history and clean.stamp_ns < history[-1].stamp_ns - self._cache_ns:
+            return False
+        at = bisect_left(history, clean.stamp_ns, key=_stamp)
+        if at < len(history) and history[at].stamp_ns == clean.stamp_ns:
+            history[at] = clean
+        else:
+            insort(history, clean, key=_stamp)
+        self._static.pop(child, None)
+        expired = bisect_left(history, history[-1].stamp_ns - self._cache_ns, key=_stamp)
+        del history[:expired]
+        return True
+
+    def lookup(self, target: str, source: str, stamp_ns: int = 0) -> Transform:
+        """Return where `source` is in `target`: a transform with parent `target` and child `source`.
+
+        Args:
+            target: frame to express the answer in.
+            source: frame asked about.
+            stamp_ns: time [ns]; 0: the latest at which the whole chain is known.
+
+        Raises:
+            TransformError: a frame is unknown, the two are not connected, or the time is outside what is known.
+        """
+        target, source = frame_name(target), frame_name(source)
+        up_target, up_source, common = self._meeting(target, source)
+        below = [*up_source[: up_source.index(common)], *up_target[: up_target.index(common)]]
+        if stamp_ns == 0:
+            stamp_ns = min((self._moving[frame][-1].stamp_ns for frame in below if frame in self._moving), default=0)
+        common_from_source = self._climb(source, common, stamp_ns)
+        common_from_target = self._climb(target, common, stamp_ns)
+        found = common_from_target.inverse() @ common_from_source
+        return Transform(
+            parent=target, child=source, stamp_ns=stamp_ns, translation=found.position, rotation=found.quaternion
+        )
+
+    def path(self, target: str, source: str) -> list[str]:
+        """Name the frames that lead from `target` to `source`, both included.
+
+        Raises:
+            TransformError: a frame is unknown, or the two are not connected.
+        """
+        target, source = frame_name(target), frame_name(source)
+        up_target, up_source, common = self._meeting(target, source)
+        down = up_source[: up_source.index(common)]
+        return [*up_target[: up_target.index(common) + 1], *reversed(down)]
+
+    def can_transform(self, target: str, source: str, stamp_ns: int = 0) -> bool:
+        """Tell whether a lookup would succeed."""
+        try:
+            self.lookup(target, source, stamp_ns)
+        except TransformError:
+            return False
+        return True
+
+    def frames(self) -> dict[str, str | None]:
+        """Every frame with its parent; roots have none."""
+        parents: dict[str, str | None] = {child: history[-1].parent for child, history in self._moving.items()}
+        parents.update({child: transform.parent for child, transform in self._static.items()})
+        for parent in list(parents.values()):
+            if parent is not None:
+                parents.setdefault(parent, None)
+        return parents
+
+    def latest(self, child: str) -> Transform | None:
+        """Return the newest transform of a frame in its parent."""
+        name = frame_name(child)
+        history = self._moving.get(name)
+        return history[-1] if history else self._static.get(name)
+
+    def is_static(self, child: str) -> bool:
+        """Tell whether a frame is fixed in its parent for good."""
+        return frame_name(child) in self._static
+
+    def clear(self) -> None:
+        """Forget what moves, as when time goes back; what is static stays, as it is sent only once."""
+        self._moving.clear()
+
+    def _meeting(self, target: str, source: str) -> tuple[list[str], list[str], str]:
+        """Name each frame's way to the root, and where the two ways meet."""
+        up_target, up_source = self._chain(target, "target"), self._chain(source, "source")
+        common = next((frame for frame in up_source if frame in up_target), None)
+        if common is None:
+            raise TransformError(
+                f"Could not find a connection between '{target}' and '{source}' because they are not part of the "
+                f"same tree.Tf has two or more unconnected trees."
+            )
+        return up_target, up_source, common
+
+    def _chain(self, frame: str, argument: str) -> list[str]:
+        """Name a frame and its ancestors up to the root; `argument` says in complaints which frame it is."""
+        parents = self._parent
+        if parents(frame) is None and not self._is_parent(frame):
+            raise TransformError(f'"{frame}" passed to lookupTransform argument {argument}_frame does not exist. ')
+        chain = [frame]
+        while (parent := parents(chain[-1])) is not None:
+            chain.append(parent)
+            if len(chain) > _MAX_DEPTH:
+                raise TransformError(f"The tf tree is invalid because it contains a loop through '{frame}'.")
+        return chain
+
+    def _parent(self, frame: str) -> str | None:
+        transform = self.latest(frame)
+        return transform.parent if transform is not None else None
+
+    def _is_parent(self, frame: str) -> bool:
+        return frame in self.frames()
+
+    def _climb(self, frame: str, ancestor: str, stamp_ns: int) -> Pose:
+        pose = Pose()
+        while frame != ancestor:
+            step = self._static.get(frame) or self._at(frame, stamp_ns)
+            pose = step.pose @ pose
+            frame = step.parent
+        return pose
+
+    def _at(self, frame: str, stamp_ns: int) -> Transform:
+        history = self._moving[frame]
+        at = bisect_left(history, stamp_ns, key=_stamp)
+        if at < len(history) and history[at].stamp_ns == stamp_ns:
+            return history[at]
+        if at == 0 or at == len(history):
+            first, last = history[0].stamp_ns / NS, history[-1].stamp_ns / NS
+            where = "past" if at == 0 else "future"
+            raise TransformError(
+                f"Lookup would require extrapolation into the {where}. Requested time {stamp_ns / NS:.9f} but the data "
+                f"of '{frame}' is from {first:.9f} to {last:.9f}"
+            )
+        before, after = history[at - 1], history[at]
+        if before.parent != after.parent:
+            return before
+        share = (stamp_ns - before.stamp_ns) / (after.stamp_ns - before.stamp_ns)
+        return _between(before, after, share, stamp_ns)
+
+
+def frame_name(name: str) -> str:
+    """Strip the leading slash that tf1 allowed."""
+    return name.removeprefix("/")
+
+
+def _stamp(transform: Transform) -> int:
+    return transform.stamp_ns
+
+
+def _between(a: Transform, b: Transform, share: float, stamp_ns: int) -> Transform:
+    position = tuple(x + (y - x) * share for x, y in zip(a.translation, b.translation, strict=True))
+    return Transform(
+        parent=a.parent,
+        child=a.child,
+        stamp_ns=stamp_ns,
+        translation=(position[0], position[1], position[2]),
+        rotation=slerp(a.rotation, b.rotation, share),
+    )
+
+
+def slerp(a: Quaternion, b: Quaternion, share: float) -> Quaternion:
+    """Turn from a to b the short way, at constant rate; `share` 0 gives a, 1 gives b."""
+    dot = sum(x * y for x, y in zip(a, b, strict=True))
+    sign = -1.0 if dot < 0 else 1.0
+    angle = math.acos(min(1.0, abs(dot)))
+    if angle < 1e-9:
+        return b
+    from_a, from_b = math.sin((1 - share) * angle), math.sin(share * angle) * sign
+    w, x, y, z = ((p * from_a + q * from_b) / math.sin(angle) for p, q in zip(a, b, strict=True))
+    return (w, x, y, z)

@@ -1,0 +1,89 @@
+"""Numbers of messages over time, by the names of their fields."""
+
+import math
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from trundle.diagnostics import UsageError
+from trundle.drawing import Curve
+
+from ..messages.fields import Field, field_type, value_at
+from ..messages.messages import Messages, RawMessage
+from ..node.clock import Clock
+from ..node.node import Node
+
+_NUMBERS = ("int", "uint", "float", "bool", "byte", "char", "time", "duration")
+_POINTS = 100_000
+"""Kept for each curve; the oldest go."""
+
+
+def spread_fields(text: str) -> list[str]:
+    """rqt_plot's short form: /a/x:y is /a/x and /a/y."""
+    first, *others = text.split(":") if "[" not in text else [text]
+    stem = first.rpartition("/")[0]
+    return [first, *(f"{stem}/{other}" for other in others)]
+
+
+@dataclass
+class TopicSeries:
+    """One field, and a curve for each number in it."""
+
+    name: str
+    where: Field
+    curves: dict[str, "deque[tuple[float, float]]"] = field(default_factory=dict[str, "deque[tuple[float, float]]"])
+
+    def check(self, messages: Messages) -> None:
+        """Refuse what is not a number.
+
+        Raises:
+            UsageError: it is something else; names what it is.
+        """
+        kind = field_type(self.where.type, self.where.path, messages)
+        base = kind.partition("[")[0]
+        if not base.startswith(_NUMBERS) or base in messages.type_names():
+            inner = messages.fields(base) if messages.has(base) else {}
+            below = f"; fields here: {', '.join(inner)}" if inner else ""
+            raise UsageError(f"{self.name} is a {kind}, not a number{below}")
+
+    def take(self, message: Any, time_s: float) -> None:
+        """Add a message's numbers; an array that is too short adds none."""
+        try:
+            value = value_at(message, self.where.steps)
+        except IndexError:
+            return
+        if hasattr(value, "nanosec"):
+            value = value.sec + value.nanosec / 1e9
+        values = list(value) if hasattr(value, "__len__") else None
+        for i, number in enumerate([value] if values is None else values):
+            curve = self.name if values is None else f"{self.name}[{i}]"
+            self.curves.setdefault(curve, deque(maxlen=_POINTS)).append((time_s, float(number)))
+
+
+def curves_of(traces: Sequence[TopicSeries], *, last_s: float = math.inf) -> list[Curve]:
+    """What was gathered in the last seconds; time is counted from the first message on."""
+    found = [(name, list(points)) for trace in traces for name, points in trace.curves.items()]
+    start = min((points[0][0] for _, points in found), default=0.0)
+    since = max((points[-1][0] for _, points in found), default=0.0) - last_s
+    return [Curve(name, [(t - start, value) for t, value in points if t >= since]) for name, points in found]
+
+
+def follow_series(trace: TopicSeries, node: Node, clock: Clock) -> None:
+    """Take the numbers of what is published from now on; a coroutine's or the loop's thread.
+
+    Raises:
+        UsageError: the field holds none.
+    """
+    messages = node.messages
+    known = messages.has(trace.where.type)
+    if known:
+        trace.check(messages)
+
+    def take(message: Any) -> None:
+        if isinstance(message, RawMessage):
+            messages.add_definition(message.type, message.definition)
+            message = messages.deserialize(message.data, message.type)
+        trace.take(message, clock.now_ns() / 1e9)
+
+    node.subscribe(trace.where.topic, trace.where.type if known else "*", take, queue_size=None)

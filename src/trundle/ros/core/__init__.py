@@ -1,0 +1,1 @@
+"""roscore: the master, its parameters, /rosout and its logs."""

@@ -1,0 +1,95 @@
+"""What a core writes to disk as the original: rosout.log of all that nodes say, master.log of who came and went."""
+
+import os
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from trundle.names import resolve_name
+
+from ..log import LEVELS
+from ..log_file import LogFile
+from ..master.parameters import ParameterTree
+from ..master.registry import Answer
+from ..messages.messages import Message
+
+ROSOUT_BYTES, ROSOUT_BACKUPS = 100 * 1024 * 1024, 10
+"""As the original node has them."""
+PYTHON_LOG_BYTES, PYTHON_LOG_BACKUPS = 50_000_000, 4
+"""As the original's python_logging.conf has them, for its master and roslaunch."""
+_OFF = ("", "0", "false", "off", "no")
+_LEVEL_NAMES = {number: name.upper() for name, number in LEVELS.items()}
+_BY_CALLER = {
+    "setParam": ("+PARAM", 1),
+    "deleteParam": ("-PARAM", 1),
+    "subscribeParam": ("+CACHEDPARAM", 2),
+    "unsubscribeParam": ("-CACHEDPARAM", 2),
+}
+"""Sign, and which argument is the key."""
+_WITH_ADDRESS = {
+    "registerPublisher": "+PUB",
+    "unregisterPublisher": "-PUB",
+    "registerSubscriber": "+SUB",
+    "unregisterSubscriber": "-SUB",
+    "registerService": "+SERVICE",
+    "unregisterService": "-SERVICE",
+}
+
+
+class CoreLogs:
+    """The two files of one run; calls return at once."""
+
+    def __init__(self, folder: Path, parameters: ParameterTree) -> None:
+        self._parameters = parameters
+        self._master = LogFile(folder / "master.log", most_bytes=PYTHON_LOG_BYTES, backups=PYTHON_LOG_BACKUPS)
+        self._rosout: LogFile | None = None
+        if os.environ.get("ROSOUT_DISABLE_FILE_LOGGING", "").lower() in _OFF:
+            self._rosout = LogFile(folder / "rosout.log", most_bytes=ROSOUT_BYTES, backups=ROSOUT_BACKUPS)
+            self._rosout.write(f"\n\n{time.time_ns() / 1e9:.9f}  Node Startup")
+
+    def said(self, message: Message) -> None:
+        """Write a rosgraph_msgs/Log as the original node does."""
+        if self._rosout is not None:
+            with_topics = not (
+                self._parameters.has("/rosout/omit_topics") and self._parameters.get("/rosout/omit_topics")
+            )
+            self._rosout.write(rosout_line(message, with_topics=with_topics))
+
+    def note(self, text: str) -> None:
+        """Write what the master has to say of itself."""
+        self._master.write(python_log_line("rosmaster.master", text))
+
+    def called(self, method: str, arguments: Sequence[Any], answer: Answer) -> None:
+        """Note a call to the master that changed its books."""
+        if answer[0] != 1:
+            return
+        if method in _WITH_ADDRESS:
+            caller, name, *_, address = arguments
+            self.note(f"{_WITH_ADDRESS[method]} [{resolve_name(name, caller)}] {caller} {address}")
+        elif method in _BY_CALLER:
+            caller = arguments[0]
+            what, index = _BY_CALLER[method]
+            self.note(f"{what} [{resolve_name(arguments[index], caller)}] by {caller}")
+
+    def close(self) -> None:
+        """Write what still waits."""
+        self._master.close()
+        if self._rosout is not None:
+            self._rosout.close()
+
+
+def rosout_line(message: Message, *, with_topics: bool) -> str:
+    """Write a rosgraph_msgs/Log: stamp, level, node, place, the node's topics if wanted, text."""
+    stamp = message.header.stamp
+    topics = f"[topics: {', '.join(message.topics)}] " if with_topics else ""
+    level = _LEVEL_NAMES.get(message.level, str(message.level))
+    place = f"[{message.file}:{message.line}({message.function})]"
+    return f"{stamp.sec}.{stamp.nanosec:09d} {level} {message.name} {place} {topics}{message.msg}"
+
+
+def python_log_line(logger: str, text: str) -> str:
+    """Write a line as the original's Python programs do, with the time on this machine's clock."""
+    now_ms = time.time_ns() // 1_000_000
+    stamp = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(now_ms // 1000))
+    return f"[{logger}][INFO] {stamp},{now_ms % 1000:03d}: {text}"

@@ -1,0 +1,1 @@
+"""The ROS master with its parameter server."""

@@ -1,0 +1,304 @@
+"""The ROS master with its parameter server: every call of the original, with its codes and texts.
+
+Answers are given at once; telling nodes about changes is queued per node, so that a dead one holds up nobody.
+"""
+
+import os
+from collections.abc import Callable
+from typing import Any
+
+from trundle.names import canonical_name, parent_namespace, resolve_name
+
+from ..errors import ParameterError
+from ..transport.network import LOOPBACK, server_address
+from ..xmlrpc.rpc_methods import BadArgumentError, Method, answer_call, name_argument
+from ..xmlrpc.rpc_server import RpcServer
+from ..xmlrpc.xmlrpc import encode_response
+from .parameters import ParameterTree, updates
+from .registry import Answer, RegistrationTable, Registry
+from .slave_calls import SlaveCalls
+
+ANY_TYPE = "*"
+
+
+class Master:
+    """Keeps the books of one ROS graph."""
+
+    def __init__(self, *, on_shutdown: Callable[[str], None] | None = None) -> None:
+        """Make a master that does not listen yet.
+
+        Args:
+            on_shutdown: called with the reason when a client asks the master to stop.
+        """
+        self.parameters = ParameterTree()
+        self.uri = ""
+        self.on_call: Callable[[str, list[Any], Answer], None] = lambda _method, _arguments, _answer: None
+        """Told of each call and its answer."""
+        self._on_shutdown = on_shutdown
+        self._books = Registry()
+        self._types: dict[str, str] = {}
+        self._notices = SlaveCalls()
+        self._server = RpcServer(self.dispatch)
+        self._methods: dict[str, Method] = {
+            "getPid": (0, -1, self._get_pid),
+            "getUri": (0, "", self._get_uri),
+            "shutdown": (1, 0, self._shutdown),
+            "lookupNode": (1, "", self._lookup_node),
+            "lookupService": (1, "", self._lookup_service),
+            "getSystemState": (0, [[], [], []], self._system_state),
+            "getTopicTypes": (0, [], self._topic_types),
+            "getPublishedTopics": (1, 0, self._published_topics),
+            "registerPublisher": (3, [], self._register_publisher),
+            "unregisterPublisher": (2, 0, self._unregister_publisher),
+            "registerSubscriber": (3, [], self._register_subscriber),
+            "unregisterSubscriber": (2, 0, self._unregister_subscriber),
+            "registerService": (3, 0, self._register_service),
+            "unregisterService": (2, 0, self._unregister_service),
+            "setParam": (2, 0, self._set_param),
+            "getParam": (1, 0, self._get_param),
+            "hasParam": (1, False, self._has_param),
+            "deleteParam": (1, 0, self._delete_param),
+            "searchParam": (1, 0, self._search_param),
+            "getParamNames": (0, [], self._param_names),
+            "subscribeParam": (2, 0, self._subscribe_param),
+            "unsubscribeParam": (2, 0, self._unsubscribe_param),
+        }
+
+    async def start(self, port: int, host: str | None = None) -> None:
+        """Listen; port 0 takes any free one.
+
+        Raises:
+            PortTakenError: another program listens there.
+        """
+        address = server_address(host)
+        await self._server.start(address.bind or LOOPBACK, port)
+        self.uri = f"http://{address.at(self._server.port)}/"
+
+    @property
+    def port(self) -> int:
+        """Where the master listens."""
+        return self._server.port
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether nodes are still to be told something."""
+        return self._notices.is_busy
+
+    async def stop(self) -> None:
+        """Stop listening; nodes are not told, as they can go on without a master."""
+        await self._server.stop()
+        await self._notices.stop()
+
+    def dispatch(self, method: str, arguments: list[Any]) -> Answer | list[Any]:
+        """Answer one call."""
+        if method == "system.multicall":
+            calls: list[dict[str, Any]] = arguments[0]
+            return [[self.dispatch(str(call["methodName"]), list(call["params"]))] for call in calls]
+        if method == "system.listMethods":
+            return sorted([*self._methods, "system.multicall"])
+        answer = answer_call(self._methods, method, arguments)
+        self.on_call(method, arguments, answer)
+        return answer
+
+    def _get_pid(self, _: str) -> Answer:
+        return 1, "", os.getpid()
+
+    def _get_uri(self, _: str) -> Answer:
+        return 1, "", self.uri
+
+    def _shutdown(self, caller: str, reason: Any) -> Answer:
+        if self._on_shutdown is not None:
+            self._on_shutdown(f"external shutdown request from [{caller}]: {reason}")
+        return 1, "shutdown", 0
+
+    # -- who is where
+
+    def _lookup_node(self, caller: str, node: Any) -> Answer:
+        name = "/" if node == "/" else name_argument("node", node, caller)
+        api = self._books.nodes.get(name)
+        return (1, "node api", api) if api else (-1, f"unknown node [{name}]", "")
+
+    def _lookup_service(self, caller: str, service: Any) -> Answer:
+        _, api = self._books.service_apis.get(name_argument("service", service, caller), ("", ""))
+        return (1, f"rosrpc URI: [{api}]", api) if api else (-1, "no provider", "")
+
+    def _topic_types(self, _: str) -> Answer:
+        return 1, "current system state", [list(item) for item in self._types.items()]
+
+    def _system_state(self, _: str) -> Answer:
+        books = self._books
+        return 1, "current system state", [t.state() for t in (books.publishers, books.subscribers, books.services)]
+
+    def _published_topics(self, caller: str, subgraph: Any) -> Answer:
+        if not isinstance(subgraph, str):
+            raise BadArgumentError("ERROR: parameter [subgraph] must be a string")
+        prefix = resolve_name(subgraph, caller) if subgraph else ""
+        if prefix and not prefix.endswith("/"):
+            prefix += "/"
+        found = [[t, self._types.get(t, ANY_TYPE)] for t in self._books.publishers.entries if t.startswith(prefix)]
+        return 1, "current topics", found
+
+    # -- topics and services
+
+    def _register_publisher(self, caller: str, topic: Any, type_name: Any, api: Any) -> Answer:
+        name, kind, uri = name_argument("topic", topic, caller), _type("topic_type", type_name), _api("caller_api", api)
+        self._enter(self._books.publishers, name, caller, uri)
+        if kind != ANY_TYPE or name not in self._types:
+            self._types[name] = kind
+        self._tell_subscribers(name)
+        return 1, f"Registered [{caller}] as publisher of [{name}]", self._books.subscribers.apis(name)
+
+    def _unregister_publisher(self, caller: str, topic: Any, api: Any) -> Answer:
+        name, uri = name_argument("topic", topic, caller), _api("caller_api", api)
+        answer = self._books.unregister(self._books.publishers, name, caller, uri)
+        if answer[2]:
+            self._tell_subscribers(name)
+        return answer
+
+    def _register_subscriber(self, caller: str, topic: Any, type_name: Any, api: Any) -> Answer:
+        name, kind, uri = name_argument("topic", topic, caller), _type("topic_type", type_name), _api("caller_api", api)
+        self._enter(self._books.subscribers, name, caller, uri)
+        if kind != ANY_TYPE:
+            self._types.setdefault(name, kind)
+        return 1, f"Subscribed to [{name}]", self._books.publishers.apis(name)
+
+    def _unregister_subscriber(self, caller: str, topic: Any, api: Any) -> Answer:
+        name, uri = name_argument("topic", topic, caller), _api("caller_api", api)
+        return self._books.unregister(self._books.subscribers, name, caller, uri)
+
+    def _register_service(self, caller: str, service: Any, service_api: Any, api: Any) -> Answer:
+        name, rpc, uri = (
+            name_argument("service", service, caller),
+            _api("service_api", service_api),
+            _api("caller_api", api),
+        )
+        self._replace(caller, self._books.register_service(name, caller, uri, rpc))
+        return 1, f"Registered [{caller}] as provider of [{name}]", 1
+
+    def _unregister_service(self, caller: str, service: Any, service_api: Any) -> Answer:
+        name, rpc = name_argument("service", service, caller), _api("service_api", service_api)
+        return self._books.unregister_service(name, caller, rpc)
+
+    def _enter(self, table: RegistrationTable, name: str, caller: str, uri: str) -> None:
+        self._replace(caller, self._books.register(table, name, caller, uri))
+
+    def _replace(self, node: str, older_uri: str | None) -> None:
+        if older_uri is not None:
+            reason = f"[{node}] Reason: new node registered with same name"
+            self._notices.send(older_uri, "shutdown", "/master", reason)
+
+    def _tell_subscribers(self, topic: str) -> None:
+        publishers = self._books.publishers.apis(topic)
+        for uri in self._books.subscribers.apis(topic):
+            self._notices.send(uri, "publisherUpdate", "/master", topic, publishers)
+
+    # -- parameters
+
+    def _set_param(self, caller: str, key: Any, value: Any) -> Answer:
+        name = _parameter(key, caller)
+        if value is None:
+            raise BadArgumentError("ERROR: parameter [value] must be specified")
+        try:
+            encode_response(value)  # who asks for a namespace cannot be answered if one value cannot be sent
+            self.set_param(name, value, by=caller)
+        except ValueError as error:
+            return -1, f"ERROR: parameter [value]: {error}", 0
+        except TypeError as error:
+            return -1, f"Error: invalid arguments: {error}", 0
+        except ParameterError as error:
+            return -1, f"ERROR: {error}", 0
+        return 1, f"parameter {name} set", 0
+
+    def set_param(self, name: str, value: object, by: str = "/master") -> None:
+        """Set a parameter by its global name and tell the nodes that follow it, except the one that set it.
+
+        Raises:
+            ParameterError: there are too many.
+            TypeError: the root can only be a dictionary.
+        """
+        self.parameters.set(name, value)
+        self._tell_followers(name, value, by)
+
+    def _delete_param(self, caller: str, key: Any) -> Answer:
+        name = _parameter(key, caller)
+        try:
+            self.parameters.delete(name)
+        except KeyError:
+            return -1, f"parameter [{name}] is not set", 0
+        self._tell_followers(name, {}, None)
+        return 1, f"parameter {name} deleted", 0
+
+    def _get_param(self, caller: str, key: Any) -> Answer:
+        name = _parameter(key, caller)
+        try:
+            return 1, f"Parameter [{name}]", self.parameters.get(name)
+        except KeyError:
+            return -1, f"Parameter [{name}] is not set", 0
+
+    def _has_param(self, caller: str, key: Any) -> Answer:
+        name = _parameter(key, caller)
+        return 1, name, self.parameters.has(name)
+
+    def _search_param(self, caller: str, key: Any) -> Answer:
+        key = _key(key)
+        if key.startswith("~"):
+            return 0, "Internal failure: invalid key", 0
+        if not caller.startswith("/"):
+            return 0, "Internal failure: namespace must be global", 0
+        found = self.parameters.search(caller, key)
+        if found is None:
+            return -1, f"Cannot find parameter [{key}] in an upwards search", ""
+        return 1, f"Found [{found}]", found
+
+    def _subscribe_param(self, caller: str, api: Any, key: Any) -> Answer:
+        name, uri = _parameter(key, caller), _api("caller_api", api)
+        self._enter(self._books.parameters, _followed(name), caller, uri)
+        value = self.parameters.get(name) if self.parameters.has(name) else {}
+        return 1, f"Subscribed to parameter [{name}]", value
+
+    def _unsubscribe_param(self, caller: str, api: Any, key: Any) -> Answer:
+        name, uri = _parameter(key, caller), _api("caller_api", api)
+        self._books.unregister(self._books.parameters, _followed(name), caller, uri)
+        return 1, f"Unsubscribe to parameter [{name}]", 1
+
+    def _param_names(self, _: str) -> Answer:
+        return 1, "Parameter names", self.parameters.names()
+
+    def _tell_followers(self, name: str, value: object, by: str | None) -> None:
+        table = self._books.parameters.entries
+        for key, changed, new in updates(list(table), name, value):
+            for node, uri in table[key]:
+                if node != by or changed != _followed(name):  # who set the whole may not know of its parts
+                    self._notices.send(uri, "paramUpdate", "/master", changed, new)
+
+
+def _followed(name: str) -> str:
+    return "/" if name == "/" else canonical_name(name) + "/"
+
+
+def _key(value: Any) -> str:
+    if not value:
+        raise BadArgumentError("ERROR: parameter [key] must be specified and non-empty")
+    if not isinstance(value, str):
+        raise BadArgumentError("ERROR: parameter [key] must be a string")
+    return value
+
+
+def _parameter(value: Any, caller: str) -> str:
+    return resolve_name(_key(value), caller) or parent_namespace(caller)
+
+
+def _type(what: str, value: Any) -> str:
+    if not isinstance(value, str) or not value:
+        raise BadArgumentError(f"ERROR: parameter [{what}] must be a non-empty string")
+    if value != ANY_TYPE and value.count("/") != 1:
+        raise BadArgumentError(f"ERROR: parameter [{what}] is not a valid package resource name")
+    return value
+
+
+def _api(what: str, value: Any) -> str:
+    if not isinstance(value, str) or not value:
+        raise BadArgumentError(f"ERROR: parameter [{what}] is not an XMLRPC URI")
+    if not value.startswith(("http://", "rosrpc://")):
+        raise BadArgumentError(f"ERROR: parameter [{what}] is not an RPC URI")
+    return value

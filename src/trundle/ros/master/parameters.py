@@ -1,0 +1,166 @@
+"""The parameter tree: values at slash-separated names, namespaces as dictionaries."""
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, TypeAlias
+
+from trundle.diagnostics import UsageError
+
+from ..errors import ParameterError
+
+Tree: TypeAlias = "dict[str, Any]"
+Update: TypeAlias = tuple[str, str, object]
+"""(subscribed key, changed key, new value); the keys end with a slash."""
+MAX_BYTES = 64 * 1024 * 1024
+"""All parameters together: as much as one answer holds, so that who asks for all gets them."""
+MAX_DEPTH = 100
+_ITEM_BYTES = 64
+"""Of a name or a number, with what XML-RPC writes around it."""
+
+
+class ParameterTree:
+    """What the parameter server holds. Names are global and canonical; a missing one is a KeyError."""
+
+    def __init__(self) -> None:
+        self._root: Tree = {}
+        self._bytes = 0
+        """About what `_root` takes as XML-RPC."""
+
+    def get(self, name: str) -> Any:
+        """Return a value, or a namespace as a dictionary."""
+        value: Any = self._root
+        for part in _parts(name):
+            if not isinstance(value, dict):
+                raise KeyError(name)
+            value = value[part]
+        return value
+
+    def set(self, name: str, value: object) -> None:
+        """Set a value, or replace a whole namespace by a dictionary; a value in the way becomes a namespace.
+
+        Raises:
+            ParameterError: there would be more than `MAX_BYTES` of parameters, or some deeper than `MAX_DEPTH`.
+            TypeError: the root can only be a dictionary.
+        """
+        *namespaces, last = _parts(name) or [""]
+        size = self._bytes + self._growth(name, value)
+        if size > MAX_BYTES:
+            raise ParameterError(f"all parameters together would take {size} bytes, more than the {MAX_BYTES} accepted")
+        if len(namespaces) >= MAX_DEPTH:
+            raise ParameterError(f"parameters nest deeper than {MAX_DEPTH}")
+        if not last:
+            if not isinstance(value, dict):
+                raise TypeError("cannot set root of parameter tree to non-dictionary")
+            self._root, self._bytes = value, size
+            return
+        self._bytes = size
+        tree = self._root
+        for part in namespaces:
+            below = tree.get(part)
+            if not isinstance(below, dict):
+                below = tree[part] = {}
+            tree = below
+        tree[last] = value
+
+    def delete(self, name: str) -> None:
+        """Remove a value or a namespace."""
+        *namespaces, last = _parts(name) or [""]
+        tree: Any = self.get("/".join(namespaces))
+        if not last or not isinstance(tree, dict):
+            raise KeyError(name)
+        self._bytes -= _size({last: tree.pop(last)})
+
+    def has(self, name: str) -> bool:
+        """Tell whether a value or a namespace of this name is there."""
+        try:
+            self.get(name)
+        except KeyError:
+            return False
+        return True
+
+    def search(self, namespace: str, key: str) -> str | None:
+        """Find a key upwards from a namespace; the first part of the key decides where it is found."""
+        if key.startswith("/"):
+            return key if self.has(key) else None
+        first = _parts(key)[0]
+        above = _parts(namespace)
+        for count in range(len(above), -1, -1):
+            prefix = "/" + "/".join(above[:count])
+            if self.has(f"{prefix}/{first}"):
+                return f"{prefix.rstrip('/')}/{key}"
+        return None
+
+    def names(self) -> list[str]:
+        """Name every value; an empty namespace has none."""
+        return [name for name, value in _walk("", self._root) if not isinstance(value, dict)]
+
+    def _growth(self, name: str, value: object) -> int:
+        """By how much the tree's size changes if a value is set."""
+        parts = _parts(name)
+        at: Any = self._root
+        for depth, part in enumerate(parts):
+            if not isinstance(at, dict):
+                return sum(_ITEM_BYTES + len(part) for part in parts[depth:]) + _size(value) - _size(at)
+            if part not in at:
+                return sum(_ITEM_BYTES + len(part) for part in parts[depth:]) + _size(value)
+            at = at[part]
+        return _size(value) - _size(at)
+
+
+def updates(subscribed: Iterable[str], name: str, value: object) -> list[Update]:
+    """Work out what each subscribed key learns when `name` gets `value` ({} where it was deleted).
+
+    A key above learns the name and value as set. A key below learns its own part of the value, or {} where the new
+    value leaves it out (as rosmaster does).
+    """
+    changed = _with_slash(name)
+    inside = (
+        {_with_slash(key): below for key, below in _walk(name.rstrip("/"), value)} if isinstance(value, dict) else {}
+    )
+    result: list[Update] = []
+    for key in subscribed:
+        if changed.startswith(key):
+            result.append((key, changed, value))
+        elif isinstance(value, dict) and key.startswith(changed):
+            result.append((key, key, inside.get(key, {})))
+    return result
+
+
+def set_leaves(name: str, value: object, put: Callable[[str, object], None]) -> None:
+    """Set each value of a tree on its own, so that what else a namespace holds stays (rosparam's way).
+
+    Raises:
+        UsageError: a dictionary in it has keys that are no names.
+    """
+    if isinstance(value, dict):
+        members: dict[object, Any] = value
+        if not all(isinstance(key, str) for key in members):
+            raise UsageError(f"YAML dictionaries must have string keys. Invalid dictionary is:\n{members}")
+        for key, below in members.items():
+            set_leaves(f"{name.rstrip('/')}/{key}", below, put)
+    else:
+        put(name, value)
+
+
+def _parts(name: str) -> list[str]:
+    return [part for part in name.split("/") if part]
+
+
+def _size(value: Any) -> int:
+    """Count the bytes of a value, about as XML-RPC writes it."""
+    if isinstance(value, dict):
+        return sum(_ITEM_BYTES + len(str(key)) + _size(below) for key, below in value.items())
+    if isinstance(value, list | tuple):
+        return sum(map(_size, value))
+    return _ITEM_BYTES + (len(value) if isinstance(value, str | bytes) else 0)
+
+
+def _with_slash(name: str) -> str:
+    return "/" if not name.strip("/") else "/" + "/".join(_parts(name)) + "/"
+
+
+def _walk(prefix: str, value: Tree) -> Iterator[tuple[str, Any]]:
+    for key, below in value.items():
+        name = f"{prefix}/{key}"
+        yield name, below
+        if isinstance(below, dict):
+            yield from _walk(name, below)

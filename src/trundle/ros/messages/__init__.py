@@ -1,0 +1,1 @@
+"""Message types: their definitions, and messages as objects, text and bytes."""

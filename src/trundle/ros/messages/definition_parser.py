@@ -1,0 +1,91 @@
+"""The text of a message type, line by line: its constants and fields as rosbags has them."""
+
+import re
+from typing import Any
+
+from ..errors import DefinitionError
+from .constants import Constant, read_constant
+from .definition_search import MOST_CHARACTERS
+
+MOST_ELEMENTS = 1_000_000_000
+"""Elements of an array: as many bytes as a connection carries at once."""
+_MOST_FIELDS = 5_000
+_FIELD = re.compile(
+    r"(?P<type>[A-Za-z]\w*(?:/[A-Za-z]\w*){0,2})(?:<=(?P<longest>\d{1,9}))?"
+    r"(?P<list>\[(?P<bound><=)?(?P<count>-?\d*)\])?[ \t]+(?P<name>[A-Za-z]\w*)",
+    re.ASCII,
+)
+_NUMBERS = (*(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)), "float32", "float64")
+_BASE = frozenset({"bool", "byte", "char", "string", *_NUMBERS})
+_SHORT = {
+    "time": "builtin_interfaces/msg/Time",
+    "duration": "builtin_interfaces/msg/Duration",
+    "Header": "std_msgs/msg/Header",
+}
+
+
+def read_type(text: str, key: str) -> tuple[list[Constant], list[tuple[str, Any]]]:
+    """Read a type's own text, without those it depends on: its constants, and its fields as rosbags has them.
+
+    Args:
+        text: of a .msg file.
+        key: the type's name as rosbags writes it.
+
+    Raises:
+        DefinitionError: it cannot be read; the text says why, and in which line.
+    """
+    if len(text) > MOST_CHARACTERS:
+        raise DefinitionError(1, f"it has more than the {MOST_CHARACTERS} characters that are read")
+    constants: list[Constant] = []
+    fields: list[tuple[str, Any]] = []
+    names: dict[str, int] = {}
+    for number, line in enumerate(text.split("\n"), 1):
+        constant = read_constant(line, number)
+        bare = line.partition("#")[0].strip()
+        if constant is not None:
+            constants.append(constant)
+        elif bare:
+            fields.append(_read_field(bare, key.rpartition("/")[0], number))
+        else:
+            continue
+        name = constant[0] if constant is not None else fields[-1][0]
+        if names.setdefault(name, number) != number:
+            raise DefinitionError(number, f"the name {name[:80]!r} is taken by line {names[name]}")
+        if len(names) > _MOST_FIELDS:
+            raise DefinitionError(number, f"more than {_MOST_FIELDS} fields and constants")
+    return constants, fields
+
+
+def line_of_field(text: str, name: str) -> int:
+    """Return the line that a field stands in; 1 where there is none."""
+    for number, line in enumerate(text.split("\n"), 1):
+        field = _FIELD.fullmatch(line.partition("#")[0].strip())
+        if field is not None and field["name"] == name:
+            return number
+    return 1
+
+
+def _read_field(line: str, package: str, number: int) -> tuple[str, Any]:
+    from rosbags.interfaces import Nodetype
+
+    field = _FIELD.fullmatch(line)
+    if field is None:
+        raise DefinitionError(
+            number, f"not a field: {line[:80]!r}; fields are written TYPE NAME, like float64 x or int32[3] x"
+        )
+    kind = field["type"]
+    inner: Any
+    if kind in _BASE:
+        inner = (Nodetype.BASE, (kind, int(field["longest"] or 0)))
+    else:
+        owner, slash, name = kind.rpartition("/")
+        owner = package if not slash else owner if owner.endswith("/msg") else f"{owner}/msg"
+        inner = (Nodetype.NAME, _SHORT.get(kind, f"{owner}/{name}"))
+    if field["list"] is None:
+        return field["name"], inner
+    count = field["count"]
+    if count.startswith("-") or len(count) > len(str(MOST_ELEMENTS)) or int(count or 0) > MOST_ELEMENTS:
+        raise DefinitionError(number, f"an array has from 0 to {MOST_ELEMENTS} elements, not {count[:40]}")
+    if field["bound"] or not count:
+        return field["name"], (Nodetype.SEQUENCE, (inner, int(count or 0)))
+    return field["name"], (Nodetype.ARRAY, (inner, int(count)))

@@ -1,0 +1,161 @@
+"""Where the text of definitions comes from: what is shipped here, folders a user adds, packages on the package path."""
+
+import os
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from trundle.files import read_text
+
+_SHIPPED = Path(__file__).parents[1] / "definitions"
+MOST_CHARACTERS = 1_000_000
+"""Length of a text; the longest of a desktop installation has below 100,000. Texts of peers have the same bound."""
+_SEPARATOR = re.compile(r"^\s*---[^\n]*$", re.MULTILINE)
+DEBIAN_SHARE = "/usr/share"
+"""Debian's rospkg looks here last, whatever ROS_PACKAGE_PATH says."""
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """Where a text begins."""
+
+    path: Path
+    line: int = 1
+
+
+@dataclass(slots=True)
+class Definitions:
+    """Texts by type name ('geometry_msgs/Twist'), read from a package's folder when one of its types is asked for."""
+
+    messages: dict[str, str]
+    services: dict[str, str]
+    folders: dict[str, Path]
+    """Package → the folder that holds its `msg/`, `srv/` and `action/`; those not read yet."""
+    _on_path: Mapping[str, Path] | None = None
+    _looked_up: set[str] = field(default_factory=set[str])
+    origins: dict[str, Origin] = field(default_factory=dict[str, Origin])
+    """Where texts stand, of those that came from files."""
+    unreadable: dict[str, str] = field(default_factory=dict[str, str])
+    """Type, with `.msg` or `.srv` → why its file cannot be read, in a sentence."""
+
+    @classmethod
+    def shipped(cls) -> "Definitions":
+        """What comes with Trundle because the message library lacks it."""
+        folders = {path.name: path for path in sorted(_SHIPPED.iterdir()) if path.is_dir()}
+        return cls({}, {}, folders)
+
+    @property
+    def on_path(self) -> Mapping[str, Path]:
+        """Folders of the packages on ROS_PACKAGE_PATH and around the working directory."""
+        if self._on_path is None:
+            from trundle.packages import Packages  # only where a type is asked for that nobody brought
+
+            self._on_path = Packages(os.environ, start=Path.cwd()).ros_packages()
+        return self._on_path
+
+    def load_package(self, package: str) -> None:
+        """Read the texts that are shipped or were added for a package, once."""
+        folder = self.folders.pop(package, None)
+        if folder is not None:
+            self._read(package, folder)
+
+    def load_from_path(self, package: str) -> None:
+        """As `load_package`, from a package on the package path; what is known already stays as it is."""
+        if package not in self._looked_up:
+            self._looked_up.add(package)
+            if (folder := self.on_path.get(package)) is not None:
+                self._read(package, folder)
+
+    def service_text(self, type_name: str) -> str:
+        """The text of a known service type: as installed, with its comments, if that means the same."""
+        known = self.services[type_name]
+        text = self.installed(type_name, "srv")
+        return text if text is not None and _bare(text) == _bare(known) else known
+
+    def installed(self, type_name: str, kind: str = "msg") -> str | None:
+        """The text of a type as an installed ROS has it, with its comments, where `rosbag check` looks too."""
+        package, _, name = type_name.partition("/")
+        for share in (*os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep), DEBIAN_SHARE):
+            path = Path(share, package, kind, f"{name}.{kind}")
+            if share and path.is_file():
+                with suppress(OSError):
+                    return read_text(path, most=MOST_CHARACTERS)
+        return None
+
+    def load_all(self) -> None:
+        """Read everything there is."""
+        for package in list(self.folders):
+            self.load_package(package)
+        for package in self.on_path:
+            self.load_from_path(package)
+
+    def add_part(self, name: str, text: str, line: int, *, of: str) -> None:
+        """Add the text of a half of a service."""
+        self.messages[name] = text
+        if (whole := self.origins.get(of)) is not None:
+            self.origins[name] = Origin(whole.path, line)
+
+    def _read(self, package: str, folder: Path) -> None:
+        for name, path, text in self._files(package, folder, "msg"):
+            self._add(self.messages, name, text, Origin(path))
+        for name, path, text in self._files(package, folder, "action"):
+            for part, (line, part_text) in split_action(name, text).items():
+                self._add(self.messages, part, part_text, Origin(path, line))
+        for name, path, text in self._files(package, folder, "srv"):
+            self._add(self.services, name, text, Origin(path))
+
+    def _files(self, package: str, folder: Path, kind: str) -> Iterator[tuple[str, Path, str]]:
+        """Read the files of a kind; one that cannot be read takes nothing from the others."""
+        for path in sorted(folder.glob(f"{kind}/*.{kind}")):
+            name = f"{package}/{path.stem}"
+            try:
+                yield name, path, read_text(path, most=MOST_CHARACTERS)
+            except OSError as error:
+                asked = f"{name}Action.msg" if kind == "action" else f"{name}.{kind}"
+                self.unreadable.setdefault(asked, f"{path}:1: it cannot be read: {error.strerror}")
+
+    def _add(self, texts: dict[str, str], name: str, text: str, origin: Origin) -> None:
+        if name not in texts:
+            texts[name] = text
+            self.origins[name] = origin
+
+
+def split_service(text: str, line: int = 1) -> tuple[tuple[int, str], tuple[int, str]]:
+    """Split a .srv text into request and response, each with the line it begins in; `line` is that of the text."""
+    separator = _SEPARATOR.search(text)
+    if separator is None:
+        return (line, text), (line, "")
+    response = text[separator.end() :].lstrip("\n")
+    return (line, text[: separator.start()]), (line + text[: len(text) - len(response)].count("\n"), response)
+
+
+def split_action(name: str, text: str) -> dict[str, tuple[int, str]]:
+    """Write the seven messages that an action stands for, from its text: goal, result and feedback.
+
+    Returns:
+        name → the line of the text that it begins in, and its own text.
+    """
+    goal, (line, rest) = split_service(text)
+    result, feedback = split_service(rest, line)
+    package, _, base = name.partition("/")
+    texts = {
+        "Action": (
+            1,
+            f"{base}ActionGoal action_goal\n{base}ActionResult action_result\n{base}ActionFeedback action_feedback\n",
+        ),
+        "ActionGoal": (1, f"Header header\nactionlib_msgs/GoalID goal_id\n{base}Goal goal\n"),
+        "ActionResult": (1, f"Header header\nactionlib_msgs/GoalStatus status\n{base}Result result\n"),
+        "ActionFeedback": (1, f"Header header\nactionlib_msgs/GoalStatus status\n{base}Feedback feedback\n"),
+        "Goal": goal,
+        "Result": result,
+        "Feedback": feedback,
+    }
+    return {f"{package}/{base}{part}": placed for part, placed in texts.items()}
+
+
+def _bare(text: str) -> list[str]:
+    """What a text says beside its comments."""
+    lines = (" ".join(line.partition("#")[0].split()) for line in text.splitlines())
+    return [line for line in lines if line]

@@ -1,0 +1,239 @@
+"""Makes messages of values that are as they should be, which most are; of others nothing is said but that."""
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from rosbags.interfaces import Nodetype
+
+from .type_definitions import fields_of
+
+if TYPE_CHECKING:
+    from rosbags.typesys.store import Typestore
+
+TIME, DURATION = "builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"
+_DTYPES = {"bool": "bool", "byte": "int8", "char": "uint8"}
+"""Of types of numbers that numpy has other names for."""
+
+_Make: TypeAlias = Callable[[Any], Any]
+_Fields: TypeAlias = list[tuple[str, _Make, Callable[[], Any]]]
+"""Name, what makes a value of a given one, and what makes ROS's default."""
+_MISSING = object()
+_NUMBERS = (int, np.float64, np.float32)
+"""Real numbers besides float; there are others."""
+_CONVERTED = {"f": "iuf", "b": ""}
+"""Kinds of arrays that may become one of a kind; of integers where nothing is said."""
+
+
+class NotFastPathError(Exception):
+    """A value that may be right or wrong: whoever looks at it more closely can tell."""
+
+
+class MessageFastPath:
+    """What makes messages of one type store, found out once for each type."""
+
+    def __init__(self, store: "Typestore") -> None:
+        self._store = store
+        self._makers: dict[str, _Make] = {}
+        self._fresh: dict[str, Callable[[], Any]] = {}
+
+    def make(self, key: str, given: Any) -> Any:
+        """Make a message of type `key` ('geometry_msgs/msg/Twist') from a dictionary, a list or another message.
+
+        Raises:
+            NotFastPathError: something in it is not as it mostly is.
+        """
+        return (self._makers.get(key) or self._begin(key))(given)
+
+    def empty(self, key: str) -> Any:
+        """Make a message whose fields all have ROS's default."""
+        return self._fresh_of(key)()
+
+    def default(self, desc: Any) -> Callable[[], Any]:
+        """Return what makes the default of a field."""
+        kind, detail = desc
+        if kind == Nodetype.BASE:
+            value: Any = {"string": "", "bool": False, "float32": 0.0, "float64": 0.0}.get(detail[0], 0)
+            return lambda: value
+        if kind == Nodetype.NAME:
+            return self._fresh_of(detail)
+        inner, count = detail
+        length = count if kind == Nodetype.ARRAY else 0
+        if _is_number(inner):
+            dtype = dtype_of(inner[1][0])
+            return lambda: np.zeros(length, dtype)
+        if not length:
+            return _no_items
+        make = self.default(inner)
+        return lambda: [make() for _ in range(length)]
+
+    def _fresh_of(self, key: str) -> Callable[[], Any]:
+        if key not in self._fresh:
+            cls, makers = self._store.types[key], [self.default(desc) for _, desc in fields_of(self._store, key)]
+            self._fresh[key] = lambda: cls(*[make() for make in makers])
+        return self._fresh[key]
+
+    def _begin(self, key: str) -> _Make:
+        """Find out about a type; others may use what there is only when all of it is known."""
+        begun: dict[str, _Make] = {}
+        make = self._maker_of(key, begun)
+        self._makers.update(begun)
+        return make
+
+    def _maker_of(self, key: str, begun: dict[str, _Make]) -> _Make:
+        if key in begun:
+            return begun[key]
+        cls = self._store.types[key]
+        if key in (TIME, DURATION):
+            begun[key] = _time_maker(cls)
+            return begun[key]
+        fields: _Fields = []
+        begun[key] = _message_maker(cls, fields)  # before its fields: one may be a list of the same type
+        for name, desc in fields_of(self._store, key):
+            fields.append((name, self._maker(desc, begun), self.default(desc)))
+        return begun[key]
+
+    def _maker(self, desc: Any, begun: dict[str, _Make]) -> _Make:
+        kind, detail = desc
+        if kind == Nodetype.BASE:
+            return _scalar_maker(detail[0])
+        if kind == Nodetype.NAME:
+            return self._maker_of(detail, begun)
+        inner, count = detail
+        if kind == Nodetype.SEQUENCE:
+            count = None
+        if _is_number(inner):
+            return _array_maker(dtype_of(inner[1][0]), count)
+        return _list_maker(self._maker(inner, begun), count)
+
+
+def dtype_of(kind: str) -> "np.dtype[Any]":
+    """Name a type of number as numpy does."""
+    return np.dtype(_DTYPES.get(kind, kind))
+
+
+def numbers_at_once(given: Sequence[Any], dtype: "np.dtype[Any]") -> "np.ndarray[Any, Any] | None":
+    """Convert a list of plain numbers that fit; None where one by one must say which does not."""
+    try:
+        array = np.array(given)
+    except (ValueError, OverflowError):
+        return None
+    if array.ndim != 1 or array.dtype.kind not in _CONVERTED.get(dtype.kind, "iu"):
+        return None
+    if array.dtype == dtype:
+        return array
+    if dtype.kind != "f" and array.size:
+        limits = np.iinfo(dtype)
+        if array.min() < limits.min or array.max() > limits.max:
+            return None
+    return array.astype(dtype)
+
+
+def _no_items() -> list[Any]:
+    return []
+
+
+def _is_number(desc: Any) -> bool:
+    return desc[0] == Nodetype.BASE and desc[1][0] != "string"
+
+
+def _message_maker(cls: Any, fields: _Fields) -> _Make:
+    def make(given: Any) -> Any:
+        kind = type(given)
+        if kind is dict:
+            left, values = len(given), []
+            for name, make_one, default in fields:
+                value = given.get(name, _MISSING)
+                if value is _MISSING:
+                    values.append(default())
+                else:
+                    left -= 1
+                    values.append(make_one(value))
+            if left:
+                raise NotFastPathError
+            return cls(*values)
+        if (kind is list or kind is tuple) and len(given) == len(fields):
+            return cls(*[make_one(value) for (_, make_one, _), value in zip(fields, given, strict=True)])
+        if kind is cls:
+            return cls(*[make_one(getattr(given, name, _MISSING)) for name, make_one, _ in fields])
+        raise NotFastPathError
+
+    return make
+
+
+def _time_maker(cls: Any) -> _Make:
+    def make(given: Any) -> Any:
+        if type(given) is int:
+            return cls(*divmod(given, 10**9))
+        if type(given) is cls:
+            return cls(int(given.sec), int(given.nanosec))
+        raise NotFastPathError
+
+    return make
+
+
+def _list_maker(make: _Make, count: int | None) -> _Make:
+    def make_all(given: Any) -> Any:
+        if (type(given) is list or type(given) is tuple) and (count is None or len(given) == count):
+            return [make(item) for item in given]
+        raise NotFastPathError
+
+    return make_all
+
+
+def _array_maker(dtype: "np.dtype[Any]", count: int | None) -> _Make:
+    def make(given: Any) -> Any:
+        if type(given) is list or type(given) is tuple:
+            array = numbers_at_once(given, dtype) if given else np.zeros(0, dtype)
+        elif type(given) is np.ndarray:
+            array = np.ascontiguousarray(given, dtype).reshape(-1)
+        elif type(given) is bytes and dtype.itemsize == 1:
+            array = np.frombuffer(given, dtype)
+        else:
+            raise NotFastPathError
+        if array is None or (count is not None and len(array) != count):
+            raise NotFastPathError
+        return array
+
+    return make
+
+
+def _scalar_maker(kind: str) -> _Make:
+    if kind == "string":
+        return _make_text
+    if kind == "bool":
+        return _make_truth
+    if kind.startswith("float"):
+        return _make_real
+    limits = np.iinfo(dtype_of(kind))
+    low, high = int(limits.min), int(limits.max)
+
+    def make(given: Any) -> Any:
+        if type(given) is int and low <= given <= high:
+            return given
+        raise NotFastPathError
+
+    return make
+
+
+def _make_text(given: Any) -> str:
+    if type(given) is str:
+        return given
+    raise NotFastPathError
+
+
+def _make_truth(given: Any) -> bool:
+    if type(given) is bool:
+        return given
+    raise NotFastPathError
+
+
+def _make_real(given: Any) -> float:
+    if type(given) is float:
+        return given
+    if type(given) in _NUMBERS:
+        try:
+            return float(given)
+        except OverflowError:
+            raise NotFastPathError from None
+    raise NotFastPathError

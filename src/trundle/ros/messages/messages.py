@@ -1,0 +1,298 @@
+"""ROS 1 messages and services: which types there are, and everything about one by its name.
+
+The library rosbags brings the types of a desktop installation; it is imported when the first type is asked for, so
+that importing this module costs nothing.
+"""
+
+import threading
+import time
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from ..errors import MessageError
+from .codec import Codec
+from .definition_search import Definitions, split_service
+from .type_definitions import BUILTIN, TypeDefinitions, ros_name
+from .type_registry import TypeRegistry, UnknownTypeError
+
+if TYPE_CHECKING:
+    from rosbags.typesys.store import Typestore
+
+    from .message_builder import MessageBuilder
+
+Message: TypeAlias = Any
+"""A message object: a dataclass made by rosbags, with the fields of its ROS type. Number arrays are numpy arrays,
+`time` and `duration` have `sec` and `nanosec`, a field that is a Python keyword gets a trailing `_`."""
+
+ANY_TYPE = "*"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RawMessage:
+    """A message as it came, for those who only count, store or pass on."""
+
+    type: str
+    md5sum: str
+    definition: str
+    data: bytes
+    caller: str = ""
+    """Node that published it."""
+    latching: bool = False
+    """Whether its publisher hands its last message to newcomers."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ServiceType:
+    """A service: its name, its md5 sum and the message types of its two halves."""
+
+    type: str
+    md5sum: str
+    request: str
+    response: str
+
+
+class Messages:
+    """All message types a process knows. Types are written as ROS does: 'geometry_msgs/Twist'."""
+
+    def __init__(self, *, bare: bool = False) -> None:
+        """Make a store.
+
+        Args:
+            bare: know nothing but what is added, as when reading a bag by the definitions in it.
+        """
+        self._is_bare = bare
+        self._definitions = Definitions({}, {}, {}, {}) if bare else Definitions.shipped()
+        self._services: dict[str, ServiceType] = {}
+        self._codecs: dict[str, Codec] = {}
+        self._lock = threading.RLock()
+        """Held while types are added: nodes of several threads share one store."""
+        self._store_: Typestore | None = None
+        self._texts_: TypeDefinitions | None = None
+        self._registry_: TypeRegistry | None = None
+        self._filling_: MessageBuilder | None = None
+
+    # -- types
+
+    def has(self, type_name: str) -> bool:
+        """Tell whether a message type is known."""
+        with suppress(MessageError):
+            return bool(self._key(type_name))
+        return False
+
+    def type(self, type_name: str) -> type[Message]:
+        """Return the class of a type; it takes every field as an argument, `new` is kinder."""
+        return self._store.types[self._key(type_name)]
+
+    def type_of(self, message: Message) -> str:
+        """Name the type of a message."""
+        return ros_name(message.__msgtype__)
+
+    def type_names(self) -> list[str]:
+        """Every message type there is: of the library, shipped, and on the package path; those of services left out."""
+        with self._lock:
+            self._definitions.load_all()
+            return self._names()
+
+    def service_names(self) -> list[str]:
+        """Every service type there is."""
+        with self._lock:
+            self._definitions.load_all()
+            return sorted(self._definitions.services)
+
+    def fields(self, type_name: str) -> dict[str, str]:
+        """Field names with their ROS types, in order: {'name': 'string[]', 'stamp': 'time', …}."""
+        return self._texts.fields(self._key(type_name))
+
+    def constants(self, type_name: str) -> dict[str, tuple[str, str]]:
+        """Constants in order: name → (type, value as written)."""
+        return self._texts.constants(self._key(type_name))
+
+    def text(self, type_name: str) -> str:
+        """Return the text of a type alone; of the library's types that no ROS is installed for, without comments."""
+        return self._texts.text(self._key(type_name))
+
+    def service_text(self, type_name: str) -> str:
+        """Return the text of a service type."""
+        self.service(type_name)
+        return self._definitions.service_text(type_name)
+
+    def add(self, type_name: str, text: str) -> None:
+        """Add a message type from its .msg text; a type that is already known stays as it is."""
+        if not self.has(type_name):
+            with self._lock:
+                self._definitions.messages[type_name] = text
+                self._registry.add(type_name)
+
+    def add_service(self, type_name: str, text: str) -> None:
+        """Add a service type from its .srv text."""
+        self._definitions.services.setdefault(type_name, text)
+
+    def add_package(self, name: str, folder: Path) -> None:
+        """Add the types of a package; `msg/`, `srv/` and `action/` are read when one is asked for."""
+        self._definitions.folders.setdefault(name, folder)
+
+    def add_definition(self, type_name: str, definition: str) -> None:
+        """Add a type, and what it depends on, from the text a publisher sends along."""
+        own, *others = definition.split("\n" + "=" * 80 + "\n")
+        for other in others:
+            head, _, text = other.partition("\n")
+            if head.startswith("MSG: ") and not self.has(head[5:].strip()):
+                self._definitions.messages.setdefault(head[5:].strip(), text)
+        self.add(type_name, own)
+
+    # -- what peers compare
+
+    def md5(self, type_name: str) -> str:
+        """Return the md5 sum over a type's canonical text, which peers compare."""
+        return self._texts.md5(self._key(type_name))
+
+    def definition(self, type_name: str) -> str:
+        """Return the text of a type followed by those it depends on, as genmsg writes it."""
+        return self._texts.definition(self._key(type_name))
+
+    def service(self, type_name: str) -> ServiceType:
+        """Return a service type.
+
+        Raises:
+            MessageError: there is none of this name.
+        """
+        with self._lock:
+            return self._services.get(type_name) or self._read_service(type_name)
+
+    # -- values and bytes
+
+    def new(self, type_name: str, fields: object = None, *, now_ns: int | None = None) -> Message:
+        """Make a message; every field not given has ROS's default (0, '', empty).
+
+        Args:
+            type_name: such as 'geometry_msgs/Twist'.
+            fields: name → value, nested; or all values in order, as a list. 'now' stands for a time, 'auto' for a
+                header stamped now.
+            now_ns: what now is [ns]; the wall's time by default.
+
+        Raises:
+            MessageError: no such type or field, or a value that does not fit; the text names the field.
+        """
+        if fields is None:
+            return self._filling.empty(self._key(type_name))
+        return self._filling.message(self._key(type_name), fields, time.time_ns() if now_ns is None else now_ns)
+
+    def stamp(self, ns: int) -> Message:
+        """Make a `time` value from nanoseconds."""
+        return self._store.types["builtin_interfaces/msg/Time"](sec=ns // 10**9, nanosec=ns % 10**9)
+
+    def serialize(self, message: Message) -> bytes:
+        """Write a message's bytes.
+
+        Raises:
+            MessageError: a field holds what its type cannot; the text names it.
+        """
+        return self.codec(message.__msgtype__).write(message)
+
+    def deserialize(self, data: bytes | memoryview, type_name: str) -> Message:
+        """Read a message's bytes; its arrays may be read-only views of them.
+
+        Raises:
+            MessageError: the bytes are no such message.
+        """
+        return self.codec(type_name).read(data)
+
+    def codec(self, type_name: str) -> Codec:
+        """Return what writes and reads a type, made on first use."""
+        return self._codecs.get(type_name) or self._make_codec(type_name)
+
+    # -- inside
+
+    def _make_codec(self, type_name: str) -> Codec:
+        key = self._key(type_name)
+        self._codecs[type_name] = Codec(self._store, key, mend=lambda given: self._filling.message(key, given, 0))
+        return self._codecs[type_name]
+
+    @property
+    def _store(self) -> "Typestore":
+        if self._store_ is None:
+            with self._lock:
+                from rosbags.typesys import Stores, get_typestore
+
+                self._store_ = self._store_ or get_typestore(Stores.EMPTY if self._is_bare else Stores.ROS1_NOETIC)
+        return self._store_
+
+    @property
+    def _texts(self) -> TypeDefinitions:
+        with self._lock:
+            if self._texts_ is None:
+                self._texts_ = TypeDefinitions(self._store, None if self._is_bare else self._definitions)
+            return self._texts_
+
+    @property
+    def _registry(self) -> TypeRegistry:
+        if self._registry_ is None:
+            self._registry_ = TypeRegistry(self._store, self._definitions, self._texts, self._key)
+        return self._registry_
+
+    @property
+    def _filling(self) -> "MessageBuilder":
+        if self._filling_ is None:
+            from .message_builder import MessageBuilder
+
+            self._filling_ = MessageBuilder(self._store)
+        return self._filling_
+
+    def _key(self, type_name: str) -> str:
+        """Name a known type as rosbags does."""
+        package, slash, name = type_name.partition("/")
+        key = f"{package}/msg/{name}" if not name.startswith("msg/") else type_name
+        if key in self._store.types:
+            return key
+        with self._lock:
+            for load in (self._definitions.load_package, self._definitions.load_from_path):
+                load(package)
+                if key not in self._store.types and ros_name(key) in self._definitions.messages:
+                    self._registry.add(ros_name(key))
+                service = ros_name(key).removesuffix("Request").removesuffix("Response")
+                if service != ros_name(key) and service in self._definitions.services and service not in self._services:
+                    self.service(service)
+                if key in self._store.types:
+                    return key
+        if key not in self._store.types:
+            if why := self._definitions.unreadable.get(f"{ros_name(key)}.msg"):
+                raise MessageError(why)
+            if not slash:
+                raise UnknownTypeError(
+                    f"{type_name!r} is no message type; types are written package/Name, like std_msgs/String"
+                )
+            known = [other for other in self._names() if other.startswith(f"{package}/")]
+            raise UnknownTypeError(f"no message type {ros_name(key)!r}{_instead('messages', package, known)}")
+        return key
+
+    def _names(self) -> list[str]:
+        names = {ros_name(key) for key in self._store.types if key not in BUILTIN} | self._definitions.messages.keys()
+        halves = {half for kind in self._services.values() for half in (kind.request, kind.response)}
+        return sorted(names - halves)
+
+    def _read_service(self, type_name: str) -> ServiceType:
+        package = type_name.partition("/")[0]
+        self._definitions.load_package(package)
+        if type_name not in self._definitions.services:
+            self._definitions.load_from_path(package)
+        text = self._definitions.services.get(type_name)
+        if text is None:
+            if why := self._definitions.unreadable.get(f"{type_name}.srv"):
+                raise MessageError(why)
+            known = sorted(name for name in self._definitions.services if name.startswith(f"{package}/"))
+            raise MessageError(f"no service type {type_name!r}{_instead('services', package, known)}")
+        request, response = f"{type_name}Request", f"{type_name}Response"
+        for name, (line, half) in zip((request, response), split_service(text), strict=True):
+            self._definitions.add_part(name, half, line, of=type_name)
+            self._registry.add(name)
+        md5sum = self._texts.service_md5(self._key(request), self._key(response))
+        self._services[type_name] = ServiceType(type=type_name, md5sum=md5sum, request=request, response=response)
+        return self._services[type_name]
+
+
+def _instead(what: str, package: str, known: list[str]) -> str:
+    if not known:
+        return f"; no {what} of a package {package!r} are known"
+    return f"; {what} of {package}: {', '.join(name.partition('/')[2] for name in known[:40])}"

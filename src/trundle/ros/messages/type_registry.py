@@ -1,0 +1,102 @@
+"""Adds types to a store: each with all it consists of, or nothing."""
+
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, cast
+
+from ..errors import DefinitionError, MessageError
+from .definition_parser import line_of_field, read_type
+from .definition_search import Definitions
+from .type_definitions import TypeDefinitions, ros_name, type_referred_to
+from .type_sizes import FieldError, TypeSizes
+
+if TYPE_CHECKING:
+    from rosbags.typesys.store import Typestore
+
+_NAME = re.compile(r"[A-Za-z]\w*/[A-Za-z]\w*", re.ASCII)
+_DEEPEST = 100
+"""Messages within messages; no robot's come near."""
+
+
+class UnknownTypeError(MessageError):
+    """There is no type of this name."""
+
+
+class TypeRegistry:
+    """Adds the types of one store from their texts."""
+
+    def __init__(
+        self, store: "Typestore", definitions: Definitions, texts: TypeDefinitions, find: Callable[[str], str]
+    ) -> None:
+        """`find` names a known type as rosbags does, having it added if its text is known."""
+        self._store = store
+        self._definitions = definitions
+        self._texts = texts
+        self._find = find
+        self._sizes = TypeSizes(store)
+        self._added: list[str] = []
+        """By the call under way."""
+        self._depth = 0
+
+    def add(self, type_name: str) -> None:
+        """Add a type whose text is among the definitions.
+
+        Raises:
+            MessageError: it cannot be read, or what it consists of cannot; the text says where.
+        """
+        if not _NAME.fullmatch(type_name):
+            raise MessageError(f"{type_name[:80]!r} is no message type; types are written package/Name")
+        self._depth += 1
+        try:
+            self._add(type_name)
+            if self._depth == 1:
+                self._check(type_name)
+        except MessageError:
+            if self._depth == 1:
+                for key in self._added:
+                    del self._store.types[key], self._store.fielddefs[key], self._texts.own[key]
+            raise
+        finally:
+            self._depth -= 1
+            if not self._depth:
+                self._added.clear()
+
+    def _add(self, type_name: str) -> None:
+        from rosbags.typesys import TypesysError
+
+        text = self._definitions.messages[type_name]
+        package, _, name = type_name.partition("/")
+        key = f"{package}/msg/{name}"
+        try:
+            if self._depth > _DEEPEST:
+                raise DefinitionError(1, f"it is one of more than {_DEEPEST} messages within each other")
+            constants, fields = read_type(text, key)
+            self._store.register({key: (cast("Any", constants), fields)})
+        except DefinitionError as error:
+            raise MessageError(self._at(type_name, error.line) + str(error)) from None
+        except TypesysError as error:
+            raise MessageError(self._at(type_name, 1) + str(error)) from None
+        self._texts.own[key] = text
+        self._added.append(key)
+        for field, desc in fields:
+            depends = type_referred_to(desc)
+            if depends is not None:
+                try:
+                    self._find(depends)
+                except UnknownTypeError as error:
+                    raise MessageError(self._at(type_name, line_of_field(text, field)) + str(error)) from None
+
+    def _check(self, type_name: str) -> None:
+        try:
+            self._sizes.check(self._find(type_name))
+        except FieldError as error:
+            name = ros_name(error.key)
+            line = line_of_field(self._definitions.messages.get(name, ""), error.field)
+            raise MessageError(self._at(name, line) + str(error)) from None
+
+    def _at(self, type_name: str, line: int) -> str:
+        """Begin a sentence about a line of a type's text: with its file, if it came from one."""
+        origin = self._definitions.origins.get(type_name)
+        if origin is None:
+            return f"the definition of {type_name} cannot be read: line {line}: "
+        return f"{origin.path}:{origin.line + line - 1}: "

@@ -1,0 +1,72 @@
+"""How much memory a message takes when nothing is in it, so that no definition asks for more than there is."""
+
+from typing import TYPE_CHECKING, Any
+
+from ..transport.headers import MAX_MESSAGE_BYTES
+from .type_definitions import fields_of, ros_name
+
+if TYPE_CHECKING:
+    from rosbags.typesys.store import Typestore
+
+_OBJECT_BYTES = 64
+"""Size of a message, a text or a list, about."""
+_SMALL = {"bool": 1, "byte": 1, "char": 1, "int8": 1, "uint8": 1, "int16": 2, "uint16": 2, "int32": 4, "uint32": 4}
+
+
+class FieldError(Exception):
+    """A field of a type makes it impossible."""
+
+    def __init__(self, key: str, field: str, what: str) -> None:
+        super().__init__(what)
+        self.key = key
+        self.field = field
+
+
+class TypeSizes:
+    """Sizes of the types of one store."""
+
+    def __init__(self, store: "Typestore") -> None:
+        self._store = store
+        self._sizes: dict[str, int] = {}
+        self._under_way: dict[str, str] = {}
+        """Types whose field, by its name, is looked into."""
+
+    def check(self, key: str) -> None:
+        """Look into a type whose inner types are known.
+
+        Raises:
+            FieldError: it contains itself, or its messages would be larger than a connection carries.
+        """
+        try:
+            self._size(key)
+        finally:
+            self._under_way.clear()
+
+    def _size(self, key: str) -> int:
+        if key in self._under_way:
+            chain = [*self._under_way]
+            loop = " > ".join(ros_name(other) for other in (*chain[chain.index(key) :], key))
+            raise FieldError(key, self._under_way[key], f"{ros_name(key)} has itself inside: {loop}")
+        if key not in self._sizes:
+            size = _OBJECT_BYTES
+            for name, desc in fields_of(self._store, key):
+                self._under_way[key] = name
+                size += self._field_size(desc)
+                if size > MAX_MESSAGE_BYTES:
+                    most = f"more than the {MAX_MESSAGE_BYTES} that a connection carries"
+                    raise FieldError(key, name, f"a {ros_name(key)} takes {size} bytes when it is empty, {most}")
+            self._under_way.pop(key, None)
+            self._sizes[key] = size
+        return self._sizes[key]
+
+    def _field_size(self, desc: Any) -> int:
+        kind, detail = desc
+        if kind == 3:
+            inner, count = detail
+            return _OBJECT_BYTES + count * self._field_size(inner)
+        if kind == 4:
+            self._field_size(detail[0])  # a list of itself is no type of ROS, either
+            return _OBJECT_BYTES
+        if kind == 2:
+            return self._size(detail)
+        return _OBJECT_BYTES if detail[0] == "string" else _SMALL.get(detail[0], 8)

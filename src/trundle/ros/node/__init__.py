@@ -1,0 +1,1 @@
+"""Nodes: publishers, subscriptions, services and parameters on one loop."""

@@ -1,0 +1,132 @@
+"""ROS time: the wall's, or a simulation's that stands still between two ticks."""
+
+import asyncio
+import heapq
+import itertools
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol
+
+from ..messages.messages import Message
+from .loop import GraphLoop
+
+if TYPE_CHECKING:
+    from .node import Node
+
+NS = 1_000_000_000
+
+
+class Clock(Protocol):
+    """Tells ROS time and waits for it."""
+
+    def now_ns(self) -> int:
+        """ROS time [ns]; simulated time is 0 until it is known."""
+        ...
+
+    async def sleep_until(self, ns: int) -> None:
+        """Wait until ROS time is at least `ns`."""
+        ...
+
+    async def sleep(self, seconds: float) -> None:
+        """Wait for so much ROS time."""
+        ...
+
+
+class WallClock:
+    """ROS time is the wall's, counted from 1970."""
+
+    def now_ns(self) -> int:
+        """Nanoseconds since 1970."""
+        return time.time_ns()
+
+    async def sleep_until(self, ns: int) -> None:
+        """Wait for a point in time."""
+        await asyncio.sleep(max(0, ns - time.time_ns()) / NS)
+
+    async def sleep(self, seconds: float) -> None:
+        """Wait for so much time."""
+        await asyncio.sleep(max(0.0, seconds))
+
+
+class SimClock:
+    """ROS time is whatever was last set, by a simulation in this process or from /clock."""
+
+    def __init__(self, loop: GraphLoop) -> None:
+        self._loop = loop
+        self._now_ns = 0
+        self._sleepers: list[tuple[int, int, asyncio.Future[None]]] = []
+        self._order = itertools.count()
+        self._listeners: list[Callable[[], None]] = []
+        self._wakes = False
+        self.jumps = 0
+        """How often time went back."""
+
+    def now_ns(self) -> int:
+        """ROS time [ns]; 0 until it is first set."""
+        return self._now_ns
+
+    def set(self, ns: int) -> None:
+        """Set the time, from any thread; if it goes back, every sleeper wakes, as what it waited for may never come."""
+        back = ns < self._now_ns
+        self._now_ns = ns
+        if back:
+            self.jumps += 1
+            self._loop.call_soon(self._jump)
+        elif self._sleepers and not self._wakes and self._sleepers[0][0] <= ns:
+            self._wakes = True
+            self._loop.call_soon(self._wake)
+
+    def on_jump(self, callback: Callable[[], None]) -> None:
+        """Have a function called, on the loop, whenever time goes back."""
+        self._listeners.append(callback)
+
+    async def sleep_until(self, ns: int) -> None:
+        """Wait until the time is at least `ns`, or goes back."""
+        if ns <= self._now_ns:
+            await asyncio.sleep(0)
+            return
+        future = asyncio.get_running_loop().create_future()
+        heapq.heappush(self._sleepers, (ns, next(self._order), future))
+        if ns <= self._now_ns:  # set() ran in its thread meanwhile and may not have seen this sleeper
+            self._wake()
+        await future
+
+    async def sleep(self, seconds: float) -> None:
+        """Wait for so much simulated time; before the first tick, first for that."""
+        if self._now_ns == 0:
+            await self.sleep_until(1)
+        await self.sleep_until(self._now_ns + round(seconds * NS))
+
+    def _wake(self) -> None:
+        self._wakes = False
+        while self._sleepers and self._sleepers[0][0] <= self._now_ns:
+            _, _, future = heapq.heappop(self._sleepers)
+            if not future.done():
+                future.set_result(None)
+
+    def _jump(self) -> None:
+        sleepers, self._sleepers = self._sleepers, []
+        for _, _, future in sleepers:
+            if not future.done():
+                future.set_result(None)
+        for listener in self._listeners:
+            listener()
+
+
+def ns_of(stamp: Message) -> int:
+    """Return a `time` or `duration` value as nanoseconds."""
+    return stamp.sec * NS + stamp.nanosec
+
+
+async def follow_time(node: "Node") -> Clock:
+    """Give a node the graph's clock: simulated time from /clock where /use_sim_time is true, else the wall's.
+
+    The parameter is read once, as the original libraries do.
+    """
+    if await node.get_param("/use_sim_time", False):
+        clock = SimClock(node.loop)
+        node.subscribe("/clock", "rosgraph_msgs/Clock", lambda m: clock.set(ns_of(m.clock)), queue_size=1, on_loop=True)
+        node.clock = clock
+    else:
+        node.clock = WallClock()
+    return node.clock

@@ -1,0 +1,356 @@
+"""The thread everything between nodes happens in: one asyncio loop, shared by the nodes of this process."""
+
+import asyncio
+import contextlib
+import logging
+import threading
+import time
+from collections.abc import Callable, Coroutine, Mapping
+from concurrent.futures import Future
+from typing import TYPE_CHECKING, Any, Self, TypeVar
+from weakref import WeakSet
+
+from trundle.diagnostics import DescriptionError, UsageError
+
+from .. import _wire
+from ..messages.messages import Messages
+from ..transport.fast_selector import FastSelector
+from .pending_work import PendingWork
+
+if TYPE_CHECKING:
+    from .node import Node
+    from .publisher import Publisher
+
+_T = TypeVar("_T")
+_log = logging.getLogger(__name__)
+_LAST_CALLBACK_S = 8.0
+"""How much longer a callback at work may hold the thread: a loop that is left behind leaks its sockets."""
+_OPENING_S, _ENDING_S = 1.0, 1.0
+"""How long servers may take to open, and tasks to end, when the loop is left."""
+_ENDING_ROUNDS = 10
+"""How often the loop looks again for what came while the rest was ended."""
+_CALM_PASSES = 5
+"""Passes of the loop without a delivery after which `settle` calls it quiet; coroutine callbacks that wait for
+nothing outside the process get this many steps."""
+_SPINS = 200
+"""Passes after which `rested` no longer hurries round."""
+_NAP_S = 0.001
+_SLICE_NS = 100_000
+"""Linux' shortest time slice: a message that comes then waits for no busy thread to finish a slice of 3 ms."""
+_GRACE_S = 5.0
+
+
+class GraphLoop:
+    """Owns the thread and the loop in it; nodes are made for one.
+
+    Nodes of one loop pass each other message objects without serialising them. Also a context manager.
+    """
+
+    def __init__(self, *, messages: Messages | None = None) -> None:
+        self.messages = messages or Messages()
+        """Message types of all nodes here; loaded on first use."""
+        self.members: set[Node] = set()
+        """Nodes that have begun and not ended; touched on the loop only, as is `nodes`."""
+        self.nodes: dict[str, Node] = {}
+        """Address → node that listens there."""
+        self.on_publisher: list[Callable[[Publisher], None]] = []
+        """Called on the loop with each new publisher of its nodes."""
+        self.work = PendingWork()
+        self._news: set[asyncio.Future[None]] = set()
+        self._gatherer: int | None = None
+        """The thread whose calls wait for `release`."""
+        self.own_threads: set[int | None] = set()
+        """The loop's, and the one that gathers: they gain nothing if they do a thing themselves that the loop can."""
+        self._gathered: list[Callable[[], object]] = []
+        self._calls = 0
+        """By which `rested` knows that there are more."""
+        self._deliveries = 0
+        """Batches of published messages being handed on, by which `settle` knows that there are more."""
+        self._unsettled = False
+        """Whether the loop was given anything to do since `settle` was last called."""
+        self.selector = FastSelector()
+        """Takes sockets that are read without asyncio's help; used on the loop."""
+        self._loop = _ClosingLoop(self.selector)
+        self._thread = threading.Thread(target=self._work, name="trundle-graph", daemon=True)
+        self._tasks: set[asyncio.Task[Any]] = set()
+        self._unstarted: dict[Future[Any], Coroutine[Any, Any, Any]] = {}
+        """What was spawned and has no task yet."""
+        self.is_ending = False
+        """Whether no node begins here any more."""
+        self._has_stopped = False
+        """Whether nothing else begins, either."""
+
+    def start(self) -> None:
+        """Start the thread."""
+        self._thread.start()
+        self.own_threads.add(self._thread.ident)
+
+    def stop(self, timeout_s: float = 2.0) -> None:
+        """Shut the nodes down, end what still runs, and end the thread."""
+        if not self._thread.is_alive():
+            return
+        try:
+            self.run(self._wind_up(timeout_s * 0.75), timeout_s)
+        except TimeoutError:
+            _log.warning("nodes did not shut down within %.1f s", timeout_s)
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join(timeout_s + _LAST_CALLBACK_S)
+
+    def __enter__(self) -> Self:
+        self.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
+
+    @property
+    def is_this_thread(self) -> bool:
+        """Whether the caller runs on the loop."""
+        return threading.get_ident() == self._thread.ident
+
+    def run(self, coroutine: Coroutine[Any, Any, _T], timeout_s: float | None = 30.0) -> _T:
+        """Run a coroutine on the loop and wait for its answer, from another thread.
+
+        Raises:
+            TimeoutError: no answer in time; the coroutine is cancelled.
+        """
+        assert not self.is_this_thread, "run() would wait for itself; await the coroutine"
+        self.end_batch()
+        future = asyncio.run_coroutine_threadsafe(coroutine, self._loop)
+        try:
+            return future.result(timeout_s)
+        except TimeoutError:
+            future.cancel()
+            raise
+
+    def spawn(self, coroutine: Coroutine[Any, Any, _T]) -> Future[_T]:
+        """Start a coroutine on the loop, from any thread; if it fails and nobody asks, the log says so."""
+        future: Future[_T] = Future()
+        self._unstarted[future] = coroutine
+
+        def start() -> None:
+            if self._has_stopped or self._unstarted.pop(future, None) is None:
+                return
+            task = self._loop.create_task(coroutine)
+            self._tasks.add(task)
+            task.add_done_callback(self._tasks.discard)
+            task.add_done_callback(lambda done: _copy(done, future))
+            future.add_done_callback(lambda done: self.call_soon(task.cancel) if done.cancelled() else None)
+
+        self.call_soon(start)
+        if self._has_stopped:
+            self._drop_unstarted()
+        return future
+
+    def _drop_unstarted(self) -> None:
+        """Whoever waits for what the loop did not come to is told that it never will."""
+        with contextlib.suppress(KeyError):  # another thread may drop them, too
+            while True:
+                future, coroutine = self._unstarted.popitem()
+                coroutine.close()
+                future.cancel()
+
+    def call_soon(self, function: Callable[[], object]) -> None:
+        """Have the loop call a function, from any thread; ignored once the loop has ended."""
+        self._unsettled = True
+        if self.is_this_thread:
+            self._calls += 1
+            self._loop.call_soon(function)
+            return
+        if threading.get_ident() == self._gatherer:
+            self._gathered.append(function)
+            return
+        self._call_soon_from_elsewhere(function)
+
+    def _call_soon_from_elsewhere(self, function: Callable[[], object]) -> None:
+        try:
+            self._loop.call_soon_threadsafe(function)
+        except RuntimeError:  # the loop is closed: nobody is left to hear of it
+            _log.debug("the graph has ended; %s is not called", function)
+
+    def deliver_soon(self, function: Callable[[], object]) -> None:
+        """As `call_soon`, for handing on messages: `settle` waits until none of these was called for a while."""
+
+        def count() -> None:
+            self._deliveries += 1
+            function()
+
+        self.call_soon(count)
+
+    def flush_deliveries(self, timeout_s: float = 5.0) -> None:
+        """Wait until every message published so far has reached its subscribers in this process.
+
+        Callbacks of nodes with `deliver` have then been handed over, not yet called. For flat-out runs, between
+        two strides.
+        """
+        if self._unsettled:
+            self.run(self._quiet(), timeout_s)
+            self._unsettled = False
+
+    def begin_batch(self) -> None:
+        """From now on, give the loop what this thread has for it only when `release` says so: all at once, in order."""
+        self._gatherer = threading.get_ident()
+        self.own_threads.add(self._gatherer)
+
+    def end_batch(self) -> None:
+        """Give the loop what this thread gathered."""
+        if self._gathered and threading.get_ident() == self._gatherer:
+            gathered, self._gathered = self._gathered, []
+            self._call_soon_from_elsewhere(lambda: [self.call_soon(function) for function in gathered])
+
+    def wait_idle(self, timeout_s: float, *, unless: Callable[[], bool]) -> bool:
+        """Wait until nothing is under way; False: not in time, or `unless` came first."""
+        self.end_batch()
+        if self._unsettled or self.work.is_busy:
+            if not self.run(self.idle(timeout_s, unless=unless), timeout_s + _GRACE_S):
+                return False
+            self._unsettled = False
+        return True
+
+    async def idle(
+        self, timeout_s: float, *, unless: Callable[[], bool] = lambda: False, passes: int = _CALM_PASSES
+    ) -> bool:
+        """As `rest`, on the loop, where nothing must happen for so many passes."""
+        due = time.monotonic() + timeout_s
+        calm, seen, spins = 0, self._calls, 0
+        while calm < passes:
+            spins += 1
+            await asyncio.sleep(0 if spins < _SPINS else _NAP_S)
+            if unless() or time.monotonic() > due:
+                return False
+            calm = 0 if self.work.is_busy or self._calls != seen else calm + 1
+            seen = self._calls
+        return True
+
+    async def wait_service_change(self, timeout_s: float) -> None:
+        """Wait until `notify_service_change` is called, or so long."""
+        future: asyncio.Future[None] = self._loop.create_future()
+        self._news.add(future)
+        await asyncio.wait([future], timeout=timeout_s)
+        self._news.discard(future)
+
+    def notify_service_change(self) -> None:
+        """A node of this loop provides a service that was not there."""
+        for future in self._news:
+            if not future.done():
+                future.set_result(None)
+
+    async def _quiet(self) -> None:
+        calm, seen = 0, self._deliveries
+        while calm < _CALM_PASSES:
+            await asyncio.sleep(0)
+            calm = calm + 1 if self._deliveries == seen else 0
+            seen = self._deliveries
+
+    async def _wind_up(self, timeout_s: float) -> None:
+        """Let the nodes say farewell."""
+        self.is_ending = True
+        farewells = [asyncio.create_task(node.shutdown()) for node in list(self.members)]
+        if farewells:
+            await asyncio.wait(farewells, timeout=timeout_s)
+
+    def _work(self) -> None:
+        _wire.request_time_slice(_SLICE_NS)
+        asyncio.set_event_loop(self._loop)
+        try:
+            self._loop.run_forever()
+        finally:
+            self._has_stopped = True
+            self._loop.run_until_complete(self._loop.leave_nothing_open())
+            self._loop.run_until_complete(self._loop.shutdown_asyncgens())
+            self._loop.close()
+            self._drop_unstarted()
+
+
+class _ClosingLoop(asyncio.SelectorEventLoop):
+    """An event loop that can close whatever was opened in it, however far that had come."""
+
+    def __init__(self, selector: FastSelector) -> None:
+        super().__init__(selector)
+        self._servers: WeakSet[asyncio.Server] = WeakSet()
+        """Those that listen: the loop's readers keep them."""
+        self._opening: set[asyncio.Task[asyncio.Server]] = set()
+
+    async def create_server(self, *args: Any, **options: Any) -> asyncio.Server:
+        """As asyncio's, but a server is closed in the end even if whoever asked for it is cancelled meanwhile."""
+        task = self.create_task(super().create_server(*args, **options))
+        self._opening.add(task)
+        task.add_done_callback(self._opened)
+        return await asyncio.shield(task)
+
+    async def leave_nothing_open(self) -> None:
+        """Close servers, end tasks, drop connections; in this order, so that little new comes in between.
+
+        What does is ended in the next round, however slow the machine is; a task that will not end is left.
+        """
+        told: set[asyncio.Task[Any]] = set()
+        for _ in range(_ENDING_ROUNDS):
+            await self._close_servers()
+            others = self._others()
+            for task in others - told:
+                task.cancel()
+            told |= others
+            if others:
+                await asyncio.wait(others, timeout=_ENDING_S / _ENDING_ROUNDS)
+            for transport in self._connected():
+                transport.abort()
+            await _passes()
+            if not (self._others() or self._opening or self._connected()):
+                return
+
+    async def _close_servers(self) -> None:
+        if self._opening:
+            opened, _ = await asyncio.wait(self._opening, timeout=_OPENING_S / _ENDING_ROUNDS)
+            for task in opened:  # their own callbacks may come only after this
+                self._opened(task)
+        while self._servers:
+            await close_server(self._servers.pop())
+
+    def _others(self) -> "set[asyncio.Task[Any]]":
+        """Tasks beside the one that asks; half made, a server could not be closed."""
+        return asyncio.all_tasks() - self._opening - {asyncio.current_task()}
+
+    def _connected(self) -> list[asyncio.Transport]:
+        # asyncio keeps the list to itself before Python 3.12.
+        transports: Mapping[int, asyncio.Transport] = getattr(self, "_transports", {})
+        return [transport for transport in list(transports.values()) if not transport.is_closing()]
+
+    def _opened(self, task: "asyncio.Task[asyncio.Server]") -> None:
+        self._opening.discard(task)
+        if not task.cancelled() and task.exception() is None:
+            self._servers.add(task.result())
+
+
+async def close_server(server: asyncio.Server) -> None:
+    """Close a server once nobody is at its door.
+
+    A connection that was accepted just now becomes a transport in a pass of its own. asyncio forgets one whose server
+    is closed by then, with its socket open.
+    """
+    loop = asyncio.get_running_loop()
+    for socket in server.sockets:
+        loop.remove_reader(socket.fileno())
+    await _passes()
+    server.close()
+
+
+async def _passes() -> None:
+    """Let the loop go round a few times: transports open and close their sockets in passes of their own."""
+    for _ in range(_CALM_PASSES):
+        await asyncio.sleep(0)
+
+
+def _copy(task: "asyncio.Task[_T]", future: "Future[_T]") -> None:
+    """Hand a task's outcome to a future that any thread may wait for."""
+    if task.cancelled():
+        future.cancel()
+        return
+    error = task.exception()
+    if future.cancelled():
+        return
+    if error is not None:
+        if not isinstance(error, DescriptionError | UsageError):  # those are said by whoever waits, in a sentence
+            _log.error("a task of the graph failed: %s: %s", type(error).__name__, error, exc_info=error)
+        future.set_exception(error)
+    else:
+        future.set_result(task.result())

@@ -1,0 +1,330 @@
+"""A topic as its publisher sees it: links to subscribers here and elsewhere, a queue for each."""
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from ..errors import MessageError
+from ..messages.codec import MISFITS, Codec, Pieces
+from ..messages.messages import Message
+from ..transport.framing import LENGTH
+from ..transport.headers import check_md5
+from ..transport.send_queue import SendQueue
+from ..transport.tcpros import FrameProtocol
+from .subscriber_links import LocalSubscriber, SubscriberLinks
+
+if TYPE_CHECKING:
+    from .node import Node
+
+
+_BATCH_MESSAGES, _BATCH_BYTES = 200, 1024 * 1024
+"""How much is handed on before others get their turn on the loop, whoever publishes however fast."""
+_BYTES = bytes, bytearray, memoryview
+_MOST_WARNINGS = 100
+"""About so many subscribers of another type, as their names are theirs to choose."""
+
+
+class Publisher:
+    """Publishes one topic of one node; made by `Node.advertise`."""
+
+    def __init__(
+        self,
+        node: "Node",
+        topic: str,
+        type_name: str,
+        *,
+        latch: bool,
+        queue_size: int | None,
+        on_connect: "Callable[[Publisher], None] | None",
+        foreign: tuple[str, str] | None = None,
+    ) -> None:
+        self.topic = topic
+        self.type = type_name
+        self.latch = latch
+        self._node = node
+        self._loop_threads = node.loop.own_threads
+        self._queue_size = queue_size
+        self._on_connect = on_connect
+        self._foreign = foreign
+        """(md5 sum, definition) of a type that need not be known here."""
+        self._listeners = SubscriberLinks(topic)
+        self._direct: tuple[SendQueue, ...] = ()
+        """Where whoever publishes sends by itself: to other processes, while nobody here listens."""
+        self._refused: set[str] = set()
+        """Names of the subscribers that were warned about; they ask again and again."""
+        self._wanted = 0
+        """Number of links; read by any thread."""
+        self._outbox: deque[Any] = deque(maxlen=queue_size)
+        self._lost = 0
+        """Messages that were replaced before the loop came round to them."""
+        self._flushes = False
+        self._turn = threading.Lock()
+        """Held while a thread other than the loop's sends, and while somebody joins and gets what is latched."""
+        self._latched: Any = None
+        self.latched_for_others: tuple[bytes, ...] = ()
+        """What whoever joins gets before the last message: the last ones of all but one of those whom this repeats."""
+        self._class: type[Message] | None = None
+        """Of the messages so far."""
+        self._codec: Codec | None = None
+        self._frame: Callable[[Any], Pieces | None] = self._framed
+        """The codec's quickest, which needs `_framed` for what is not as it should be."""
+        self._has_header = False
+        self._sequence = 0
+        self.published = 0
+        """Messages handed to subscribers so far."""
+
+    @property
+    def subscribers(self) -> int:
+        """How many subscribers are connected."""
+        return self._wanted
+
+    @property
+    def has_subscribers(self) -> bool:
+        """Whether publishing reaches anybody now."""
+        return self._wanted > 0
+
+    @property
+    def needs_every_message(self) -> bool:
+        """Whether each message counts to somebody; else, what is told again and again may be told less often."""
+        return self._wanted > 0 and self._listeners.need_every_message
+
+    def publish(self, message: Message | dict[str, Any] | bytes) -> None:
+        """Publish a message, from any thread; never blocks. The message is read-only from now on.
+
+        A header's `seq` is filled in. Subscribers that read too slowly lose the oldest messages.
+
+        Args:
+            message: a message of the topic's type, its fields as a dictionary, or its bytes.
+
+        Raises:
+            MessageError: a dictionary that does not fit, or a message of another type.
+        """
+        if self._wanted == 0 and not self.latch:
+            return
+        if type(message) is not self._class:
+            message = self._looked_at(message)
+        header: Any = getattr(message, "header", None) if self._has_header else None
+        if header is not None and hasattr(header, "seq"):
+            self._sequence += 1
+            header.seq = self._sequence
+        if self._send_at_once(message):
+            return
+        self._lost += len(self._outbox) == self._queue_size
+        self._outbox.append(message)
+        self._flush_soon()
+
+    def unregister(self) -> None:
+        """Stop publishing; any thread."""
+        self._node.unregister_publisher(self)
+
+    # on the loop
+
+    @property
+    def md5sum(self) -> str:
+        """What subscribers compare."""
+        return self._foreign[0] if self._foreign else self._node.messages.md5(self.type)
+
+    @property
+    def definition(self) -> str:
+        """The text of the type and of those it depends on."""
+        return self._foreign[1] if self._foreign else self._node.messages.definition(self.type)
+
+    @property
+    def caller(self) -> str:
+        """Name of the publishing node."""
+        return self._node.name
+
+    def accept(self, link: FrameProtocol, header: dict[str, str]) -> None:
+        """Take a subscriber's connection, or refuse it with the reason the original gives."""
+        peer = header.get("callerid", "unknown")
+        if (reason := self._mismatch(header, peer)) is not None:
+            if peer not in self._refused and len(self._refused) < _MOST_WARNINGS:
+                self._refused.add(peer)
+                self._node.log_warn(f"Could not process inbound connection: {reason} ({peer} asks for {self.topic})")
+            link.refuse(reason)
+            return
+        if header.get("tcp_nodelay", "0").strip() == "1":
+            link.set_nodelay()
+        link.send_header(
+            {
+                "callerid": self._node.name,
+                "topic": self.topic,
+                "type": self.type,
+                "md5sum": self.md5sum,
+                "latching": "1" if self.latch else "0",
+                "message_definition": self.definition,
+            }
+        )
+        with self._turn:
+            self._listeners.far[link] = peer
+            self._look_who_listens()
+            for message in self._held():
+                if (framed := self._framed(message)) is not None:
+                    link.out.send([framed], self._queue_size)
+        self._count()
+
+    def catch_up(self) -> None:
+        """Go on after all subscribers were too slow."""
+        if self._outbox and not self._flushes:
+            self._flush()
+
+    def release(self, link: FrameProtocol) -> None:
+        """Forget a connection that has ended."""
+        self._listeners.far.pop(link, None)
+        self._count()
+        self.catch_up()
+
+    def attach(self, subscriber: LocalSubscriber, name: str) -> None:
+        """Take a subscription of this process."""
+        if subscriber in self._listeners.local:
+            return
+        with self._turn:
+            self._listeners.local[subscriber] = name
+            self._look_who_listens()
+            held = self._held()
+        self._count()
+        for message in held:
+            self._hand_over(message, subscriber, None)
+
+    def detach(self, subscriber: LocalSubscriber) -> None:
+        """Forget a subscription of this process."""
+        self._listeners.local.pop(subscriber, None)
+        self._count()
+
+    def close(self) -> None:
+        """Drop every link."""
+        self._listeners.close()
+        self._count()
+
+    def connections(self) -> list[list[Any]]:
+        """Links as getBusInfo tells them."""
+        return self._listeners.connections()
+
+    def statistics(self) -> list[Any]:
+        """Bytes and messages as getBusStats tells them."""
+        return self._listeners.statistics()
+
+    @property
+    def dropped(self) -> int:
+        """Messages that left the queue unsent: published too fast, or slow subscribers, connected now, lost them."""
+        return self._lost + self._listeners.dropped
+
+    def _held(self) -> tuple[Any, ...]:
+        """What whoever joins gets."""
+        return () if self._latched is None else (*self.latched_for_others, self._latched)
+
+    def _mismatch(self, header: dict[str, str], peer: str) -> str | None:
+        """Why a subscriber cannot read what is published here, in the original's words."""
+        wanted, theirs = header.get("md5sum", ""), header.get("type", self.type)
+        if check_md5(wanted, self.md5sum):
+            return None
+        if theirs != self.type:
+            return f"topic types do not match: [{theirs}] vs. [{self.type}]"
+        return (
+            f"Client [{peer}] wants topic [{self.topic}] to have datatype/md5sum [{theirs}/{wanted}], but "
+            f"our version has [{self.type}/{self.md5sum}] Dropping connection."
+        )
+
+    def _look_who_listens(self) -> None:
+        here, far = self._listeners.local, self._listeners.far
+        self._direct = () if here else tuple(link.out for link in far)
+
+    def _count(self) -> None:
+        self._look_who_listens()
+        before, self._wanted = self._wanted, len(self._listeners)
+        if self._wanted > before and self._on_connect is not None:
+            self._on_connect(self)
+
+    def _send_at_once(self, message: Any) -> bool:
+        """Spare the loop a message that goes to other processes only; False: nothing is done.
+
+        Waking the loop's thread takes longer than sending.
+        """
+        outs = self._direct
+        if not outs or threading.get_ident() in self._loop_threads or not self._turn.acquire(blocking=False):
+            return False
+        try:
+            if outs is not self._direct or self._flushes or self._outbox:
+                return False
+            for out in outs:
+                if out.is_behind:
+                    return False
+            if self.latch:
+                self._latched = message
+            self.published += 1
+            try:
+                framed = self._frame(message)
+            except MISFITS:
+                framed = self._framed(message)
+            if framed is not None:
+                for out in outs:
+                    if not out.try_send(framed):
+                        out.send([framed], self._queue_size)
+            return True
+        finally:
+            self._turn.release()
+
+    def _flush(self) -> None:
+        frames: list[Pieces] = []
+        count = size = 0
+        self._flushes = True  # nobody sends at once meanwhile
+        try:
+            while self._outbox and count < _BATCH_MESSAGES and size < _BATCH_BYTES and not self._listeners.is_congested:
+                message = self._outbox.popleft()
+                count += 1
+                if self.latch:
+                    self._latched = message
+                self.published += 1
+                framed = self._framed(message) if self._listeners.far else None
+                if framed is not None:
+                    frames.append(framed)
+                    size += sum(map(len, framed))
+                for subscriber in list(self._listeners.local):
+                    self._hand_over(message, subscriber, framed)
+            if frames:
+                for link in list(self._listeners.far):
+                    link.out.send(frames, self._queue_size)
+        finally:
+            # In this order: a message put in between is seen here or by its own publish().
+            self._flushes = False
+            if self._outbox and not self._listeners.is_congested:
+                self._flush_soon()
+
+    def _flush_soon(self) -> None:
+        if not self._flushes:
+            self._flushes = True
+            self._node.loop.deliver_soon(self._flush)
+
+    def _hand_over(self, message: Any, subscriber: LocalSubscriber, framed: Pieces | None) -> None:
+        if not subscriber.is_raw and not isinstance(message, _BYTES):
+            subscriber.receive(message)
+            return
+        framed = self._framed(message) if framed is None else framed
+        if framed is not None:
+            subscriber.receive_bytes(b"".join((framed[0][LENGTH.size :], *framed[1:])), self)
+
+    def _framed(self, message: Any) -> Pieces | None:
+        """Write a message with its length in front."""
+        if isinstance(message, _BYTES):
+            return LENGTH.pack(len(message)), bytes(message)
+        assert self._codec is not None
+        try:
+            return self._codec.frame(message)
+        except MessageError as error:
+            self._node.log_error(f"a message on {self.topic} is not sent: {error}")
+            return None
+
+    def _looked_at(self, message: Message | dict[str, Any] | bytes) -> Any:
+        """What is handed on: bytes, or a message of the topic's type."""
+        if isinstance(message, _BYTES):
+            return message
+        if isinstance(message, dict):
+            return self._looked_at(self._node.new(self.type, message))
+        given = self._node.messages.type_of(message)
+        if given != self.type:
+            raise MessageError(f"{self.topic} carries {self.type}, got a {given}")
+        self._class, self._has_header = type(message), hasattr(message, "header")
+        self._codec = self._node.messages.codec(given)
+        self._frame = self._codec.exact_frame
+        return message

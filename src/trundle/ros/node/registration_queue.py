@@ -1,0 +1,99 @@
+"""What a node has to tell its master: one call after the other, on the loop, until the master has heard it."""
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from typing import TypeAlias
+
+from ..errors import MasterError, MasterUnreachableError, ParameterError
+from ..log import print_log
+from .clock import WallClock
+from .loop import GraphLoop
+from .rosout import NodeLog
+
+Registration: TypeAlias = Callable[[], Awaitable[None]]
+_RETRY_S = 0.5
+
+
+class RegistrationQueue:
+    """A queue of calls to the master, which goes on trying while no master answers."""
+
+    def __init__(self, loop: GraphLoop, *, log: NodeLog) -> None:
+        self._loop = loop
+        self._log = log
+        self._queue: asyncio.Queue[tuple[Registration, object]] = asyncio.Queue()
+        self._worker: asyncio.Task[None] | None = None
+        self._is_started = asyncio.Event()
+        self._has_ended = False
+        self._waits_for_master = False
+
+    def add(self, errand: Registration) -> None:
+        """Have something done after all that was added before; from any thread, without waiting."""
+        token = self._loop.work.begin()
+        self._loop.call_soon(lambda: self._add(errand, token))
+
+    def begin(self, first: Registration) -> None:
+        """Start to work off the queue, on the loop, with what must be done before all else."""
+        token = self._loop.work.begin()
+        self._worker = asyncio.get_running_loop().create_task(self._work(first, token))
+        self._worker.add_done_callback(lambda _: self._loop.work.end(token))
+        self._worker.add_done_callback(self._worker_ended)
+
+    async def done(self) -> None:
+        """Wait until everything added so far is done."""
+        await self._is_started.wait()
+        await asyncio.sleep(0)  # what other threads added before is in the queue now
+        reached: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+
+        async def reach() -> None:
+            if not reached.done():
+                reached.set_result(None)
+
+        self._queue.put_nowait((reach, self._loop.work.begin()))
+        await reached
+
+    async def end(self) -> None:
+        """Drop what is still to be done."""
+        self._has_ended = True
+        if self._worker is not None:
+            self._worker.cancel()
+            await asyncio.gather(self._worker, return_exceptions=True)
+
+    async def retry(self, errand: Registration) -> None:
+        """Do something at the master, as soon as there is one."""
+        while True:
+            try:
+                await errand()
+            except MasterUnreachableError as error:
+                if not self._waits_for_master:
+                    self._waits_for_master = True
+                    self._log.log_warn(f"{error}; {self._log.name} goes on trying")
+                await asyncio.sleep(_RETRY_S)
+                continue
+            except (MasterError, ParameterError) as error:
+                self._log.log_error(str(error))
+            self._waits_for_master = False
+            return
+
+    def _add(self, errand: Registration, token: object) -> None:
+        if self._has_ended or (self._worker is not None and self._worker.done()):  # nobody is left to do it
+            self._loop.work.end(token)
+        else:
+            self._queue.put_nowait((errand, token))
+
+    async def _work(self, first: Registration, token: object) -> None:
+        await first()
+        self._is_started.set()
+        self._loop.work.end(token)
+        while True:
+            errand, token = await self._queue.get()
+            try:
+                await self.retry(errand)
+            finally:
+                self._loop.work.end(token)
+
+    def _worker_ended(self, worker: "asyncio.Task[None]") -> None:
+        while not self._queue.empty():
+            self._loop.work.end(self._queue.get_nowait()[1])
+        if not worker.cancelled() and (error := worker.exception()) is not None and not self._loop.is_ending:
+            reason = f"{self._log.name} cannot go on: {error}"
+            print_log("fatal", reason, wall_ns=WallClock().now_ns(), sim_ns=None)

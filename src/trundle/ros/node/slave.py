@@ -1,0 +1,195 @@
+"""A node's own two servers: its XML-RPC interface, and the port topics and services connect to."""
+
+import asyncio
+import os
+import re
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any, cast
+
+from ..master.registry import Answer
+from ..transport.network import ServerAddress
+from ..transport.tcpros import FrameProtocol
+from ..transport.unix_sockets import UNIXROS, is_of_this_user, listen_unix
+from ..xmlrpc.rpc_methods import BadArgumentError, Method, answer_call, name_argument
+from ..xmlrpc.rpc_server import RpcServer
+from .loop import close_server
+from .publisher import Publisher
+
+if TYPE_CHECKING:
+    from .node import Node
+    from .service import Service
+
+_BACKLOG = 512
+"""Connections waiting to be accepted: all subscribers of a big launch come at once, and one too many waits a second."""
+_URL = re.compile(r"\w[\w+.-]*://.")
+_MAX_NEWCOMERS = 512
+"""Connections that have not said yet what they want; the oldest makes room."""
+
+
+class Slave:
+    """What other nodes and the master reach of a node."""
+
+    def __init__(self, node: "Node", address: ServerAddress) -> None:
+        self._node = node
+        self._address = address
+        self._rpc = RpcServer(partial(answer_call, self._methods()))
+        self._servers: list[asyncio.Server] = []
+        self._nearby: list[str] = []
+        """Where nodes of this machine connect faster, if there is such a place."""
+        self._links: set[_Inbound] = set()
+        self._newcomers: dict[_Inbound, None] = {}
+        self.uri = ""
+        self.tcp_port = 0
+
+    async def start(self) -> None:
+        """Listen at two free ports, and nearby."""
+        await self._rpc.start(self._address.bind, 0)
+        self.uri = f"http://{self._address.at(self._rpc.port)}/"
+        loop = asyncio.get_running_loop()
+        server = await loop.create_server(self._inbound, self._address.bind, 0, backlog=_BACKLOG)
+        self._servers.append(server)
+        self.tcp_port = server.sockets[0].getsockname()[1]
+        if (found := listen_unix()) is not None:
+            listening, name = found
+            self._servers.append(await loop.create_server(self._inbound, sock=listening, backlog=_BACKLOG))
+            self._nearby = [name]
+
+    @property
+    def service_uri(self) -> str:
+        """Where this node's services are called."""
+        return f"rosrpc://{self._address.at(self.tcp_port)}"
+
+    async def stop(self) -> None:
+        """Stop listening and drop every peer."""
+        for server in self._servers:
+            await close_server(server)
+        for link in list(self._links):
+            link.close("the node shuts down")
+        await self._rpc.stop()
+
+    def _inbound(self) -> "_Inbound":
+        return _Inbound(self._node, self._links, self._newcomers)
+
+    def _methods(self) -> dict[str, Method]:
+        node = self._node
+        return {
+            "getName": (0, "", _tell("", lambda: node.name)),
+            "getUri": (0, "", _tell("", lambda: self.uri)),
+            "getPid": (0, -1, _tell("", os.getpid)),
+            "getMasterUri": (0, "", _tell(node.master_uri, lambda: node.master_uri)),
+            "getBusInfo": (0, [], _tell("bus info", node.connections)),
+            "getBusStats": (0, [], _tell("", node.statistics)),
+            "getPublications": (0, [], _tell("publications", lambda: [[p.topic, p.type] for p in node.publishers])),
+            "getSubscriptions": (0, [], _tell("subscriptions", lambda: [[*t] for t in node.subscribed_topics()])),
+            "publisherUpdate": (2, -1, self._publisher_update),
+            "paramUpdate": (2, -1, self._param_update),
+            "requestTopic": (2, [], self._request_topic),
+            "shutdown": (1, 0, self._shutdown),
+        }
+
+    def _shutdown(self, _: str, reason: Any) -> Answer:
+        self._node.asked_to_shut_down(str(reason))
+        return 1, "shutdown", 0
+
+    def _publisher_update(self, caller: str, topic: Any, uris: Any) -> Answer:
+        name = name_argument("topic", topic, caller)
+        if not isinstance(uris, list):
+            raise BadArgumentError("ERROR: param [publishers] must be a list")
+        for uri in cast("list[Any]", uris):
+            if not isinstance(uri, str):
+                raise BadArgumentError("ERROR: param [publishers] must be a list of strings")
+            if not _URL.match(uri):
+                raise BadArgumentError(f"ERROR: param [publishers] does not contain valid URLs [{uri}]")
+        self._node.publishers_changed(name, uris)
+        return 1, "", 0
+
+    def _param_update(self, _: str, key: Any, value: Any) -> Answer:
+        if not isinstance(key, str) or not key:
+            raise BadArgumentError("ERROR: parameter [parameter_key] must be a non-empty string")
+        if not key.startswith("/"):
+            raise BadArgumentError("ERROR: parameter [parameter_key] must be a globally referenced name")
+        return (1, "", 0) if self._node.param_changed(key, value) else (-1, "not subscribed", 0)
+
+    def _request_topic(self, caller: str, topic: Any, protocols: Any) -> Answer:
+        name = name_argument("topic", topic, caller)
+        if not protocols:
+            raise BadArgumentError("ERROR: parameter [protocols] must be specified and non-empty")
+        if self._node.publisher(name) is None:
+            return -1, f"Not a publisher of [{name}]", []
+        wanted = [p[0] for p in protocols if isinstance(p, list) and p]
+        if "TCPROS" not in wanted:
+            return 0, "no supported protocol implementations", []
+        host = self._address.advertise
+        return (
+            1,
+            f"ready on {host}:{self.tcp_port}",
+            ["TCPROS", host, self.tcp_port, *(self._nearby if UNIXROS in wanted else [])],
+        )
+
+
+def _tell(text: str, value: Callable[[], object]) -> Callable[[str], Answer]:
+    return lambda _: (1, text, value())
+
+
+class _Inbound(FrameProtocol):
+    """A peer that connected: its header says whether it wants a topic or a service."""
+
+    def __init__(self, node: "Node", links: "set[_Inbound]", newcomers: "dict[_Inbound, None]") -> None:
+        super().__init__()
+        self._node = node
+        self._links = links
+        self._newcomers = newcomers
+        self._target: Publisher | Service | None = None
+
+    def connected(self) -> None:
+        self._links.add(self)
+        self._newcomers[self] = None
+        if len(self._newcomers) > _MAX_NEWCOMERS:
+            next(iter(self._newcomers)).close("others wait, too")
+        assert self.transport is not None
+        if self.out.is_near and not is_of_this_user(self.transport.get_extra_info("socket")):
+            self.close("it is another user's")
+        if self._node.is_shut_down:  # accepted in the same moment
+            self.close("the node shuts down")
+
+    def header_received(self, header: dict[str, str]) -> None:
+        self._newcomers.pop(self, None)
+        name = header.get("topic", header.get("service"))
+        if name is None:
+            self.refuse("Missing required 'topic' or 'service' field")
+            return
+        for needed in ("md5sum", "callerid"):
+            if needed not in header:
+                self.refuse(f"Missing required '{needed}' field")
+                return
+        if "topic" in header:
+            self._target = self._node.publisher(name)
+            what = "publisher of"
+        else:
+            self._target = self._node.service(name)
+            what = "provider of "
+        if self._target is None:
+            self.refuse(f"[{self._node.name}] is not a {what} [{name}]")
+            return
+        self._target.accept(self, header)
+
+    def frame_received(self, data: bytes | memoryview) -> None:
+        from .service import Service
+
+        if isinstance(self._target, Service):
+            self._target.request(self, data)
+
+    def note_received(self, note: bytes, /) -> None:
+        self.out.receive_note(note)
+        self.read_past_asyncio(self._node.loop.selector)
+
+    def drained(self) -> None:
+        if isinstance(self._target, Publisher):
+            self._target.catch_up()
+
+    def closed(self, _: str, /) -> None:
+        self._links.discard(self)
+        self._newcomers.pop(self, None)
+        if self._target is not None:
+            self._target.release(self)

@@ -1,0 +1,89 @@
+"""A subscription's connection to one publisher of another process."""
+
+import asyncio
+import contextlib
+from typing import TYPE_CHECKING
+
+from .. import _wire
+from ..errors import MessageError, WireError
+from ..messages.codec import Codec
+from ..messages.messages import ANY_TYPE
+from ..transport.fast_selector import FastSelector
+from ..transport.headers import check_md5
+from ..transport.shared_ring import SharedRingReader
+from ..transport.tcpros import FrameProtocol
+
+if TYPE_CHECKING:
+    from .subscription import Subscription
+
+
+class SubscriberLink(FrameProtocol):
+    """Asks for a topic, then hands on what comes; read past asyncio once both headers are there."""
+
+    def __init__(
+        self, subscription: "Subscription", request: dict[str, str], selector: FastSelector, codec: Codec | None
+    ) -> None:
+        super().__init__()
+        self.ended: asyncio.Future[str] = asyncio.get_running_loop().create_future()
+        self._subscription = subscription
+        self._request = request
+        self._loop_selector = selector
+        self._receive = _wire.receive if codec is None else codec.receive
+        self._shelf: SharedRingReader | None = None
+
+    def connected(self) -> None:
+        self.send_header(self._request)
+
+    def header_received(self, header: dict[str, str]) -> None:
+        if "error" in header:
+            raise WireError(header["error"])
+        if not check_md5(self._subscription.md5sum, header.get("md5sum", "*")) and header.get("md5sum") != ANY_TYPE:
+            raise WireError(f"it carries {header.get('type', 'another type')}, not {self._subscription.type}")
+        if header.get("tcp_nodelay") == "1":
+            self.set_nodelay()
+        self.read_past_asyncio(self._loop_selector)
+
+    def frame_received(self, data: bytes | memoryview) -> None:
+        try:
+            self._subscription.take(data, self.header or {})
+        except MessageError as error:
+            raise WireError(str(error)) from None
+
+    def note_received(self, note: bytes, /) -> bytes | None:
+        if self._shelf is None:
+            assert self.transport is not None
+            with contextlib.suppress(OSError):  # not to be seen from here: all goes on over the socket
+                self._shelf = SharedRingReader(self.transport.get_extra_info("socket"), note)
+                self.out.send([(self._shelf.seen(),)], None)
+            return None
+        content, answer = self._shelf.read(note)
+        if answer is not None:
+            self.out.send([(answer,)], None)
+        self.bytes_received += len(content)
+        return content
+
+    def _readable(self) -> None:
+        """As of any connection, but a message that comes alone is taken in one step."""
+        if (room := self.frames.room_for_one()) is None:
+            super()._readable()
+            return
+        assert self._socket is not None
+        try:
+            come, count = self._receive(self._socket.recv_into, room)
+        except OSError as error:
+            self._cannot_read(error)
+            return
+        if come is None:
+            self._take_bytes(count)
+            return
+        self.bytes_received += count
+        if self._subscription.is_raw:
+            self._subscription.take(come, self.header or {})
+        else:
+            self._subscription.receive(come)
+
+    def closed(self, reason: str, /) -> None:
+        if self._shelf is not None:
+            self._shelf.close()
+        if not self.ended.done():
+            self.ended.set_result(reason)

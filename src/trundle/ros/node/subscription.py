@@ -1,0 +1,285 @@
+"""A topic as its subscriber sees it: a link to each publisher, kept up as publishers come and go."""
+
+import asyncio
+import contextlib
+import inspect
+from collections import deque
+from collections.abc import Awaitable, Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from ..errors import MessageError, RosError, WireError
+from ..messages.codec import Codec
+from ..messages.messages import ANY_TYPE, Message, RawMessage
+from ..transport.headers import check_md5
+from ..transport.tcpros import FrameProtocol
+from ..transport.unix_sockets import UNIXROS, connect_unix, unix_address
+from ..xmlrpc.rpc_client import call
+from ..xmlrpc.xmlrpc import FaultError
+from .subscriber_link import SubscriberLink
+
+if TYPE_CHECKING:
+    from .node import Node
+    from .publisher import Publisher
+
+Callback = Callable[[Message], "Awaitable[None] | None"]
+_RETRY_S = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
+"""Waits between attempts to reach a publisher that the master still names."""
+_CONNECT_S = 10.0
+
+
+class Subscription:
+    """Subscribes one node to one topic; made by `Node.subscribe`."""
+
+    def __init__(
+        self,
+        node: "Node",
+        topic: str,
+        type_name: str,
+        callback: Callback,
+        *,
+        queue_size: int | None,
+        tcp_nodelay: bool,
+        on_loop: bool,
+    ) -> None:
+        self.topic = topic
+        self.type = type_name
+        self.is_raw = type_name == ANY_TYPE
+        """Whether the callback gets bytes."""
+        self.needs_every_message = queue_size != 1
+        """Whether each message counts; else the newest will do."""
+        self.received = 0
+        self.dropped = 0
+        """Messages thrown away because callbacks were too slow."""
+        self._node = node
+        self._messages = node.messages
+        self._codec: Codec | None = None
+        self._callback = callback
+        self._is_async = inspect.iscoroutinefunction(callback)
+        self._tcp_nodelay = tcp_nodelay
+        self._deliver = None if on_loop else node.deliver
+        self._is_called_at_once = self._deliver is None and not self._is_async
+        self._queue: deque[Message] = deque()
+        self._queue_size = queue_size
+        self._worker: asyncio.Task[None] | None = None
+        self._tasks: dict[str, asyncio.Task[None]] = {}
+        """Publisher's address → the task that keeps its link."""
+        self._links: dict[str, FrameProtocol | Publisher] = {}
+        self._complained: set[str] = set()
+
+    @property
+    def publishers(self) -> int:
+        """How many publishers are connected."""
+        return len(self._links)
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether each publisher that the master named is connected, or known not to answer."""
+        return all(uri in self._links or uri in self._complained for uri in list(self._tasks))
+
+    def unregister(self) -> None:
+        """Stop listening; any thread."""
+        self._node.unregister_subscription(self)
+
+    # on the loop
+
+    @property
+    def md5sum(self) -> str:
+        """What publishers compare."""
+        return ANY_TYPE if self.is_raw else self._messages.md5(self.type)
+
+    def follow(self, uris: list[str]) -> None:
+        """Keep links to exactly these publishers."""
+        for uri in [uri for uri in self._tasks if uri not in uris]:
+            self._tasks.pop(uri).cancel()
+        for uri in uris:
+            if uri not in self._tasks:
+                self._tasks[uri] = asyncio.get_running_loop().create_task(self._keep(uri))
+
+    def close(self) -> None:
+        """Drop every link."""
+        self.follow([])
+        if self._worker is not None:
+            self._worker.cancel()
+        self._queue.clear()
+
+    def receive(self, message: Message) -> None:
+        """Take a message: call back at once, or queue it for whoever runs the callbacks."""
+        self.received += 1
+        if self._is_called_at_once:
+            try:
+                self._callback(message)
+            except Exception as error:
+                self._say_failed(error)
+            return
+        # Whoever runs the callbacks has been asked once for each message in the queue; the one that takes a dropped
+        # message's place needs no new asking.
+        replaced = self._queue_size is not None and len(self._queue) >= self._queue_size and self._drop_oldest()
+        self._queue.append(message)
+        if self._is_async:
+            if self._worker is None or self._worker.done():
+                self._worker = asyncio.get_running_loop().create_task(self._call_in_turn())
+        elif self._deliver is not None and not replaced:
+            self._deliver(self._call_next)
+
+    def receive_bytes(self, data: bytes, publisher: "Publisher") -> None:
+        """Take a message as bytes from a publisher of this process."""
+        definition = publisher.definition if self.is_raw else ""
+        try:
+            header = {"type": publisher.type, "md5sum": publisher.md5sum, "callerid": publisher.caller}
+            self.take(data, {**header, "message_definition": definition, "latching": str(int(publisher.latch))})
+        except MessageError as error:
+            self._node.log_error(f"a message on {self.topic} is not taken: {error}")
+
+    def connections(self) -> list[list[Any]]:
+        """Links as getBusInfo tells them."""
+        result: list[list[Any]] = []
+        for uri, link in self._links.items():
+            remote = isinstance(link, FrameProtocol)
+            kind, text = (link.kind, link.description) if remote else ("INTRAPROCESS", "")
+            result.append([id(link) % 2**31, uri, "i", kind, self.topic, True, text])
+        return result
+
+    def statistics(self) -> list[Any]:
+        """Bytes and messages as getBusStats tells them."""
+        links = [link for link in self._links.values() if isinstance(link, FrameProtocol)]
+        return [self.topic, [[id(link) % 2**31, link.bytes_received, -1, self.dropped, True] for link in links]]
+
+    def take(self, data: bytes | memoryview, header: Mapping[str, str]) -> None:
+        """Take a message as bytes, with what its publisher said when it connected.
+
+        Raises:
+            MessageError: the bytes are no such message.
+        """
+        if not self.is_raw:
+            self.receive((self._codec or self._make_codec()).read(data))
+            return
+        self.receive(
+            RawMessage(
+                type=header.get("type", ANY_TYPE),
+                md5sum=header.get("md5sum", ANY_TYPE),
+                definition=header.get("message_definition", ""),
+                data=bytes(data),
+                caller=header.get("callerid", ""),
+                latching=header.get("latching") == "1",
+            )
+        )
+
+    def _make_codec(self) -> Codec:
+        self._codec = self._messages.codec(self.type)
+        return self._codec
+
+    # links
+
+    async def _keep(self, uri: str) -> None:
+        """Hold a link to one publisher, as long as the master names it."""
+        attempt = 0
+        while True:
+            local = self._node.loop.nodes.get(uri)
+            try:
+                if local is not None:
+                    await self._join(local, uri)
+                else:
+                    await self._connect(uri)
+                attempt = 0
+            except (OSError, RosError, FaultError) as error:
+                self._complain(uri, str(error) or type(error).__name__, attempt)
+            await asyncio.sleep(_RETRY_S[min(attempt, len(_RETRY_S) - 1)])
+            attempt += 1
+
+    async def _join(self, local: "Node", uri: str) -> None:
+        """Be handed the messages of a publisher in this process until the task is cancelled."""
+        publisher = local.publisher(self.topic)
+        if publisher is None:
+            raise RosError(f"{local.name} does not publish {self.topic}")
+        if not check_md5(self.md5sum, publisher.md5sum):
+            raise RosError(f"it carries {publisher.type}, not {self.type}")
+        publisher.attach(self, self._node.name)
+        self._links[uri] = publisher
+        try:
+            await local.closed.wait()
+        finally:
+            self._links.pop(uri, None)
+            publisher.detach(self)
+
+    async def _connect(self, uri: str) -> None:
+        """Hold a TCPROS link until it breaks or the task is cancelled."""
+        answer = await call(uri, "requestTopic", self._node.name, self.topic, [["TCPROS"], [UNIXROS]])
+        match answer:
+            case [1, _, ["TCPROS", str(host), int(port), *more]]:
+                pass
+            case _:
+                raise WireError(f"it does not offer TCPROS: {str(answer)[:100]}")
+        if not self.is_raw:  # not on the loop: the first message of a type would hold up all others
+            await asyncio.to_thread(self._make_codec)
+        async with asyncio.timeout(_CONNECT_S):
+            link = await self._open(host, port, unix_address(more))
+        self._links[uri] = link
+        try:
+            reason = await link.ended
+        finally:
+            self._links.pop(uri, None)
+            link.close("no longer subscribed")
+        if link.header is None or "error" in link.header:
+            raise WireError(reason)
+
+    async def _open(self, host: str, port: int, nearby: str | None) -> "SubscriberLink":
+        loop = asyncio.get_running_loop()
+        link = SubscriberLink(self, self._request(), self._node.loop.selector, self._codec)
+        if nearby is not None:
+            with contextlib.suppress(OSError):  # not so near, or gone
+                await loop.create_unix_connection(lambda: link, sock=await connect_unix(loop, nearby))
+                return link
+        await loop.create_connection(lambda: link, host, port)
+        return link
+
+    def _request(self) -> dict[str, str]:
+        header = {
+            "callerid": self._node.name,
+            "topic": self.topic,
+            "type": self.type,
+            "md5sum": self.md5sum,
+            "tcp_nodelay": "1" if self._tcp_nodelay else "0",
+        }
+        if not self.is_raw:
+            header["message_definition"] = self._messages.definition(self.type)
+        return header
+
+    def _complain(self, uri: str, reason: str, attempt: int) -> None:
+        """Say once what keeps a publisher from being heard; the first failures are usual while it comes or goes."""
+        if attempt >= 2 and uri not in self._complained:
+            self._complained.add(uri)
+            self._node.log_warn(f"no messages on {self.topic} from {uri}: {reason}")
+
+    # callbacks
+
+    def _call(self, message: Message) -> None:
+        try:
+            self._callback(message)
+        except Exception as error:
+            self._say_failed(error)
+
+    def _say_failed(self, error: Exception) -> None:
+        self._node.log_failure(f"the callback of {self.topic} failed", error)
+
+    def _drop_oldest(self) -> bool:
+        try:
+            self._queue.popleft()
+        except IndexError:  # another thread has just taken it
+            return False
+        self.dropped += 1
+        return True
+
+    def _call_next(self) -> None:
+        """Called by whoever runs the callbacks, in any thread."""
+        with contextlib.suppress(IndexError):  # thrown away meanwhile
+            self._call(self._queue.popleft())
+
+    async def _call_in_turn(self) -> None:
+        while self._queue:
+            message = self._queue.popleft()
+            try:
+                result = self._callback(message)
+                if result is not None:
+                    await result
+            except Exception as error:
+                self._say_failed(error)

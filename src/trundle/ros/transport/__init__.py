@@ -1,0 +1,1 @@
+"""TCPROS connections between nodes: headers, framing, send queues, sockets."""

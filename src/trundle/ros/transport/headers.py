@@ -1,0 +1,53 @@
+"""TCPROS connection headers, and lengths in front of what follows."""
+
+from collections.abc import Mapping
+
+from ..errors import WireError
+from .framing import LENGTH
+
+MAX_HEADER_BYTES = 4 * 1024 * 1024
+"""A header holds a message definition; the longest in a desktop installation is below 100 kB."""
+MAX_MESSAGE_BYTES = 1_000_000_000
+"""roscpp drops a connection that announces more ("a message of over a gigabyte was predicted")."""
+
+
+def encode_header(fields: Mapping[str, str]) -> bytes:
+    """Write a connection header, with its length in front."""
+    parts: list[bytes] = []
+    for name, value in fields.items():
+        item = f"{name}={value}".encode()
+        parts += (LENGTH.pack(len(item)), item)
+    return frame(b"".join(parts))
+
+
+def decode_header(data: bytes) -> dict[str, str]:
+    """Read a connection header, without the length in front.
+
+    Raises:
+        WireError: the bytes are no header.
+    """
+    fields: dict[str, str] = {}
+    offset = 0
+    while offset < len(data):
+        if offset + 4 > len(data):
+            raise WireError("a connection header ends within a length")
+        (size,) = LENGTH.unpack_from(data, offset)
+        item = data[offset + 4 : offset + 4 + size]
+        if len(item) != size:
+            raise WireError("a connection header is shorter than it says")
+        name, equals, value = item.partition(b"=")
+        if not equals:
+            raise WireError("a connection header field has no '='")
+        fields[name.decode("utf-8", "replace")] = value.decode("utf-8", "replace")
+        offset += 4 + size
+    return fields
+
+
+def frame(data: bytes | bytearray | memoryview) -> bytes:
+    """Put the length in front."""
+    return b"".join((LENGTH.pack(len(data)), data))
+
+
+def check_md5(wanted: str, ours: str) -> bool:
+    """Tell whether two md5 sums agree; `*` agrees with all."""
+    return wanted in ("*", ours)

@@ -1,0 +1,195 @@
+"""A TCPROS connection on the loop: headers first, then frames."""
+
+import asyncio
+import contextlib
+import socket
+from collections.abc import Mapping
+from typing import cast
+
+from ..errors import WireError
+from .fast_selector import FastSelector
+from .framing import FrameDecoder
+from .headers import MAX_HEADER_BYTES, MAX_MESSAGE_BYTES, decode_header, encode_header
+from .send_queue import SendQueue
+from .unix_sockets import UNIXROS
+
+HANDSHAKE_S = 15.0
+"""How long a peer may take for its header."""
+
+
+class FrameProtocol(asyncio.BufferedProtocol):
+    """A connection that splits what the peer sends into frames; the first one is its header.
+
+    Everything happens on the loop but sending.
+    """
+
+    out: SendQueue
+    """What goes to the peer, sent from any thread; there once the connection stands."""
+
+    def __init__(self) -> None:
+        self.transport: asyncio.Transport | None = None
+        self.header: dict[str, str] | None = None
+        self.bytes_received = 0
+        self.frames = FrameDecoder(MAX_HEADER_BYTES)
+        self._deadline: asyncio.TimerHandle | None = None
+        self._selector: FastSelector | None = None
+        self._socket: socket.socket | None = None
+        """The connection once more, read past asyncio."""
+        self._ending: str | None = None
+
+    # what subclasses fill in
+
+    def connected(self) -> None:
+        """Called when the connection stands; a client sends its header here."""
+
+    def header_received(self, header: dict[str, str]) -> None:
+        """Called with the peer's header; a WireError ends the connection."""
+
+    def frame_received(self, data: bytes | memoryview) -> None:
+        """Called with each frame after the header; a WireError ends the connection."""
+
+    def note_received(self, note: bytes, /) -> bytes | None:
+        """Called with each note of a nearby peer; returns the frame it stands for, if any. May raise WireError."""
+        raise WireError(f"a note of {len(note)} bytes that nobody waits for")
+
+    def drained(self) -> None:
+        """Called when the peer, having been too slow, reads again."""
+
+    def closed(self, reason: str, /) -> None:
+        """Called once when the connection has ended."""
+
+    # asyncio's side
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self.transport = cast(asyncio.Transport, transport)
+        self.out = SendQueue(transport.get_extra_info("socket"), drained=self._caught_up, broken=self._abort)
+        if self.out.is_near:
+            self.frames.take_note = self.note_received
+        self._deadline = asyncio.get_running_loop().call_later(HANDSHAKE_S, self._too_slow)
+        self.connected()
+
+    def get_buffer(self, sizehint: int) -> memoryview:
+        del sizehint
+        return self.frames.room()
+
+    def buffer_updated(self, nbytes: int) -> None:
+        self.bytes_received += nbytes
+        try:
+            for content in self.frames.decode(nbytes):
+                if self.header is None:
+                    self._take_header(content)
+                else:
+                    self.frame_received(content)
+                if self.transport is None:
+                    break
+        except WireError as error:
+            self.close(str(error))
+
+    def _take_header(self, content: bytes | memoryview) -> None:
+        self.header = decode_header(bytes(content))
+        self.frames.limit = MAX_MESSAGE_BYTES
+        if self._deadline is not None:
+            self._deadline.cancel()
+        self.header_received(self.header)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._end(str(exc) if exc is not None else "the peer closed the connection")
+
+    # past asyncio
+
+    def read_past_asyncio(self, selector: FastSelector) -> None:
+        """Have the loop's selector read from now on, with less between the system and this than asyncio has."""
+        if self._socket is not None or self.transport is None:
+            return
+        with contextlib.suppress(OSError):  # no number is left for it: asyncio goes on reading
+            own: socket.socket = self.transport.get_extra_info("socket").dup()
+            selector.read(own, self._readable)
+            self.transport.pause_reading()
+            self._selector, self._socket = selector, own
+
+    def _readable(self) -> None:
+        assert self._socket is not None
+        try:
+            count = self._socket.recv_into(self.frames.room())
+        except OSError as error:
+            self._cannot_read(error)
+            return
+        self._take_bytes(count)
+
+    def _cannot_read(self, error: OSError) -> None:
+        if not isinstance(error, BlockingIOError):
+            self.close(str(error))
+
+    def _take_bytes(self, count: int) -> None:
+        if count:
+            self.buffer_updated(count)
+        else:
+            self.close("the peer closed the connection")
+
+    # for users
+
+    def send_header(self, fields: Mapping[str, str]) -> None:
+        """Send our header."""
+        self.out.send([(encode_header(fields),)], None)
+
+    def refuse(self, reason: str) -> None:
+        """Answer a header with an error and end the connection."""
+        self.send_header({"error": reason})
+        self.close(reason)
+
+    def finish(self, reason: str) -> None:
+        """End the connection as soon as the peer has all that was sent."""
+        self._ending = reason
+        if not self.out.is_behind:
+            self.close(reason)
+
+    def close(self, reason: str = "closed") -> None:
+        """End the connection."""
+        if self.transport is not None:
+            transport = self.transport
+            self._end(reason)
+            transport.close()
+
+    def set_nodelay(self) -> None:
+        """Send small messages at once."""
+        if self.transport is not None and not self.out.is_near:
+            self.transport.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+
+    @property
+    def kind(self) -> str:
+        """The protocol's name."""
+        return UNIXROS if self.out.is_near else "TCPROS"
+
+    @property
+    def description(self) -> str:
+        """The connection as rosnode reads it; one without ports needs no words."""
+        if self.transport is None or self.out.is_near:
+            return ""
+        local, peer = self.transport.get_extra_info("sockname"), self.transport.get_extra_info("peername")
+        number = self.transport.get_extra_info("socket").fileno()
+        return f"TCPROS connection on port {local[1]} to [{peer[0]}:{peer[1]} on socket {number}]"
+
+    def _caught_up(self) -> None:
+        if self._ending is None:
+            self.drained()
+        else:
+            self.close(self._ending)
+
+    def _abort(self) -> None:
+        if self.transport is not None:
+            self.transport.abort()
+
+    def _too_slow(self) -> None:
+        self.close("no connection header came in time")
+
+    def _end(self, reason: str) -> None:
+        if self.transport is None:
+            return
+        self.transport = None
+        self.out.close()
+        if self._selector is not None and self._socket is not None:
+            self._selector.forget(self._socket)
+            self._socket.close()
+        if self._deadline is not None:
+            self._deadline.cancel()
+        self.closed(reason)

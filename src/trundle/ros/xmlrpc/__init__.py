@@ -1,0 +1,1 @@
+"""XML-RPC between nodes and their master: client, server, encoding."""

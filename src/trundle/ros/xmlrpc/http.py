@@ -1,0 +1,127 @@
+"""The little of HTTP that XML-RPC needs: one POST, one answer, sizes known beforehand."""
+
+import re
+from dataclasses import dataclass
+from urllib.parse import urlsplit
+
+from ..errors import WireError
+
+MAX_HEAD_BYTES = 64 * 1024
+MAX_BODY_BYTES = 64 * 1024 * 1024
+"""A parameter tree with several robot descriptions is a few MB; anything near this bound is no graph traffic."""
+
+XML = "text/xml"
+_OWN_FETCH = ("node", "undici")
+"""User agents of Node's `fetch`, a program's, which calls its mode `cors` as a browser's does."""
+_MAX_PORT = 65535
+_ADDRESS = re.compile(r"(?:http|rosrpc)://(?P<host>\[[^]/@]+\]|:?:?[^][/@?#:][^][/@?#]*):(?P<port>\d{1,5})(?:[/?#]|$)")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Head:
+    """Start line and header fields of a request or an answer."""
+
+    start: tuple[str, str, str]
+    fields: dict[str, str]
+    """Names in lower case."""
+
+    @property
+    def keeps_alive(self) -> bool:
+        """Whether the connection stays open after this exchange."""
+        connection = self.fields.get("connection", "").lower()
+        if "HTTP/1.0" in self.start:
+            return connection == "keep-alive"
+        return connection != "close"
+
+    @property
+    def body_bytes(self) -> int | None:
+        """Announced size of the body, None if not announced.
+
+        Raises:
+            WireError: the size is no number, or larger than `MAX_BODY_BYTES`.
+        """
+        text = self.fields.get("content-length")
+        if text is None:
+            return None
+        if not text.isdecimal():
+            raise WireError(f"not a content length: {text[:40]!r}")
+        if len(text) > 12 or int(text) > MAX_BODY_BYTES:
+            raise WireError(f"a body of {text[:20]} bytes is larger than the {MAX_BODY_BYTES} accepted")
+        return int(text)
+
+
+def parse_head(data: bytes) -> Head:
+    """Read start line and fields, up to and with the empty line.
+
+    Raises:
+        WireError: this is not HTTP.
+    """
+    lines = data.decode("latin-1").split("\r\n")
+    start = lines[0].split(" ", 2)
+    if len(start) < 2 or not any(part.startswith("HTTP/1.") for part in start):
+        raise WireError("not an HTTP/1 message")
+    fields: dict[str, str] = {}
+    for line in lines[1:]:
+        name, colon, value = line.partition(":")
+        if colon:
+            fields[name.strip().lower()] = value.strip()
+    return Head(start=(start[0], start[1], start[2] if len(start) > 2 else ""), fields=fields)
+
+
+def refusal_of_browsers(head: Head) -> str | None:
+    """Return why a call is refused as one that a web page may have made; None: a program made it.
+
+    A page can reach loopback. It cannot send text/xml to another origin without asking first, its POST carries an
+    Origin, and a browser of today adds Sec-Fetch-Site. Programs: rospy, roscpp, rosnodejs, goroslib, rosjava and
+    @foxglove/ros1 send text/xml; roslibrust and rosrust send no type. `Host` says nothing: they dial aliases.
+    """
+    fields = head.fields
+    agent, origin = fields.get("user-agent", ""), fields.get("origin")
+    is_electron = "Electron/" in agent and origin in (None, "file://")  # Foxglove's and Lichtblick's desktop programs
+    marks = [] if is_electron else [name for name in fields if name == "origin" or name.startswith("sec-fetch-")]
+    if marks and not (marks == ["sec-fetch-mode"] and agent in _OWN_FETCH):
+        made_by = f"a page of {origin[:100]!r}" if origin else "a web page"
+        return f"{made_by} sent it, and web pages may not call ROS nodes"
+    kind = fields.get("content-type", XML).partition(";")[0].strip().lower()
+    if kind != XML or (is_electron and "content-type" not in fields):
+        return f"an XML-RPC call has the Content-Type {XML}, not {fields.get('content-type', 'none')[:100]!r}"
+    return None
+
+
+def request(uri: str, body: bytes) -> bytes:
+    """Write a POST; the connection closes after the answer."""
+    parts = urlsplit(uri)
+    head = (
+        f"POST {parts.path or '/'} HTTP/1.1\r\nHost: {parts.netloc}\r\nUser-Agent: trundle\r\n"
+        f"Content-Type: {XML}\r\nContent-Length: {len(body)}\r\nConnection: close\r\n\r\n"
+    )
+    return head.encode("latin-1", "replace") + body
+
+
+def answer(status: str, body: bytes, *, keep_alive: bool, kind: str = XML) -> bytes:
+    """Write an answer, such as `answer("200 OK", …)`."""
+    head = (
+        f"HTTP/1.1 {status}\r\nServer: trundle\r\nContent-Type: {kind}\r\nContent-length: {len(body)}\r\n"
+        f"Connection: {'keep-alive' if keep_alive else 'close'}\r\n\r\n"
+    )
+    return head.encode("latin-1") + body
+
+
+def host_and_port(uri: str) -> tuple[str, int]:
+    """Split `http://host:port/` or `rosrpc://host:port`; rospy writes IPv6 addresses without brackets.
+
+    Raises:
+        WireError: host or port is missing or no number.
+    """
+    address = _ADDRESS.match(uri)
+    if address is None or int(address["port"]) > _MAX_PORT:
+        raise WireError(f"not a node's address: {uri[:200]!r}; it reads like http://localhost:11311/")
+    return address["host"].strip("[]").lower(), int(address["port"])
+
+
+def host_of(uri: str) -> str:
+    """Return the host of a node's address, or nothing where it has none."""
+    try:
+        return host_and_port(uri)[0]
+    except WireError:
+        return ""

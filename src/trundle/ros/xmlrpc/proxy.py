@@ -1,0 +1,67 @@
+"""A blocking master proxy for commands that only ask: it imports neither asyncio nor an HTTP library."""
+
+import socket
+from typing import Any
+
+from ..errors import MasterError, MasterUnreachableError, WireError
+from ..transport.network import master_uri_from_env
+from .http import MAX_BODY_BYTES, host_and_port, parse_head, request
+from .xmlrpc import FaultError, decode_response, encode_call
+
+
+class MasterProxy:
+    """Calls the master, the parameter server, or any node's own interface."""
+
+    def __init__(self, uri: str | None = None, caller_id: str = "/trundle", *, timeout_s: float = 3.0) -> None:
+        self.uri = uri or master_uri_from_env()
+        self._caller_id = caller_id
+        self._timeout_s = timeout_s
+
+    def call(self, method: str, *arguments: object) -> Any:
+        """Return the value the master answers with; the caller's name is put in front of the arguments.
+
+        Raises:
+            MasterUnreachableError: nobody answers.
+            MasterError: the master answers with a failure.
+        """
+        try:
+            answer = blocking_call(self.uri, method, self._caller_id, *arguments, timeout_s=self._timeout_s)
+        except (OSError, WireError) as error:
+            raise MasterUnreachableError(self.uri, str(error)) from None
+        except FaultError as error:
+            raise MasterError(f"{method}: {error}") from None
+        if not isinstance(answer, list) or len(answer) != 3:
+            raise MasterUnreachableError(self.uri, "what answers there is no ROS master")
+        code, text, value = answer
+        if code != 1:
+            raise MasterError(str(text))
+        return value
+
+
+def blocking_call(uri: str, method: str, *arguments: object, timeout_s: float) -> Any:
+    """Call a method and return what it answers, as it stands.
+
+    Raises:
+        OSError: nobody listens there (TimeoutError: nobody answers in time).
+        WireError: the peer does not speak XML-RPC.
+        FaultError: the peer cannot make the call.
+    """
+    with socket.create_connection(host_and_port(uri), timeout=timeout_s) as connection:
+        connection.sendall(request(uri, encode_call(method, arguments)))
+        data = bytearray()
+        end = None
+        while end is None or len(data) < end:
+            chunk = connection.recv(65536)
+            if not chunk:
+                break
+            data += chunk
+            head_end = data.find(b"\r\n\r\n") + 4
+            if end is None and head_end >= 4:
+                size = parse_head(bytes(data[:head_end])).body_bytes
+                end = head_end + size if size is not None else MAX_BODY_BYTES
+    head, separator, body = bytes(data).partition(b"\r\n\r\n")
+    if not separator:
+        raise WireError("what answers there is no HTTP server")
+    if parse_head(head).start[1] != "200":
+        raise WireError(f"it answers {' '.join(parse_head(head).start[1:])[:100]}")
+    return decode_response(body)

@@ -1,0 +1,266 @@
+"""Messages: sums, texts, bytes and values; compared with genpy's own where Debian's ROS is installed."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from trundle.ros import MessageError, Messages
+
+REAL = Path("/usr/lib/python3/dist-packages/genpy")
+SHOWN = [
+    "sensor_msgs/Image",
+    "tf2_msgs/TFMessage",
+    "sensor_msgs/JointState",
+    "nav_msgs/Odometry",
+    "rosgraph_msgs/Log",
+    "sensor_msgs/CameraInfo",
+    "rosgraph_msgs/Clock",
+    "diagnostic_msgs/DiagnosticArray",
+    "sensor_msgs/LaserScan",
+    "sensor_msgs/PointCloud2",
+    "std_msgs/Empty",
+    "std_msgs/Byte",
+    "std_msgs/Char",
+    "std_msgs/UInt8MultiArray",
+    "std_msgs/Duration",
+    "nav_msgs/OccupancyGrid",
+]
+
+SUMS = """
+import importlib, json, pkgutil, sys
+out = {}
+for package in ("actionlib_msgs", "diagnostic_msgs", "geometry_msgs", "nav_msgs", "rosgraph_msgs", "sensor_msgs",
+                "std_msgs", "std_srvs", "tf2_msgs", "roscpp"):
+    for kind in ("msg", "srv"):
+        try:
+            module = importlib.import_module(f"{package}.{kind}")
+        except ImportError:
+            continue
+        for name in dir(module):
+            cls = getattr(module, name)
+            if hasattr(cls, "_md5sum") and (kind == "msg" or hasattr(cls, "_request_class")):
+                out[f"{kind} {cls._type}"] = cls._md5sum
+print(json.dumps(out))
+"""
+
+FILLED = """
+import importlib, json, sys, genpy, io
+def fill(kind, depth=1):
+    base, bracket, size = kind.partition("[")
+    if bracket:
+        count = int(size[:-1]) if size[:-1] else 3
+        values = [fill(base, depth + i) for i in range(count)]
+        return bytes(values) if base in ("uint8", "char") else values
+    if base == "bool": return depth % 2 == 1
+    if base == "string": return f"text {depth}"
+    if base.startswith("float"): return depth + 0.5
+    if base == "time": return genpy.Time(depth, 5)
+    if base == "duration": return genpy.Duration(depth, 5)
+    if "/" not in base and base != "Header": return depth
+    package, name = base.split("/") if "/" in base else ("std_msgs", base)
+    cls = getattr(importlib.import_module(package + ".msg"), name)
+    return cls(*[fill(t, depth + i) for i, t in enumerate(cls._slot_types)])
+out = {}
+for kind in sys.argv[1:]:
+    buffer = io.BytesIO()
+    fill(kind).serialize(buffer)
+    out[kind] = buffer.getvalue().hex()
+print(json.dumps(out))
+"""
+
+
+def _real_python(tmp_path: Path, code: str, *arguments: str) -> Any:
+    if not REAL.is_dir():
+        pytest.skip("Debian's python3-genpy is not installed")
+    environment = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path)}
+    command = ["/usr/bin/python3", "-W", "ignore", "-c", code, *arguments]
+    return json.loads(subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout)
+
+
+@pytest.mark.real_ros
+def test_every_md5_sum_is_the_original_one(messages: Messages, tmp_path: Path) -> None:
+    wrong: list[str] = []
+    lacking: list[str] = []
+    for key, md5sum in _real_python(tmp_path, SUMS).items():
+        kind, _, name = key.partition(" ")
+        try:
+            ours = messages.md5(name) if kind == "msg" else messages.service(name).md5sum
+        except MessageError:
+            lacking.append(name)
+            continue
+        if ours != md5sum:
+            wrong.append(name)
+    assert wrong == []
+    assert [name for name in lacking if "LookupTransform" not in name] == []
+
+
+def _filled(messages: Messages, kind: str, depth: int = 1) -> Any:
+    base, bracket, size = kind.partition("[")
+    if bracket:
+        return [_filled(messages, base, depth + i) for i in range(int(size[:-1]) if size[:-1] else 3)]
+    if base == "bool":
+        return depth % 2 == 1
+    if base == "string":
+        return f"text {depth}"
+    if base.startswith("float"):
+        return depth + 0.5
+    if base in ("time", "duration"):
+        return {"secs": depth, "nsecs": 5}
+    if "/" not in base:
+        return depth
+    return {f: _filled(messages, t, depth + i) for i, (f, t) in enumerate(messages.fields(base).items())}
+
+
+@pytest.mark.real_ros
+def test_bytes_are_those_of_the_original_serialiser(messages: Messages, tmp_path: Path) -> None:
+    real = _real_python(tmp_path, FILLED, *SHOWN)
+    for kind in SHOWN:
+        assert bytes(messages.serialize(messages.new(kind, _filled(messages, kind)))).hex() == real[kind], kind
+
+
+@pytest.mark.parametrize("kind", SHOWN)
+def test_a_message_survives_its_bytes(messages: Messages, kind: str) -> None:
+    message = messages.new(kind, _filled(messages, kind))
+    data = bytes(messages.serialize(message))
+    assert bytes(messages.serialize(messages.deserialize(data, kind))) == data
+
+
+@pytest.mark.parametrize("kind", ["sensor_msgs/Image", "tf2_msgs/TFMessage", "rosgraph_msgs/Log"])
+def test_bytes_cut_short_are_refused_wherever_they_are_cut(messages: Messages, kind: str) -> None:
+    data = bytes(messages.serialize(messages.new(kind, _filled(messages, kind))))
+    for size in range(len(data)):
+        with pytest.raises(MessageError, match=kind):
+            messages.deserialize(data[:size], kind)
+
+
+def test_a_definition_lists_what_it_depends_on_as_genmsg_does(messages: Messages) -> None:
+    line = "=" * 80
+    assert messages.definition("tf2_msgs/TFMessage").startswith(
+        f"geometry_msgs/TransformStamped[] transforms\n\n{line}\nMSG: geometry_msgs/TransformStamped\n"
+    )
+    names = [part for part in messages.definition("nav_msgs/Odometry").split("\n") if part.startswith("MSG: ")]
+    assert names == [
+        "MSG: std_msgs/Header",
+        "MSG: geometry_msgs/PoseWithCovariance",
+        "MSG: geometry_msgs/Pose",
+        "MSG: geometry_msgs/Point",
+        "MSG: geometry_msgs/Quaternion",
+        "MSG: geometry_msgs/TwistWithCovariance",
+        "MSG: geometry_msgs/Twist",
+        "MSG: geometry_msgs/Vector3",
+    ]
+
+
+def test_fields_left_out_are_zero_and_now_and_auto_are_filled_in(messages: Messages) -> None:
+    message = messages.new("nav_msgs/Odometry", {"header": "auto", "pose": {"pose": {"position": [1, 2, 3]}}}, now_ns=5)
+    assert (message.header.stamp.sec, message.header.stamp.nanosec) == (0, 5)
+    assert message.pose.pose.position.z == 3.0
+    assert message.pose.covariance.tolist() == [0.0] * 36
+    assert messages.new("std_msgs/Header", {"stamp": "now"}, now_ns=2_000_000_001).stamp.sec == 2
+
+
+@pytest.mark.parametrize(
+    ("kind", "fields", "complaint"),
+    [
+        ("geometry_msgs/Twist", {"lineer": {}}, "no field 'lineer'; fields here: 'linear', 'angular'"),
+        ("geometry_msgs/Twist", {"linear": {"q": 1}}, "field 'linear': geometry_msgs/Vector3 has no field 'q'"),
+        ("geometry_msgs/Twist", {"linear": {"x": "a"}}, "field 'linear.x' is a float64, got 'a'"),
+        ("geometry_msgs/Twist", [[1, 2], [0, 0, 0]], r"3 fields \(x, y, z\), got 2 values"),
+        ("std_msgs/String", {"data": 5}, "field 'data' is a string, got 5; quote it"),
+        ("std_msgs/UInt8", {"data": 256}, r"field 'data' is a uint8 \(0 to 255\), got 256"),
+        ("std_msgs/Bool", {"data": "yes"}, "field 'data' is a bool"),
+        ("sensor_msgs/JointState", {"position": [1, "b"]}, r"field 'position\[1\]' is a float64"),
+        ("sensor_msgs/JointState", {"name": "a"}, "field 'name' is a list"),
+        ("sensor_msgs/Imu", {"orientation_covariance": [1.0]}, "exactly 9 elements, got 1"),
+        ("std_msgs/Header", {"stamp": "soon"}, "field 'stamp': a time is"),
+        ("std_msgs/Sting", {}, "no message type 'std_msgs/Sting'; messages of std_msgs: .*String"),
+        ("Twist", {}, "package/Name"),
+        ("nope_msgs/X", {}, "no messages of a package 'nope_msgs' are known"),
+    ],
+)
+def test_what_does_not_fit_is_named_with_what_exists(
+    messages: Messages, kind: str, fields: object, complaint: str
+) -> None:
+    with pytest.raises(MessageError, match=complaint):
+        messages.new(kind, fields)
+
+
+def test_lists_in_array_fields_are_sent_as_well(messages: Messages) -> None:
+    message = messages.new("sensor_msgs/JointState")
+    message.position = [1, 2.5]
+    assert messages.deserialize(messages.serialize(message), "sensor_msgs/JointState").position.tolist() == [1.0, 2.5]
+    message.position = ["a"]
+    with pytest.raises(MessageError, match=r"position\[0\]"):
+        messages.serialize(message)
+
+
+def test_pictures_are_taken_as_numpy_arrays_or_bytes(messages: Messages) -> None:
+    picture = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
+    for data in (picture, picture.tobytes()):
+        assert messages.new("sensor_msgs/Image", {"data": data}).data.tolist() == list(range(12))
+
+
+def test_a_users_types_are_read_from_the_folder_of_a_package(tmp_path: Path) -> None:
+    for name, text in {
+        "msg/Part.msg": "float32 SIZE=1.50  # a comment\nstring NAME=a # b \nHeader header\nOther[2] others\n",
+        "msg/Other.msg": "uint8 value\n",
+        "srv/Ask.srv": "Part part\n---\nbool ok\n",
+    }.items():
+        path = tmp_path / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    messages = Messages()
+    messages.add_package("my_msgs", tmp_path)
+
+    assert messages.fields("my_msgs/Part") == {"header": "std_msgs/Header", "others": "my_msgs/Other[2]"}
+    service = messages.service("my_msgs/Ask")
+    assert messages.new(service.request).part.others[1].value == 0
+    assert messages.definition("my_msgs/Part").startswith("float32 SIZE=1.50  # a comment\n")
+
+
+def test_a_type_can_be_learnt_from_the_text_a_publisher_sends(messages: Messages) -> None:
+    line = "=" * 80
+    fresh = Messages()
+    fresh.add_definition("new_msgs/A", f"B b\n\n{line}\nMSG: new_msgs/B\nint32 x\n")
+    assert fresh.fields("new_msgs/A") == {"b": "new_msgs/B"}
+    assert not messages.has("new_msgs/A")
+
+
+def test_importing_the_room_is_light() -> None:
+    heavy = "{'asyncio', 'numpy', 'yaml'}"
+    code = f"import sys, trundle.ros, trundle.ros.xmlrpc.proxy; print(sorted({heavy} & set(sys.modules)))"
+    environment = {**os.environ, "PYTHONWARNINGS": "error"}
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment)
+    assert found.stdout.strip() == "[]"
+
+
+def test_messages_made_without_fields_share_nothing() -> None:
+    messages = Messages()
+    for kind in ("sensor_msgs/CameraInfo", "std_msgs/Empty", "tf2_msgs/TFMessage", "nav_msgs/Odometry"):
+        assert bytes(messages.serialize(messages.new(kind))) == bytes(messages.serialize(messages.new(kind, {})))
+    first, second = messages.new("sensor_msgs/CameraInfo"), messages.new("sensor_msgs/CameraInfo")
+    first.K[0], first.header.stamp.sec, first.header.frame_id = 1.0, 2, "a"
+    assert (second.K[0], second.header.stamp.sec, second.header.frame_id) == (0.0, 0, "")
+    lists = messages.new("tf2_msgs/TFMessage"), messages.new("tf2_msgs/TFMessage")
+    assert lists[0].transforms == []
+    assert lists[0].transforms is not lists[1].transforms
+
+
+def test_a_definition_that_never_ends_is_refused() -> None:
+    messages = Messages(bare=True)
+    with pytest.raises(MessageError, match="Knot cannot be read: line 1: geometry_msgs/Knot has itself inside"):
+        messages.add_definition("geometry_msgs/Knot", "geometry_msgs/Knot inside\n")
+
+
+def test_a_definition_that_branches_and_branches_is_written_once() -> None:
+    between = "=" * 80 + "\nMSG: a/"
+    deep = "".join(f"{between}T{i}\nT{i + 1}[] x\nT{i + 1}[] y\n\n" for i in range(90))
+    messages = Messages(bare=True)
+    messages.add_definition("a/T", f"T0 x\n\n{deep}{between}T90\nint8 x\n")
+    assert messages.definition("a/T").count("MSG:") == 91

@@ -1,0 +1,178 @@
+"""The loop that nodes share leaves nothing open."""
+
+import asyncio
+import ctypes
+import gc
+import os
+import platform
+import socket
+import struct
+import threading
+import time
+import warnings
+import weakref
+from typing import Any
+
+import pytest
+from tests.ros.conftest import PATIENCE_S
+
+from trundle.diagnostics import UsageError
+from trundle.ros.node.loop import GraphLoop, close_server
+from trundle.ros.node.node import Node
+
+
+@pytest.mark.parametrize("passes", range(5))
+def test_a_server_that_closes_loses_nobody_at_its_door(passes: int) -> None:
+    """asyncio makes a transport of an accepted connection one pass later, and forgets it if the server is closed."""
+
+    async def knock() -> None:
+        server = await asyncio.start_server(lambda _, writer: writer.close(), "127.0.0.1", 0)
+        with socket.create_connection(server.sockets[0].getsockname()) as visitor:
+            for _ in range(passes):
+                await asyncio.sleep(0)
+            await close_server(server)
+            visitor.setblocking(False)
+            for _ in range(5):
+                await asyncio.sleep(0)
+
+    with warnings.catch_warnings(record=True) as leaks:
+        warnings.simplefilter("always")
+        asyncio.run(knock())
+        gc.collect()
+    assert [str(leak.message) for leak in leaks] == []
+
+
+def test_what_a_thread_gathers_comes_when_it_is_released_and_in_order() -> None:
+    came: list[int] = []
+    with GraphLoop() as loop:
+        loop.begin_batch()
+        for number in range(3):
+            loop.call_soon(lambda number=number: came.append(number))
+        assert came == []
+        assert loop.wait_idle(5.0, unless=lambda: False)
+        assert came == [0, 1, 2]
+
+
+def test_it_does_not_rest_while_something_is_under_way() -> None:
+    with GraphLoop() as loop:
+        with loop.work.pending():
+            assert not loop.wait_idle(0.05, unless=lambda: False)
+        assert loop.wait_idle(5.0, unless=lambda: False)
+
+
+def test_a_node_that_has_gone_is_forgotten(graph: Any) -> None:
+    """Thousands come and go where every call of a script is a node of its own."""
+    node = graph.node("passing")
+    node.advertise("/a", "std_msgs/String")
+    node.subscribe("/b", "std_msgs/String", print)
+    graph.ready(node)
+    graph.loop.run(node.shutdown(), PATIENCE_S)
+    gone = weakref.ref(node)
+    del node
+
+    def is_forgotten() -> bool:
+        gc.collect()
+        return gone() is None
+
+    graph.until(is_forgotten)
+
+
+def test_what_is_begun_while_the_loop_ends_is_ended_too(caplog: pytest.LogCaptureFixture) -> None:
+    """Each task that is told to end begins another one, as a peer's last call does."""
+    ended: list[int] = []
+
+    async def outlive(generation: int) -> None:
+        try:
+            await asyncio.sleep(1000)
+        finally:
+            if generation < 3:
+                tasks.append(asyncio.ensure_future(outlive(generation + 1)))
+                await asyncio.sleep(0)
+            ended.append(generation)
+
+    tasks: list[asyncio.Future[None]] = []
+    with GraphLoop() as loop:
+        loop.spawn(outlive(0))
+        loop.flush_deliveries()
+    tasks.clear()
+    gc.collect()
+    assert ended == [0, 1, 2, 3]
+    assert "pending" not in caplog.text
+
+
+def test_nodes_that_begin_while_the_loop_ends_leave_nothing(graph: Any, caplog: pytest.LogCaptureFixture) -> None:
+    """Nodes that a thread goes on making are neither begun nor waited for."""
+    loop, over = GraphLoop(messages=graph.loop.messages), threading.Event()
+    loop.start()
+
+    def feed() -> None:
+        for number in range(2000):
+            if over.is_set():
+                return
+            node = Node(f"late{number}", loop=loop, master_uri=graph.core.uri)
+            node.subscribe("/a", "std_msgs/String", print)
+            loop.spawn(node.wait_registered())
+
+    feeder = threading.Thread(target=feed)
+    feeder.start()
+    while len(loop.members) < 3:
+        time.sleep(0.001)
+    loop.stop()
+    over.set()
+    feeder.join()
+    gc.collect()
+    assert "pending" not in caplog.text
+    assert "cannot go on" not in caplog.text
+
+
+def test_what_an_ended_loop_is_given_is_cancelled() -> None:
+    with GraphLoop() as loop:
+        pass
+    assert loop.spawn(asyncio.sleep(0)).cancelled()
+
+
+@pytest.mark.parametrize(("error", "is_logged"), [(UsageError("no such file"), False), (KeyError("a"), True)])
+def test_only_a_fault_of_the_program_is_logged_with_its_traceback(error: Exception, is_logged: bool, caplog) -> None:
+    async def fail() -> None:
+        raise error
+
+    loop = GraphLoop()
+    loop.start()
+    try:
+        with pytest.raises(type(error)):
+            loop.spawn(fail()).result(PATIENCE_S)
+    finally:
+        loop.stop()
+
+    assert ("a task of the graph failed" in caplog.text) is is_logged
+
+
+_SCHED_GETATTR = {"x86_64": 315, "aarch64": 275, "riscv64": 275}
+"""Linux' number of the call."""
+
+
+def _slice_ns(thread: int) -> int:
+    """The time slice of a thread of this process, as the kernel tells it [ns]."""
+    number = _SCHED_GETATTR.get(platform.machine()) if platform.system() == "Linux" else None
+    if number is None:
+        pytest.skip(f"no time slices are known of {platform.system()} on {platform.machine()}")
+    answer = ctypes.create_string_buffer(48)
+    if ctypes.CDLL(None, use_errno=True).syscall(number, thread, answer, len(answer), 0) != 0:
+        pytest.skip(f"sched_getattr: {os.strerror(ctypes.get_errno())}")
+    *_, runtime_ns, _, _ = struct.unpack("<IIQiIQQQ", answer.raw)
+    if runtime_ns == 0:
+        pytest.skip(f"Linux {platform.release()} tells no slices; 6.12 does")
+    return runtime_ns
+
+
+def test_its_thread_asks_for_short_slices_and_whatever_that_starts_does_not() -> None:
+    """A message is read at once on a busy machine; a thread that calculates is not interrupted every 0.1 ms."""
+    usual = _slice_ns(threading.get_native_id())
+
+    async def slices() -> tuple[int, int]:
+        own = _slice_ns(threading.get_native_id())
+        return own, await asyncio.to_thread(lambda: _slice_ns(threading.get_native_id()))
+
+    with GraphLoop() as loop:
+        assert loop.run(slices()) == (100_000, usual)
+    assert _slice_ns(threading.get_native_id()) == usual != 100_000

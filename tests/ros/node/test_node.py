@@ -1,0 +1,466 @@
+"""Nodes among themselves: topics, services, parameters, logs; in one process and over sockets."""
+
+import asyncio
+import errno
+import io
+import queue
+import sys
+import threading
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.ros.conftest import PATIENCE_S
+
+from trundle.ros import (
+    MasterProxy,
+    MessageError,
+    ParameterError,
+    RawMessage,
+    ServiceError,
+    SimClock,
+    WallClock,
+    coloured,
+    follow_time,
+    probe_service,
+)
+from trundle.ros.transport.unix_sockets import unix_address
+
+STRING = "std_msgs/String"
+
+
+@pytest.fixture(params=["same process", "nearby", "TCP", "TCP without writev", "TCP with too many files"])
+def pair(request: pytest.FixtureRequest, graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch) -> tuple[Any, Any]:
+    """A talking and a listening node."""
+    if request.param.startswith("TCP"):
+        monkeypatch.setattr("trundle.ros.node.subscription.unix_address", lambda _: None)
+    if "writev" in request.param:
+        monkeypatch.delattr("os.writev")
+    if "files" in request.param:
+
+        def refuse(_: object) -> None:
+            raise OSError(errno.EMFILE, "too many open files")
+
+        monkeypatch.setattr("asyncio.trsock.TransportSocket.dup", refuse)
+    return graph.node("talker"), (graph if request.param == "same process" else far).node("listener")
+
+
+def test_messages_reach_a_subscriber_in_order(graph: Any, pair: tuple[Any, Any]) -> None:
+    talker, listener = pair
+    got: list[str] = []
+    publisher = talker.advertise("chatter", STRING, queue_size=None)
+    listener.subscribe("chatter", STRING, lambda m: got.append(m.data))
+    graph.until(lambda: publisher.has_subscribers)
+    for i in range(100):
+        publisher.publish({"data": str(i)})
+    graph.until(lambda: len(got) == 100)
+    assert got == [str(i) for i in range(100)]
+
+
+def test_in_one_process_the_very_object_arrives(graph: Any) -> None:
+    talker, listener = graph.node("talker"), graph.node("listener")
+    got: list[Any] = []
+    publisher = talker.advertise("chatter", STRING)
+    listener.subscribe("chatter", STRING, got.append)
+    graph.until(lambda: publisher.has_subscribers)
+    message = talker.new(STRING, {"data": "x"})
+    publisher.publish(message)
+    graph.loop.settle()
+    assert got[0] is message
+    (link,) = (link for link in talker.connections() if link[4] == "/chatter")
+    assert link[1:6] == ["/listener", "o", "INTRAPROCESS", "/chatter", True]
+
+
+def test_a_newcomer_gets_the_latched_message(graph: Any, pair: tuple[Any, Any]) -> None:
+    talker, listener = pair
+    talker.advertise("map", STRING, latch=True).publish({"data": "the map"})
+    graph.ready(talker)
+    got: list[str] = []
+    listener.subscribe("map", STRING, lambda m: got.append(m.data))
+    graph.until(lambda: got == ["the map"])
+
+
+def test_header_sequence_numbers_are_filled_in(graph: Any, pair: tuple[Any, Any]) -> None:
+    talker, listener = pair
+    got: list[int] = []
+    publisher = talker.advertise("joints", "sensor_msgs/JointState")
+    listener.subscribe("joints", "sensor_msgs/JointState", lambda m: got.append(m.header.seq))
+    graph.until(lambda: publisher.has_subscribers)
+    for _ in range(3):
+        publisher.publish({})
+    graph.until(lambda: len(got) == 3)
+    assert got == [1, 2, 3]
+
+
+def test_any_type_is_taken_as_bytes_with_its_definition(graph: Any, pair: tuple[Any, Any]) -> None:
+    talker, listener = pair
+    got: list[RawMessage] = []
+    publisher = talker.advertise("chatter", STRING, latch=True)
+    listener.subscribe("chatter", "*", got.append)
+    publisher.publish({"data": "hi"})
+    graph.until(lambda: got)
+    assert got[0].data == b"\x02\x00\x00\x00hi"
+    assert (got[0].type, got[0].md5sum) == (STRING, "992ce8a1687cec8c8bd883ec73ca41d1")
+    assert got[0].definition == "string data\n"
+
+
+def test_bytes_are_published_as_they_are(graph: Any, pair: tuple[Any, Any]) -> None:
+    talker, listener = pair
+    got: list[str] = []
+    talker.advertise("chatter", STRING, latch=True).publish(b"\x02\x00\x00\x00hi")
+    listener.subscribe("chatter", STRING, lambda m: got.append(m.data))
+    graph.until(lambda: got == ["hi"])
+
+
+def test_long_messages_come_whole_and_in_order(graph: Any, pair: tuple[Any, Any]) -> None:
+    """Longer than the kernel holds, so that they are sent in many parts; something comes behind the array."""
+    talker, listener = pair
+    kind, count = "sensor_msgs/PointCloud2", 12
+    got: list[Any] = []
+    publisher = talker.advertise("cloud", kind, queue_size=None)
+    listener.subscribe("cloud", kind, got.append)
+    graph.until(lambda: publisher.has_subscribers)
+    for i in range(count):
+        points = np.arange(1_000_003 + i, dtype=np.uint8)
+        publisher.publish(talker.new(kind, {"width": i, "data": points, "is_dense": bool(i % 2)}))
+    graph.until(lambda: len(got) == count)
+    assert [(m.header.seq, m.width, m.is_dense) for m in got] == [(i + 1, i, bool(i % 2)) for i in range(count)]
+    assert all(np.array_equal(m.data, np.arange(1_000_003 + i, dtype=np.uint8)) for i, m in enumerate(got))
+
+
+def test_another_type_is_refused_and_said(graph: Any, pair: tuple[Any, Any], capfd: Any) -> None:
+    talker, listener = pair
+    publisher = talker.advertise("chatter", STRING)
+    listener.subscribe("chatter", "std_msgs/Int32", print)
+    said: list[str] = []
+    graph.until(lambda: said.append(capfd.readouterr().err) or "no messages on /chatter" in "".join(said))
+    assert not publisher.has_subscribers
+
+
+def test_callbacks_may_be_coroutines_and_keep_their_order(graph: Any) -> None:
+    talker, listener = graph.node("talker"), graph.node("listener")
+    got: list[str] = []
+
+    async def slow(message: Any) -> None:
+        await asyncio.sleep(0.002 if message.data == "0" else 0)
+        got.append(message.data)
+
+    publisher = talker.advertise("chatter", STRING)
+    listener.subscribe("chatter", STRING, slow)
+    graph.until(lambda: publisher.has_subscribers)
+    for i in range(5):
+        publisher.publish({"data": str(i)})
+    graph.until(lambda: len(got) == 5)
+    assert got == ["0", "1", "2", "3", "4"]
+
+
+def test_a_failing_callback_is_said_and_the_next_message_comes(graph: Any, capfd: Any) -> None:
+    talker, listener = graph.node("talker"), graph.node("listener")
+    got: list[str] = []
+
+    def callback(message: Any) -> None:
+        got.append(message.data)
+        if message.data == "bad":
+            raise ValueError("cannot take this")
+
+    publisher = talker.advertise("chatter", STRING)
+    listener.subscribe("chatter", STRING, callback)
+    graph.until(lambda: publisher.has_subscribers)
+    publisher.publish({"data": "bad"})
+    publisher.publish({"data": "good"})
+    graph.until(lambda: len(got) == 2)
+    assert "[ERROR]" in (said := capfd.readouterr().err)
+    assert "the callback of /chatter failed: cannot take this" in said
+
+
+def test_another_thread_can_run_the_callbacks_and_the_oldest_messages_go(graph: Any) -> None:
+    inbox: queue.Queue[Any] = queue.Queue()
+    talker, listener = graph.node("talker"), graph.node("listener", deliver=inbox.put)
+    got: list[tuple[str, str]] = []
+    publisher = talker.advertise("chatter", STRING, queue_size=None)
+    subscription = listener.subscribe(
+        "chatter", STRING, lambda m: got.append((m.data, threading.current_thread().name)), queue_size=2
+    )
+    graph.until(lambda: publisher.has_subscribers)
+    for i in range(5):
+        publisher.publish({"data": str(i)})
+    graph.loop.settle()
+    assert inbox.qsize() == 2
+    while not inbox.empty():
+        inbox.get()()
+    assert got == [("3", "MainThread"), ("4", "MainThread")]
+    assert subscription.dropped == 3
+
+
+def test_a_service_is_called_and_its_no_is_heard(graph: Any, pair: tuple[Any, Any]) -> None:
+    provider, client = pair
+
+    async def handler(request: Any) -> dict[str, Any]:
+        if not request.data:
+            raise ServiceError("only true")
+        return {"success": True, "message": "done"}
+
+    provider.advertise_service("~enable", "std_srvs/SetBool", handler)
+    graph.ready(provider)
+    run = client.loop.run
+    assert run(client.call_service("/talker/enable", "std_srvs/SetBool", {"data": True})).message == "done"
+    with pytest.raises(ServiceError, match="only true"):
+        run(client.call_service("/talker/enable", "std_srvs/SetBool"))
+    with pytest.raises(ServiceError, match=r"refuses: request from .* md5sums do not match"):
+        run(client.call_service("/talker/enable", "std_srvs/Trigger"))
+    with pytest.raises(ServiceError, match="no node provides the service /nothing"):
+        run(client.call_service("/nothing", "std_srvs/Trigger"))
+    uri = MasterProxy(graph.core.uri).call("lookupService", "/talker/enable")
+    assert run(probe_service(uri, "/talker/enable", "/me"))["type"] == "std_srvs/SetBool"
+
+
+def test_a_request_can_be_handled_in_another_thread(graph: Any) -> None:
+    inbox: queue.Queue[Any] = queue.Queue()
+    provider, client = graph.node("talker", deliver=inbox.put), graph.node("listener")
+    provider.advertise_service("/where", "std_srvs/Trigger", lambda _: {"message": threading.current_thread().name})
+    graph.ready(provider)
+    answer = graph.loop.spawn(client.call_service("/where", "std_srvs/Trigger"))
+    inbox.get(timeout=PATIENCE_S)()
+    assert answer.result(PATIENCE_S).message == "MainThread"
+
+
+def test_parameters_are_read_and_written(graph: Any) -> None:
+    node = graph.node("n", namespace="/ns", params={"rate": 20})
+    graph.ready(node)
+    run = graph.loop.run
+    assert node.name == "/ns/n"
+    assert run(node.get_param("~rate")) == 20
+    assert run(node.get_param("nope", 5)) == 5
+    with pytest.raises(ParameterError, match="/ns/nope is not set"):
+        run(node.get_param("nope"))
+    with pytest.raises(ParameterError, match="32 bits"):
+        run(node.set_param("big", 2**40))
+    run(node.set_param("/robot_description", "<robot/>"))
+    assert run(node.search_param("robot_description")) == "/robot_description"
+    assert run(node.search_param("nope")) is None
+    run(node.delete_param("~rate"))
+    assert not run(node.has_param("~rate"))
+
+
+def test_names_are_remapped(graph: Any) -> None:
+    node = graph.node("n", namespace="ns", remappings={"scan": "/front", "~out": "result"})
+    assert node.advertise("scan", STRING).topic == "/front"
+    assert node.resolve("~out") == "/ns/result"
+
+
+def test_a_remapped_parameter_is_searched_by_its_other_name(graph: Any) -> None:
+    """As by roscpp and rospy: robot_state_publisher with robot_description:=arm_description takes the arm."""
+    node = graph.node("n", namespace="/arm", remappings={"robot_description": "arm_description"})
+    graph.ready(node)
+    run = graph.loop.run
+    run(node.set_param("/robot_description", "<the base/>"))
+    run(node.set_param("/arm_description", "<the arm/>"))
+    assert run(node.search_param("robot_description")) == "/arm_description"
+
+
+def test_what_a_node_says_is_on_stderr_and_gathered(graph: Any, far: Any, capfd: Any) -> None:
+    node, reader = graph.node("sayer"), far.node("reader")
+    got: list[Any] = []
+    reader.subscribe("/rosout_agg", "rosgraph_msgs/Log", got.append)
+    graph.ready(node)
+
+    def said() -> bool:
+        node.log_warn("careful")
+        return any(m.name == "/sayer" for m in got)
+
+    graph.until(said)
+    log = next(m for m in got if m.name == "/sayer")
+    assert (log.level, log.msg, log.file, log.topics) == (4, "careful", "test_node.py", ["/rosout"])
+    assert "[WARN] [" in capfd.readouterr().err
+    graph.loop.run(node.call_service("~set_logger_level", "roscpp/SetLoggerLevel", {"level": "error"}))
+    node.log_warn("unheard")
+    assert "unheard" not in capfd.readouterr().err
+    loggers = graph.loop.run(node.call_service("~get_loggers", "roscpp/GetLoggers")).loggers
+    levels = {logger.name: logger.level for logger in loggers}
+    assert (levels["rosout"], levels["rospy.topics"]) == ("error", "info")
+
+
+def test_only_a_terminal_that_wants_them_gets_colours(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    assert coloured("hot", "error", Terminal()) == "\033[31mhot\033[0m"
+    assert coloured("hot", "info", Terminal()) == "hot"
+    assert coloured("hot", "error", io.StringIO()) == "hot"
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert coloured("hot", "error", Terminal()) == "hot"
+
+
+def test_unregistering_is_told_to_the_master(graph: Any) -> None:
+    node, other = graph.node("n"), graph.node("other")
+    publisher = node.advertise("a", STRING)
+    subscription = other.subscribe("a", STRING, print)
+    service = node.advertise_service("s", "std_srvs/Empty", lambda _: {})
+    graph.until(lambda: publisher.has_subscribers)
+    for thing in (publisher, subscription, service):
+        thing.unregister()
+    graph.ready(node, other)
+    state = MasterProxy(graph.core.uri).call("getSystemState")
+    assert not [name for table in state for name, _ in table if name in ("/a", "/s")]
+
+
+def test_shutting_down_leaves_nothing_at_the_master(graph: Any) -> None:
+    node = graph.node("n")
+    node.advertise("a", STRING)
+    node.subscribe("b", STRING, print)
+    graph.ready(node)
+    graph.loop.run(node.shutdown())
+    state = MasterProxy(graph.core.uri).call("getSystemState")
+    assert not [name for table in state for name, nodes in table if "/n" in nodes]
+    assert node.is_shut_down
+
+
+def test_what_was_unregistered_just_before_the_end_is_not_left_at_the_master(graph: Any) -> None:
+    node = graph.node("n")
+    ends = [node.advertise("a", STRING), node.subscribe("b", STRING, print)]
+    ends.append(node.advertise_service("s", "std_srvs/Empty", lambda _: {}))
+    graph.ready(node)
+
+    async def end() -> None:
+        for each in ends:
+            each.unregister()
+        await node.shutdown()
+
+    graph.loop.run(end())
+    state = MasterProxy(graph.core.uri).call("getSystemState")
+    assert not [name for table in state for name, nodes in table if "/n" in nodes]
+
+
+def test_a_second_node_of_a_name_ends_the_first(graph: Any, far: Any) -> None:
+    first = graph.node("twin")
+    first.advertise("a", STRING)
+    graph.ready(first)
+    reasons: list[str] = []
+    first.on_shutdown(reasons.append)
+    far.ready(far.node("twin"))
+    graph.until(lambda: first.is_shut_down)
+    assert reasons == ["[/twin] Reason: new node registered with same name"]
+
+
+def test_a_topic_has_one_type_in_a_node(graph: Any) -> None:
+    node = graph.node("n")
+    publisher = node.advertise("a", STRING)
+    assert node.advertise("a", STRING) is publisher
+    with pytest.raises(MessageError, match="publishes /a as std_msgs/String"):
+        node.advertise("a", "std_msgs/Int32")
+    with pytest.raises(MessageError, match="no message type"):
+        node.subscribe("b", "std_msgs/Nope", print)
+
+
+def test_publishing_without_subscribers_does_nothing(graph: Any) -> None:
+    publisher = graph.node("n").advertise("a", STRING)
+    publisher.publish({"nonsense": 1})
+    assert publisher.published == 0
+
+
+def test_ros_time_is_the_walls_unless_the_graph_says_otherwise(graph: Any, far: Any) -> None:
+    node = far.node("n")
+    assert isinstance(far.loop.run(follow_time(node)), WallClock)
+    far.loop.run(node.set_param("/use_sim_time", True))
+    clock = far.loop.run(follow_time(node))
+    assert isinstance(clock, SimClock)
+    assert clock.now_ns() == 0
+    ticker = graph.node("sim").advertise("/clock", "rosgraph_msgs/Clock", latch=True)
+    ticker.publish({"clock": {"secs": 3, "nsecs": 7}})
+    graph.until(lambda: clock.now_ns() == 3_000_000_007)
+    assert node.stamp().nanosec == 7
+
+
+def test_a_node_waits_for_a_master_that_comes_later(graph: Any, capfd: Any) -> None:
+    from trundle.ros import Core, Node
+
+    port = graph.core.port
+    graph.loop.run(graph.core.stop())
+    node = Node("early", loop=graph.loop, master_uri=f"http://127.0.0.1:{port}")
+    node.advertise("a", STRING)
+    said: list[str] = []
+    graph.until(lambda: said.append(capfd.readouterr().err) or "goes on trying" in "".join(said))
+    graph.core = Core(graph.loop, port=port)
+    graph.loop.run(graph.core.start())
+    graph.ready(node)
+    assert MasterProxy(graph.core.uri).call("lookupNode", "/early") == node.uri
+
+
+def test_a_node_is_told_when_a_parameter_changes(graph: Any) -> None:
+    watcher, other = graph.node("watcher", namespace="/r"), graph.node("other")
+    graph.ready(watcher, other)
+    told: list[tuple[str, Any]] = []
+    graph.loop.run(other.set_param("/r/gains", {"p": 1.0}))
+    now = graph.loop.run(watcher.watch_param("gains", lambda name, value: told.append((name, value))))
+    assert now == {"p": 1.0}
+    graph.loop.run(other.set_param("/r/gains/p", 2.0))
+    graph.until(lambda: told == [("/r/gains/p", 2.0)])
+    graph.loop.run(other.set_param("/r/unwatched", 3))
+    graph.loop.run(other.delete_param("/r/gains"))
+    graph.until(lambda: len(told) == 2)
+    assert told[1] == ("/r/gains", {})
+    graph.loop.run(watcher.shutdown())
+    graph.loop.run(other.set_param("/r/gains", {"p": 5.0}))
+    assert len(told) == 2
+
+
+def test_a_parameter_can_be_watched_before_anything_else(graph: Any) -> None:
+    """The master needs the node's address, which is not known at once."""
+    for i in range(10):
+        assert graph.loop.run(graph.node(f"n{i}").watch_param("unset", lambda *_: None)) == {}
+
+
+def test_a_node_finds_the_parameters_it_was_made_with(graph: Any) -> None:
+    """Even when it asks before anything else: they were there first."""
+    nodes = [graph.node(f"n{i}", params={"rate": i, "mode": "fast"}) for i in range(10)]
+    assert [graph.loop.run(node.get_param("~rate", None)) for node in nodes] == list(range(10))
+    assert graph.loop.run(graph.node("other", params={"x": 1}).has_param("~x"))
+
+
+def test_nodes_of_one_machine_take_the_shorter_way(graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    if not sys.platform.startswith("linux"):
+        pytest.skip("sockets without files exist on Linux only")
+    talker = graph.node("talker")
+    talker.advertise("/a", "std_msgs/String", latch=True).publish({"data": "hello"})
+    graph.ready(talker)
+    got: list[str] = []
+    for name, offered in (
+        ("near", unix_address),
+        ("stranger", lambda _: "\0trundle-gone"),
+        ("plain", lambda _: None),
+    ):
+        monkeypatch.setattr("trundle.ros.node.subscription.unix_address", offered)
+        far.node(name).subscribe("/a", "std_msgs/String", lambda m: got.append(m.data))
+        graph.until(lambda name=name: any(link[1] == f"/{name}" for link in talker.connections()))
+    graph.until(lambda: got == ["hello"] * 3)
+    kinds = {peer: kind for _, peer, _, kind, topic, *_ in talker.connections() if topic == "/a"}
+    assert kinds == {"/near": "UNIXROS", "/stranger": "TCPROS", "/plain": "TCPROS"}
+
+
+def test_a_message_of_another_thread_keeps_its_place(graph: Any, far: Any) -> None:
+    """It is sent at once when nothing waits, in turn otherwise; newcomers and slow readers change that."""
+    publisher = graph.node("talker").advertise("/a", "std_msgs/UInt8MultiArray", queue_size=None)
+    got: list[int] = []
+    far.node("reader").subscribe(
+        "/a", "std_msgs/UInt8MultiArray", lambda m: got.append(int.from_bytes(bytes(m.data[:4]))), queue_size=None
+    )
+    graph.until(lambda: publisher.subscribers == 1)
+    for i in range(600):
+        if i == 200:
+            near = graph.node("near").subscribe("/a", "std_msgs/UInt8MultiArray", lambda _: None)
+            graph.until(lambda: publisher.subscribers == 2)
+        if i == 400:
+            near.unregister()
+        publisher.publish({"data": i.to_bytes(4) + bytes(200_000 if i % 3 else 5)})
+    graph.until(lambda: len(got) >= 600)
+    assert got == list(range(600))
+
+
+def test_an_answer_longer_than_the_kernel_holds_comes_whole(graph: Any, far: Any) -> None:
+    text = "x" * 20_000_000
+    provider = graph.node("talker")
+    provider.advertise_service("/long", "std_srvs/Trigger", lambda _: {"message": text})
+    graph.ready(provider)
+    assert far.loop.run(far.node("asker").call_service("/long", "std_srvs/Trigger"), PATIENCE_S).message == text

@@ -1,0 +1,237 @@
+"""Long frames in memory that publisher and subscriber share."""
+
+import fcntl
+import mmap
+import os
+import random
+import socket
+import struct
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, closing
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from trundle.ros.errors import WireError
+from trundle.ros.transport.framing import LENGTH
+from trundle.ros.transport.shared_ring import LONG_BYTES, SharedRing, SharedRingReader
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="only Linux has files without names that can be sealed")
+
+
+@pytest.fixture
+def connected() -> Iterator[socket.socket]:
+    """A socket whose peer is this process."""
+    ours, theirs = socket.socketpair()
+    with ours, theirs:
+        yield ours
+
+
+@pytest.fixture
+def new_shelf() -> Iterator[Callable[[int], SharedRing]]:
+    with ExitStack() as made:
+        yield lambda longest: made.enter_context(closing(SharedRing(longest)))
+
+
+def _content(note: bytes) -> bytes:
+    return note[LENGTH.size :]
+
+
+def _framed(content: bytes) -> tuple[bytes, bytes]:
+    return LENGTH.pack(len(content)), content
+
+
+def test_what_is_laid_there_is_taken_round_after_round(
+    connected: socket.socket, new_shelf: Callable[[int], SharedRing]
+) -> None:
+    seed = random.Random(5)
+    shelf = new_shelf(200_000)
+    reader = SharedRingReader(connected, _content(shelf.offer()))
+    assert not shelf.has_room(200_000)
+    shelf.receive_note(_content(reader.seen()))
+    laid: list[tuple[bytes, bytes]] = []
+    rounds = refused = 0
+    while rounds < 300:
+        content = seed.randbytes(seed.choice([LONG_BYTES, 50_000, 200_000, 400_000]))
+        assert shelf.has_room(len(content))
+        note = shelf.write(_framed(content), LENGTH.size + len(content))
+        if note is not None:
+            laid.append((note, content))
+            rounds += 1
+            continue
+        refused += 1
+        assert laid, "nothing lies there, and yet there is no room"
+        note, content = laid.pop(0)
+        taken, answer = reader.read(_content(note))
+        assert taken == content
+        if answer is not None:
+            shelf.receive_note(_content(answer))
+    assert refused > 100
+    assert [reader.read(_content(note))[0] for note, _ in laid] == [content for _, content in laid]
+    reader.close()
+
+
+def test_a_subscriber_answers_when_half_of_it_is_taken(
+    connected: socket.socket, new_shelf: Callable[[int], SharedRing]
+) -> None:
+    """Each answer wakes the publisher."""
+    shelf = new_shelf(128 * 1024)
+    reader = SharedRingReader(connected, _content(shelf.offer()))
+    shelf.receive_note(_content(reader.seen()))
+    answered: list[bool] = []
+    for _ in range(8):
+        note = shelf.write(_framed(bytes(128 * 1024 - LENGTH.size)), 128 * 1024)
+        assert note is not None
+        answered.append(reader.read(_content(note))[1] is not None)
+    assert answered == [False, False, False, True] * 2
+    reader.close()
+
+
+def test_clouds_of_depth_cameras_find_room(connected: socket.socket, new_shelf: Callable[[int], SharedRing]) -> None:
+    """928 x 800 points of 16 bytes, and what is around them."""
+    content = bytes(928 * 800 * 16 + 300)
+    size = LENGTH.size + len(content)
+    shelf = new_shelf(size)
+    reader = SharedRingReader(connected, _content(shelf.offer()))
+    shelf.receive_note(_content(reader.seen()))
+
+    assert shelf.has_room(size)
+    for _ in range(6):
+        note = shelf.write(_framed(content), size)
+        assert note is not None
+        taken, answer = reader.read(_content(note))
+        assert taken == content
+        if answer is not None:
+            shelf.receive_note(_content(answer))
+    reader.close()
+
+
+def test_no_memory_is_taken_that_would_hold_no_frame() -> None:
+    with pytest.raises(OSError, match="frames of 20000000 bytes are too long to be shared"):
+        SharedRing(20_000_000)
+
+
+@pytest.mark.parametrize("size", [LONG_BYTES - 1, 10**6])
+def test_frames_too_short_or_too_long_go_over_the_socket(
+    connected: socket.socket, new_shelf: Callable[[int], SharedRing], size: int
+) -> None:
+    shelf = new_shelf(100_000)
+    shelf.receive_note(_content(SharedRingReader(connected, _content(shelf.offer())).seen()))
+    assert shelf.has_room(100_000)
+    assert not shelf.has_room(size)
+
+
+@pytest.mark.parametrize(
+    ("note", "sentence"),
+    [
+        (b"", "a note of 0 bytes where one of 8 belongs"),
+        (struct.pack("<Q", 1), "what was never laid there"),
+        (struct.pack("<Q", 2**64 - 1), "what was never laid there"),
+    ],
+)
+def test_a_publisher_believes_no_impossible_answer(
+    new_shelf: Callable[[int], SharedRing], note: bytes, sentence: str
+) -> None:
+    with pytest.raises(WireError, match=sentence):
+        new_shelf(100_000).receive_note(note)
+
+
+@pytest.mark.parametrize(
+    ("note", "sentence"),
+    [
+        (b"12345678", "a note of 8 bytes where one of 24 belongs"),
+        (struct.pack("<QQQ", 10**6, 10**6, 0), "outside of the shared memory"),
+        (struct.pack("<QQQ", 0, 2**64 - 1, 0), "outside of the shared memory"),
+        (struct.pack("<QQQ", 2**64 - 1, 1, 0), "outside of the shared memory"),
+    ],
+)
+def test_a_subscriber_reads_nothing_outside(
+    connected: socket.socket, new_shelf: Callable[[int], SharedRing], note: bytes, sentence: str
+) -> None:
+    reader = SharedRingReader(connected, _content(new_shelf(100_000).offer()))
+    with pytest.raises(WireError, match=sentence):
+        reader.read(note)
+
+
+def _ordinary_file(folder: Path) -> int:
+    (folder / "file").write_bytes(bytes(4 * mmap.PAGESIZE))
+    return os.open(folder / "file", os.O_RDWR)
+
+
+def _not_sealed(_: Path) -> int:
+    file = os.memfd_create("unsealed", os.MFD_ALLOW_SEALING)
+    os.truncate(file, 4 * mmap.PAGESIZE)
+    return file
+
+
+def _shorter(_: Path) -> int:
+    file = os.memfd_create("short", os.MFD_ALLOW_SEALING)
+    os.truncate(file, mmap.PAGESIZE)
+    fcntl.fcntl(file, fcntl.F_ADD_SEALS, fcntl.F_SEAL_SHRINK)
+    return file
+
+
+@pytest.mark.parametrize("make", [_ordinary_file, _not_sealed, _shorter])
+def test_memory_that_could_be_shortened_under_the_reader_is_not_used(
+    connected: socket.socket, make: Callable[[Path], int], tmp_path: Path
+) -> None:
+    file = make(tmp_path)
+    with pytest.raises((WireError, OSError)):
+        SharedRingReader(connected, struct.pack("<QQ", file, 4 * mmap.PAGESIZE))
+    os.close(file)
+
+
+def test_a_file_that_is_not_there_is_an_os_error(connected: socket.socket) -> None:
+    with pytest.raises(OSError, match="No such file"):
+        SharedRingReader(connected, struct.pack("<QQ", 10**6, mmap.PAGESIZE))
+
+
+def _shared_here() -> int:
+    return Path("/proc/self/maps").read_text().count("trundle-shelf")
+
+
+def _pictures(graph: Any, far: Any, count: int, size: int) -> tuple[list[tuple[int, int]], int]:
+    """Publish pictures to another loop as fast as it goes; what came, and how often memory was mapped meanwhile."""
+    talker, listener = graph.node("camera"), far.node("screen")
+    publisher = talker.advertise("image", "std_msgs/UInt8MultiArray", queue_size=None)
+    got: list[tuple[int, int]] = []
+    listener.subscribe(
+        "image", "std_msgs/UInt8MultiArray", lambda m: got.append((int(m.data[0]), int(m.data.sum()))), queue_size=None
+    )
+    graph.until(lambda: publisher.has_subscribers)
+    for i in range(count):
+        pixels = np.full(size, i % 256, "u1")
+        publisher.publish({"layout": {}, "data": pixels})
+    graph.until(lambda: len(got) == count)
+    return got, _shared_here()
+
+
+@pytest.mark.parametrize("size", [40_000, 230_400, 5_000_000])
+def test_pictures_come_by_shared_memory_in_order(graph: Any, far: Any, size: int) -> None:
+    got, shared = _pictures(graph, far, 100, size)
+    assert got == [(i, i * size) for i in range(100)]
+    assert shared == 2, "one side each"
+
+
+@pytest.mark.parametrize(
+    "at_fault", ["trundle.ros.transport.send_queue.SharedRing", "trundle.ros.node.subscriber_link.SharedRingReader"]
+)
+def test_without_shared_memory_pictures_come_all_the_same(
+    graph: Any, far: Any, at_fault: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise PermissionError("a sandbox forbids it")
+
+    monkeypatch.setattr(at_fault, refuse)
+    got, shared = _pictures(graph, far, 20, 230_400)
+    assert got == [(i, i * 230_400) for i in range(20)]
+    assert shared <= 1
+
+
+def test_nothing_stays_mapped_when_a_subscriber_leaves(graph: Any, far: Any) -> None:
+    _pictures(graph, far, 3, 230_400)
+    far.loop.stop()
+    graph.until(lambda: _shared_here() == 0)
