@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from trundle.bridge.naming import sensor_topic
+from trundle.bridge.frame_names import sensor_topic
 from trundle.diagnostics import Source
 from trundle.model import Model, Sensor
 

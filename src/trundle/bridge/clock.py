@@ -3,7 +3,7 @@
 from trundle.ros import Node
 from trundle.simulation import Simulation, Snapshot
 
-from .beat import Beat
+from .step_publisher import StepPublisher
 
 _RATE_HZ = 100.0
 _MOST_HZ = 1e6
@@ -21,12 +21,12 @@ class ClockTopic:
             rate_hz: how often [Hz]; None: at every step, for those to whom each counts.
         """
         self._period_ns = None if rate_hz is None else round(1e9 / rate_hz)
-        self._publisher = node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=Beat.QUEUE_SIZE)
+        self._publisher = node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=StepPublisher.QUEUE_SIZE)
 
-    def join(self, simulation: Simulation) -> None:
+    def attach(self, simulation: Simulation) -> None:
         """Begin; unheard, it costs no stride."""
         if self._period_ns is None:
-            Beat(self._publisher, self.after_step).join(simulation)
+            StepPublisher(self._publisher, self.after_step).attach(simulation)
         else:
             simulation.add_hook(self, period_ns=self._period_ns, wanted=lambda: self._publisher.has_subscribers)
 

@@ -330,7 +330,7 @@ class GazeboWorld:
     def _build(self, world: World) -> None:
         assert self._node is not None
         simulation = Simulation(world, self._report)
-        ClockTopic(self._node, rate_hz=self._clock_hz).join(simulation)
+        ClockTopic(self._node, rate_hz=self._clock_hz).attach(simulation)
         self._simulation = simulation
         if self._record is not None:
             self._recorder = WorldRecorder(simulation, self._record, self._say)

@@ -45,7 +45,7 @@ class RosSide:
         loop = graph.loop
         loop.run(self.node.wait_registered())
         loop.run(self.node.set_param("/use_sim_time", True))
-        ClockTopic(self.node).join(simulation)
+        ClockTopic(self.node).attach(simulation)
         still = StaticTransformBroadcaster(self.node)
         frames = SimulationFrames(self.node, still, stage.world, simulation.snapshot())
         simulation.add_hook(frames, period_ns=frames.period_ns, wanted=frames.wanted)

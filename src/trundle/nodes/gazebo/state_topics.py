@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.bridge import Beat
+from trundle.bridge import StepPublisher
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose
@@ -52,7 +52,7 @@ class _StateTopic:
         self, node: Node, simulator: Simulator, name: str, kind: str, rows: "Callable[[Simulation], _Rows]"
     ) -> None:
         self.publisher = node.advertise(
-            name, kind, queue_size=Beat.QUEUE_SIZE, on_connect=lambda _: simulator.post(self._publish_at_rest)
+            name, kind, queue_size=StepPublisher.QUEUE_SIZE, on_connect=lambda _: simulator.post(self._publish_at_rest)
         )
         self._simulator = simulator
         self._find_rows = rows
@@ -62,7 +62,7 @@ class _StateTopic:
     def _begin(self) -> None:
         simulation = self._simulator.simulation
         simulation.on_change(self._change)
-        Beat(self.publisher, self.publish).join(simulation)
+        StepPublisher(self.publisher, self.publish).attach(simulation)
 
     def _change(self) -> None:
         self._rows = None

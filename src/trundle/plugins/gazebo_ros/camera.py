@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from trundle.bridge import calibration_of, image_maker
+from trundle.bridge import camera_info_of, image_maker
 from trundle.diagnostics import Diagnostics
 from trundle.model import PluginTag
 from trundle.ros import Node, Option, Options, ReconfigureServer
@@ -102,7 +102,7 @@ def _eye(sensor: CameraSensor) -> str:
 
 def told_calibration(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> dict[str, object]:
     """What camera_info says, with what the plugin has otherwise."""
-    found: dict[str, Any] = dict(calibration_of(sensor))
+    found: dict[str, Any] = dict(camera_info_of(sensor))
     k, p = list(found["K"]), list(found["P"])
     focal = _number(tag, "focalLength", report)
     cx, cy = _number(tag, "Cx", report) or _number(tag, "CxPrime", report), _number(tag, "Cy", report)

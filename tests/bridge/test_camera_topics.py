@@ -10,7 +10,7 @@ import pytest
 from tests.graphs import PATIENCE_S, running_graph, until
 
 from trundle.bridge import CameraTopics, FrameNames
-from trundle.bridge.camera import CAMERA_FROM_OPTICAL
+from trundle.bridge.camera_topics import CAMERA_FROM_OPTICAL
 from trundle.diagnostics import Diagnostics, Source
 from trundle.model import CameraOptics, Link, Model, Sensor, World
 from trundle.render import Intrinsics, Picture

@@ -4,7 +4,7 @@ from trundle.ros import StaticTransformBroadcaster, Transform
 from trundle.sensors import MeasuringSensor
 from trundle.spatial import Pose
 
-from .naming import FrameNames, sensor_topic
+from .frame_names import FrameNames, sensor_topic
 
 
 def place_sensor(

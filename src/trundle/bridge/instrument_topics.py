@@ -19,8 +19,8 @@ from trundle.sensors import (
     WirelessSensor,
 )
 
-from .naming import WORLD_FRAME, FrameNames
-from .placing import place_sensor, topic_of
+from .frame_names import WORLD_FRAME, FrameNames
+from .sensor_frames import place_sensor, topic_of
 
 _ULTRASOUND = 0
 """sensor_msgs/Range's number for it."""

@@ -9,7 +9,7 @@ _SPARING_NS = 10_000_000
 """Ours: every tenth step of Gazebo's. Time as it steps costs Python at each, and stand-ins take only the newest."""
 
 
-class Beat:
+class StepPublisher:
     """Has a function called with the snapshot as often as the listeners of a topic need it.
 
     gazebo_ros tells at every step whatever somebody listens to (GazeboRosApiPlugin::publishSimTime,
@@ -23,7 +23,7 @@ class Beat:
         self._topic = topic
         self._tell = tell
 
-    def join(self, simulation: Simulation) -> None:
+    def attach(self, simulation: Simulation) -> None:
         """Begin; what nobody listens to costs no stride."""
         simulation.add_hook(_Tick(self._tell), period_ns=_SPARING_NS, wanted=self._is_sparing)
         simulation.add_hook(_Tick(self._tell), wanted=lambda: self._topic.needs_every_message)

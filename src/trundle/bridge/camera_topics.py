@@ -15,10 +15,10 @@ from trundle.sensors import (
 )
 from trundle.spatial import Pose, quaternion_from_rpy
 
-from .calibration import calibration_of
-from .detections import boxes_2d, boxes_3d
-from .naming import FrameNames, sensor_topic, topic_called
-from .pictures import cloud_maker, depth_image, image_maker, labels_image, thermal_image
+from .camera_info import camera_info_of
+from .detection_messages import boxes_2d, boxes_3d
+from .frame_names import FrameNames, sensor_topic, topic_called
+from .image_messages import cloud_maker, depth_image, image_maker, labels_image, thermal_image
 
 _HALF_TURN = 1.5707963267948966
 CAMERA_FROM_OPTICAL = Pose(quaternion=quaternion_from_rpy(-_HALF_TURN, 0.0, -_HALF_TURN))
@@ -86,7 +86,7 @@ class CameraTopics:
 
 def _outputs(camera: CameraSensor) -> list[_Output]:
     """What a camera publishes; the first is what it is for."""
-    calibration = calibration_of(camera)
+    calibration = camera_info_of(camera)
     info: _Output = ("camera_info", "sensor_msgs/CameraInfo", lambda _: calibration)
     colours: _Output = ("image_raw", "sensor_msgs/Image", image_maker(camera.optics.format))
     match camera:

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from trundle.bridge import FrameNames, link_frames
-from trundle.bridge.frames import relative_poses
+from trundle.bridge.link_transforms import relative_poses
 from trundle.diagnostics import Source
 from trundle.model import Joint, JointAxis, JointType, Link, Model, Sensor, World
 from trundle.robot import Robot, RobotLink

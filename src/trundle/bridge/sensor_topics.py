@@ -26,17 +26,10 @@ from trundle.sensors import (
     WirelessSensor,
 )
 
-from .instruments import (
-    AltimeterTopics,
-    MagnetometerTopic,
-    ModelsTopic,
-    PressureTopic,
-    RadioTopic,
-    SonarTopic,
-)
-from .naming import WORLD_FRAME, FrameNames
-from .placing import place_sensor, topic_of
-from .readings import contacts_message, fix_message, imu_message, points_message, scan_message, wrench_message
+from .frame_names import WORLD_FRAME, FrameNames
+from .instrument_topics import AltimeterTopics, MagnetometerTopic, ModelsTopic, PressureTopic, RadioTopic, SonarTopic
+from .sensor_frames import place_sensor, topic_of
+from .sensor_messages import contacts_message, fix_message, imu_message, points_message, scan_message, wrench_message
 
 _LONGEST_S = 1e30
 """Between two scans, in a message."""

@@ -7,7 +7,7 @@ from trundle.model import World
 from trundle.ros import Node, StaticTransformBroadcaster, Transform, TransformBroadcaster
 from trundle.simulation import Snapshot
 
-from .naming import LinkFrame, link_frames
+from .frame_names import LinkFrame, link_frames
 
 
 class SimulationFrames:
