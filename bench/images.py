@@ -52,9 +52,9 @@ def _rate(file: str, renderer: RendererName) -> float:
         snapshot = sim.snapshot()
         start = time.perf_counter()
         for camera in cameras:
-            camera.before_look(snapshot)
+            camera.prepare(snapshot)
         for camera in cameras:
-            camera.take(snapshot)
+            camera.measure(snapshot)
         rates.append(len(cameras) / (time.perf_counter() - start))
     return statistics.median(rates)
 

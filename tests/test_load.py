@@ -61,7 +61,7 @@ def test_a_robot_loads_nothing_that_it_has_not() -> None:
         "trundle.render.skins",
         "trundle.sensors.depth_camera",
         "trundle.sensors.imu",
-        "trundle.sensors.mount_measuring",
+        "trundle.sensors.mount_instruments",
         "trundle.simulation.state_log",
     }
     code = (

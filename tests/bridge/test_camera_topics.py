@@ -15,7 +15,7 @@ from trundle.diagnostics import Diagnostics, Source
 from trundle.model import CameraOptics, Link, Model, Sensor, World
 from trundle.render import Intrinsics, Picture
 from trundle.ros import StaticTransformBroadcaster
-from trundle.sensors import CameraSensor, Scenery, Spot
+from trundle.sensors import CameraScene, CameraSensor, SensorMount
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
@@ -54,8 +54,8 @@ def stage() -> Iterator[SimpleNamespace]:
     link = Link(name="head", at=AT, sensors=(sensor,))
     model = Model(name="bot", at=AT, links=(link,))
     world = World(name="w", at=AT, models=(model,))
-    scenery = Scenery(Simulation(world, Diagnostics()), lambda _: Ramp())
-    camera = CameraSensor(Spot(model, link, sensor, 0, (0,)), optics, scenery=scenery)
+    scenery = CameraScene(Simulation(world, Diagnostics()), lambda _: Ramp())
+    camera = CameraSensor(SensorMount(model, link, sensor, 0, (0,)), optics, scenery=scenery)
     with running_graph() as running:
         node, viewer = running.node("sim"), running.node("viewer")
         topics = CameraTopics(node, StaticTransformBroadcaster(node), camera, FrameNames.of(world))

@@ -168,7 +168,7 @@ def test_a_receiver_does_not_hear_what_is_too_weak(described: Any) -> None:
     sim = described(bot(own) + sent)
     (receiver,) = mount_sensors(sim)
 
-    assert receiver.take(sim.snapshot()).heard == ()  # type: ignore[union-attr]
+    assert receiver.measure(sim.snapshot()).heard == ()  # type: ignore[union-attr]
 
 
 def test_an_rfid_sensor_tells_the_tags_within_five_metres(hear: Any) -> None:
@@ -242,7 +242,7 @@ def test_a_force_torque_sensor_has_noise_on_each_axis(described: Any) -> None:
     (felt,) = mount_sensors(sim)
     sim.run(0.01)
 
-    wrenches = [felt.take(sim.snapshot()).wrench for _ in range(400)]  # type: ignore[union-attr]
+    wrenches = [felt.measure(sim.snapshot()).wrench for _ in range(400)]  # type: ignore[union-attr]
     spread = np.std([[*w.force, *w.torque] for w in wrenches], axis=0)
     assert spread[[0, 5]] == pytest.approx([2.0, 0.5], rel=0.15)
     assert spread[[1, 2, 3, 4]] == pytest.approx([0, 0, 0, 0], abs=1e-9)
@@ -289,7 +289,7 @@ def test_settings_that_cannot_be_are_mended_aloud(described: Any, type_: str, in
     sim = described(bot(sensor(type_, inside)))
     (mounted,) = mount_sensors(sim)
 
-    assert mounted.take(sim.snapshot()).time_ns == 0
+    assert mounted.measure(sim.snapshot()).time_ns == 0
     (warning,) = sim.report.warnings
     assert "w.sdf:1: warning: " in warning
     assert sentence in warning
@@ -335,7 +335,7 @@ def test_air_that_cannot_be_crushes_nothing(described: Any, air: str, height: st
     sim = described(f"<atmosphere>{air}</atmosphere>" + bot(own))
     (barometer,) = mount_sensors(sim)
 
-    assert barometer.take(sim.snapshot()).pressure == pytest.approx(expected)
+    assert barometer.measure(sim.snapshot()).pressure == pytest.approx(expected)
 
 
 def test_settings_are_written_as_they_were_read(described: Any) -> None:
@@ -371,4 +371,4 @@ def test_a_sensor_s_speed_is_that_of_its_own_point(described: Any) -> None:
     sim["bot"].set_twist(Twist(angular=(0.0, -2.0, 0.0)))
     (mounted,) = mount_sensors(sim)
 
-    assert mounted.take(sim.snapshot()).velocity == pytest.approx(1.0)  # type: ignore[union-attr]
+    assert mounted.measure(sim.snapshot()).velocity == pytest.approx(1.0)  # type: ignore[union-attr]

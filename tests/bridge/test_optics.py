@@ -122,7 +122,7 @@ def test_noise_is_gaussian_and_grey(described: Any) -> None:
     for inside in ("", NOISE):
         sim = described(eye("camera", inside=inside))
         (camera,) = mount_cameras(sim, NativeRenderer)
-        pictures.append(camera.take(sim.snapshot()).rgb.astype(int))
+        pictures.append(camera.measure(sim.snapshot()).rgb.astype(int))
     grain = pictures[1] - pictures[0]
 
     assert (grain == grain[..., :1]).all()
@@ -134,7 +134,7 @@ def test_the_same_seed_makes_the_same_noise(described: Any) -> None:
     def taken(seed: int) -> bytes:
         sim = described(eye("camera", inside=NOISE), seed=seed)
         (camera,) = mount_cameras(sim, NativeRenderer)
-        return b"".join(camera.take(sim.snapshot()).rgb.tobytes() for _ in range(2))
+        return b"".join(camera.measure(sim.snapshot()).rgb.tobytes() for _ in range(2))
 
     assert taken(1) == taken(1)
     assert taken(1) != taken(2)
@@ -169,7 +169,7 @@ def test_a_camera_that_can_make_no_picture_is_mended_aloud(described: Any, insid
     sim = described(eye("camera", cameras=f"<camera>{inside}</camera>"))
     (camera,) = mount_cameras(sim, NativeRenderer)
 
-    picture = camera.take(sim.snapshot()).rgb
+    picture = camera.measure(sim.snapshot()).rgb
     assert picture.shape == (240, 320, 3)
     assert any("w.sdf:1: warning: " in warning and sentence in warning for warning in sim.report.warnings)
 
@@ -184,9 +184,9 @@ def test_a_camera_that_can_make_no_picture_is_mended_aloud(described: Any, insid
 def test_what_is_seen_through_a_strange_lens_is_no_larger_than_a_picture_may_be(described: Any, inside: str) -> None:
     sim = described(eye("camera", cameras=f"<camera>{inside}</camera>"))
     (camera,) = mount_cameras(sim, NativeRenderer)
-    ((_, face),) = camera.view.faces
+    ((_, face),) = camera.view.pinhole_views
 
-    assert camera.take(sim.snapshot()).rgb.shape == (240, 320, 3)
+    assert camera.measure(sim.snapshot()).rgb.shape == (240, 320, 3)
     assert max(face.width_px, face.height_px) <= 16384
 
 
@@ -206,7 +206,7 @@ def test_a_lens_that_cannot_be_is_mended_aloud(described: Any) -> None:
     sim = described(eye("wideanglecamera", cameras=f"<camera>{fov}</camera>"))
     (camera,) = mount_cameras(sim, NativeRenderer)
 
-    assert camera.take(sim.snapshot()).rgb.shape == (240, 320, 3)
+    assert camera.measure(sim.snapshot()).rgb.shape == (240, 320, 3)
     (warning,) = sim.report.warnings
     assert warning.endswith("sensor 'eye': no such lens sees 3.3 rad; it is not scaled to the field of view")
 

@@ -82,7 +82,7 @@ def test_no_link_leads_them_elsewhere(described: Any, tmp_path: Path, link: str)
 def test_they_end_with_a_sentence_where_they_are_too_many(
     described: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, bound: str
 ) -> None:
-    monkeypatch.setattr(f"trundle.sensors.saving.{bound}", 1)
+    monkeypatch.setattr(f"trundle.sensors.image_saver.{bound}", 1)
 
     sim = saved(described, "saved_images/shots")
 
@@ -92,7 +92,7 @@ def test_they_end_with_a_sentence_where_they_are_too_many(
 
 
 def test_the_bound_can_be_lifted(described: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("trundle.sensors.saving._MOST_IMAGES", 1)
+    monkeypatch.setattr("trundle.sensors.image_saver._MOST_IMAGES", 1)
     monkeypatch.setenv("TRUNDLE_SAVE_ALL", "1")
 
     assert saved(described, "saved_images/shots").report.warnings == []

@@ -79,11 +79,11 @@ def test_lidars_on_a_gpu_see_the_skin_and_not_a_box(tmp_path: Path) -> None:
     sim = world(tmp_path, "-6 0 1.8 0 0 0", _ACTOR.format("false", _WALK))
     (lidar,) = mount_sensors(sim)
 
-    upright = lidar.take(sim.snapshot()).ranges.item()
+    upright = lidar.measure(sim.snapshot()).ranges.item()
     sim.run(1.0)
 
     assert upright == pytest.approx(5.8, abs=1e-4)
-    assert lidar.take(sim.snapshot()).ranges.item() == np.inf
+    assert lidar.measure(sim.snapshot()).ranges.item() == np.inf
 
 
 def test_two_actors_of_one_skin_move_apart(tmp_path: Path) -> None:
@@ -94,7 +94,7 @@ def test_two_actors_of_one_skin_move_apart(tmp_path: Path) -> None:
     camera = mount_cameras(sim, NativeRenderer)[0]
 
     sim.run(1.0)
-    depth = camera.take(sim.snapshot()).depth
+    depth = camera.measure(sim.snapshot()).depth
 
     heights = [
         np.flatnonzero(np.isfinite(depth[:, columns]).any(axis=1)).min() for columns in (slice(50, 71), slice(80, 121))

@@ -36,7 +36,7 @@ def look(folder: Path, shape: str, *, pose: str, type_: str, inside: str = "") -
     )
     sim = trundle.load(str(file))
     (sensor,) = mount_cameras(sim, NativeRenderer)
-    return sensor.take(sim.snapshot())
+    return sensor.measure(sim.snapshot())
 
 
 @pytest.mark.parametrize("shape", SHAPES)

@@ -142,8 +142,8 @@ def test_a_camera_that_is_asked_by_itself_draws_by_itself() -> None:
     sim, cameras, renderer = mounted(camera("left"), camera("right"))
     sim.step()
     for eye in cameras:
-        eye.before_look(sim.snapshot())
-    left, right = (eye.take(sim.snapshot()) for eye in cameras)
+        eye.prepare(sim.snapshot())
+    left, right = (eye.measure(sim.snapshot()) for eye in cameras)
     assert left.rgb.shape == right.rgb.shape == (6, 8, 3)
     assert renderer.calls == [1, 1]
 

@@ -32,7 +32,7 @@ def range_of(folder: Path, *, wall: float, beside: float = 0.0, arm: str = "", m
     sim = trundle.load(str(file))
     (sonar,) = mount_sensors(sim)
     assert isinstance(sonar, SonarSensor)
-    return sonar.take(sim.snapshot()).range_m
+    return sonar.measure(sim.snapshot()).range_m
 
 
 def test_what_is_ahead_is_as_near_as_its_nearest_point_in_the_cone(tmp_path: Path) -> None:

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from trundle.model import CameraOptics, Distortion, Lens, PixelIntrinsics
 from trundle.render import Intrinsics, Picture
-from trundle.sensors.formats import FORMATS, pixels_in
 from trundle.sensors.lens import fits
+from trundle.sensors.pixel_formats import FORMATS, pixels_in
+from trundle.sensors.projection import CameraProjection, PinholeProjection, projection_of
 from trundle.sensors.undistort import distorted, undistorted
-from trundle.sensors.view import PinholeView, View, view_of
 from trundle.spatial import Pose
 
 WIDTH, HEIGHT, FOV = 64, 48, 1.2
@@ -27,9 +27,9 @@ def pinhole(made: CameraOptics) -> Intrinsics:
     return Intrinsics(width_px=made.width_px, height_px=made.height_px, horizontal_fov_rad=fov)
 
 
-def seen_through(view: View, mark: tuple[float, float, float]) -> NDArray[np.int_]:
+def seen_through(view: CameraProjection, mark: tuple[float, float, float]) -> NDArray[np.int_]:
     """(row, column) of the pixels that see a bright spot far away, in the camera's frame."""
-    return np.argwhere(view.developed([_spot(face, size, mark) for face, size in view.faces]).rgb[..., 0] > 60)
+    return np.argwhere(view.compose([_spot(face, size, mark) for face, size in view.pinhole_views]).rgb[..., 0] > 60)
 
 
 def _spot(camera_from_face: Pose, size: Intrinsics, mark: tuple[float, float, float]) -> Picture:
@@ -45,7 +45,7 @@ def _spot(camera_from_face: Pose, size: Intrinsics, mark: tuple[float, float, fl
 
 
 def test_a_plain_camera_needs_no_table() -> None:
-    assert isinstance(view_of(optics(), pinhole(optics())), PinholeView)
+    assert isinstance(projection_of(optics(), pinhole(optics())), PinholeProjection)
 
 
 @pytest.mark.parametrize(
@@ -66,7 +66,7 @@ def test_a_lens_puts_rays_where_its_function_says(fun: str, c1: float, c2: float
     made = optics(horizontal_fov_rad=fov, lens=Lens(c1=c1, c2=c2, fun=fun, face_px=512), width_px=256, height_px=256)
     mark = (math.cos(angle), -math.sin(angle) * math.cos(turned), -math.sin(angle) * math.sin(turned))
 
-    found = seen_through(view_of(made, pinhole(made)), mark).mean(axis=0)
+    found = seen_through(projection_of(made, pinhole(made)), mark).mean(axis=0)
 
     r = 128 * radius(angle) / radius(fov / 2)
     expected = (127.5 + r * math.sin(turned), 127.5 + r * math.cos(turned))
@@ -78,7 +78,7 @@ def test_a_lens_of_its_own_focal_length_is_not_scaled() -> None:
     lens = Lens(c1=1.0, c2=1.0, fun="id", f=0.5, scale_to_hfov=False, face_px=512)
     made = optics(lens=lens, width_px=256, height_px=256)
 
-    found = seen_through(view_of(made, pinhole(made)), (math.cos(1.0), -math.sin(1.0), 0.0)).mean(axis=0)
+    found = seen_through(projection_of(made, pinhole(made)), (math.cos(1.0), -math.sin(1.0), 0.0)).mean(axis=0)
 
     assert found == pytest.approx((127.5, 127.5 + 64.0), abs=0.7)
 
@@ -88,9 +88,9 @@ def test_a_fisheye_sees_behind_itself_up_to_its_cutoff() -> None:
     behind = (-0.5, 0.5, 0.7)
     for cutoff, sees in ((1.5707, False), (3.2, True)):
         made = optics(horizontal_fov_rad=6.2, lens=replace(lens, cutoff_rad=cutoff), width_px=128, height_px=128)
-        view = view_of(made, pinhole(made))
+        view = projection_of(made, pinhole(made))
         assert (len(seen_through(view, behind)) > 0) == sees
-        assert len(view.faces) == (6 if sees else 5)
+        assert len(view.pinhole_views) == (6 if sees else 5)
 
 
 def test_what_no_gnomonical_lens_sees_is_known() -> None:
@@ -127,7 +127,7 @@ def test_a_distorted_square_camera_sees_a_ray_where_opencv_s_model_puts_it(cente
     beside, below = (cx - 160) / f, (cy - 160) / f
     x, y = distorted(np.array([right - beside]), np.array([down - below]), BENT)
 
-    found = seen_through(view_of(made, pinhole(made), crop=False), (1.0, -right, -down)).mean(axis=0)
+    found = seen_through(projection_of(made, pinhole(made), crop=False), (1.0, -right, -down)).mean(axis=0)
 
     assert found == pytest.approx((cy + f * float(y[0]) - 0.5, cx + f * float(x[0]) - 0.5), abs=0.7)
 
@@ -140,7 +140,7 @@ def test_gazebo_bends_in_a_square_of_the_longer_side(width: int, height: int) ->
     right, down = 0.3 * width / 320, -0.2 * height / 320
     x, y = distorted(np.array([0.3]), np.array([-0.2]), BENT)
 
-    found = seen_through(view_of(made, pinhole(made), crop=False), (1.0, -right, -down)).mean(axis=0)
+    found = seen_through(projection_of(made, pinhole(made), crop=False), (1.0, -right, -down)).mean(axis=0)
 
     row, column = height / 2 + f * float(y[0]) * height / 320, width / 2 + f * float(x[0]) * width / 320
     assert found == pytest.approx((row - 0.5, column - 0.5), abs=0.8)
@@ -151,7 +151,7 @@ def test_a_barrel_s_picture_ends_where_the_lens_would_end_without_distortion() -
     made = optics(distortion=Distortion(k1=-0.3), width_px=320, height_px=240)
     right, down = 160 / pinhole(made).focal_px, 120 / pinhole(made).focal_px
 
-    cropped, whole = view_of(made, pinhole(made)), view_of(made, pinhole(made), crop=False)
+    cropped, whole = projection_of(made, pinhole(made)), projection_of(made, pinhole(made), crop=False)
 
     across, along = cropped.slopes()
     assert (across[0, 0], along[0, 0]) == pytest.approx((-right, -down), rel=0.02)
@@ -163,7 +163,9 @@ def test_a_barrel_s_picture_ends_where_the_lens_would_end_without_distortion() -
 
 def test_what_is_no_barrel_is_not_cropped() -> None:
     made = optics(distortion=Distortion(k1=0.2))
-    assert (view_of(made, pinhole(made)).slopes()[0] == view_of(made, pinhole(made), crop=False).slopes()[0]).all()
+    assert (
+        projection_of(made, pinhole(made)).slopes()[0] == projection_of(made, pinhole(made), crop=False).slopes()[0]
+    ).all()
 
 
 def test_intrinsics_in_pixels_shift_stretch_and_skew() -> None:
@@ -171,7 +173,7 @@ def test_intrinsics_in_pixels_shift_stretch_and_skew() -> None:
     made = replace(made, height_px=240)
     right, down = 0.3, -0.2
 
-    found = seen_through(view_of(made, pinhole(made)), (1.0, -right, -down)).mean(axis=0)
+    found = seen_through(projection_of(made, pinhole(made)), (1.0, -right, -down)).mean(axis=0)
 
     column, row = 200 * right + 20 * down + 140, 150 * down + 130
     assert found == pytest.approx((row - 0.5, column - 0.5), abs=0.9)
@@ -179,13 +181,13 @@ def test_intrinsics_in_pixels_shift_stretch_and_skew() -> None:
 
 def test_depths_and_shapes_are_looked_up_and_never_mixed() -> None:
     made = optics(distortion=BENT)
-    view = view_of(made, pinhole(made))
-    ((_, size),) = view.faces
+    view = projection_of(made, pinhole(made))
+    ((_, size),) = view.pinhole_views
     halves = np.zeros((size.height_px, size.width_px), dtype=np.int32)
     halves[:, size.width_px // 2 :] = 5
     rgb = np.zeros((*halves.shape, 3), dtype=np.uint8)
 
-    picture = view.developed([Picture(rgb, halves.astype(np.float32), halves)])
+    picture = view.compose([Picture(rgb, halves.astype(np.float32), halves)])
 
     assert picture.segmentation is not None
     assert picture.depth is not None

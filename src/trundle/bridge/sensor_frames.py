@@ -1,14 +1,14 @@
 """Where sensors are on the graph: their frames and their topics."""
 
 from trundle.ros import StaticTransformBroadcaster, Transform
-from trundle.sensors import MeasuringSensor
+from trundle.sensors import InstrumentSensor
 from trundle.spatial import Pose
 
 from .frame_names import FrameNames, sensor_topic
 
 
 def place_sensor(
-    sensor: MeasuringSensor, link_from_sensor: Pose, still: StaticTransformBroadcaster, names: FrameNames
+    sensor: InstrumentSensor, link_from_sensor: Pose, still: StaticTransformBroadcaster, names: FrameNames
 ) -> str:
     """Put the sensor's own frame on its link; return its name."""
     frame = names.sensor(sensor.model, sensor.place, sensor.sensor)
@@ -18,6 +18,6 @@ def place_sensor(
     return frame
 
 
-def topic_of(sensor: MeasuringSensor, output: str, *, main: str | None = None) -> str:
+def topic_of(sensor: InstrumentSensor, output: str, *, main: str | None = None) -> str:
     """The topic of one of its outputs; see `sensor_topic`."""
     return sensor_topic(sensor.model, sensor.place, sensor.sensor, output, main=main or output)

@@ -4,12 +4,12 @@ import numpy as np
 
 from trundle.sensors import (
     ContactReading,
+    ContactRecord,
     ForceTorqueReading,
     GpsReading,
     GpsSensor,
     ImuReading,
     RangeReading,
-    Touch,
     directions_of,
 )
 from trundle.spatial import Vector3, Wrench
@@ -84,7 +84,7 @@ def wrench_message(reading: ForceTorqueReading) -> dict[str, object]:
 
 def contacts_message(reading: ContactReading) -> dict[str, object]:
     """gazebo_msgs/ContactsState in the world frame; one state for each step and pair of collisions."""
-    found: dict[tuple[int, str, str], list[Touch]] = {}
+    found: dict[tuple[int, str, str], list[ContactRecord]] = {}
     for touch in reading.touches:
         found.setdefault((touch.time_ns, touch.own, touch.other), []).append(touch)
     states: list[dict[str, object]] = []

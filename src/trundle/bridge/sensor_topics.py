@@ -16,9 +16,9 @@ from trundle.sensors import (
     GpsSensor,
     ImuReading,
     ImuSensor,
+    InstrumentSensor,
     LogicalCameraSensor,
     MagnetometerSensor,
-    MeasuringSensor,
     RangeReading,
     RangeSensor,
     RfidSensor,
@@ -36,7 +36,7 @@ _LONGEST_S = 1e30
 
 
 def sensor_topics(
-    node: Node, still: StaticTransformBroadcaster, sensors: Iterable[MeasuringSensor], names: FrameNames
+    node: Node, still: StaticTransformBroadcaster, sensors: Iterable[InstrumentSensor], names: FrameNames
 ) -> None:
     """Put every sensor's readings on topics of its own."""
     for sensor in sensors:

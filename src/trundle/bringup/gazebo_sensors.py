@@ -4,7 +4,7 @@ from trundle.bridge import FrameNames, camera_topics, sensor_topics
 from trundle.diagnostics import Diagnostics
 from trundle.robot import Robot
 from trundle.ros import Endpoint, Node, StaticTransformBroadcaster
-from trundle.sensors import CameraSensor, MeasuringSensor, Surroundings, mount_cameras, mount_sensors
+from trundle.sensors import CameraSensor, InstrumentSensor, RayScene, mount_cameras, mount_sensors
 from trundle.simulation import Simulation
 
 from .plugins import attach_sensor_plugins
@@ -21,12 +21,12 @@ class GazeboSensors:
         self._still = StaticTransformBroadcaster(node)
         self._renderer: RendererName = renderer
         self._report = report
-        self._around = Surroundings(simulation)
+        self._around = RayScene(simulation)
         self._ends: dict[str, list[Endpoint]] = {}
         """Model → topics and services of its sensors."""
         self._robots: dict[str, Robot] = {}
         """Model → the URDF that it was spawned from."""
-        self.all: list[CameraSensor | MeasuringSensor] = []
+        self.all: list[CameraSensor | InstrumentSensor] = []
         """In the order in which they came."""
 
     def mount(self, model: str | None = None, *, robot: Robot | None = None) -> None:
@@ -66,6 +66,6 @@ class GazeboSensors:
             if id(end) not in shared:
                 end.unregister()
 
-    def _speak(self, cameras: list[CameraSensor], sensors: list[MeasuringSensor], names: FrameNames) -> None:
+    def _speak(self, cameras: list[CameraSensor], sensors: list[InstrumentSensor], names: FrameNames) -> None:
         camera_topics(self._node, self._still, attach_sensor_plugins(cameras, self._node, self._report), names)
         sensor_topics(self._node, self._still, attach_sensor_plugins(sensors, self._node, self._report), names)

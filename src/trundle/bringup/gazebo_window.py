@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from trundle.diagnostics import TrundleError
 from trundle.page_address import PageAddress
 from trundle.ros import Node
-from trundle.sensors import CameraSensor, MeasuringSensor
+from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 
 from .pace import Pacer
@@ -42,7 +42,7 @@ class GazeboWindow:
         """Whether a page is still to be opened."""
         return self._at is not None and self._page is None
 
-    def open(self, simulation: Simulation, sensors: Sequence[CameraSensor | MeasuringSensor], node: Node) -> None:
+    def open(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor], node: Node) -> None:
         """Open the page, unless it is open or cannot be; a node says why."""
         if self._at is None or self._page is not None:
             return
@@ -54,7 +54,7 @@ class GazeboWindow:
         else:
             self._say(f"see the simulation at {self._page.url}")
 
-    def replace(self, simulation: Simulation, sensors: Sequence[CameraSensor | MeasuringSensor]) -> None:
+    def replace(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
         """Show it anew: models or lights came or went."""
         if self._page is not None:
             self._page.replace(simulation, sensors)

@@ -17,7 +17,7 @@ from trundle.packages import Packages
 from trundle.page_address import PageAddress
 from trundle.physics import SimulationUnstableError
 from trundle.ros import Node, SimClock
-from trundle.sensors import CameraSensor, MeasuringSensor
+from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
 
@@ -206,7 +206,7 @@ class GazeboWorld:
         return self._simulation
 
     @property
-    def sensors(self) -> Sequence[CameraSensor | MeasuringSensor]:
+    def sensors(self) -> Sequence[CameraSensor | InstrumentSensor]:
         """Everything in it that measures."""
         return self._measuring.all
 

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Protocol, Self
 
 from trundle.page_address import PageAddress
-from trundle.sensors import CameraReading, CameraSensor, MeasuringSensor
+from trundle.sensors import CameraReading, CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 from trundle.viewer import Drive, Pause, Play, Reset, SetJoint, SetSpeed, Step, Viewer, ViewerState
 
@@ -52,7 +52,7 @@ class Page:
     def open(
         cls,
         simulation: Simulation,
-        sensors: Sequence[CameraSensor | MeasuringSensor],
+        sensors: Sequence[CameraSensor | InstrumentSensor],
         driver: Driver | None,
         at: PageAddress,
     ) -> Self:
@@ -67,7 +67,7 @@ class Page:
         page._listen(sensors)
         return page
 
-    def replace(self, simulation: Simulation, sensors: Sequence[CameraSensor | MeasuringSensor]) -> None:
+    def replace(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
         """Show it anew: models came or went."""
         layout = lay_out(simulation, _cameras(sensors), drive=self._driver is not None)
         self._viewer.replace(layout.scene, state=layout.first)
@@ -80,7 +80,7 @@ class Page:
         self._joints = dict(zip(slider_names(joints), joints, strict=True))
         self._slider_indices = joint_indices(simulation, joints)
 
-    def _listen(self, sensors: Sequence[CameraSensor | MeasuringSensor]) -> None:
+    def _listen(self, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
         self._sight.follow(sensors)
         cameras = _cameras(sensors)
         new = [camera for camera in cameras if camera not in self._heard]
@@ -168,5 +168,5 @@ class Page:
         self.close()
 
 
-def _cameras(sensors: Sequence[CameraSensor | MeasuringSensor]) -> list[CameraSensor]:
+def _cameras(sensors: Sequence[CameraSensor | InstrumentSensor]) -> list[CameraSensor]:
     return [sensor for sensor in sensors if isinstance(sensor, CameraSensor)]

@@ -16,7 +16,7 @@ from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import World
 from trundle.packages import Packages
 from trundle.render import Intrinsics, Picture, Scene, corners_of, move_skins, scene_of
-from trundle.sensors import CameraSensor, PinholeView, View, mount_cameras
+from trundle.sensors import CameraProjection, CameraSensor, PinholeProjection, mount_cameras
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
@@ -137,11 +137,11 @@ class Studio:
             eye = _good_side(self._cloud, self._lens, turned_rad)
         bent = None if self._sensor is None or self._sensor.is_pinhole else self._sensor.view
 
-        def drawn(view: View, *, depth: bool = False, segmentation: bool = False) -> Picture:
-            views = [(eye @ face, lens) for face, lens in view.faces]
-            return view.developed(self._renderer.render(views, depth=depth, segmentation=segmentation))
+        def drawn(view: CameraProjection, *, depth: bool = False, segmentation: bool = False) -> Picture:
+            views = [(eye @ face, lens) for face, lens in view.pinhole_views]
+            return view.compose(self._renderer.render(views, depth=depth, segmentation=segmentation))
 
-        view = bent or PinholeView(self._lens)
+        view = bent or PinholeProjection(self._lens)
         if self._content == "depth":
             ranges = drawn(view, depth=True).depth
             assert ranges is not None
@@ -155,7 +155,7 @@ class Studio:
             return Image.fromarray(drawn(bent).rgb)
         width, height = self._lens.width_px, self._lens.height_px
         large = replace(self._lens, width_px=width * _SAMPLES, height_px=height * _SAMPLES)
-        picture = Image.fromarray(drawn(PinholeView(large)).rgb)
+        picture = Image.fromarray(drawn(PinholeProjection(large)).rgb)
         return picture.resize((width, height), Image.Resampling.BOX)
 
 

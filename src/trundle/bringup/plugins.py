@@ -22,7 +22,7 @@ from trundle.simulation import LinkHandle, ModelHandle, Simulation
 
 if TYPE_CHECKING:  # a run without ROS or sensors starts without their modules
     from trundle.ros import Node
-    from trundle.sensors import CameraSensor, MeasuringSensor
+    from trundle.sensors import CameraSensor, InstrumentSensor
 
 _Kind = TypeVar("_Kind", bound=Hooks)
 
@@ -118,7 +118,7 @@ def load_world_plugins(
         report.info(world.at, "the wind pushes nothing: as in Gazebo, that takes libWindPlugin.so in the world")
 
 
-_Sensor = TypeVar("_Sensor", "CameraSensor", "MeasuringSensor")
+_Sensor = TypeVar("_Sensor", "CameraSensor", "InstrumentSensor")
 
 
 def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diagnostics) -> list[_Sensor]:

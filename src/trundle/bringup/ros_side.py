@@ -5,7 +5,7 @@ from typing import Self
 
 from trundle.bridge import ClockTopic, FrameNames, JointStates, SimulationFrames, camera_topics, sensor_topics
 from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
-from trundle.sensors import CameraSensor, MeasuringSensor
+from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 
 from .graph import DEFAULT_PORT, Graph
@@ -35,7 +35,7 @@ class RosSide:
         graph: Graph,
         simulation: Simulation,
         cameras: Sequence[CameraSensor],
-        sensors: Sequence[MeasuringSensor],
+        sensors: Sequence[InstrumentSensor],
         stage: Stage,
     ) -> None:
         self._graph = graph
@@ -65,7 +65,7 @@ class RosSide:
         simulation: Simulation,
         stage: Stage,
         cameras: Sequence[CameraSensor],
-        sensors: Sequence[MeasuringSensor],
+        sensors: Sequence[InstrumentSensor],
         environment: Mapping[str, str],
         *,
         host: str,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.sensors import CameraSensor, MeasuringSensor, RangeReading, RangeSensor, SonarSensor, directions_of
+from trundle.sensors import CameraSensor, InstrumentSensor, RangeReading, RangeSensor, SonarSensor, directions_of
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 from trundle.viewer import DrawnLine
@@ -31,7 +31,7 @@ class Sight:
         """(rays, 3) in the sensor's frame [m]; of a sonar in its beam's."""
         self._heard: set[int] = set()
 
-    def follow(self, sensors: Iterable[CameraSensor | MeasuringSensor]) -> None:
+    def follow(self, sensors: Iterable[CameraSensor | InstrumentSensor]) -> None:
         """Draw these, and no others."""
         seen = [each for each in sensors if isinstance(each, RangeSensor | SonarSensor) and each.sensor.visualize]
         self._ends = {sensor: self._ends.get(sensor, np.zeros((0, 3))) for sensor in seen}

@@ -10,7 +10,7 @@ from trundle.supervisor import ProcessTree
 
 if TYPE_CHECKING:
     from trundle.model import World
-    from trundle.sensors import CameraSensor, MeasuringSensor
+    from trundle.sensors import CameraSensor, InstrumentSensor
     from trundle.simulation import Simulation
 
 
@@ -78,7 +78,7 @@ class Simulator(Protocol):
         ...
 
     @property
-    def sensors(self) -> "Sequence[CameraSensor | MeasuringSensor]":
+    def sensors(self) -> "Sequence[CameraSensor | InstrumentSensor]":
         """Everything there that measures."""
         ...
 

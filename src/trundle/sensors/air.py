@@ -8,7 +8,7 @@ from trundle.model import AirPressure, AirSpeed, Atmosphere
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose, Vector3
 
-from .mounted import MountedSensor, Spot
+from .live_sensor import LiveSensor, SensorMount
 from .noise import NoiseSource
 
 _GRAVITY = 9.80665
@@ -35,11 +35,11 @@ class PressureReading(Struct, frozen=True, kw_only=True):
     """[Pa²]"""
 
 
-class _InAir(MountedSensor[PressureReading]):
+class _InAir(LiveSensor[PressureReading]):
     """Reads a pressure, with noise."""
 
-    def __init__(self, spot: Spot, *, air: Atmosphere) -> None:
-        """Mount it; see `MountedSensor`.
+    def __init__(self, spot: SensorMount, *, air: Atmosphere) -> None:
+        """Mount it; see `LiveSensor`.
 
         Args:
             spot: where it is.
@@ -55,7 +55,7 @@ class _InAir(MountedSensor[PressureReading]):
         """What there is at this instant [Pa]."""
         raise NotImplementedError
 
-    def take(self, snapshot: Snapshot) -> PressureReading:
+    def measure(self, snapshot: Snapshot) -> PressureReading:
         """The pressure at this instant."""
         pressure = self._noise.disturb_one(self.pressure(snapshot), snapshot.time_ns)
         return PressureReading(time_ns=snapshot.time_ns, pressure=pressure, variance=self._variance)

@@ -5,7 +5,7 @@ from msgspec import Struct
 from trundle.model import Altimeter
 from trundle.simulation import Snapshot
 
-from .mounted import MountedSensor, Spot
+from .live_sensor import LiveSensor, SensorMount
 from .noise import NoiseSource
 
 
@@ -19,11 +19,11 @@ class AltimeterReading(Struct, frozen=True, kw_only=True):
     """Upwards [m/s]."""
 
 
-class AltimeterSensor(MountedSensor[AltimeterReading]):
+class AltimeterSensor(LiveSensor[AltimeterReading]):
     """Tells height and vertical speed of its point of the link."""
 
-    def __init__(self, spot: Spot, *, start_height: float) -> None:
-        """Mount it; see `MountedSensor`.
+    def __init__(self, spot: SensorMount, *, start_height: float) -> None:
+        """Mount it; see `LiveSensor`.
 
         Args:
             spot: where it is.
@@ -35,7 +35,7 @@ class AltimeterSensor(MountedSensor[AltimeterReading]):
         self._height = NoiseSource(spot.sensor.instrument.position, spot.random)
         self._speed = NoiseSource(spot.sensor.instrument.velocity, spot.random)
 
-    def take(self, snapshot: Snapshot) -> AltimeterReading:
+    def measure(self, snapshot: Snapshot) -> AltimeterReading:
         """How high it is at this instant."""
         return AltimeterReading(
             time_ns=snapshot.time_ns,

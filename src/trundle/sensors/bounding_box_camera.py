@@ -8,7 +8,7 @@ from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
 from .camera import CameraReading, CameraSensor, SeenBox
-from .placing import moved, pose_of
+from .pose_arrays import moved, pose_of
 from .segmentation_camera import INSTANCES, instances_of
 
 _Points = NDArray[np.float64]
@@ -20,9 +20,9 @@ class BoundingBoxCameraSensor(CameraSensor):
     sees_shapes = True
     sees_labels = True
 
-    def take(self, snapshot: Snapshot) -> CameraReading:
+    def measure(self, snapshot: Snapshot) -> CameraReading:
         """Look, and draw a box round each thing."""
-        picture = self.look(snapshot)
+        picture = self.render(snapshot)
         assert picture.segmentation is not None
         things = instances_of(self.scenery)
         seen = things[picture.segmentation]

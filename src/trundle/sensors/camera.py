@@ -12,9 +12,9 @@ from trundle.render import Intrinsics, Picture, add_colour_noise
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
-from .mounted import MountedSensor, Spot
-from .scenery import Order, Scenery
-from .view import PinholeView, view_of
+from .camera_scene import CameraScene, RenderRequest
+from .live_sensor import LiveSensor, SensorMount
+from .projection import PinholeProjection, projection_of
 
 FASTEST_HZ = 30.0
 """Of a camera whose update_rate is 0. Gazebo then draws at every step, which nobody means."""
@@ -50,7 +50,7 @@ class CameraReading(Struct, frozen=True, eq=False, kw_only=True):
     """(height, width) [K]"""
 
 
-class CameraSensor(MountedSensor[CameraReading]):
+class CameraSensor(LiveSensor[CameraReading]):
     """A hook that takes a picture when it is due and somebody wants it.
 
     Pictures of one size that are due at one instant are drawn by one call.
@@ -62,7 +62,7 @@ class CameraSensor(MountedSensor[CameraReading]):
     sees_labels: ClassVar[bool] = False
     """Whether it tells things by their labels."""
 
-    def __init__(self, spot: Spot, optics: CameraOptics, *, scenery: Scenery) -> None:
+    def __init__(self, spot: SensorMount, optics: CameraOptics, *, scenery: CameraScene) -> None:
         """Mount a camera.
 
         Args:
@@ -80,7 +80,7 @@ class CameraSensor(MountedSensor[CameraReading]):
             near_m=optics.near_m,
             far_m=optics.far_m,
         )
-        self.view = view_of(optics, self.intrinsics)
+        self.view = projection_of(optics, self.intrinsics)
         self._spot = spot
         self.images = 0
         """Pictures finished."""
@@ -89,12 +89,12 @@ class CameraSensor(MountedSensor[CameraReading]):
         """All cameras of its sensor, which share one clock."""
         self._is_told: bool | None = None
         """To take a picture; None: it need not be told."""
-        self._order: Order | None = None
+        self._order: RenderRequest | None = None
 
     def set_rate(self, rate_hz: float) -> None:
         """Have all cameras of the sensor take pictures so often from now on."""
         for camera in self.together:
-            MountedSensor.set_rate(camera, rate_hz)
+            LiveSensor.set_rate(camera, rate_hz)
 
     @property
     def name(self) -> str:
@@ -104,7 +104,7 @@ class CameraSensor(MountedSensor[CameraReading]):
     @property
     def is_pinhole(self) -> bool:
         """Whether its picture is what a renderer draws, without lens and distortion."""
-        return isinstance(self.view, PinholeView)
+        return isinstance(self.view, PinholeProjection)
 
     def await_trigger(self) -> Callable[[], None]:
         """Take no picture until the function that this returns is called, and then one when it is due next; it may be
@@ -127,26 +127,26 @@ class CameraSensor(MountedSensor[CameraReading]):
 
     def keep_borders(self) -> None:
         """Leave what distortion shows as it is, with black borders where nothing is."""
-        self.view = view_of(self.optics, self.intrinsics, crop=False)
+        self.view = projection_of(self.optics, self.intrinsics, crop=False)
 
-    def take(self, snapshot: Snapshot) -> CameraReading:
+    def measure(self, snapshot: Snapshot) -> CameraReading:
         """Take a picture of this instant."""
-        return CameraReading(time_ns=snapshot.time_ns, rgb=self.noisy(self.look(snapshot).rgb))
+        return CameraReading(time_ns=snapshot.time_ns, rgb=self.noisy(self.render(snapshot).rgb))
 
-    def before_look(self, snapshot: Snapshot) -> None:
+    def prepare(self, snapshot: Snapshot) -> None:
         """Order its pictures of this instant, with those of the other cameras that are due."""
         eye = self.world_from_camera(snapshot)
-        views = [(eye @ face, lens) for face, lens in self.view.faces]
+        views = [(eye @ face, lens) for face, lens in self.view.pinhole_views]
         self._order = self.scenery.order(snapshot, views, depth=self.sees_depth, segmentation=self.sees_shapes)
 
-    def look(self, snapshot: Snapshot) -> Picture:
+    def render(self, snapshot: Snapshot) -> Picture:
         """What the camera sees at this instant."""
         self.images += 1
         if self._order is None or self._order.snapshot is not snapshot:
-            self.before_look(snapshot)
+            self.prepare(snapshot)
         assert self._order is not None
         order, self._order = self._order, None
-        return self.view.developed(self.scenery.fetch(order))
+        return self.view.compose(self.scenery.fetch(order))
 
     def noisy(self, rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """The picture with noise of the same size on all colours of a pixel, as Gazebo's shader adds it."""

@@ -9,13 +9,13 @@ from trundle.physics import Contact
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose, Vector3, Wrench
 
-from .mounted import MountedSensor, Spot
+from .live_sensor import LiveSensor, SensorMount
 
 MOST_STEPS = 100
 """That one reading tells of, the last ones: Gazebo keeps no more either."""
 
 
-class Touch(Struct, frozen=True, kw_only=True):
+class ContactRecord(Struct, frozen=True, kw_only=True):
     """One point where something touches the sensor's link."""
 
     time_ns: int
@@ -38,16 +38,16 @@ class ContactReading(Struct, frozen=True, kw_only=True):
     """What touched in the steps since the reading before, step by step."""
 
     time_ns: int
-    touches: tuple[Touch, ...]
+    touches: tuple[ContactRecord, ...]
     world_from_link: Pose = Pose()
     """Of the sensor's link."""
 
 
-class ContactSensor(MountedSensor[ContactReading]):
+class ContactSensor(LiveSensor[ContactReading]):
     """Feels at every step what touches some of its link's collisions, or all of them."""
 
-    def __init__(self, spot: Spot, *, contacts: Callable[[frozenset[str]], list[Contact]]) -> None:
-        """Mount a contact sensor; see `MountedSensor`.
+    def __init__(self, spot: SensorMount, *, contacts: Callable[[frozenset[str]], list[Contact]]) -> None:
+        """Mount a contact sensor; see `LiveSensor`.
 
         Args:
             spot: where it is.
@@ -57,8 +57,8 @@ class ContactSensor(MountedSensor[ContactReading]):
         names = spot.sensor.touching or tuple(collision.name for collision in spot.link.collisions)
         self._own = frozenset(f"{spot.model.name}::{spot.link.name}::{name}" for name in names)
         self._contacts = contacts
-        self._skin = _Skin(self._feel)
-        self._felt: deque[tuple[Touch, ...]] = deque(maxlen=MOST_STEPS)
+        self._skin = _ContactBuffer(self._feel)
+        self._felt: deque[tuple[ContactRecord, ...]] = deque(maxlen=MOST_STEPS)
 
     def start(self, simulation: Simulation) -> None:
         """Be called by a simulation: at every step to feel, and then at the sensor's rate to tell."""
@@ -70,7 +70,7 @@ class ContactSensor(MountedSensor[ContactReading]):
         simulation.remove_hook(self._skin)
         super().stop(simulation)
 
-    def take(self, snapshot: Snapshot) -> ContactReading:
+    def measure(self, snapshot: Snapshot) -> ContactReading:
         """What touched within the last period; what was felt before, nobody wanted to know then."""
         now_ns, period_ns = snapshot.time_ns, max(self.period_ns, 1)
         felt = [touch for step in self._felt for touch in step]
@@ -86,7 +86,7 @@ class ContactSensor(MountedSensor[ContactReading]):
         if touches:
             self._felt.append(touches)
 
-    def _told(self, contact: Contact, time_ns: int) -> Touch:
+    def _told(self, contact: Contact, time_ns: int) -> ContactRecord:
         """As the sensor's own link has it."""
         first, second = contact.collisions
         own, other, sign = (second, first, 1.0) if second in self._own else (first, second, -1.0)
@@ -94,7 +94,7 @@ class ContactSensor(MountedSensor[ContactReading]):
         def signed(vector: Vector3) -> Vector3:
             return (sign * vector[0], sign * vector[1], sign * vector[2])
 
-        return Touch(
+        return ContactRecord(
             time_ns=time_ns,
             own=own,
             other=other,
@@ -105,7 +105,7 @@ class ContactSensor(MountedSensor[ContactReading]):
         )
 
 
-class _Skin(Struct, frozen=True, eq=False):
+class _ContactBuffer(Struct, frozen=True, eq=False):
     """A hook of its own, for a sensor feels more often than it tells."""
 
     after_step: Callable[[Snapshot], None]

@@ -16,9 +16,9 @@ class DepthCameraSensor(CameraSensor):
 
     sees_depth = True
 
-    def take(self, snapshot: Snapshot) -> CameraReading:
+    def measure(self, snapshot: Snapshot) -> CameraReading:
         """Take both pictures; as in gazebo_ros' openni plugin, depths out of range are not numbers."""
-        picture = self.look(snapshot)
+        picture = self.render(snapshot)
         assert picture.depth is not None
         noise = self.optics.noise
         near = -math.inf if self.optics.depth_near_m is None else self.optics.depth_near_m

@@ -8,7 +8,7 @@ from trundle.model import ForceTorque, Joint
 from trundle.simulation import LinkHandle, Snapshot
 from trundle.spatial import Pose, Vector3, Wrench
 
-from .mounted import MountedSensor, Spot
+from .live_sensor import LiveSensor, SensorMount
 from .noise import NoiseSource, disturbed
 
 
@@ -20,11 +20,13 @@ class ForceTorqueReading(Struct, frozen=True, kw_only=True):
     """In the axes that the sensor names."""
 
 
-class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
+class ForceTorqueSensor(LiveSensor[ForceTorqueReading]):
     """Tells what parent and child of a joint do to one another."""
 
-    def __init__(self, spot: Spot, *, joint: Joint, parent: LinkHandle | None, reaction: Callable[[], Wrench]) -> None:
-        """Mount it; see `MountedSensor`.
+    def __init__(
+        self, spot: SensorMount, *, joint: Joint, parent: LinkHandle | None, reaction: Callable[[], Wrench]
+    ) -> None:
+        """Mount it; see `LiveSensor`.
 
         Args:
             spot: where it is.
@@ -42,7 +44,7 @@ class ForceTorqueSensor(MountedSensor[ForceTorqueReading]):
         self._forces = [NoiseSource(each, spot.random) for each in self.settings.force]
         self._torques = [NoiseSource(each, spot.random) for each in self.settings.torque]
 
-    def take(self, snapshot: Snapshot) -> ForceTorqueReading:
+    def measure(self, snapshot: Snapshot) -> ForceTorqueReading:
         """What goes through the joint now."""
         on_child = self._reaction()
         sign = 1.0 if self.settings.parent_to_child else -1.0

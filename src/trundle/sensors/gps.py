@@ -8,7 +8,7 @@ from trundle.model import GpsNoise, Noise, SphericalCoordinates
 from trundle.simulation import Snapshot
 from trundle.spatial import Vector3
 
-from .mounted import MountedSensor, Spot
+from .live_sensor import LiveSensor, SensorMount
 from .noise import NoiseSource, disturbed
 
 FASTEST_HZ = 10.0
@@ -32,11 +32,11 @@ class GpsReading(Struct, frozen=True, kw_only=True):
     """Above the ellipsoid [m]."""
 
 
-class GpsSensor(MountedSensor[GpsReading]):
+class GpsSensor(LiveSensor[GpsReading]):
     """Knows where its point of the link is on Earth, by the world's spherical coordinates."""
 
-    def __init__(self, spot: Spot, *, origin: SphericalCoordinates) -> None:
-        """Mount a receiver; see `MountedSensor`.
+    def __init__(self, spot: SensorMount, *, origin: SphericalCoordinates) -> None:
+        """Mount a receiver; see `LiveSensor`.
 
         Args:
             spot: where it is.
@@ -49,7 +49,7 @@ class GpsSensor(MountedSensor[GpsReading]):
         self._origin = origin
         self._noise = [NoiseSource(each, spot.random) for each in (noise.horizontal, noise.horizontal, noise.vertical)]
 
-    def take(self, snapshot: Snapshot) -> GpsReading:
+    def measure(self, snapshot: Snapshot) -> GpsReading:
         """A fix at this instant."""
         place = self.world_from_link(snapshot).point(self.sensor.link_from_sensor.position)
         x, y, z = (min(max(value, -_FARTHEST), _FARTHEST) for value in disturbed(place, self._noise, snapshot.time_ns))

@@ -6,7 +6,7 @@ from trundle.model import ImuNoise
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose, Quaternion, Vector3, cross
 
-from .mounted import NS, MountedSensor, Spot
+from .live_sensor import NS, LiveSensor, SensorMount
 from .noise import NoiseSource, disturbed
 
 
@@ -22,15 +22,15 @@ class ImuReading(Struct, frozen=True, kw_only=True):
     """Specific force in the sensor's frame [m/s²]: +g upwards at rest, nothing in free fall."""
 
 
-class ImuSensor(MountedSensor[ImuReading]):
+class ImuSensor(LiveSensor[ImuReading]):
     """Feels how its point of the link moves.
 
     How the link's centre of mass speeds up and how its turning changes are means over the time since the last reading,
     as in Gazebo; the pull inwards is that of the instant, which a mean would turn with the link.
     """
 
-    def __init__(self, spot: Spot, *, gravity: Vector3, reference_from_world: Pose) -> None:
-        """Mount an imu; see `MountedSensor`.
+    def __init__(self, spot: SensorMount, *, gravity: Vector3, reference_from_world: Pose) -> None:
+        """Mount an imu; see `LiveSensor`.
 
         Args:
             spot: where it is.
@@ -47,12 +47,12 @@ class ImuSensor(MountedSensor[ImuReading]):
         self._before: tuple[int, Vector3, Vector3] | None = None
         """When it last read; the centre of mass' velocity and the rate of turning at that instant, world axes."""
 
-    def take(self, snapshot: Snapshot) -> ImuReading:
+    def measure(self, snapshot: Snapshot) -> ImuReading:
         """Read at this instant; the first reading knows no acceleration but gravity."""
         world_from_sensor = self.world_from_sensor(snapshot)
         vx, vy, vz, wx, wy, wz = snapshot.twists[self.link_index].tolist()
         turning = (wx, wy, wz)
-        felt = self._felt(snapshot, (vx, vy, vz), turning)
+        felt = self._specific_force(snapshot, (vx, vy, vz), turning)
         sensor_from_world = Pose(quaternion=world_from_sensor.quaternion).inverse()
         return ImuReading(
             time_ns=snapshot.time_ns,
@@ -61,7 +61,7 @@ class ImuSensor(MountedSensor[ImuReading]):
             linear_acceleration=disturbed(sensor_from_world.direction(felt), self._accelerations, snapshot.time_ns),
         )
 
-    def _felt(self, snapshot: Snapshot, velocity: Vector3, turning: Vector3) -> Vector3:
+    def _specific_force(self, snapshot: Snapshot, velocity: Vector3, turning: Vector3) -> Vector3:
         """Acceleration less gravity, world axes; velocity is that of the link's origin."""
         world_from_link = self.world_from_link(snapshot)
         com = world_from_link.direction(self._link_from_com)

@@ -11,8 +11,8 @@ from trundle.model import LogicalCamera
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
-from .mounted import MountedSensor, Spot
-from .placing import moved, pose_of
+from .live_sensor import LiveSensor, SensorMount
+from .pose_arrays import moved, pose_of
 
 FASTEST_HZ = 30.0
 """Of a camera whose update_rate is 0."""
@@ -44,14 +44,14 @@ class LogicalCameraReading(Struct, frozen=True, kw_only=True):
     models: tuple[SeenModel, ...]
 
 
-class LogicalCameraSensor(MountedSensor[LogicalCameraReading]):
+class LogicalCameraSensor(LiveSensor[LogicalCameraReading]):
     """Tells the models, but for its own, whose upright box around all collision shapes reaches into a pyramid.
 
     As in Gazebo a model that others hide is in view, too, and so is the ground: an endless plane is the box below it.
     """
 
-    def __init__(self, spot: Spot, *, bodies: Callable[[], Sequence[Body]]) -> None:
-        """Mount it; see `MountedSensor`.
+    def __init__(self, spot: SensorMount, *, bodies: Callable[[], Sequence[Body]]) -> None:
+        """Mount it; see `LiveSensor`.
 
         Args:
             spot: where it is.
@@ -62,7 +62,7 @@ class LogicalCameraSensor(MountedSensor[LogicalCameraReading]):
         self._bodies = bodies
         self._planes = _planes(spot.sensor.instrument)
 
-    def take(self, snapshot: Snapshot) -> LogicalCameraReading:
+    def measure(self, snapshot: Snapshot) -> LogicalCameraReading:
         """What is in view at this instant."""
         camera_from_world = self.world_from_sensor(snapshot).inverse()
         seen: list[SeenModel] = []

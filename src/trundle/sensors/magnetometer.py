@@ -6,7 +6,7 @@ from trundle.model import Magnetometer
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose, Vector3
 
-from .mounted import MountedSensor, Spot
+from .live_sensor import LiveSensor, SensorMount
 from .noise import NoiseSource, disturbed
 
 
@@ -18,11 +18,11 @@ class MagnetometerReading(Struct, frozen=True, kw_only=True):
     """In the sensor's frame [T]."""
 
 
-class MagnetometerSensor(MountedSensor[MagnetometerReading]):
+class MagnetometerSensor(LiveSensor[MagnetometerReading]):
     """Turns the world's one magnetic field into its own axes."""
 
-    def __init__(self, spot: Spot, *, world_field: Vector3) -> None:
-        """Mount it; see `MountedSensor`.
+    def __init__(self, spot: SensorMount, *, world_field: Vector3) -> None:
+        """Mount it; see `LiveSensor`.
 
         Args:
             spot: where it is.
@@ -33,7 +33,7 @@ class MagnetometerSensor(MountedSensor[MagnetometerReading]):
         self._field = world_field
         self._noise = [NoiseSource(each, spot.random) for each in spot.sensor.instrument.field]
 
-    def take(self, snapshot: Snapshot) -> MagnetometerReading:
+    def measure(self, snapshot: Snapshot) -> MagnetometerReading:
         """The field at this instant."""
         world_from_sensor = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
         own = Pose(quaternion=world_from_sensor.quaternion).inverse().direction(self._field)

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 from trundle.model import RangeScan, ScanAxis
 from trundle.simulation import Snapshot
 
-from .mounted import MountedSensor, Spot
+from .live_sensor import LiveSensor, SensorMount
 from .noise import NoiseSource
-from .placing import turned
+from .pose_arrays import turned
 from .rays import Rays
 
 FASTEST_HZ = 40.0
@@ -27,11 +27,11 @@ class RangeReading(Struct, frozen=True, eq=False, kw_only=True):
     """As `ranges`: the laser_retro of what was met; 0 where nothing was."""
 
 
-class RangeSensor(MountedSensor[RangeReading]):
+class RangeSensor(LiveSensor[RangeReading]):
     """Casts a fan of rays: against the collision shapes of other links, or on Gazebo's GPU against all visuals."""
 
-    def __init__(self, spot: Spot, *, rays: Rays) -> None:
-        """Mount a ray sensor; see `MountedSensor`.
+    def __init__(self, spot: SensorMount, *, rays: Rays) -> None:
+        """Mount a ray sensor; see `LiveSensor`.
 
         Args:
             spot: where it is.
@@ -44,7 +44,7 @@ class RangeSensor(MountedSensor[RangeReading]):
         self._noise = NoiseSource(spot.sensor.scan.noise, spot.random)
         self._directions = directions_of(spot.sensor.scan)
 
-    def take(self, snapshot: Snapshot) -> RangeReading:
+    def measure(self, snapshot: Snapshot) -> RangeReading:
         """Look round from where the sensor is now."""
         scan = self.scan
         pose = self.world_from_link(snapshot) @ self.sensor.link_from_sensor

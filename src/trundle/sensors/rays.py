@@ -22,7 +22,7 @@ _AWAY = 1e6
 """[m] Where links are put that are not to be met."""
 
 
-class Found(Struct, frozen=True, eq=False):
+class RayHits(Struct, frozen=True, eq=False):
     """What each ray met."""
 
     distances: _Array
@@ -36,7 +36,7 @@ class Found(Struct, frozen=True, eq=False):
 class Rays(Protocol):
     """Casts rays against one kind of shapes."""
 
-    def __call__(self, origin: Vector3, directions: _Array, reach: float, exclude: int, /) -> Found:
+    def __call__(self, origin: Vector3, directions: _Array, reach: float, exclude: int, /) -> RayHits:
         """From one place in (rays, 3) directions in the world, [m] far, looking through one link."""
         ...
 
@@ -61,12 +61,12 @@ class RayCaster:
             self._renderer.update(poses)
         move_skins(self._renderer, self._scene, moment_of)
 
-    def cast(self, origin: Vector3, directions: _Array, reach: float, exclude: int | None) -> Found:
+    def cast(self, origin: Vector3, directions: _Array, reach: float, exclude: int | None) -> RayHits:
         """See `Rays`."""
         distances, shapes = self._renderer.cast(Pose(origin), directions, reach_m=reach, exclude=exclude)
-        return Found(distances, self._retros[shapes], self._bodies[shapes])
+        return RayHits(distances, self._retros[shapes], self._bodies[shapes])
 
-    def cast_past(self, origin: Vector3, directions: _Array, reach: float, hidden: Sequence[int]) -> Found:
+    def cast_past(self, origin: Vector3, directions: _Array, reach: float, hidden: Sequence[int]) -> RayHits:
         """Cast rays that look through some links wherever they are."""
         poses = self._poses.copy()
         poses[hidden, :3] = _AWAY
@@ -75,7 +75,7 @@ class RayCaster:
         self._renderer.update(self._poses)
         return found
 
-    def cast_beyond(self, origin: Vector3, directions: _Array, reach: float, nearest: float) -> Found:
+    def cast_beyond(self, origin: Vector3, directions: _Array, reach: float, nearest: float) -> RayHits:
         """Cast rays that look through a link where it is nearer than this [m], as a GPU's begin at its near clip."""
         found = self.cast(origin, directions, reach, None)
         poses = self._poses.copy()

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from trundle.render import Intrinsics, Picture
 from trundle.spatial import Pose
 
-from .placing import turned
+from .pose_arrays import turned
 
 _Array = NDArray[np.float64]
 _STEPS = 256
@@ -29,10 +29,10 @@ class Remap:
         in_faces = np.stack([turned(pose.inverse(), directions) for pose, _ in faces])
         nearest = np.argmax(in_faces[..., 0], axis=0)
         used = [i for i in range(len(faces)) if np.any(nearest[seen] == i)] or [0]
-        self.faces = [faces[i] for i in used]
+        self.pinhole_views = [faces[i] for i in used]
         number = np.searchsorted(used, np.where(seen, nearest, used[0]))
         ray = np.take_along_axis(in_faces, nearest[None, ..., None], axis=0)[0]
-        size = self.faces[0][1]
+        size = self.pinhole_views[0][1]
         width, count = size.width_px, size.width_px * size.height_px
         ahead = np.where(seen, ray[..., 0], 1.0)
         column = np.where(seen, size.width_px / 2 - size.focal_px * ray[..., 1] / ahead - 0.5, 0.0)
@@ -50,7 +50,7 @@ class Remap:
         ]
         self._blind = ~seen
 
-    def developed(self, pictures: list[Picture]) -> Picture:
+    def compose(self, pictures: list[Picture]) -> Picture:
         """Look every pixel up; depths and shapes are those of the nearest pixel, never mixed."""
         colours = np.concatenate([picture.rgb.reshape(-1, 3) for picture in pictures])
         mixed = np.full((*self._blind.shape, 3), _STEPS * _STEPS // 2, dtype=np.uint32)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from trundle.simulation import Snapshot
 
 from .camera import CameraReading, CameraSensor
-from .scenery import Scenery
+from .camera_scene import CameraScene
 
 INSTANCES = 1 << 16
 """What a label is multiplied by where things of one label are told apart."""
@@ -25,9 +25,9 @@ class SegmentationCameraSensor(CameraSensor):
     sees_shapes = True
     sees_labels = True
 
-    def take(self, snapshot: Snapshot) -> CameraReading:
+    def measure(self, snapshot: Snapshot) -> CameraReading:
         """See what is where."""
-        shapes = self.look(snapshot).segmentation
+        shapes = self.render(snapshot).segmentation
         assert shapes is not None
         values = instances_of(self.scenery) if self.optics.panoptic else self.scenery.labels
         kinds, kind_of = np.unique(values, return_inverse=True)
@@ -35,7 +35,7 @@ class SegmentationCameraSensor(CameraSensor):
         return CameraReading(time_ns=snapshot.time_ns, rgb=colours[kind_of[shapes]], labels=values[shapes])
 
 
-def instances_of(scenery: Scenery) -> NDArray[np.int32]:
+def instances_of(scenery: CameraScene) -> NDArray[np.int32]:
     """By shape: 65536 times its label, plus the number of its model among those of that label."""
     values = np.zeros(len(scenery.labels), dtype=np.int32)
     for label in np.unique(scenery.labels[scenery.labels > 0]):

@@ -10,8 +10,8 @@ from trundle.model import Sonar
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose, quaternion_from_rpy
 
-from .mounted import MountedSensor, Spot
-from .placing import turned
+from .live_sensor import LiveSensor, SensorMount
+from .pose_arrays import turned
 from .rays import Rays
 
 FASTEST_HZ = 40.0
@@ -28,11 +28,11 @@ class SonarReading(Struct, frozen=True, kw_only=True):
     """Never less than the least nor more than the largest, which also stands for nothing, as in Gazebo."""
 
 
-class SonarSensor(MountedSensor[SonarReading]):
+class SonarSensor(LiveSensor[SonarReading]):
     """Looks through a cone by 217 rays; Gazebo lays a cone of triangles over the shapes, with the same answer."""
 
-    def __init__(self, spot: Spot, *, rays: Rays) -> None:
-        """Mount a sonar; see `MountedSensor`.
+    def __init__(self, spot: SensorMount, *, rays: Rays) -> None:
+        """Mount a sonar; see `LiveSensor`.
 
         Args:
             spot: where it is.
@@ -52,7 +52,7 @@ class SonarSensor(MountedSensor[SonarReading]):
         self._farthest = math.hypot(self.settings.max_m, self.settings.radius) if is_cone else self.settings.radius
         self._rays = rays
 
-    def take(self, snapshot: Snapshot) -> SonarReading:
+    def measure(self, snapshot: Snapshot) -> SonarReading:
         """Listen at this instant."""
         beam = self.world_from_link(snapshot) @ self.link_from_beam
         directions = turned(beam, self._directions)

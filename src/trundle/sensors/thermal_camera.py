@@ -12,9 +12,9 @@ class ThermalCameraSensor(CameraSensor):
 
     sees_shapes = True
 
-    def take(self, snapshot: Snapshot) -> CameraReading:
+    def measure(self, snapshot: Snapshot) -> CameraReading:
         """See how warm it is; for the eye the coldest thing is black and the warmest white."""
-        shapes = self.look(snapshot).segmentation
+        shapes = self.render(snapshot).segmentation
         assert shapes is not None
         known = self.scenery.temperatures
         span = max(float(known.max() - known.min()), 1.0)

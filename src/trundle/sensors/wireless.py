@@ -10,7 +10,7 @@ from trundle.model import Transceiver
 from trundle.simulation import Snapshot
 from trundle.spatial import Pose, Vector3, normalized
 
-from .mounted import MountedSensor, Spot
+from .live_sensor import LiveSensor, SensorMount
 from .rays import Rays
 
 FASTEST_HZ = 10.0
@@ -27,7 +27,7 @@ _TAG_REACH = 5.0
 """[m] Gazebo's."""
 
 
-class Beacon(Struct, frozen=True, kw_only=True):
+class Transmitter(Struct, frozen=True, kw_only=True):
     """A transmitter or a tag, and where it is."""
 
     name: str
@@ -41,7 +41,7 @@ class Beacon(Struct, frozen=True, kw_only=True):
         return Pose((x, y, z), (qw, qx, qy, qz)).point(self.link_from_beacon.position)
 
 
-class Heard(Struct, frozen=True, kw_only=True):
+class ReceivedSignal(Struct, frozen=True, kw_only=True):
     """A transmitter that a receiver hears."""
 
     name: str
@@ -54,14 +54,14 @@ class WirelessReading(Struct, frozen=True, kw_only=True):
     """Who is heard."""
 
     time_ns: int
-    heard: tuple[Heard, ...]
+    heard: tuple[ReceivedSignal, ...]
 
 
-class WirelessSensor(MountedSensor[WirelessReading]):
+class WirelessSensor(LiveSensor[WirelessReading]):
     """Hears transmitters by Gazebo's Hata-Okumura model: things between attenuate."""
 
-    def __init__(self, spot: Spot, *, transmitters: Callable[[], Sequence[Beacon]], rays: Rays) -> None:
-        """Mount a receiver; see `MountedSensor`.
+    def __init__(self, spot: SensorMount, *, transmitters: Callable[[], Sequence[Transmitter]], rays: Rays) -> None:
+        """Mount a receiver; see `LiveSensor`.
 
         Args:
             spot: where it is.
@@ -75,20 +75,20 @@ class WirelessSensor(MountedSensor[WirelessReading]):
         self._rays = rays
         self._random = spot.random
 
-    def take(self, snapshot: Snapshot) -> WirelessReading:
+    def measure(self, snapshot: Snapshot) -> WirelessReading:
         """Who is heard at this instant."""
         own = self._settings
-        heard: list[Heard] = []
+        heard: list[ReceivedSignal] = []
         for transmitter in self._transmitters():
             sent = transmitter.settings
             if not own.lowest_mhz <= sent.frequency_mhz <= own.highest_mhz:
                 continue
             level = self._level(transmitter, snapshot)
             if level >= own.sensitivity_dbm:
-                heard.append(Heard(name=sent.essid, frequency_mhz=sent.frequency_mhz, level_dbm=level))
+                heard.append(ReceivedSignal(name=sent.essid, frequency_mhz=sent.frequency_mhz, level_dbm=level))
         return WirelessReading(time_ns=snapshot.time_ns, heard=tuple(heard))
 
-    def _level(self, transmitter: Beacon, snapshot: Snapshot) -> float:
+    def _level(self, transmitter: Transmitter, snapshot: Snapshot) -> float:
         here, there = self.world_from_sensor(snapshot).position, transmitter.place(snapshot)
         sent = transmitter.settings
         exponent = _THROUGH_THINGS if self._is_hidden(here, there, transmitter.link_index) else _THROUGH_AIR
@@ -116,11 +116,11 @@ class RfidReading(Struct, frozen=True, kw_only=True):
     """`model::link::sensor`"""
 
 
-class RfidSensor(MountedSensor[RfidReading]):
+class RfidSensor(LiveSensor[RfidReading]):
     """Tells the tags within five metres, whatever is between, as Gazebo does."""
 
-    def __init__(self, spot: Spot, *, tags: Callable[[], Sequence[Beacon]]) -> None:
-        """Mount a reader; see `MountedSensor`.
+    def __init__(self, spot: SensorMount, *, tags: Callable[[], Sequence[Transmitter]]) -> None:
+        """Mount a reader; see `LiveSensor`.
 
         Args:
             spot: where it is.
@@ -129,7 +129,7 @@ class RfidSensor(MountedSensor[RfidReading]):
         super().__init__(spot, fastest_hz=FASTEST_HZ)
         self._tags = tags
 
-    def take(self, snapshot: Snapshot) -> RfidReading:
+    def measure(self, snapshot: Snapshot) -> RfidReading:
         """Which tags are near at this instant."""
         here = self.world_from_sensor(snapshot).position
         near = [tag.name for tag in self._tags() if math.dist(here, tag.place(snapshot)) <= _TAG_REACH]

@@ -4,13 +4,13 @@ from trundle.bridge import contacts_message
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import PluginTag
 from trundle.ros import Node
-from trundle.sensors import ContactReading, ContactSensor, MeasuringSensor
+from trundle.sensors import ContactReading, ContactSensor, InstrumentSensor
 
 from .place import ignore, namespace_of
 from .sensor import Outlet, topic_of
 
 
-def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
     """Publish gazebo_msgs/ContactsState on <bumperTopicName> (bumper_states), in the world frame."""
     if not isinstance(sensor, ContactSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a contact sensor is needed")

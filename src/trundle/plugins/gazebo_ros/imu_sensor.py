@@ -8,13 +8,13 @@ from trundle.bridge import imu_message
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import PluginTag
 from trundle.ros import Node
-from trundle.sensors import ImuReading, ImuSensor, MeasuringSensor
+from trundle.sensors import ImuReading, ImuSensor, InstrumentSensor
 
 from .place import ignore, leave_out, namespace_of
 from .sensor import Outlet, frame_of, topic_of
 
 
-def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
     """Publish sensor_msgs/Imu.
 
     Parameters, with gazebo_ros' defaults: <topicName> imu_data, <frameName> (the link), <updateRateHZ> 1,

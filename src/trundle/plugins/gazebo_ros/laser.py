@@ -6,13 +6,13 @@ from trundle.bridge import points_message, scan_message
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import PluginTag
 from trundle.ros import Node
-from trundle.sensors import MeasuringSensor, RangeReading, RangeSensor
+from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
 from .place import ignore, leave_out, namespace_of, topic_in
 from .sensor import Outlet, frame_of, topic_of
 
 
-def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
     """Publish sensor_msgs/LaserScan on <topicName> (scan) in <frameName> (world)."""
     rays = _rays(sensor)
     topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "scan")
@@ -21,7 +21,7 @@ def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnost
     tag.node.report_unread(report)
 
 
-def attach_points(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach_points(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
     """libgazebo_ros_block_laser.so and velodyne's: sensor_msgs/PointCloud2 on <topicName> (points)."""
     rays = _rays(sensor)
     topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "points")
@@ -31,7 +31,7 @@ def attach_points(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: D
     tag.node.report_unread(report)
 
 
-def attach_ray_sensor(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach_ray_sensor(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
     """libgazebo_ros_ray_sensor.so, as files for ROS 2 have it: <output_type>, <frame_name>, <ros> with <namespace> and
     <remapping>~/out:=scan."""
     rays, parameters = _rays(sensor), tag.node
@@ -53,7 +53,7 @@ def attach_ray_sensor(sensor: MeasuringSensor, node: Node, tag: PluginTag, repor
     parameters.report_unread(report)
 
 
-def _rays(sensor: MeasuringSensor) -> RangeSensor:
+def _rays(sensor: InstrumentSensor) -> RangeSensor:
     if not isinstance(sensor, RangeSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a ray sensor is needed")
     return sensor

@@ -5,7 +5,7 @@ import numpy as np
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import PluginTag
 from trundle.ros import Node
-from trundle.sensors import MeasuringSensor, RangeReading, RangeSensor
+from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
 from .place import ignore, namespace_of
 from .sensor import Outlet, frame_of, topic_of
@@ -13,7 +13,7 @@ from .sensor import Outlet, frame_of, topic_of
 _KINDS = {"ultrasound": 0, "infrared": 1}
 
 
-def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
     """Publish sensor_msgs/Range.
 
     Parameters, with gazebo_ros' defaults: <topicName> range, <frameName> world, <radiation> ultrasound or infrared,

@@ -5,14 +5,14 @@ import numpy as np
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import PluginTag, ScanAxis
 from trundle.ros import Node
-from trundle.sensors import MeasuringSensor, RangeReading, RangeSensor
+from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
 from ..gazebo_ros.place import ignore, namespace_of
 from ..gazebo_ros.sensor import Outlet, topic_of
 from .errors import ErrorModel
 
 
-def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
     """Publish sensor_msgs/Range.
 
     Parameters: <topicName> sonar, <frameId> /sonar_link, <updateRate> 10; errors by <drift>, <gaussianNoise>, … [m].

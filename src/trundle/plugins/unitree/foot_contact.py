@@ -3,14 +3,14 @@
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import PluginTag
 from trundle.ros import Node
-from trundle.sensors import ContactReading, ContactSensor, MeasuringSensor
+from trundle.sensors import ContactReading, ContactSensor, InstrumentSensor
 from trundle.spatial import Vector3
 
 from ..gazebo_ros.place import ignore
 from ..gazebo_ros.sensor import Outlet
 
 
-def attach(sensor: MeasuringSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
     """Publish geometry_msgs/WrenchStamped on /visual/<sensor>/the_force, zero where nothing touches.
 
     It has no parameters. The force is in the axes of the sensor's link: the mean of the contacts since the message

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 import trundle
 from trundle.model import MEASURING
 from trundle.sensors import ContactReading, ImuReading, ImuSensor, RangeReading, RangeSensor, mount_sensors
-from trundle.sensors.mount_measuring import MAKERS
+from trundle.sensors.mount_instruments import MAKERS
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist
 
@@ -189,14 +189,14 @@ def test_rays_meet_models_that_came_while_time_went_on(tmp_path: Path) -> None:
     sim = load(tmp_path, ray(AHEAD), others=WALL)
     (sensor,) = mount_sensors(sim)
     assert isinstance(sensor, RangeSensor)
-    assert sensor.take(sim.snapshot()).ranges[0, 0] == pytest.approx(1.9, abs=1e-5)
+    assert sensor.measure(sim.snapshot()).ranges[0, 0] == pytest.approx(1.9, abs=1e-5)
 
     wall = sim["wall"].model
     sim.spawn(replace(wall, name="nearer", world_from_model=Pose((1.0, 0.0, 0.0))))
-    assert sensor.take(sim.snapshot()).ranges[0, 0] == pytest.approx(0.9, abs=1e-5)
+    assert sensor.measure(sim.snapshot()).ranges[0, 0] == pytest.approx(0.9, abs=1e-5)
 
     sim.delete("nearer")
-    assert sensor.take(sim.snapshot()).ranges[0, 0] == pytest.approx(1.9, abs=1e-5)
+    assert sensor.measure(sim.snapshot()).ranges[0, 0] == pytest.approx(1.9, abs=1e-5)
 
 
 @pytest.mark.parametrize("type_", ["ray", "gpu_ray"])
@@ -327,10 +327,10 @@ def test_a_bumper_that_nobody_listens_to_for_a_while_forgets(tmp_path: Path) -> 
     bumper.listen(readings.append, wanted=lambda: listens)
     bumper.start(sim)
     sim.run(0.55)
-    assert len(bumper._felt) == 50
+    assert len(bumper._specific_force) == 50
     listens = False
     sim.run(0.3)
-    assert len(bumper._felt) == 50
+    assert len(bumper._specific_force) == 50
     listens = True
     sim.run(0.1)
 

@@ -15,20 +15,20 @@ _MOST_TOGETHER_PX = 1 << 22
 """Of one call: pictures that are large gain nothing by it, and all of them are kept until the last one is fetched."""
 
 
-class Order(Struct, eq=False):
+class RenderRequest(Struct, eq=False):
     """Pictures that a camera wants of an instant."""
 
     snapshot: Snapshot
     views: list[tuple[Pose, Intrinsics]]
     depth: bool
     segmentation: bool
-    together: list["Order"]
+    together: list["RenderRequest"]
     """Those that are drawn when the first of them is fetched; afterwards none."""
     pictures: list[Picture] | None = None
     """None: not drawn yet."""
 
 
-class Scenery:
+class CameraScene:
     """The world as cameras see it. Its tables are by a shape's number; number −1, no shape, is their last entry."""
 
     def __init__(self, simulation: Simulation, make: Callable[[Scene], Renderer], *, mask: int = EVERY_BIT) -> None:
@@ -44,7 +44,7 @@ class Scenery:
         self._make = make
         self._shown: Snapshot | None = None
         self._ordered: Snapshot | None = None
-        self._open: dict[tuple[int, int, bool, bool], list[Order]] = {}
+        self._open: dict[tuple[int, int, bool, bool], list[RenderRequest]] = {}
         """Of that instant, and not drawn yet: by height, width and kind."""
         self._build(simulation.world)
 
@@ -69,7 +69,7 @@ class Scenery:
 
     def order(
         self, snapshot: Snapshot, views: list[tuple[Pose, Intrinsics]], *, depth: bool, segmentation: bool
-    ) -> Order:
+    ) -> RenderRequest:
         """Have pictures of one size drawn, by one call with those that are ordered before any of them is fetched."""
         if self._ordered is not snapshot:
             self._ordered, self._open = snapshot, {}
@@ -79,11 +79,11 @@ class Scenery:
         if (len(together) + 1) * len(views) * height * width > _MOST_TOGETHER_PX:
             together = []
         self._open[kind] = together
-        order = Order(snapshot, views, depth, segmentation, together)
+        order = RenderRequest(snapshot, views, depth, segmentation, together)
         together.append(order)
         return order
 
-    def fetch(self, order: Order) -> list[Picture]:
+    def fetch(self, order: RenderRequest) -> list[Picture]:
         """The pictures that were ordered; the shapes are put in place once for all cameras."""
         if order.pictures is None:
             self._show(order.snapshot)

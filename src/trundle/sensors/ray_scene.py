@@ -10,9 +10,9 @@ from trundle.simulation import Simulation
 from trundle.spatial import Pose, Vector3, upright
 
 from .logical_camera import Body
-from .placing import moved
-from .rays import Found, RayCaster, Rays
-from .wireless import Beacon
+from .pose_arrays import moved
+from .rays import RayCaster, RayHits, Rays
+from .wireless import Transmitter
 
 _Array = NDArray[np.float64]
 _FAR = 1e6
@@ -20,7 +20,7 @@ _FAR = 1e6
 _HALF_SPACE = [(x, y, z) for x in (-_FAR, _FAR) for y in (-_FAR, _FAR) for z in (-_FAR, 0.0)]
 
 
-class Surroundings:
+class RayScene:
     """The world around the sensors of one simulation; what is dear is made when the first of them asks."""
 
     def __init__(self, simulation: Simulation) -> None:
@@ -31,12 +31,12 @@ class Surroundings:
         self._bodies: list[Body] | None = None
         self._bodies_of: World | None = None
 
-    def rays(self, origin: Vector3, directions: _Array, reach: float, exclude: int) -> Found:
+    def rays(self, origin: Vector3, directions: _Array, reach: float, exclude: int) -> RayHits:
         """Against collision shapes; see `Rays`."""
         self._touched = self._seen_anew(self._touched, collisions=True)
         return self._touched.cast(origin, directions, reach, exclude)
 
-    def foreign_rays(self, model: Model, link: Link) -> Rays:
+    def rays_excluding(self, model: Model, link: Link) -> Rays:
         """Against the collision shapes of what this link may touch, as Gazebo's sonar is a shape of its link: of its
         own model that is nothing, or with <self_collide> what no joint ties to it."""
         tied = {link.name, *(end for joint in model.joints for end in _ends(joint, link.name))}
@@ -47,7 +47,7 @@ class Surroundings:
 
         names = [each.name for each in model.links if not may_touch(each)]
 
-        def cast(origin: Vector3, directions: _Array, reach: float, exclude: int) -> Found:
+        def cast(origin: Vector3, directions: _Array, reach: float, exclude: int) -> RayHits:
             del exclude
             self._touched = self._seen_anew(self._touched, collisions=True)
             own = self._simulation[model.name]
@@ -56,13 +56,13 @@ class Surroundings:
 
         return cast
 
-    def light_rays(self, nearest: float, mask: int) -> Rays:
+    def visual_rays(self, nearest: float, mask: int) -> Rays:
         """Against visuals whose flags share a bit with the mask, and from this distance on [m].
 
         Gazebo's GPU rays see their own link, too.
         """
 
-        def cast(origin: Vector3, directions: _Array, reach: float, exclude: int) -> Found:
+        def cast(origin: Vector3, directions: _Array, reach: float, exclude: int) -> RayHits:
             del exclude
             self._lit[mask] = self._seen_anew(self._lit.get(mask), collisions=False, mask=mask)
             return self._lit[mask].cast_beyond(origin, directions, reach, nearest)
@@ -77,9 +77,9 @@ class Surroundings:
         caster.update(simulation.engine.reader.link_poses(), simulation.moment_of)
         return caster
 
-    def beacons(self, type_: str) -> list[Beacon]:
+    def beacons(self, type_: str) -> list[Transmitter]:
         """Every sensor of a type that others look for."""
-        found: list[Beacon] = []
+        found: list[Transmitter] = []
         index = 0
         for model in self._simulation.world.models:
             for link in model.links:
@@ -88,7 +88,7 @@ class Surroundings:
                         settings = sensor.instrument if isinstance(sensor.instrument, Transceiver) else Transceiver()
                         name = f"{model.name}::{link.name}::{sensor.name}"
                         found.append(
-                            Beacon(
+                            Transmitter(
                                 name=name,
                                 link_index=index,
                                 link_from_beacon=sensor.link_from_sensor,

@@ -23,15 +23,15 @@ _MOST_ALONG = 8190
 _LEAST_SCALE = 1e-7
 
 
-class View(Protocol):
+class CameraProjection(Protocol):
     """How a camera looks."""
 
     @property
-    def faces(self) -> list[tuple[Pose, Intrinsics]]:
+    def pinhole_views(self) -> list[tuple[Pose, Intrinsics]]:
         """The pinhole pictures it needs, of one size: camera_from_face, and their lenses."""
         ...
 
-    def developed(self, pictures: list[Picture]) -> Picture:
+    def compose(self, pictures: list[Picture]) -> Picture:
         """The camera's own picture, made of those."""
         ...
 
@@ -40,25 +40,25 @@ class View(Protocol):
         ...
 
 
-class PinholeView:
+class PinholeProjection:
     """One picture as it is drawn."""
 
     def __init__(self, intrinsics: Intrinsics) -> None:
-        self.faces = [(Pose(), intrinsics)]
+        self.pinhole_views = [(Pose(), intrinsics)]
 
-    def developed(self, pictures: list[Picture]) -> Picture:
-        """See `View.developed`."""
+    def compose(self, pictures: list[Picture]) -> Picture:
+        """See `CameraProjection.developed`."""
         return pictures[0]
 
     def slopes(self) -> tuple[_Array, _Array]:
-        """See `View.slopes`."""
-        ((_, seen),) = self.faces
+        """See `CameraProjection.slopes`."""
+        ((_, seen),) = self.pinhole_views
         columns, rows = _pixels(seen.width_px, seen.height_px)
         f = seen.focal_px
         return (columns - seen.width_px / 2) / f, (rows - seen.height_px / 2) / f
 
 
-class BentView:
+class DistortedProjection:
     """A pinhole picture that distortion bends, or whose middle or pixels are not as a renderer has them."""
 
     def __init__(self, optics: CameraOptics, intrinsics: Intrinsics, *, crop: bool) -> None:
@@ -75,21 +75,21 @@ class BentView:
         self._right, self._down = right, down
         sound &= (np.abs(self._right) < _STEEPEST) & (np.abs(self._down) < _STEEPEST)
         face = _face(self._right[sound], self._down[sound], f, intrinsics)
-        self.faces = [(Pose(), face)]
+        self.pinhole_views = [(Pose(), face)]
         ahead = np.ones_like(self._right)
         directions = np.stack([ahead, -self._right, -self._down], axis=-1)
-        self._remap = Remap(self.faces, directions, sound)
+        self._remap = Remap(self.pinhole_views, directions, sound)
 
-    def developed(self, pictures: list[Picture]) -> Picture:
-        """See `View.developed`."""
-        return self._remap.developed(pictures)
+    def compose(self, pictures: list[Picture]) -> Picture:
+        """See `CameraProjection.developed`."""
+        return self._remap.compose(pictures)
 
     def slopes(self) -> tuple[_Array, _Array]:
-        """See `View.slopes`."""
+        """See `CameraProjection.slopes`."""
         return self._right, self._down
 
 
-class WideView:
+class WideAngleProjection:
     """What a wide lens sees, looked up in those sides of a cube that it needs."""
 
     def __init__(self, optics: CameraOptics, intrinsics: Intrinsics) -> None:
@@ -111,18 +111,18 @@ class WideView:
             far_m=intrinsics.far_m,
         )
         self._remap = Remap([(side, face) for side in CUBE], directions, seen)
-        self.faces = self._remap.faces
+        self.pinhole_views = self._remap.pinhole_views
 
-    def developed(self, pictures: list[Picture]) -> Picture:
-        """See `View.developed`."""
-        return self._remap.developed(pictures)
+    def compose(self, pictures: list[Picture]) -> Picture:
+        """See `CameraProjection.developed`."""
+        return self._remap.compose(pictures)
 
     def slopes(self) -> tuple[_Array, _Array]:
         """A wide lens looks to where no slope leads."""
         raise AssertionError("depths are seen through pinholes only")
 
 
-def view_of(optics: CameraOptics, intrinsics: Intrinsics, *, crop: bool = True) -> View:
+def projection_of(optics: CameraOptics, intrinsics: Intrinsics, *, crop: bool = True) -> CameraProjection:
     """How a camera with these optics looks.
 
     Args:
@@ -131,10 +131,10 @@ def view_of(optics: CameraOptics, intrinsics: Intrinsics, *, crop: bool = True) 
         crop: whether a picture whose `k1` is negative is enlarged until no border is black, as in Gazebo.
     """
     if optics.lens is not None:
-        return WideView(optics, intrinsics)
+        return WideAngleProjection(optics, intrinsics)
     if optics.intrinsics is not None or optics.distortion != Distortion():
-        return BentView(optics, intrinsics, crop=crop)
-    return PinholeView(intrinsics)
+        return DistortedProjection(optics, intrinsics, crop=crop)
+    return PinholeProjection(intrinsics)
 
 
 def _as_gazebo_bends(

@@ -9,13 +9,13 @@ from trundle.model import MEASURING, Model
 from trundle.simulation import Simulation
 
 if TYPE_CHECKING:
-    from .mount_measuring import MeasuringSensor
-    from .surroundings import Surroundings
+    from .mount_instruments import InstrumentSensor
+    from .ray_scene import RayScene
 
 
 def mount_sensors(
-    simulation: Simulation, *, model: str | None = None, around: "Surroundings | None" = None
-) -> "list[MeasuringSensor]":
+    simulation: Simulation, *, model: str | None = None, around: "RayScene | None" = None
+) -> "list[InstrumentSensor]":
     """Every sensor that needs no picture, in file order; each has random numbers of its own.
 
     Args:
@@ -25,9 +25,9 @@ def mount_sensors(
     """
     if not any(map(_has_some, simulation.world.models)):
         return []
-    from .mount_measuring import mount_all
+    from .mount_instruments import mount_instruments
 
-    return mount_all(simulation, model=model, around=around)
+    return mount_instruments(simulation, model=model, around=around)
 
 
 def _has_some(model: Model) -> bool:

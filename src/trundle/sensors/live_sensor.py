@@ -13,7 +13,7 @@ from trundle.model import Link, Model, Sensor
 from trundle.simulation import LinkHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Vector3, cross
 
-from .placing import pose_of
+from .pose_arrays import pose_of
 
 NS = 1_000_000_000
 Reading = TypeVar("Reading")
@@ -29,7 +29,7 @@ def _period_ns(rate_hz: float) -> Fraction:
     return NS / (Fraction(rate_hz).limit_denominator(1_000_000) or Fraction(rate_hz))
 
 
-class Spot(Struct, frozen=True, eq=False, dict=True):
+class SensorMount(Struct, frozen=True, eq=False, dict=True):
     """Where a sensor is mounted."""
 
     model: Model
@@ -51,10 +51,10 @@ class Spot(Struct, frozen=True, eq=False, dict=True):
         return self.model.world_from_model @ self.link.model_from_link @ self.sensor.link_from_sensor
 
 
-class MountedSensor(Generic[Reading]):
+class LiveSensor(Generic[Reading]):
     """A hook that measures when it is due and somebody wants it; one that nobody wants costs nothing."""
 
-    def __init__(self, spot: Spot, *, fastest_hz: float | None = None) -> None:
+    def __init__(self, spot: SensorMount, *, fastest_hz: float | None = None) -> None:
         """Mount a sensor.
 
         Args:
@@ -127,13 +127,13 @@ class MountedSensor(Generic[Reading]):
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Measure, and tell those who want to know."""
-        reading = self.take(snapshot)
+        reading = self.measure(snapshot)
         self.readings += 1
         for listener in self._listeners:
             if listener.wanted():
                 listener.call(reading)
 
-    def take(self, snapshot: Snapshot) -> Reading:
+    def measure(self, snapshot: Snapshot) -> Reading:
         """Measure at this instant."""
         raise NotImplementedError
 

@@ -43,7 +43,7 @@ def quota_of(simulation: Simulation) -> Quota:
     return _QUOTAS.setdefault(simulation, Quota())
 
 
-class PictureSaver:
+class ImageSaver:
     """Writes each picture to a folder, under Gazebo's names: `<world>_<model>_<link>_<camera>(1)-0000.jpg`, …
 
     Where an earlier run has left such files, (2) is next: no file that is there is written over.

@@ -13,11 +13,11 @@ from trundle.render import Renderer, Scene
 from trundle.simulation import Simulation
 
 from .camera import CameraSensor
-from .formats import FORMATS
+from .camera_scene import CameraScene
+from .image_saver import ImageSaver, folder_for, quota_of
 from .lens import fits
-from .mounted import Spot
-from .saving import PictureSaver, folder_for, quota_of
-from .scenery import Scenery
+from .live_sensor import SensorMount
+from .pixel_formats import FORMATS
 
 _KINDS: Mapping[str, str] = {
     "boundingbox": "BoundingBoxCameraSensor",
@@ -74,9 +74,9 @@ def mount_cameras(
                 for part, optics in enumerate(_made(sensor, report)):
                     mask = optics.visibility_mask
                     if mask not in sceneries:
-                        sceneries[mask] = Scenery(simulation, make, mask=mask)
+                        sceneries[mask] = CameraScene(simulation, make, mask=mask)
                     camera = kind(
-                        Spot(owner, link, sensor, index, (simulation.seed, number, part)),
+                        SensorMount(owner, link, sensor, index, (simulation.seed, number, part)),
                         optics,
                         scenery=sceneries[mask],
                     )
@@ -119,7 +119,7 @@ def _save(camera: CameraSensor, simulation: Simulation, world: str, report: Diag
         report.info(camera.sensor.at, f"sensor {camera.name!r}: <save> writes into {folder}")
     else:
         report.warn(camera.sensor.at, f"sensor {camera.name!r}: <save> writes into {folder} in place of {path}")
-    saver = PictureSaver(camera, folder, world, report, quota_of(simulation))
+    saver = ImageSaver(camera, folder, world, report, quota_of(simulation))
     camera.listen(saver.save, wanted=saver.wanted)
 
 

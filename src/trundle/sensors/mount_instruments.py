@@ -15,16 +15,16 @@ from .contact import ContactSensor
 from .force_torque import ForceTorqueSensor
 from .gps import GpsSensor
 from .imu import ImuSensor
+from .imu_reference import reference_from_world
+from .live_sensor import SensorMount
 from .logical_camera import LogicalCameraSensor
 from .magnetometer import MagnetometerSensor
-from .mounted import Spot
-from .orientation import reference_from_world
 from .range import RangeSensor
+from .ray_scene import RayScene
 from .sonar import SonarSensor
-from .surroundings import Surroundings
 from .wireless import RfidSensor, WirelessSensor
 
-MeasuringSensor: TypeAlias = (
+InstrumentSensor: TypeAlias = (
     AirPressureSensor
     | AirSpeedSensor
     | AltimeterSensor
@@ -45,8 +45,8 @@ class _Site(Struct, frozen=True, eq=False):
     """Where a sensor is to be mounted, and what is around it."""
 
     simulation: Simulation
-    around: Surroundings
-    spot: Spot
+    around: RayScene
+    spot: SensorMount
 
     @property
     def world(self) -> World:
@@ -54,10 +54,10 @@ class _Site(Struct, frozen=True, eq=False):
         return self.simulation.world
 
 
-def mount_all(simulation: Simulation, *, model: str | None, around: Surroundings | None) -> list[MeasuringSensor]:
+def mount_instruments(simulation: Simulation, *, model: str | None, around: RayScene | None) -> list[InstrumentSensor]:
     """As `mount_sensors`, whose arguments these are."""
-    mounted: list[MeasuringSensor] = []
-    around = around or Surroundings(simulation)
+    mounted: list[InstrumentSensor] = []
+    around = around or RayScene(simulation)
     index = number = 0
     for owner in simulation.world.models:
         wanted = model in (None, owner.name)
@@ -69,7 +69,7 @@ def mount_all(simulation: Simulation, *, model: str | None, around: Surroundings
                     what = f"sensor {sensor.name!r}: force_torque sensors measure joints; on a link it tells nothing"
                     simulation.report.warn(sensor.at, what)
                 if make is not None and wanted:
-                    spot = Spot(owner, link, sensor, index, (simulation.seed, number))
+                    spot = SensorMount(owner, link, sensor, index, (simulation.seed, number))
                     made = make(_Site(simulation, around, spot))
                     made.follow(simulation[owner.name].link(link.name))
                     mounted.append(made)
@@ -79,10 +79,10 @@ def mount_all(simulation: Simulation, *, model: str | None, around: Surroundings
     return mounted
 
 
-def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[MeasuringSensor]:
+def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[InstrumentSensor]:
     """The force-torque sensors of a model's joints; `first` is its first link's index."""
     indices = {link.name: first + i for i, link in enumerate(model.links)}
-    mounted: list[MeasuringSensor] = []
+    mounted: list[InstrumentSensor] = []
     for number, joint in enumerate(model.joints):
         for sensor in joint.sensors:
             if sensor.force_torque is None or joint.child not in indices:
@@ -92,7 +92,9 @@ def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[Meas
             robot = simulation[model.name]
             handle = robot.joint(joint.name)
             made = ForceTorqueSensor(
-                Spot(model, model.link(joint.child), sensor, indices[joint.child], (simulation.seed, first, number)),
+                SensorMount(
+                    model, model.link(joint.child), sensor, indices[joint.child], (simulation.seed, first, number)
+                ),
                 joint=joint,
                 parent=robot.link(joint.parent) if joint.parent in indices else None,
                 reaction=lambda handle=handle: handle.reaction,
@@ -122,7 +124,7 @@ def _imu(at: _Site) -> ImuSensor:
 def _range(at: _Site) -> RangeSensor:
     sensor = at.spot.sensor
     scan = sensor.scan or RangeScan()
-    lit = at.around.light_rays(scan.min_m, scan.visibility_mask)
+    lit = at.around.visual_rays(scan.min_m, scan.visibility_mask)
     rays = lit if sensor.type.startswith("gpu_") else at.around.rays
     return RangeSensor(at.spot, rays=rays)
 
@@ -146,7 +148,7 @@ def _gps(at: _Site) -> GpsSensor:
     return GpsSensor(at.spot, origin=at.world.spherical_coordinates)
 
 
-MAKERS: Mapping[str, Callable[[_Site], MeasuringSensor]] = {
+MAKERS: Mapping[str, Callable[[_Site], InstrumentSensor]] = {
     "air_pressure": lambda at: AirPressureSensor(at.spot, air=at.world.atmosphere),
     "air_speed": _air_speed,
     "altimeter": lambda at: AltimeterSensor(at.spot, start_height=at.spot.start().position[2]),
@@ -161,6 +163,6 @@ MAKERS: Mapping[str, Callable[[_Site], MeasuringSensor]] = {
     "navsat": _gps,
     "ray": _range,
     "rfid": lambda at: RfidSensor(at.spot, tags=lambda: at.around.beacons("rfidtag")),
-    "sonar": lambda at: SonarSensor(at.spot, rays=at.around.foreign_rays(at.spot.model, at.spot.link)),
+    "sonar": lambda at: SonarSensor(at.spot, rays=at.around.rays_excluding(at.spot.model, at.spot.link)),
     "wireless_receiver": _wireless_receiver,
 }
