@@ -64,10 +64,10 @@ def test_its_bones_keep_step_with_what_it_covers(tmp_path: Path) -> None:
     start = sim["walker"].pose.position
 
     sim.run(1.0)
-    moment = sim.moment_of("walker")
+    moment = sim.animation_state("walker")
 
     assert moment.animation == "walking"
     assert not moment.placed
     assert moment.time_s == pytest.approx(2.0 * math.dist(start, sim["walker"].pose.position), rel=1e-3)
     sim.reset()
-    assert sim.moment_of("walker").time_s == 0.0
+    assert sim.animation_state("walker").time_s == 0.0

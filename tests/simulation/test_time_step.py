@@ -8,7 +8,7 @@ from trundle.description import load
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
 from trundle.simulation import Simulation
-from trundle.simulation.timeline import Timeline
+from trundle.simulation.step_clock import StepClock
 from trundle.spatial import Wrench
 
 _INERTIAL = "<inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
@@ -32,7 +32,7 @@ def with_steps_of(sim: Simulation, step_s: float) -> None:
 
 
 def test_a_timeline_knows_when_each_step_ends() -> None:
-    line = Timeline(1 * MS).with_steps_of(4 * MS, since=3)
+    line = StepClock(1 * MS).with_steps_of(4 * MS, since=3)
 
     assert [line.time_ns(step) for step in (3, 4, 5)] == [3 * MS, 7 * MS, 11 * MS]
     assert [line.step_at(time_ns) for time_ns in (3 * MS, 3 * MS + 1, 7 * MS, 8 * MS)] == [3, 4, 4, 5]

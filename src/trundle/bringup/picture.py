@@ -130,7 +130,7 @@ class Studio:
         """Draw what is there now; the view of everything may have gone around, counter-clockwise from above."""
         snapshot = self.simulation.snapshot()
         self._renderer.update(self._poses(snapshot))
-        move_skins(self._renderer, self._scene, self.simulation.moment_of)
+        move_skins(self._renderer, self._scene, self.simulation.animation_state)
         if self._sensor is not None:
             eye = self._sensor.world_from_camera(snapshot)
         else:

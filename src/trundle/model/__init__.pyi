@@ -1,6 +1,6 @@
 from .actor import Actor as Actor
 from .actor import Animation as Animation
-from .actor import Moment as Moment
+from .actor import AnimationState as AnimationState
 from .actor import Skin as Skin
 from .actor import Trajectory as Trajectory
 from .actor import Waypoint as Waypoint

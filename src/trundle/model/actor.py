@@ -54,7 +54,7 @@ class Trajectory(Struct, frozen=True, kw_only=True):
     """By time."""
 
 
-class Moment(Struct, frozen=True, kw_only=True):
+class AnimationState(Struct, frozen=True, kw_only=True):
     """What the bones of an actor are at."""
 
     animation: str = ""

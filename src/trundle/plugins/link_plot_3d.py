@@ -8,7 +8,7 @@ from trundle.description import GAZEBO_MATERIALS
 from trundle.diagnostics import UsageError
 from trundle.model import PluginTag
 from trundle.ros import Node
-from trundle.simulation import Line, LinkHandle, ModelHandle, Simulation
+from trundle.simulation import DebugLine, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Pose, Vector3
 
 from .plugin import Plugin
@@ -23,7 +23,7 @@ _MOST, _FEWER = 1000, 5
 class _Plot:
     link: LinkHandle
     link_from_pen: Pose
-    line: Line
+    line: DebugLine
 
 
 class LinkPlot3D(Plugin):
@@ -50,7 +50,7 @@ class LinkPlot3D(Plugin):
             except UsageError as error:
                 report.warn(plot.at, f"<plot>: {error}; it is left out")
                 continue
-            line = Line((0.0, 0.0, 0.0) if colour is None else colour.diffuse[:3])
+            line = DebugLine((0.0, 0.0, 0.0) if colour is None else colour.diffuse[:3])
             sim.lines[f"{model.name}::plot_{link.name}_{len(self._plots)}"] = line
             self._plots.append(_Plot(link, pen, line))
         tag.node.report_unread(report)

@@ -15,7 +15,7 @@ from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, LightType, Pla
 from trundle.spatial import Pose, Vector3
 
 if TYPE_CHECKING:
-    from trundle.model import Moment
+    from trundle.model import AnimationState
 
 ShapeGeometry = Box | Capsule | Cylinder | Ellipsoid | Mesh | Plane | Sphere
 
@@ -74,7 +74,7 @@ class SceneSkin(Struct, frozen=True, eq=False, kw_only=True):
     """The number of its first shape; the others follow."""
     rows: tuple[NDArray[np.intp], ...]
     """Of each shape: which of the skin's vertices are its own."""
-    vertices: "Callable[[Moment], NDArray[np.float32]]"
+    vertices: "Callable[[AnimationState], NDArray[np.float32]]"
     """(N, 3) All of them at a moment, in the body's frame [m]."""
 
 

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.meshes import MeshError, Motion, Skin, load_motion, load_skin, matched, root_of
-from trundle.model import Actor, Animation, Moment
+from trundle.model import Actor, Animation, AnimationState
 
 from .renderer import Renderer
 from .scene import Scene, SceneSkin, Shape
@@ -41,7 +41,7 @@ def skin_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], Scene
     mesh = puppet.skin.mesh
     numbers = np.repeat(np.arange(len(mesh.vertices), dtype=np.float32)[:, None], 3, axis=1)
     numbered = replace(mesh, vertices=numbers)
-    start = mesh.bent(puppet.vertices(Moment()))
+    start = mesh.bent(puppet.vertices(AnimationState()))
     shapes: list[Shape] = []
     rows: list[NDArray[np.intp]] = []
     for piece, same in zip(start.by_look(), numbered.by_look(), strict=True):
@@ -53,7 +53,7 @@ def skin_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], Scene
     return shapes, SceneSkin(actor=actor.name, first=first, rows=tuple(rows), vertices=puppet.vertices)
 
 
-def move_skins(renderer: Renderer, scene: Scene, moment_of: Callable[[str], Moment]) -> None:
+def move_skins(renderer: Renderer, scene: Scene, moment_of: Callable[[str], AnimationState]) -> None:
     """Have the skins of a scene drawn as they are at their actors' moments."""
     for skin in scene.skins:
         vertices = skin.vertices(moment_of(skin.actor))
@@ -78,7 +78,7 @@ class Puppet:
             if bones is not None:
                 self._animations[animation.name] = (animation, motion, bones)
 
-    def vertices(self, moment: Moment) -> NDArray[np.float32]:
+    def vertices(self, moment: AnimationState) -> NDArray[np.float32]:
         """(N, 3) where the skin's vertices are, in the actor's frame [m].
 
         As in Gazebo: the root bone of an actor on its way stays over the way, and with <interpolate_x> the animation

@@ -104,5 +104,5 @@ class CameraScene:
             if self.scene.skins:
                 from trundle.render import move_skins  # only actors have some
 
-                move_skins(self._renderer, self.scene, self._simulation.moment_of)
+                move_skins(self._renderer, self.scene, self._simulation.animation_state)
             self._shown = snapshot

@@ -74,7 +74,7 @@ class RayScene:
         simulation = self._simulation
         if caster is None or caster.world is not simulation.world:
             caster = RayCaster(simulation.world, collisions=collisions, mask=mask)
-        caster.update(simulation.engine.reader.link_poses(), simulation.moment_of)
+        caster.update(simulation.engine.reader.link_poses(), simulation.animation_state)
         return caster
 
     def beacons(self, type_: str) -> list[Transmitter]:

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.model import EVERY_BIT, Moment, Plane, World
+from trundle.model import EVERY_BIT, AnimationState, Plane, World
 from trundle.render import NativeRenderer, Scene, move_skins, scene_of
 from trundle.spatial import Pose, Vector3
 
@@ -54,7 +54,7 @@ class RayCaster:
         self._poses: _Array = np.zeros((0, 7))
         self._bodies = np.array([*(shape.body for shape in scene.shapes), -1], dtype=np.intp)
 
-    def update(self, poses: _Array, moment_of: Callable[[str], Moment]) -> None:
+    def update(self, poses: _Array, moment_of: Callable[[str], AnimationState]) -> None:
         """Move the links, (links, 7) x y z qw qx qy qz in the world, and the skins of actors."""
         if poses is not self._poses:  # those that were asked for again at one instant are the same array
             self._poses = poses

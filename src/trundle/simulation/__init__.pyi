@@ -1,13 +1,13 @@
 from .actors import ActorWalk as ActorWalk
 from .actors import with_actors as with_actors
+from .debug_line import DebugLine as DebugLine
 from .handle import expect_finite as expect_finite
 from .handles import JointHandle as JointHandle
 from .handles import LinkHandle as LinkHandle
 from .handles import ModelHandle as ModelHandle
 from .hooks import AfterStep as AfterStep
 from .hooks import BeforeStep as BeforeStep
-from .line import Line as Line
-from .saved import SavedSimulation as SavedSimulation
+from .saved_state import SavedSimulation as SavedSimulation
 from .simulation import Simulation as Simulation
 from .snapshot import Snapshot as Snapshot
 from .state_log import StateLog as StateLog

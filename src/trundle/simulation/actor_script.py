@@ -4,7 +4,7 @@ import math
 from bisect import bisect_right
 from itertools import accumulate, pairwise
 
-from trundle.model import Actor, Moment, Trajectory
+from trundle.model import Actor, AnimationState, Trajectory
 from trundle.spatial import Pose, Quaternion, Twist, Vector3, normalized, quaternion_product
 
 _PIECES, _MOST_PIECES = 32, 100_000
@@ -18,12 +18,12 @@ class ActorScript:
         self._delay = max(actor.delay_start_s, 0.0)
         self._loop = actor.loop
         self._first = actor.trajectories[0].type if actor.trajectories else ""
-        self._ways: list[tuple[float, _Way]] = []
+        self._ways: list[tuple[float, _WaypointPath]] = []
         """The time each begins [s], and what it is."""
         self.length_s = 0.0
         for trajectory in actor.trajectories:
             if trajectory.waypoints:
-                self._ways.append((self.length_s, _Way(trajectory)))
+                self._ways.append((self.length_s, _WaypointPath(trajectory)))
                 self.length_s += max(trajectory.waypoints[-1].time_s, 0.0)
 
     def __bool__(self) -> bool:
@@ -35,14 +35,14 @@ class ActorScript:
         since, way = self._on_way(time_s)
         return way.pose_at(since)
 
-    def moment_at(self, time_s: float) -> Moment:
+    def animation_state_at(self, time_s: float) -> AnimationState:
         """What the bones are at; without waypoints the first animation goes on and on."""
         if not self._ways:
-            return Moment(animation=self._first, time_s=max(time_s - self._delay, 0.0))
+            return AnimationState(animation=self._first, time_s=max(time_s - self._delay, 0.0))
         since, way = self._on_way(time_s)
-        return Moment(animation=way.type, time_s=since, way_m=way.covered(since))
+        return AnimationState(animation=way.type, time_s=since, way_m=way.covered(since))
 
-    def _on_way(self, time_s: float) -> "tuple[float, _Way]":
+    def _on_way(self, time_s: float) -> "tuple[float, _WaypointPath]":
         """Which way it is on at a time, and for how long [s]."""
         round_s = self._delay + self.length_s
         if self._loop and round_s > 0.0:
@@ -67,7 +67,7 @@ class ActorScript:
         return Twist(((x1 - x0) / dt, (y1 - y0) / dt, (z1 - z0) / dt), spin)
 
 
-class _Way:
+class _WaypointPath:
     """One trajectory: positions by a cardinal spline, as Gazebo's; turns along great arcs, where Gazebo has splines."""
 
     def __init__(self, trajectory: Trajectory) -> None:

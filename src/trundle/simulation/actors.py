@@ -15,7 +15,7 @@ from trundle.spatial import Pose, Vector3
 from .handles import ModelHandle
 
 if TYPE_CHECKING:  # a world without actors starts without their modules
-    from trundle.model import Actor, Moment, Skin
+    from trundle.model import Actor, AnimationState, Skin
 
     from .simulation import Simulation
 
@@ -55,13 +55,13 @@ class ActorWalk:
         """Leave the actor to somebody else, whose pose of it is that of its bones, too."""
         self.is_on, self.taken_over = False, True
 
-    def moment(self, time_ns: int) -> "Moment":
+    def animation_state(self, time_ns: int) -> "AnimationState":
         """What its bones are at."""
-        from trundle.model import Moment
+        from trundle.model import AnimationState
 
         if self.taken_over:
-            return Moment(animation=_WALKING, time_s=self.animation_s, way_m=0.0, placed=False)
-        return self._script.moment_at(time_ns / 1e9 if self._starts else 0.0)
+            return AnimationState(animation=_WALKING, time_s=self.animation_s, way_m=0.0, placed=False)
+        return self._script.animation_state_at(time_ns / 1e9 if self._starts else 0.0)
 
     def wanted(self, models: Sequence[ModelHandle]) -> bool:
         """Whether the actor is there, and on its way."""

@@ -40,7 +40,7 @@ class Handle:
         """Whether its model is, still."""
         return self._index is not None
 
-    def move_to(self, index: int | None) -> None:
+    def rebind(self, index: int | None) -> None:
         """Be at another index, or nowhere any more; for the simulation alone."""
         self._index = index
 

@@ -14,9 +14,9 @@ from trundle.diagnostics import UsageError
 from trundle.model import Link, Model, World
 from trundle.spatial import Pose, Twist, Vector3, Wrench, cross
 
-from .changing import placed
 from .handle import Handle, expect_finite
 from .joint_handle import JointHandle
+from .world_edits import placed
 
 if TYPE_CHECKING:
     from trundle.physics import LinkGrip
@@ -184,7 +184,7 @@ class ModelHandle:
             if self._simulation.engine.is_free(link.index):
                 link.set_twist(twist)
 
-    def describe(self, model: Model) -> None:
+    def update_description(self, model: Model) -> None:
         """Stand for an edited model of the same links and joints; for the simulation alone."""
         self.model = model
         for handle, link in zip(self.links, model.links, strict=True):
@@ -192,12 +192,12 @@ class ModelHandle:
         for handle, joint in zip(self.joints, model.joints, strict=True):
             handle.joint = joint
 
-    def move_to(self, first_link: int | None, first_joint: int | None) -> None:
+    def rebind(self, first_link: int | None, first_joint: int | None) -> None:
         """Have other indices, or none any more; for the simulation alone."""
         for i, link in enumerate(self.links):
-            link.move_to(None if first_link is None else first_link + i)
+            link.rebind(None if first_link is None else first_link + i)
         for i, joint in enumerate(self.joints):
-            joint.move_to(None if first_joint is None else first_joint + i)
+            joint.rebind(None if first_joint is None else first_joint + i)
 
     def link(self, name: str) -> LinkHandle:
         """The link of that name.
@@ -236,8 +236,8 @@ def handles_of(simulation: "Simulation", world: World, known: Mapping[str, Model
         if handle is None:
             handle = ModelHandle(simulation, model, first_link=link, first_joint=joint)
         else:
-            handle.describe(model)
-            handle.move_to(link, joint)
+            handle.update_description(model)
+            handle.rebind(link, joint)
         handles.append(handle)
         link += len(model.links)
         joint += len(model.joints)
@@ -252,8 +252,8 @@ def world_joints_of(simulation: "Simulation", world: World, known: Mapping[str, 
     for i, joint in enumerate(world.joints, first):
         handle = gone.pop(joint.name, None) or JointHandle(simulation, joint, i)
         handle.joint = joint
-        handle.move_to(i)
+        handle.rebind(i)
         handles.append(handle)
     for handle in gone.values():
-        handle.move_to(None)
+        handle.rebind(None)
     return handles

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
 from .snapshot import Snapshot
-from .timeline import Period, Timeline
+from .step_clock import Period, StepClock
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -32,17 +32,17 @@ class AfterStep(Protocol):
         ...
 
 
-class Alarm:
+class PeriodicTimer:
     """Comes due at multiples of a period, counted from a start: never early, and late by less than a step.
 
     A period that is no whole number of nanoseconds is a fraction: nothing adds up, however long it runs.
     """
 
-    def __init__(self, period_ns: Period, timeline: Timeline, *, start_ns: Period) -> None:
+    def __init__(self, period_ns: Period, timeline: StepClock, *, start_ns: Period) -> None:
         self._period_ns = period_ns
         self.restart(start_ns, timeline)
 
-    def restart(self, start_ns: Period, timeline: Timeline | None = None) -> None:
+    def restart(self, start_ns: Period, timeline: StepClock | None = None) -> None:
         """Come due first at this time [ns], at the steps of a timeline, or of the same as before."""
         if timeline is not None:
             self._timeline = timeline
@@ -51,11 +51,11 @@ class Alarm:
         self.step = self._timeline.step_at(start_ns)
         """The number of the step it is due at."""
 
-    def follow(self, timeline: Timeline) -> None:
+    def follow(self, timeline: StepClock) -> None:
         """Come due when it would have, at the steps of another timeline."""
         self.restart(self._timeline.time_ns(self.step) if self._at_every_step else self._next_ns, timeline)
 
-    def rings(self, step: int) -> bool:
+    def due(self, step: int) -> bool:
         """Whether it is due; if so, it is set to its next time."""
         if step < self.step:
             return False
@@ -71,7 +71,7 @@ class ScheduledHook:
     """A hook and its alarms: it acts at once and then every period, and looks after the first period."""
 
     def __init__(
-        self, hook: object, period_ns: Period, timeline: Timeline, *, now_ns: int, wanted: Callable[[], bool] | None
+        self, hook: object, period_ns: Period, timeline: StepClock, *, now_ns: int, wanted: Callable[[], bool] | None
     ) -> None:
         self.hook = hook
         self.wanted = wanted
@@ -88,12 +88,12 @@ class ScheduledHook:
         """Count a period from now."""
         # Whole numbers of nanoseconds, as most periods are, are kept as such: fractions cost ten times as much.
         self._asked_ns = period_ns = int(period_ns) if period_ns.denominator == 1 else period_ns
-        self.before_alarm = Alarm(period_ns, self._timeline, start_ns=now_ns)
-        self.after_alarm = Alarm(period_ns, self._timeline, start_ns=now_ns + self._period_ns)
+        self.before_alarm = PeriodicTimer(period_ns, self._timeline, start_ns=now_ns)
+        self.after_alarm = PeriodicTimer(period_ns, self._timeline, start_ns=now_ns + self._period_ns)
         alarms = ((self.before, self.before_alarm), (self.after, self.after_alarm))
         self._alarms = [alarm for method, alarm in alarms if method is not None]
 
-    def follow(self, timeline: Timeline) -> None:
+    def follow(self, timeline: StepClock) -> None:
         """Keep the rhythm at other steps."""
         self._timeline = timeline
         self.before_alarm.follow(timeline)
@@ -105,7 +105,7 @@ class ScheduledHook:
         self.before_alarm.restart(-(-now_ns // period_ns) * period_ns)
         self.after_alarm.restart((now_ns // period_ns + 1) * period_ns)
 
-    def wakes(self, step: int) -> bool:
+    def enabled(self, step: int) -> bool:
         """Whether it is to be called at all; one that was not wanted for a while starts anew from this step."""
         if self.wanted is None:
             return True

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from .hooks import AfterStep, BeforeStep, ScheduledHook
 from .snapshot import Snapshot
-from .timeline import Period, Timeline
+from .step_clock import Period, StepClock
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 class Schedule:
     """Hooks in the order in which they came."""
 
-    def __init__(self, timeline: Timeline) -> None:
+    def __init__(self, timeline: StepClock) -> None:
         self._timeline = timeline
         self._hooks: list[ScheduledHook] = []
 
@@ -34,7 +34,7 @@ class Schedule:
         """Call a hook no more."""
         self._hooks = [scheduled for scheduled in self._hooks if scheduled.hook is not hook]
 
-    def follow(self, timeline: Timeline) -> None:
+    def follow(self, timeline: StepClock) -> None:
         """Keep every rhythm at other steps."""
         self._timeline = timeline
         for hook in self._hooks:
@@ -45,21 +45,21 @@ class Schedule:
         for hook in self._hooks:
             hook.restart(step)
 
-    def awake(self, step: int) -> list[ScheduledHook]:
+    def enabled(self, step: int) -> list[ScheduledHook]:
         """Those that want to be called in the stride that begins with this step."""
-        return [hook for hook in self._hooks if hook.wakes(step)]
+        return [hook for hook in self._hooks if hook.enabled(step)]
 
 
-def act(hooks: list[ScheduledHook], sim: "Simulation") -> None:
+def run_before(hooks: list[ScheduledHook], sim: "Simulation") -> None:
     """Have those that are due at this step act on the world."""
     for hook in hooks:
-        if hook.before is not None and hook.before_alarm.rings(sim.steps):
+        if hook.before is not None and hook.before_alarm.due(sim.steps):
             hook.before(sim)
 
 
-def look(hooks: list[ScheduledHook], step: int, snapshot: Callable[[], Snapshot]) -> None:
+def run_after(hooks: list[ScheduledHook], step: int, snapshot: Callable[[], Snapshot]) -> None:
     """Have those that are due at a step see the world; the snapshot is taken if there are any."""
-    due = [hook for hook in hooks if hook.after is not None and hook.after_alarm.rings(step)]
+    due = [hook for hook in hooks if hook.after is not None and hook.after_alarm.due(step)]
     if not due:
         return
     seen = snapshot()

@@ -16,28 +16,20 @@ from trundle.model import Joint, Model, World
 from trundle.physics import Contact, Engine, compile_world
 
 from .actors import ActorWalk, with_actors
-from .attaching import attached
-from .changing import (
-    carried_over,
-    free_name,
-    refuse_others,
-    refuse_taken,
-    renamed,
-    without_joint,
-    without_model,
-)
+from .applied_loads import AppliedLoads
+from .debug_line import DebugLine
 from .handles import ModelHandle, handles_of, world_joints_of
 from .hooks import AfterStep, BeforeStep
+from .joint_attachment import attached
 from .joint_handle import JointHandle
-from .line import Line
-from .pushes import Pushes
-from .saved import SavedSimulation
-from .schedule import Schedule, act, look
+from .saved_state import SavedSimulation
+from .schedule import Schedule, run_after, run_before
 from .snapshot import Snapshot
-from .timeline import NS, Period, Timeline, step_ns_of
+from .step_clock import NS, Period, StepClock, step_ns_of
+from .world_edits import carried_over, free_name, refuse_others, refuse_taken, renamed, without_joint, without_model
 
 if TYPE_CHECKING:
-    from trundle.model import Moment
+    from trundle.model import AnimationState
 
 _LONGEST = 1000
 """Steps in one stride: what blows up is undone to its beginning."""
@@ -60,16 +52,16 @@ class Simulation:
         self.engine = Engine(compile_world(with_actors(world, report), report))
         self.world = self.engine.compiled.world
         """Without nested models: their links and joints are the outer model's, called `inner::name`."""
-        self.pushes = Pushes(self.engine)
+        self.pushes = AppliedLoads(self.engine)
         """What handles have pushed."""
-        self._timeline = Timeline(step_ns_of(world))
+        self._timeline = StepClock(step_ns_of(world))
         self.steps = 0
         self._before_resets = (0, 0)
         """Time [ns] and steps that resets and restored states have taken back."""
         self.models = handles_of(self, self.world, {})
         self.joints = world_joints_of(self, self.world, {})
         """Between models, in file order."""
-        self.lines: dict[str, Line] = {}
+        self.lines: dict[str, DebugLine] = {}
         """What plugins draw, by `model::name`."""
         self.lines_are_shown = False
         """Whether a viewer shows them; a plugin whose lines cost much draws none until then."""
@@ -118,12 +110,12 @@ class Simulation:
                 return model
         raise UsageError(f"no model {name!r}; there are: {', '.join(repr(m.name) for m in self.models) or 'none'}")
 
-    def moment_of(self, actor: str) -> "Moment":
+    def animation_state(self, actor: str) -> "AnimationState":
         """What the bones of an actor are at now; one that is gone stands."""
-        from trundle.model import Moment  # a world without actors starts without theirs
+        from trundle.model import AnimationState  # a world without actors starts without theirs
 
         walk = self.actors.get(actor)
-        return Moment() if walk is None else walk.moment(self.time_ns)
+        return AnimationState() if walk is None else walk.animation_state(self.time_ns)
 
     # -- time
 
@@ -160,15 +152,15 @@ class Simulation:
     def _stride(self, most_ns: int) -> int:
         """Simulate so much or less [ns]; return how much it was."""
         self._drain()
-        hooks = self._schedule.awake(self.steps)
-        act(hooks, self)
+        hooks = self._schedule.enabled(self.steps)
+        run_before(hooks, self)
         target = self._timeline.step_at(self.time_ns + most_ns)
         stop = min([target, self.steps + _LONGEST, *[hook.next_step for hook in hooks], *self.pushes.next_ends()])
         simulated_ns = (stop - self.steps) * self.step_ns
         self.engine.step(stop - self.steps)
         self.steps = stop
         self.pushes.end(self.steps)
-        look(hooks, self.steps, self.snapshot)
+        run_after(hooks, self.steps, self.snapshot)
         return simulated_ns
 
     def add_hook(
@@ -236,7 +228,7 @@ class Simulation:
             self._before_resets = (self.simulated_ns, self.simulated_steps)
             self.steps = 0
             self.pushes.shift(-steps)
-            self._follow(Timeline(self.step_ns))
+            self._follow(StepClock(self.step_ns))
             self._schedule.restart(0)
         self.engine.set_time(self.time_ns / NS)
         if poses:
@@ -274,7 +266,7 @@ class Simulation:
         """
         gone = self[name]
         self._go_on_with(without_model(self.world, name))
-        gone.move_to(None, None)
+        gone.rebind(None, None)
         self.lines = {key: line for key, line in self.lines.items() if not key.startswith(f"{name}::")}
 
     def rename(self, name: str, new: str) -> None:
@@ -347,7 +339,7 @@ class Simulation:
         for call in self._on_change:
             call()
 
-    def _follow(self, timeline: Timeline) -> None:
+    def _follow(self, timeline: StepClock) -> None:
         self._timeline = timeline
         self._schedule.follow(timeline)
 

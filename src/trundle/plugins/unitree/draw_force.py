@@ -5,7 +5,7 @@ from typing import Self
 from trundle.description import GAZEBO_MATERIALS
 from trundle.model import Box, Cylinder, Geometry, MeshFile, Plane, PluginTag, Sphere, Visual
 from trundle.ros import Message, Node, Subscription
-from trundle.simulation import Line, LinkHandle, ModelHandle, Simulation
+from trundle.simulation import DebugLine, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import ZERO, Vector3
 
 from ..plugin import VisualPlugin
@@ -38,7 +38,7 @@ class DrawForce(VisualPlugin):
         self._link_from_visual = visual.link_from_visual
         self._scale = _scale_of(visual.geometry)
         self._force = ZERO
-        self._line = Line(GAZEBO_MATERIALS["Gazebo/Purple"].diffuse[:3])
+        self._line = DebugLine(GAZEBO_MATERIALS["Gazebo/Purple"].diffuse[:3])
         sim.lines[f"{model.name}::{link.name}::{visual.name}::{tag.name}"] = self._line
 
     @classmethod

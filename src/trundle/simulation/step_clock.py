@@ -17,7 +17,7 @@ def step_ns_of(world: World) -> int:
     return round(world.physics.max_step_size_s * NS)
 
 
-class Timeline(Struct, frozen=True):
+class StepClock(Struct, frozen=True):
     """Steps of one length, counted from a step at which time was known."""
 
     step_ns: int
@@ -32,6 +32,6 @@ class Timeline(Struct, frozen=True):
         """The first step that reaches a time."""
         return self.first_step - ((self.first_ns - time_ns) // self.step_ns)
 
-    def with_steps_of(self, step_ns: int, *, since: int) -> "Timeline":
+    def with_steps_of(self, step_ns: int, *, since: int) -> "StepClock":
         """One that is as this up to a step, and has others from there on; this one where they are no others."""
-        return self if step_ns == self.step_ns else Timeline(step_ns, since, self.time_ns(since))
+        return self if step_ns == self.step_ns else StepClock(step_ns, since, self.time_ns(since))

@@ -4,14 +4,14 @@ from msgspec import Struct
 
 from trundle.physics import EngineState
 
-from .pushes import Ends
-from .timeline import Timeline
+from .applied_loads import Expiries
+from .step_clock import StepClock
 
 
 class SavedSimulation(Struct, frozen=True):
     """A state to go back to."""
 
     steps: int
-    timeline: Timeline
+    timeline: StepClock
     engine: EngineState
-    ends: Ends
+    ends: Expiries

@@ -9,13 +9,13 @@ from trundle.physics import Engine
 from trundle.spatial import Wrench
 
 from .joint_handle import JointHandle
-from .timeline import Timeline
+from .step_clock import StepClock
 
 if TYPE_CHECKING:  # a world without belts starts without them
     from trundle.physics import LinkGrip
 
 
-class Ends(Struct, frozen=True):
+class Expiries(Struct, frozen=True):
     """When what lasts a while is over, by step."""
 
     wrenches: dict[int, int] = field(default_factory=dict[int, int])
@@ -23,41 +23,41 @@ class Ends(Struct, frozen=True):
     efforts: dict[tuple[JointHandle, int], int] = field(default_factory=dict[tuple[JointHandle, int], int])
     """By joint and axis."""
 
-    def copy(self) -> "Ends":
+    def copy(self) -> "Expiries":
         """Its own from now on."""
-        return Ends(dict(self.wrenches), dict(self.efforts))
+        return Expiries(dict(self.wrenches), dict(self.efforts))
 
 
-class Pushes:
+class AppliedLoads:
     """Wrenches, efforts and grips of one simulation."""
 
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
-        self.ends = Ends()
+        self.ends = Expiries()
         self._added_to: dict[int, Wrench] = {}
         """Link → its lasting wrench, below what was added for the coming step."""
         self._grips: dict[int, LinkGrip] = {}
 
     def clear(self) -> None:
         """Nothing pushes any more; grips stay."""
-        self.ends = Ends()
+        self.ends = Expiries()
         self._added_to.clear()
 
-    def restore(self, ends: Ends) -> None:
+    def restore(self, ends: Expiries) -> None:
         """Go on as it was when these were kept."""
         self.ends = ends.copy()
         self._added_to.clear()
 
     def shift(self, steps: int) -> None:
         """Let everything end so many steps later: time was set."""
-        self.ends = Ends(
+        self.ends = Expiries(
             {link: end + steps for link, end in self.ends.wrenches.items()},
             {axis: end + steps for axis, end in self.ends.efforts.items()},
         )
 
-    def retime(self, before: Timeline, after: Timeline) -> None:
+    def retime(self, before: StepClock, after: StepClock) -> None:
         """Let everything end when it would have, at other steps."""
-        self.ends = Ends(
+        self.ends = Expiries(
             {link: after.step_at(before.time_ns(end)) for link, end in self.ends.wrenches.items()},
             {axis: after.step_at(before.time_ns(end)) for axis, end in self.ends.efforts.items()},
         )
@@ -120,7 +120,7 @@ class Pushes:
         """
         self._engine = engine
         wrenches = {links[link]: end for link, end in self.ends.wrenches.items() if link in links}
-        self.ends = Ends(wrenches, self.ends.efforts)
+        self.ends = Expiries(wrenches, self.ends.efforts)
         self._added_to = {links[link]: wrench for link, wrench in self._added_to.items() if link in links}
         self._grips = {links[link]: grip for link, grip in self._grips.items() if link in links}
         if self._grips:

@@ -6,8 +6,8 @@ from trundle.diagnostics import UsageError
 from trundle.model import Joint, JointAxis, JointType, World
 from trundle.spatial import Pose
 
-from .changing import placed
 from .handles import LinkHandle, ModelHandle
+from .world_edits import placed
 
 WORLD = "world"
 

@@ -5,7 +5,7 @@ from msgspec import Struct, field
 from trundle.spatial import Vector3
 
 
-class Line(Struct):
+class DebugLine(Struct):
     """A line strip that grows."""
 
     rgb: tuple[float, float, float] = (0.0, 0.0, 0.0)
