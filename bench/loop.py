@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import mujoco
 
-from trundle.physics.law_tables import switch_off
+from trundle.physics.compile.law_tables import switch_off
 from trundle.simulation import Simulation
 
 

@@ -12,10 +12,10 @@ from PIL import Image
 
 import trundle
 from trundle.meshes import triangles_of
-from trundle.physics import decomposition, pieces
-from trundle.physics.decomposition import convex_pieces
-from trundle.physics.hulls import hull_of
-from trundle.physics.pieces import MOST_PIECES
+from trundle.physics.convex import mesh_decomposition, pieces
+from trundle.physics.convex.hulls import hull_of
+from trundle.physics.convex.mesh_decomposition import convex_pieces
+from trundle.physics.convex.pieces import MOST_PIECES
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist
 
@@ -110,7 +110,7 @@ def test_parts_of_a_mesh_are_shapes_of_their_own(load: Load) -> None:
 @pytest.fixture
 def cache(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    decomposition.forget()
+    mesh_decomposition.forget()
     return tmp_path / "cache/trundle/meshes"
 
 
@@ -171,14 +171,14 @@ def test_what_moves_and_is_hollow_stands_on_its_corners_and_lets_through(load: L
 
 def test_pieces_are_the_same_every_time_and_kept(load: Load, cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def corners() -> bytes:
-        decomposition.forget()
+        mesh_decomposition.forget()
         return load(gate(), "0 0 5", static=False).engine.compiled.model.mesh_vert.tobytes()
 
     first = corners()
     (kept,) = cache.glob("*.npz")
     kept.unlink()
     assert corners() == first
-    monkeypatch.setattr(pieces, "cut_up", None)  # from now on, nothing is cut
+    monkeypatch.setattr(pieces, "decompose", None)  # from now on, nothing is cut
     assert corners() == first
 
 
@@ -186,7 +186,7 @@ def test_a_mesh_is_cut_up_once_however_often_the_world_is_compiled(
     load: Load, cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     sim = load(gate(), "0 0 5", static=False)
-    monkeypatch.setattr(pieces, "cut_up", None)  # from now on, nothing is cut
+    monkeypatch.setattr(pieces, "decompose", None)  # from now on, nothing is cut
     sim.spawn(sim["m"].model, allow_renaming=True)
     collisions = sim.engine.compiled.geom_collisions
     assert collisions.count("m_0::l::c") == collisions.count("m::l::c") > 1

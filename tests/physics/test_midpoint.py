@@ -10,7 +10,7 @@ import pytest
 
 import trundle
 from trundle.physics import Engine
-from trundle.physics.law_tables import switch_off
+from trundle.physics.compile.law_tables import switch_off
 from trundle.simulation import Simulation
 
 G = 9.8

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 import trundle
 from trundle.diagnostics import Diagnostics
-from trundle.physics import compile_mjcf, decomposition, pieces
-from trundle.physics.convex_patches import convex_patches
-from trundle.physics.decomposition import Decomposition, convex_pieces
-from trundle.physics.hulls import hull_of
+from trundle.physics import compile_mjcf
+from trundle.physics.convex import mesh_decomposition, pieces
+from trundle.physics.convex.hulls import hull_of
+from trundle.physics.convex.mesh_decomposition import Decomposition, convex_pieces
+from trundle.physics.convex.patches import convex_patches
 from trundle.render import scene_of
 from trundle.simulation import Simulation
 from trundle.spatial import Twist
@@ -48,9 +49,9 @@ def surface_height(mesh: Mesh, places: NDArray[np.float64]) -> NDArray[np.float6
 
 @pytest.fixture(autouse=True)
 def _forget() -> Iterator[None]:
-    decomposition.forget()
+    mesh_decomposition.forget()
     yield
-    decomposition.forget()
+    mesh_decomposition.forget()
 
 
 def test_patches_are_the_surface_exactly() -> None:
@@ -117,7 +118,7 @@ def test_a_track_is_compiled_as_its_surface_whatever_is_added_at_once(
     before = sim["ball"].pose
     x, y, z = before.position
     assert z - surface_height(mesh, np.array([[x, y]]))[0] == pytest.approx(0.1, abs=0.01)
-    monkeypatch.setattr("trundle.physics.convex_geoms._FEW", 10**6)  # one by one
+    monkeypatch.setattr("trundle.physics.compile.convex_geoms._FEW", 10**6)  # one by one
     sim = load(tmp_path, mesh)
     sim.run(0.6)
     assert sim["ball"].pose == before
@@ -134,7 +135,7 @@ def test_what_is_fast_and_small_does_not_go_through_a_slab(tmp_path: Path, radiu
 
 
 def test_a_track_is_as_large_in_mjcf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("trundle.physics.convex_geoms._MANY", 400)
+    monkeypatch.setattr("trundle.physics.compile.convex_geoms._MANY", 400)
     sim = load(tmp_path, strip(2400))
     text = compile_mjcf(sim.world, scene_of(sim.world, Diagnostics()), Diagnostics())
     assert mujoco.MjModel.from_xml_string(text).ngeom == sim.engine.compiled.model.ngeom
@@ -152,7 +153,7 @@ def test_a_track_of_50_000_triangles_is_its_surface(tmp_path: Path) -> None:
 
 def test_what_stands_shares_the_slabs_of_a_world(monkeypatch: pytest.MonkeyPatch) -> None:
     # Two tracks of some 1300 slabs, and slabs for one.
-    monkeypatch.setattr(decomposition, "MOST_SLABS", 2000)
+    monkeypatch.setattr(mesh_decomposition, "MOST_SLABS", 2000)
     first, second = strip(2400), strip(2448)
     world = Decomposition()
     world.cut_ahead([(*first, True), (*second, True)])

@@ -11,12 +11,12 @@ from trundle.diagnostics import Diagnostics
 from trundle.meshes import Mesh, MeshError, load_mesh
 from trundle.model import Collision, MeshFile
 
-from .convex_geoms import add_hull, add_hulls
-from .decomposition import FULL, CutMesh, Decomposition, MeshRequest
-from .hulls import hull_of
-from .pieces import split
-from .shapes import Meets, thick_pieces
-from .tree import Tree
+from .compile.convex_geoms import add_hull, add_hulls
+from .compile.kinematic_tree import Tree
+from .compile.shapes import CollidesWith, thick_pieces
+from .convex.hulls import hull_of
+from .convex.mesh_decomposition import FULL, CutMesh, Decomposition, MeshRequest
+from .convex.pieces import split
 
 
 def cut_meshes(tree: Tree) -> Decomposition:
@@ -28,7 +28,7 @@ def cut_meshes(tree: Tree) -> Decomposition:
                 with suppress(MeshError):
                     mesh = _mesh_of(collision)
                     if mesh is not None:
-                        yield (*_arrays(mesh), place.name in tree.still)
+                        yield (*_arrays(mesh), place.name in tree.immobile)
 
     decomposition = Decomposition()
     decomposition.cut_ahead(requests())
@@ -44,7 +44,7 @@ def add_mesh(
     *,
     fixed: bool,
     decomposition: Decomposition | None,
-) -> list[tuple[mujoco.MjsGeom, Meets]]:
+) -> list[tuple[mujoco.MjsGeom, CollidesWith]]:
     """Add the mesh of a collision to a body; see `add_shape`, whose arguments these are."""
     try:
         mesh = _mesh_of(collision)
@@ -58,7 +58,7 @@ def add_mesh(
             what = f"a mesh of {len(mesh.faces)} triangles that is not convex; how physics cuts it was not"
             report.info(collision.at, f"collision {collision.name!r}: {what} looked at (check --collisions)")
         (corners,) = thick_pieces([mesh.vertices.astype(float)], collision, report)
-        return [(add_hull(spec, body, collision.link_from_collision, name, corners), Meets.ALL)]
+        return [(add_hull(spec, body, collision.link_from_collision, name, corners), CollidesWith.ALL)]
     cut = decomposition.pieces_of(*_arrays(mesh), fixed=fixed)
     _report_cut(cut, mesh, collision, report)
     return _add_pieces(spec, body, collision, name, report, cut.pieces.corners, fixed=fixed)
@@ -73,17 +73,17 @@ def _add_pieces(
     pieces: list[NDArray[np.float64]],
     *,
     fixed: bool,
-) -> list[tuple[mujoco.MjsGeom, Meets]]:
+) -> list[tuple[mujoco.MjsGeom, CollidesWith]]:
     pose = collision.link_from_collision
     corners = thick_pieces(pieces, collision, report)
     if len(corners) == 1:
-        return [(add_hull(spec, body, pose, name, corners[0]), Meets.ALL)]
+        return [(add_hull(spec, body, pose, name, corners[0]), CollidesWith.ALL)]
     geoms = add_hulls(spec, body, pose, name, corners)
     if fixed or hull_of(np.concatenate(corners)) is None:
-        return [(geom, Meets.ALL) for geom in geoms]
+        return [(geom, CollidesWith.ALL) for geom in geoms]
     # On a plane pieces stand as the hull around them all does, which touches it in far fewer points.
     hull = add_hull(spec, body, pose, f"{name}#hull", np.concatenate(corners))
-    return [(hull, Meets.PLANES), *((geom, Meets.STANDING | Meets.MOVING) for geom in geoms)]
+    return [(hull, CollidesWith.PLANES), *((geom, CollidesWith.STANDING | CollidesWith.MOVING) for geom in geoms)]
 
 
 def _report_cut(cut: CutMesh, mesh: Mesh, collision: Collision, report: Diagnostics) -> None:

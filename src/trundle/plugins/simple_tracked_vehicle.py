@@ -3,7 +3,7 @@
 from typing import Self
 
 from trundle.model import PluginTag
-from trundle.physics import TrackGrip
+from trundle.physics import TrackMotion
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Vector3
@@ -49,7 +49,7 @@ class SimpleTrackedVehicle(Plugin):
         centre = self._centre(speeds, left)
         for links, speed in zip(self._links, speeds, strict=True):
             for link in links:
-                link.set_grip(TrackGrip(axis=left, speed=speed, centre=centre))
+                link.set_grip(TrackMotion(axis=left, speed=speed, centre=centre))
 
     def reset(self) -> None:
         """Stand still."""

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.physics import Instant
+from trundle.physics import EngineSnapshot
 
 _Array = NDArray[np.float64]
 
@@ -17,7 +17,7 @@ class Snapshot:
     """
 
     def __init__(
-        self, *, time_ns: int, instant: Instant, first_axes: NDArray[np.intp], joint_axes: Sequence[range] = ()
+        self, *, time_ns: int, instant: EngineSnapshot, first_axes: NDArray[np.intp], joint_axes: Sequence[range] = ()
     ) -> None:
         """Name what an engine held.
 

@@ -1,0 +1,1 @@
+"""World → MuJoCo model: bodies, joints, geoms, contact pairs, solver settings."""

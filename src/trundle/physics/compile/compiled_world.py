@@ -1,0 +1,123 @@
+"""What was what: the way from a world's names to the engine's numbers."""
+
+from collections.abc import Mapping, Sequence
+
+import mujoco
+import numpy as np
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from trundle.model import JointAxis, World
+from trundle.spatial import ZERO, Vector3
+
+from .joints import Axis
+from .kinematic_tree import JointEdge, Tree
+
+_Indices = NDArray[np.intp]
+_WIDTH = {int(mujoco.mjtJoint.mjJNT_BALL): 3}
+
+
+class CompiledWorld(Struct, frozen=True, eq=False):
+    """A MuJoCo model and its index; links and joints are in file order, the joints between models last."""
+
+    world: World
+    model: mujoco.MjModel
+    link_names: tuple[str, ...]
+    """`model::link`"""
+    joint_names: tuple[str, ...]
+    """`model::joint`"""
+    link_bodies: _Indices
+    joint_axes: tuple[range, ...]
+    """Each joint's freedoms, as indices into the arrays below; a ball joint has three."""
+    joint_hangs: tuple[tuple[int, Vector3, float], ...]
+    """Of each joint: the link that hangs from it, or −1; its anchor in that link's frame [m]; −1 where the link is the
+    joint's parent.
+    """
+    first_axes: _Indices
+    """Of each joint; −1 where it has none."""
+    axis_qpos: _Indices
+    """Where the axis' position is in qpos; of each of a ball joint's: where its quaternion begins."""
+    axis_dof: _Indices
+    axis_actuator: _Indices
+    """Its motor; −1: a ball joint's."""
+    axis_sign: NDArray[np.float64]
+    """−1 where the engine's position runs the other way."""
+    axis_effort: NDArray[np.float64]
+    """[N·m or N] Largest actuation."""
+    axis_velocity: NDArray[np.float64]
+    """[rad/s or m/s] Beyond this an effort does not push on."""
+    axis_range: NDArray[np.float64]
+    """(axes, 2) [rad or m] Limits."""
+    balls: tuple[int, ...]
+    """The first axis of each ball joint."""
+    geom_collisions: tuple[str, ...]
+    """`model::link::collision` of each geom."""
+    start: NDArray[np.float64] | None = None
+    """Positions of everything at the start, where that is not as written."""
+
+
+def index_world(
+    world: World,
+    tree: Tree,
+    axes: Mapping[str, Sequence[Axis]],
+    collisions: Mapping[str, str],
+    model: mujoco.MjModel,
+) -> CompiledWorld:
+    """Look every name up in a compiled model."""
+    qpos: list[int] = []
+    dof: list[int] = []
+    actuator: list[int] = []
+    sign: list[float] = []
+    effort: list[float] = []
+    velocity: list[float] = []
+    limits: list[list[float]] = []
+    spans: list[range] = []
+    balls: list[int] = []
+    for hold in tree.joints:
+        first = len(qpos)
+        for axis in axes.get(hold.name, ()):
+            joint = model.joint(axis.engine_joint)
+            if axis.axis is None:
+                balls.append(len(qpos))
+            for i in range(_WIDTH.get(int(joint.type[0]), 1)):
+                qpos.append(int(joint.qposadr[0]))
+                dof.append(int(joint.dofadr[0]) + i)
+                actuator.append(-1 if axis.axis is None else model.actuator(axis.engine_joint).id)
+                sign.append(axis.sign)
+                effort.append(np.inf if axis.axis is None else axis.axis.effort)
+                limits.append(_limits(axis.axis))
+                velocity.append(np.inf if axis.axis is None else axis.axis.velocity)
+        spans.append(range(first, len(qpos)))
+    return CompiledWorld(
+        world=world,
+        model=model,
+        link_names=tuple(tree.places),
+        joint_names=tuple(hold.name for hold in tree.joints),
+        link_bodies=np.array([model.body(name).id for name in tree.places], dtype=np.intp),
+        joint_axes=tuple(spans),
+        joint_hangs=tuple(_hang(hold, tree) for hold in tree.joints),
+        first_axes=np.array([span.start if span else -1 for span in spans], dtype=np.intp),
+        axis_qpos=np.array(qpos, dtype=np.intp),
+        axis_dof=np.array(dof, dtype=np.intp),
+        axis_actuator=np.array(actuator, dtype=np.intp),
+        axis_sign=np.array(sign),
+        axis_effort=np.array(effort),
+        axis_velocity=np.array(velocity),
+        axis_range=np.array(limits).reshape(-1, 2),
+        balls=tuple(balls),
+        geom_collisions=tuple(collisions.get(model.geom(i).name, "") for i in range(model.ngeom)),
+    )
+
+
+def _hang(hold: JointEdge, tree: Tree) -> tuple[int, Vector3, float]:
+    for below, sign in ((hold.below, 1.0), (hold.above, -1.0)):
+        held = tree.parent_joint.get(below)
+        if held is not None and held.name == hold.name:
+            anchor = tree.places[below].at_zero.inverse().point(hold.world_from_joint.position)
+            return list(tree.places).index(below), anchor, sign
+    return -1, ZERO, 1.0
+
+
+def _limits(axis: JointAxis | None) -> list[float]:
+    """Of a ball, and of one that follows another against limits that would hold it: none."""
+    return [-np.inf, np.inf] if axis is None or axis.is_rigid else sorted((axis.lower, axis.upper))

@@ -1,0 +1,257 @@
+"""Turns a World into a MuJoCo model.
+
+A link is a body, whatever order the file has them in; what moves freely is a tree that starts at a link nobody
+holds. A joint whose limits leave no freedom (the 0..0 of many published robots) becomes none: its child is fixed.
+"""
+
+import warnings
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import mujoco
+from msgspec.structs import replace
+
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.model import Collision, Heightmap, MeshFile, Plane, World, flattened
+from trundle.spatial import ZERO, Pose
+
+from ..convex.native_output import muted
+from .compiled_world import CompiledWorld, index_world
+from .compliance import set_compliance
+from .contact_pairs import add_contacts
+from .contact_params import ContactParams
+from .inertia import principal_inertia
+from .initial_positions import initial_positions
+from .joints import JointMaker
+from .kinematic_tree import WORLD, JointEdge, LinkNode, Tree
+from .law_tables import fill_tables, reserve_tables
+from .shapes import CollidesWith, ShapeEntry, add_shape
+from .solver_settings import apply_settings, choose_jacobian
+from .tunnelling import enable_ccd
+from .wheels import TREAD_POINTS, tread_of, without_tread
+
+if TYPE_CHECKING:
+    from ..convex.mesh_decomposition import Decomposition
+
+_KINEMATIC_MASS = 1e6
+"""How many times heavier a kinematic link is than written: nothing that the file has moves it."""
+
+
+def compile_world(world: World, report: Diagnostics, *, cut_meshes: bool = True) -> CompiledWorld:
+    """Compile; what the engine cannot use as written is mended, aloud.
+
+    Args:
+        world: what there is.
+        report: takes what is mended.
+        cut_meshes: cut hollow meshes into convex pieces; else each mesh is its hull.
+
+    Raises:
+        DescriptionError: the engine refuses what is left.
+    """
+    return Compiler(flattened(world), report, cut_meshes=cut_meshes).compile()
+
+
+class Compiler:
+    """A specification that grows from a world without nested models."""
+
+    def __init__(self, world: World, report: Diagnostics, *, cut_meshes: bool = True) -> None:
+        self.cuts_meshes = cut_meshes
+        self.decomposition: Decomposition | None = None
+        """How meshes are cut, once they are."""
+        self.world = world
+        self.report = report
+        self.spec = mujoco.MjSpec()
+        self.spec.modelname = world.name
+        apply_settings(self.spec)
+        self.spec.option.timestep = world.physics.max_step_size_s
+        self.spec.option.gravity = world.physics.gravity
+        self.tree = Tree.of(world, report)
+        self.joints = JointMaker(self.spec, report)
+        joined = {end for hold in self.tree.joints for end in (hold.above, hold.below)}
+        self.scenery = frozenset(
+            place.name
+            for place in self.tree.places.values()
+            if world.models[place.model].static and place.name not in joined
+        )
+        """Links whose shapes are the world body's: MuJoCo looks at every shape of any other body at every step."""
+        parts = Counter(hold.below for hold in self.tree.loops)
+        self.share = {name: 1 / (1 + parts[name]) for name in self.tree.places}
+        """Of a link's mass that its body has: links that close a loop are cut in equal parts."""
+        self.bodies: dict[str, mujoco.MjsBody] = {}
+        self.shapes: list[ShapeEntry] = []
+        self.shape_names: set[str] = set()
+
+    def compile(self) -> CompiledWorld:
+        """Fill the specification, and compile it.
+
+        Raises:
+            DescriptionError: the engine refuses it.
+        """
+        touches = self.fill()
+        reserve_tables(self.spec, touches, self.shapes, self.world)
+        collisions = {shape.name: shape.collision for shape in self.shapes}
+        compiled = self.compile_spec()
+        choose_jacobian(compiled)
+        set_compliance(compiled, touches)
+        world = index_world(self.world, self.tree, self.joints.axes, collisions, compiled)
+        fill_tables(compiled, touches, self.shapes, world.link_bodies.tolist(), self.world)
+        enable_ccd(compiled, self.shapes)
+        return replace(world, start=initial_positions(compiled, self.tree, self.joints.axes, self.report))
+
+    def fill(self) -> dict[tuple[str, str], ContactParams]:
+        """Put the world into the specification; return how its shapes touch."""
+        for place in self.tree.places.values():
+            self._place(place)
+        for hold in self.tree.loops:
+            self._close(hold)
+        collisions = (collision for place in self.tree.places.values() for collision in place.link.collisions)
+        if self.cuts_meshes and any(isinstance(collision.geometry, MeshFile) for collision in collisions):
+            from ..mesh_shapes import cut_meshes  # a world without meshes starts without what cuts them
+
+            self.decomposition = cut_meshes(self.tree)
+        for place in self.tree.places.values():
+            for collision in place.link.collisions:
+                self._add_collision(place, collision)
+        touches = add_contacts(self.spec, self.shapes, self.world.models, self.tree, self.report)
+        self.joints.tie_followers(self.tree)
+        for axes in self.joints.axes.values():
+            for axis in axes:
+                if axis.axis is not None:
+                    self._add_motor(axis.engine_joint)
+        return touches
+
+    def compile_spec(self) -> mujoco.MjModel:
+        """Hand the world to MuJoCo; its own checks speak in its own words."""
+        with muted(), warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            try:
+                compiled = self.spec.compile()
+            except ValueError as error:
+                what = " ".join(str(error).split())
+                raise DescriptionError(self.world.at, f"the engine cannot simulate this: {what}") from None
+        for warning in caught:
+            self.report.warn(self.world.at, f"the engine is in doubt: {' '.join(str(warning.message).split())}")
+        return compiled
+
+    def _place(self, place: LinkNode) -> None:
+        """Add a link's body, after those that it hangs from."""
+        chain: list[LinkNode] = []
+        below: LinkNode | None = place
+        while below is not None and below.name not in self.bodies:
+            chain.append(below)
+            hold = self._hold(below)
+            below = None if hold is None or hold.above == WORLD else self.tree.places[hold.above]
+        for each in reversed(chain):
+            hold = self._hold(each)
+            body = self._add_body(each.name, each, hold)
+            if hold is not None:
+                self.joints.add(body, hold, each.at_zero)
+            elif not each.fixed:
+                body.add_freejoint(name=f"{each.name}::free")
+            self.bodies[each.name] = body
+
+    def _hold(self, place: LinkNode) -> JointEdge | None:
+        return None if place.fixed else self.tree.parent_joint.get(place.name)
+
+    def _close(self, hold: JointEdge) -> None:
+        """Hang a part of a link from another parent."""
+        place = self.tree.places[hold.below]
+        part = f"{place.name} on {hold.name}"
+        self.joints.add(self._add_body(part, place, hold), hold, place.at_zero)
+        self.joints.weld(part, place.name, as_one=hold.above_from_below is not None)
+        self.report.info(hold.joint.at, f"joint {hold.joint.name!r} closes a loop of links; a constraint holds it")
+
+    def _add_body(self, name: str, place: LinkNode, hold: JointEdge | None) -> mujoco.MjsBody:
+        """Add a link, or its share of one that a loop cuts in parts, where it hangs from."""
+        link, share = place.link, self.share[place.name]
+        parent, world_from_parent = self.spec.worldbody, Pose()
+        if hold is not None and hold.above != WORLD:
+            parent, world_from_parent = self.bodies[hold.above], self.tree.places[hold.above].at_start
+        held = None if hold is None else hold.above_from_below
+        pose = world_from_parent.inverse() @ place.at_start if held is None else held
+        body = parent.add_body(name=name, pos=pose.position, quat=pose.quaternion)
+        if not place.fixed:
+            mass, axes, moments = principal_inertia(link, self.report)
+            if link.kinematic:
+                share *= _KINEMATIC_MASS
+            body.mass, body.inertia, body.explicitinertial = mass * share, [m * share for m in moments], True
+            body.ipos, body.iquat = axes.position, axes.quaternion
+        if not link.gravity or link.kinematic:
+            body.gravcomp = 1.0
+        return body
+
+    def _add_collision(self, place: LinkNode, collision: Collision) -> None:
+        fixed = place.name in self.tree.immobile
+        body = self.bodies[place.name]
+        if isinstance(collision.geometry, Plane | Heightmap) and not fixed:
+            what = "plane" if isinstance(collision.geometry, Plane) else "heightmap"
+            self.report.warn(collision.at, f"collision {collision.name!r}: a {what} cannot move; it is left out")
+            return
+        if fixed and collision.surface.fdir1 != ZERO:
+            what = "its <fdir1> does not count: as in Gazebo, that of what moves on it does"
+            self.report.info(collision.at, f"collision {collision.name!r}: {what}")
+        name = self._shape_name(f"{place.name}::{collision.name}")
+        parts = [(collision, name, CollidesWith.ALL, 1)]
+        tread = tread_of(collision, place, self.tree)
+        if tread is not None:
+            on = CollidesWith.PLANES | CollidesWith.STANDING
+            rolling = replace(collision, geometry=tread)
+            parts = [
+                (rolling, f"{name}::tread", on, TREAD_POINTS),
+                (without_tread(collision), name, CollidesWith.ALL, 1),
+            ]
+        if place.name in self.scenery:
+            body = self.spec.worldbody
+            parts = [(_in_world(collision, place), name, CollidesWith.ALL, 1)]
+        for part, part_name, on, points in parts:
+            for geom, meets in add_shape(
+                self.spec, body, part, part_name, self.report, fixed=fixed, decomposition=self.decomposition
+            ):
+                self._keep(geom, geom.name, place, collision, meets & on, points)
+
+    def _keep(
+        self,
+        geom: mujoco.MjsGeom,
+        name: str,
+        place: LinkNode,
+        collision: Collision,
+        meets: CollidesWith,
+        points: int,
+    ) -> None:
+        self.shapes.append(
+            ShapeEntry(
+                geom,
+                name,
+                collision=f"{place.name}::{collision.name}",
+                model=place.model,
+                link=place.name,
+                fixed=place.name in self.tree.immobile,
+                surface=collision.surface,
+                meets=meets,
+                points=points,
+            )
+        )
+
+    def _shape_name(self, name: str) -> str:
+        """The name, made unique: collisions of one link may share theirs."""
+        unique, number = name, 2
+        while unique in self.shape_names:
+            unique, number = f"{name}#{number}", number + 1
+        self.shape_names.add(unique)
+        return unique
+
+    def _add_motor(self, joint: str) -> None:
+        """A motor that does nothing until it is told to: every gain is zero."""
+        motor = self.spec.add_actuator(name=joint, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+        motor.gaintype = mujoco.mjtGain.mjGAIN_FIXED
+        motor.biastype = mujoco.mjtBias.mjBIAS_AFFINE
+        motor.gainprm = [0.0] * len(motor.gainprm)
+        motor.biasprm = [0.0] * len(motor.biasprm)
+        motor.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
+        motor.forcerange = [-1.0, 1.0]
+        motor.ctrllimited = mujoco.mjtLimited.mjLIMITED_FALSE
+
+
+def _in_world(collision: Collision, place: LinkNode) -> Collision:
+    """The same, posed in the world."""
+    return replace(collision, link_from_collision=place.at_start @ collision.link_from_collision)

@@ -1,0 +1,69 @@
+"""Convex hulls as MuJoCo geoms, one or tens of thousands."""
+
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.spatial import Pose
+
+from .solver_settings import apply_settings
+
+_Points = NDArray[np.float64]
+THINNEST = 1e-4
+"""[m] What a thickness of zero becomes: 0.1 mm."""
+_COARSEST = 2e-6
+"""Part of how far from its origin a mesh is that it must be thick: MuJoCo's corners have 24 bits."""
+_FEW = 64
+_MANY = 4000
+"""Each geom that is added to a specification takes time by the number of those there are: so many are put together
+apart from it, and added at once."""
+
+
+def add_hull(spec: mujoco.MjSpec, body: mujoco.MjsBody, pose: Pose, name: str, corners: _Points) -> mujoco.MjsGeom:
+    """Add the convex hull of some corners (N, 3) [m], which MuJoCo makes of a mesh without faces."""
+    spec.add_mesh(name=name, uservert=corners.reshape(-1), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
+    geom = body.add_geom(name=name, pos=pose.position, quat=pose.quaternion, group=3)
+    geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, name
+    return geom
+
+
+def add_hulls(
+    spec: mujoco.MjSpec, body: mujoco.MjsBody, pose: Pose, name: str, pieces: Sequence[_Points]
+) -> list[mujoco.MjsGeom]:
+    """Add the hulls of some pieces, called `name#0`, `name#1` and so on."""
+    if len(pieces) <= _FEW:
+        return [add_hull(spec, body, pose, f"{name}#{i}", corners) for i, corners in enumerate(pieces)]
+    geoms: list[mujoco.MjsGeom] = []
+    for first in range(0, len(pieces), _MANY):
+        apart = mujoco.MjSpec()
+        apply_settings(apart)
+        frame = apart.worldbody.add_frame()
+        apart.default.name = f"{first}"  # it goes along, and a second one of its name could not be read from MJCF
+        for i, corners in enumerate(pieces[first : first + _MANY], start=first):
+            geoms.append(add_hull(apart, apart.worldbody, pose, f"{i}", corners))
+            geoms[-1].set_frame(frame)
+        body.attach_frame(frame, f"{name}#", "")
+    return geoms
+
+
+def thick_hulls(pieces: Sequence[_Points]) -> tuple[list[_Points], float]:
+    """Pieces (N, 3) [m], with a second layer across what is flat or a line; and how thick at most, 0 where none is."""
+    thick = list(pieces)
+    thickest = 0.0
+    by_size: dict[int, list[int]] = {}
+    for i, corners in enumerate(pieces):
+        by_size.setdefault(len(corners), []).append(i)
+    for numbers in by_size.values():
+        corners = np.stack([pieces[i] for i in numbers])
+        thinnest = np.maximum(THINNEST, _COARSEST * np.abs(corners).max(axis=(1, 2)))
+        centred = corners - corners.mean(axis=1, keepdims=True)
+        axes = np.linalg.eigh(centred.transpose(0, 2, 1) @ centred)[1]
+        is_thin = np.ptp(centred @ axes, axis=1) < thinnest[:, None]
+        for at in np.flatnonzero(is_thin.any(axis=1)).tolist():
+            for axis in axes[at].T[is_thin[at]]:
+                layer, half = thick[numbers[at]], axis * thinnest[at] / 2
+                thick[numbers[at]] = np.concatenate([layer - half, layer + half])
+            thickest = max(thickest, float(thinnest[at]))
+    return thick, thickest

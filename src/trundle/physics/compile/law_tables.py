@@ -1,0 +1,236 @@
+"""The tables by which a compiled model says what contact laws it has, for the C++ beside it.
+
+They are custom numbers of the model, so that every copy of it has them; `cpp/law_tables.h` reads them row by row.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TypeAlias
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import Link, World
+from trundle.spatial import ZERO
+
+from .contact_params import ContactParams
+from .shapes import ShapeEntry
+
+_WIDTHS = {
+    "laws": 9,
+    "restitution": 3,
+    "friction": 10,
+    "damping": 3,
+    "motions": 11,
+    "motors": 4,
+    "chains": 1,
+    "springs": 4,
+    "dead_zones": 2,
+    "geoms": 1,
+}
+"""Numbers in a row of each table; the first is a single row: a magic number, on (1), off (0) or friction alone (-1),
+whether surfaces move, the equality that motors take after, how many rows of the tables of chains and springs are in
+use, how many groups of contacts slip or grow, where the data is that an engine steps, and the speed at which `thin`
+counts."""
+_GROUP_WIDTH = 5
+"""Numbers of a group of contacts in userdata: its load, a force in the world, a torque."""
+_MAGIC = 7.2751
+_SLOWEST = 3.0
+"""Steps' worth of falling: what comes slower than that is at rest, and does not bounce."""
+_SLOW = 0.25
+"""(ω h)² up to which a spring is taken at the middle of a step, unstable from 4 on; stiffer ones MuJoCo damps."""
+_EQUALITY = "trundle::motor"
+_MOTOR_SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
+"""As stiff as MuJoCo lets a constraint be."""
+_Table: TypeAlias = NDArray[np.float64]
+_Pair: TypeAlias = tuple[int, int, ContactParams]
+Touches: TypeAlias = Mapping[tuple[str, str], ContactParams]
+
+
+def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[ShapeEntry], world: World) -> None:
+    """Give a model room for its tables before it is compiled."""
+    rows = {
+        "laws": 1,
+        "restitution": sum(map(_bounces, touches.values())),
+        "friction": sum(map(_has_friction, touches.values())),
+        "damping": sum(map(_decays, _links(world))),
+        "motions": len(spec.bodies),
+        "motors": len(spec.actuators),
+        "chains": len(spec.bodies),
+        "springs": len(spec.joints),
+        "dead_zones": sum(touch.min_depth > 0 for touch in touches.values()),
+        "geoms": len(spec.geoms),
+    }
+    for name, width in _WIDTHS.items():
+        # MuJoCo takes no custom number of size zero; less than a row is none.
+        size = max(rows[name] * width, 1)
+        spec.add_numeric(name=f"trundle::{name}", data=[0.0] * size, size=size)
+    # The speed that each motor wants; then how contacts push that slip or grow with their load, in groups.
+    groups = len(spec.bodies) + len(set(_groups(touches, shapes).values()))
+    spec.nuserdata = len(spec.actuators) + _GROUP_WIDTH * groups
+    _reserve_motors(spec)
+    # What brings MuJoCo to call mjcb_sensor; see `set_needstage`.
+    stage = mujoco.mjtStage.mjSTAGE_POS
+    spec.add_sensor(name="trundle::laws", type=mujoco.mjtSensor.mjSENS_USER, dim=1, needstage=stage)
+
+
+def _reserve_motors(spec: mujoco.MjSpec) -> None:
+    """Add a tendon for each motor, whose friction is the motor, and an equality that never acts."""
+    for motor in spec.actuators:
+        tendon = spec.add_tendon(name=motor.name)
+        tendon.wrap_joint(motor.target, 1.0)
+        tendon.solimp_friction = _MOTOR_SOLIMP
+    if spec.actuators:
+        equality = spec.add_equality(name=_EQUALITY, type=mujoco.mjtEq.mjEQ_JOINT, name1=spec.actuators[0].target)
+        equality.objtype, equality.active = mujoco.mjtObj.mjOBJ_JOINT, False
+        equality.solref, equality.solimp = (-1.0, -1.0 / spec.option.timestep), _MOTOR_SOLIMP
+
+
+def find_table(model: mujoco.MjModel, name: str) -> _Table:
+    """(rows, width) A table of a compiled model, to read and write."""
+    number = list(_WIDTHS).index(name)
+    first, size, width = int(model.numeric_adr[number]), int(model.numeric_size[number]), _WIDTHS[name]
+    return model.numeric_data[first : first + size // width * width].reshape(-1, width)
+
+
+def fill_tables(
+    model: mujoco.MjModel, touches: Touches, shapes: Sequence[ShapeEntry], bodies: Sequence[int], world: World
+) -> None:
+    """Write the tables of a compiled model.
+
+    Args:
+        model: to be written.
+        touches: how two shapes touch, by their names.
+        shapes: all of them.
+        bodies: number of each link's body, in the order of the world's links.
+        world: without nested models.
+    """
+    equality = model.equality(_EQUALITY).id if model.nu else -1
+    named = _groups(touches, shapes)
+    groups = {_key(model, int(model.geom(a).id), int(model.geom(b).id)): n for (a, b), n in named.items()}
+    count = len(set(groups.values()))
+    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, equality, 0.0, 0.0, count, 0.0, 0.0
+    pairs = [(int(model.geom(a).id), int(model.geom(b).id), touch) for (a, b), touch in touches.items()]
+    pairs.sort(key=lambda pair: _key(model, pair[0], pair[1]))
+    _write(model, "restitution", _restitution(model, pairs))
+    _write(model, "friction", _friction(model, pairs, groups))
+    set_needstage(model, solved=bool(groups))
+    _write(model, "damping", _damping(model, bodies, world))
+    for motor, row in enumerate(find_table(model, "motors")):
+        joint = model.actuator_trnid[motor, 0]
+        row[:] = motor, 0.0, model.jnt_qposadr[joint], model.jnt_dofadr[joint]
+    _center(model)
+    _write(model, "dead_zones", ((_key(model, a, b), touch.min_depth) for a, b, touch in pairs if touch.min_depth > 0))
+    geoms = find_table(model, "geoms")
+    for shape in shapes:  # what stands may be a shape of the world's body
+        geoms[model.geom(shape.name).id] = model.body(shape.link).id
+
+
+def set_needstage(model: mujoco.MjModel, *, solved: bool) -> None:
+    """Have MuJoCo call mjcb_sensor when the constraints are solved, which costs a pass over all bodies, or not."""
+    model.sensor_needstage[0] = mujoco.mjtStage.mjSTAGE_ACC if solved else mujoco.mjtStage.mjSTAGE_POS
+
+
+def _center(model: mujoco.MjModel) -> None:
+    """List the chains of links, and take soft springs out of MuJoCo's hands."""
+    head, chains, springs = (find_table(model, name) for name in ("laws", "chains", "springs"))
+    chained = [tree for tree in range(model.ntree) if not _is_lone(model, tree)]
+    chains[: len(chained), 0] = chained
+    soft = [joint for joint in range(model.njnt) if _is_slow(model, joint)]
+    for row, joint in zip(springs, soft, strict=False):
+        qpos = int(model.jnt_qposadr[joint])
+        row[:] = model.jnt_dofadr[joint], qpos, model.jnt_stiffness[joint], model.qpos_spring[qpos]
+        model.jnt_stiffness[joint] = 0.0
+    head[0, 4:6] = len(chained), len(soft)
+
+
+def _is_lone(model: mujoco.MjModel, tree: int) -> bool:
+    """Whether a tree is a single free body, whose gyroscopic forces MuJoCo takes implicitly by itself."""
+    first = int(model.tree_dofadr[tree])
+    is_free = model.jnt_type[model.dof_jntid[first]] == mujoco.mjtJoint.mjJNT_FREE
+    return bool(is_free and model.tree_dofnum[tree] == 6)
+
+
+def _is_slow(model: mujoco.MjModel, joint: int) -> bool:
+    """Whether a joint has a spring that steps which keep its energy can follow."""
+    inverse_inertia = float(model.dof_invweight0[model.jnt_dofadr[joint]])
+    return 0.0 < model.jnt_stiffness[joint] * inverse_inertia * model.opt.timestep**2 < _SLOW
+
+
+def switch_off(model: mujoco.MjModel) -> None:
+    """Have a copy of a model go without its laws."""
+    find_table(model, "laws")[0, 1] = 0.0
+
+
+def follow_friction(model: mujoco.MjModel, other: mujoco.MjModel) -> None:
+    """Have a copy that evaluates states go with the laws of friction alone, as another model has them now."""
+    model.numeric_data[:] = other.numeric_data
+    find_table(model, "laws")[0, 1] = -1.0
+    model.flg_surfacevel = other.flg_surfacevel
+    model.sensor_needstage[0] = other.sensor_needstage[0]
+
+
+def _write(model: mujoco.MjModel, name: str, rows: Iterator[tuple[float, ...]]) -> None:
+    for place, row in zip(find_table(model, name), rows, strict=True):
+        place[:] = row
+
+
+def _key(model: mujoco.MjModel, a: int, b: int) -> int:
+    return min(a, b) * int(model.ngeom) + max(a, b)
+
+
+def _bounces(touch: ContactParams) -> bool:
+    return touch.restitution > 0 and touch.is_felt
+
+
+def _has_friction(touch: ContactParams) -> bool:
+    return _has_grain(touch) or _gives(touch)
+
+
+def _gives(touch: ContactParams) -> bool:
+    """Whether something of it slips or grows with the load."""
+    return touch.mu + touch.mu2 > 0 and (any(touch.slip) or touch.patch > 0)
+
+
+def _groups(touches: Touches, shapes: Sequence[ShapeEntry]) -> dict[tuple[str, str], int]:
+    """By two shapes' names, the number of the two collisions that they are of, where contacts slip or grow."""
+    of = {shape.name: shape.collision for shape in shapes}
+    numbers: dict[tuple[str, str], int] = {}
+    giving = [pair for pair, touch in touches.items() if _gives(touch)]
+    return {(a, b): numbers.setdefault((of[a], of[b]), len(numbers)) for a, b in giving}
+
+
+def _has_grain(touch: ContactParams) -> bool:
+    return touch.mu != touch.mu2 and min(touch.mu, touch.mu2) > 0
+
+
+def _decays(link: Link) -> bool:
+    return link.linear_decay > 0 or link.angular_decay > 0
+
+
+def _links(world: World) -> Iterator[Link]:
+    return (link for model in world.models for link in model.links)
+
+
+def _restitution(model: mujoco.MjModel, pairs: Sequence[_Pair]) -> Iterator[tuple[float, ...]]:
+    slowest = _SLOWEST * math.hypot(*model.opt.gravity) * model.opt.timestep
+    for a, b, touch in pairs:
+        if _bounces(touch):
+            yield _key(model, a, b), touch.restitution, max(touch.threshold, slowest)
+
+
+def _friction(model: mujoco.MjModel, pairs: Sequence[_Pair], groups: Mapping[int, int]) -> Iterator[tuple[float, ...]]:
+    for a, b, touch in pairs:
+        if _has_friction(touch):
+            key = _key(model, a, b)
+            geom = -1 if touch.fdir1 == ZERO else (a, b)[touch.fdir1_of]
+            yield key, geom, *touch.fdir1, *touch.slip, touch.patch, groups.get(key, -1)
+
+
+def _damping(model: mujoco.MjModel, bodies: Sequence[int], world: World) -> Iterator[tuple[float, ...]]:
+    """Rows of the world's body, which never moves, where a link has no freedom to lose speed in."""
+    for body, link in zip(bodies, _links(world), strict=True):
+        if _decays(link):
+            parts = (min(max(part, 0.0), 1.0) for part in (link.linear_decay, link.angular_decay))
+            yield body if model.body_dofnum[body] > 0 else 0, *parts

@@ -1,0 +1,79 @@
+"""MuJoCo writes six digits of every number; here are the others."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+from xml.etree import ElementTree as Xml
+
+import mujoco
+import numpy as np
+
+_CLOSE = 1e-5
+"""What six digits leave open."""
+_NAMES: Mapping[str, Mapping[str, str]] = {
+    "inertial": {"pos": "ipos", "quat": "iquat", "diaginertia": "inertia"},
+    "mesh": {"vertex": "uservert"},
+    "joint": {
+        "solreflimit": "solref_limit",
+        "solimplimit": "solimp_limit",
+        "solreffriction": "solref_friction",
+        "solimpfriction": "solimp_friction",
+        "actuatorfrcrange": "actfrcrange",
+    },
+    "equality": {"polycoef": "data", "anchor": "data"},
+    "hfield": {"elevation": "userdata"},
+}
+"""Element → attribute → what the specification calls it, where that differs."""
+
+
+def with_full_precision(xml: str, spec: mujoco.MjSpec) -> str:
+    """The XML that a specification wrote, its numbers as exact as the specification has them."""
+    root = Xml.fromstring(xml)
+    for element in root.iter("option"):
+        _mend(element, spec.option, {})
+    named: list[tuple[str, Iterable[Any]]] = [
+        ("mesh", spec.meshes),
+        ("hfield", spec.hfields),
+        ("material", spec.materials),
+        ("pair", spec.pairs),
+        ("light", spec.lights),
+    ]
+    for tag, objects in named:
+        by_name = {each.name: each for each in objects}
+        for element in root.iter(tag):
+            if (found := by_name.get(element.get("name", ""))) is not None:
+                _mend(element, found, _NAMES.get(tag, {}))
+    for section, objects in (("equality", spec.equalities), ("actuator", spec.actuators)):
+        elements = [child for home in root.iter(section) for child in home]
+        for element, each in zip(elements, objects, strict=False):  # in the order they were added; some have no name
+            _mend(element, each, _NAMES.get(section, {}))
+    bodies = {body.name: body for body in spec.bodies}
+    for element in root.iter("body"):
+        _mend_body(element, bodies[element.get("name", "")])
+    return Xml.tostring(root, encoding="unicode") + "\n"
+
+
+def _mend_body(element: Xml.Element, body: mujoco.MjsBody) -> None:
+    _mend(element, body, {})
+    for inertial in element.findall("inertial"):
+        _mend(inertial, body, _NAMES["inertial"])
+    for tag, objects in (("geom", body.geoms), ("joint", body.joints)):
+        for child, each in zip(element.findall(tag), objects, strict=False):
+            _mend(child, each, _NAMES.get(tag, {}))
+
+
+def _mend(element: Xml.Element, source: Any, names: Mapping[str, str]) -> None:
+    for attribute, text in element.attrib.items():
+        exact = getattr(source, names.get(attribute, attribute), None)
+        if exact is None or isinstance(exact, str):
+            continue
+        try:
+            written = np.array(text.split(), dtype=np.float64)
+            values = np.ravel(np.asarray(exact, dtype=np.float64))[: len(written)]
+        except (TypeError, ValueError):  # a word
+            continue
+        if values.shape == written.shape and np.allclose(values, written, rtol=0.0, atol=_CLOSE * np.abs(values).max()):
+            element.set(attribute, " ".join(map(_spelled, values.tolist())))
+
+
+def _spelled(value: float) -> str:
+    return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)

@@ -1,0 +1,66 @@
+"""Wheels that steer: geometry alone, so that `check` can say which there are without the engine.
+
+A cylinder touches a floor along a line, which has no stable turning: by rigid Coulomb friction two driven wheels that
+should turn a robot by 5.0 rad turn it by 4.5. A wheel therefore rolls on a tread, the ellipsoid inscribed in its
+cylinder, which touches in the middle of its width; the cylinder, a tenth of a millimetre smaller, keeps it upright.
+"""
+
+from msgspec.structs import replace
+
+from trundle.diagnostics import Diagnostics
+from trundle.model import Collision, Cylinder, Ellipsoid, JointType, World
+
+from .kinematic_tree import JointEdge, LinkNode, Tree
+
+TREAD = 1e-4
+"""[m] How far the tread stands out of the cylinder."""
+TREAD_POINTS = 2
+"""In ODE a cylinder touches in both of its edges."""
+_SMALLEST = 1e-3
+"""[m] Radius under which a cylinder is left as it is."""
+
+
+def tread_of(collision: Collision, place: LinkNode, tree: Tree) -> Ellipsoid | None:
+    """What a cylinder that turns about its own axis rolls on; None of all else."""
+    geometry, hold = collision.geometry, tree.parent_joint.get(place.name)
+    if hold is None or not isinstance(geometry, Cylinder) or geometry.radius < _SMALLEST:
+        return None
+    if not _turns_about_itself(hold, place, collision):
+        return None
+    return Ellipsoid((geometry.radius, geometry.radius, max(geometry.length / 2, TREAD)))
+
+
+def _turns_about_itself(hold: JointEdge, place: LinkNode, collision: Collision) -> bool:
+    joint = hold.joint
+    axis = {JointType.REVOLUTE: joint.axis, JointType.REVOLUTE2: joint.axis2}.get(joint.type)
+    if axis is None:
+        return False
+    world_from_cylinder = place.at_zero @ collision.link_from_collision
+    along = world_from_cylinder.inverse().direction(hold.direction(axis))
+    x, y, _ = world_from_cylinder.inverse().point(hold.world_from_joint.position)
+    return abs(along[2]) > 0.9999 and max(abs(x), abs(y)) < TREAD
+
+
+def without_tread(collision: Collision) -> Collision:
+    """What is left for the cylinder itself."""
+    assert isinstance(collision.geometry, Cylinder)
+    return replace(collision, geometry=replace(collision.geometry, radius=collision.geometry.radius - TREAD))
+
+
+def name_wheels(world: World, report: Diagnostics) -> None:
+    """Report every wheel, and how far its surface is from the cylinder that the file has.
+
+    Args:
+        world: without nested models.
+        report: takes a note for each.
+
+    Raises:
+        DescriptionError: two models, or two links or joints of one, share a name.
+    """
+    tree = Tree.of(world, Diagnostics())
+    for place in tree.places.values():
+        for collision in place.link.collisions:
+            if tread_of(collision, place, tree) is not None:
+                what = "a wheel; in physics it rolls on the ellipsoid inscribed in it"
+                away = f"a surface up to {TREAD * 1e3:g} mm away"
+                report.info(collision.at, f"collision {collision.name!r}: {what}, {away}")

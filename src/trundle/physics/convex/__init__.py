@@ -1,0 +1,1 @@
+"""Meshes as convex pieces, which is all that MuJoCo's contacts know."""

@@ -1,0 +1,78 @@
+"""Slabs behind the faces of what stands: a hollow mesh, exactly."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .hulls import area_around
+from .mesh_components import WELD, islands_of
+from .patches import convex_patches
+
+_Points = NDArray[np.float64]
+_Faces = NDArray[np.intp]
+_THICKEST = 2.5e-3
+"""[m] Of a slab, so that it ends within all but sheet metal; what is small and fast is looked ahead for, see `thin`."""
+_THINNEST = 1e-4
+"""[m] What is thinner is flat."""
+_FILLS = 1.001
+"""Area of a convex polygon over that of faces which fill it, at most."""
+
+
+def is_layer(own: _Points) -> bool:
+    """Whether points (N, 3) are flat."""
+    centred = own - own.mean(axis=0)
+    return bool(np.ptp(centred @ np.linalg.eigh(centred.T @ centred)[1][:, 0]) < _THINNEST)
+
+
+def is_convex_layer(points: _Points, faces: _Faces, own: _Points) -> bool:
+    """Whether faces are flat, and fill the polygon around them; those that are there both ways count once."""
+    if not is_layer(own):
+        return False
+    a, b, c = (points[np.unique(np.sort(faces, axis=1), axis=0)[:, i]] for i in range(3))
+    normals = np.cross(b - a, c - a)
+    areas = np.linalg.norm(normals, axis=1)
+    widest = int(areas.argmax())
+    return area_around(own, normals[widest] / areas[widest]) <= areas.sum() / 2 * _FILLS
+
+
+def slabs_of(points: _Points, faces: _Faces, own: _Points) -> list[_Points]:
+    """Corners (N, 3) of slabs behind all faces [m]; faces that make one convex polygon, or a bulge, share one.
+
+    Args:
+        points: (N, 3) [m].
+        faces: (M, 3) indices into them, none without area.
+        own: those of the points that faces use.
+    """
+    sides = np.ptp(own, axis=0)
+    thickness = float(np.clip(sides[sides > WELD].min(initial=np.inf) / 4, 1e-3, _THICKEST))
+    a, b, c = (points[faces[:, i]] for i in range(3))
+    normals = np.cross(b - a, c - a)
+    areas = np.linalg.norm(normals, axis=1)
+    normals /= areas[:, None]
+    slabs: list[_Points] = []
+    is_left = np.ones(len(faces), dtype=bool)
+    for members in _polygons(faces, normals, np.einsum("ij,ij->i", normals, a)):
+        normal = normals[members[0]]
+        corners = points[np.unique(faces[members])]
+        if area_around(corners, normal) <= areas[members].sum() / 2 * 1.01:
+            slabs.append(np.concatenate([corners, corners - normal * thickness]))
+            is_left[members] = False
+    patches = convex_patches(points, faces[is_left], depth=thickness)
+    lengths = np.linalg.norm(patches.normals, axis=1, keepdims=True)
+    inward = patches.normals / np.maximum(lengths, np.finfo(float).tiny) * thickness
+    for loop, size, depth in zip(patches.loops, patches.sizes.tolist(), inward, strict=True):
+        corners = points[loop[:size]]
+        slabs.append(np.concatenate([corners, corners - depth]))
+    return slabs
+
+
+def _polygons(faces: _Faces, normals: _Points, offsets: _Points) -> list[_Faces]:
+    """Numbers of the faces of each plane that hang together in it, where these are several."""
+    keys = np.round(np.column_stack([normals, offsets]), 4)
+    planes = np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
+    # A corner is another one in each plane: what hangs together over an edge between planes does not count.
+    corners, numbered = np.unique(faces + planes[:, None] * (int(faces.max()) + 1), return_inverse=True)
+    numbered = numbered.reshape(faces.shape)
+    labels = islands_of(len(corners), numbered)[numbered[:, 0]]
+    order = np.argsort(labels, kind="stable")
+    starts = np.flatnonzero(np.diff(labels[order])) + 1
+    return [members for members in np.split(order, starts) if len(members) > 1]

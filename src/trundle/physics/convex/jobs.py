@@ -1,0 +1,104 @@
+"""Hollow parts cut at the same time, in processes that Ctrl-C and the end of this one end at once."""
+
+import os
+import sys
+import threading
+from collections.abc import Generator, Sequence
+from queue import Empty, SimpleQueue
+from typing import TypeAlias
+
+from trundle.diagnostics import UsageError
+
+from .pieces import ConvexPieces, HollowPart, cut_part
+from .process import DecompositionProcess
+from .progress import DecompositionProgress
+
+SHORT_S = 1.5
+"""[s] Work that is done here: V-HACD holds Python's lock for a third of a second at a time."""
+_WORKER_S = 0.5
+"""[s] Work that is worth a process of its own."""
+_TICK_S = 0.2
+_Answer: TypeAlias = tuple[HollowPart, ConvexPieces | None] | None
+"""None: Ctrl-C has ended a process."""
+
+
+def cut_parts(parts: Sequence[HollowPart]) -> Generator[tuple[HollowPart, ConvexPieces | None]]:
+    """Cut parts and yield each as it is done; None where it cannot be cut.
+
+    Raises:
+        KeyboardInterrupt: Ctrl-C.
+        UsageError: the same, on another thread than the main one.
+    """
+    seconds = [part.seconds for part in parts]
+    count = min(_processors(), int(sum(seconds) / _WORKER_S), len(parts))
+    progress = DecompositionProgress(seconds, max(count, 1))
+    try:
+        if sum(seconds) <= SHORT_S or not sys.executable:
+            for part in parts:
+                yield part, _cut_here(part)
+                progress.done(part.seconds)
+            return
+        for part, pieces in _cut_there(parts, count, progress):
+            progress.done(part.seconds)
+            yield part, pieces
+    finally:
+        progress.close()
+
+
+def _processors() -> int:
+    return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
+
+
+def _cut_here(part: HollowPart) -> ConvexPieces | None:
+    try:
+        return cut_part(part)
+    except Exception:  # whatever a mesh may be, its hull stands for it
+        return None
+
+
+def _cut_there(
+    parts: Sequence[HollowPart], count: int, progress: DecompositionProgress
+) -> Generator[tuple[HollowPart, ConvexPieces | None]]:
+    # The longest first: at the end no processor waits for one of them.
+    todo: SimpleQueue[HollowPart] = SimpleQueue()
+    for part in sorted(parts, key=lambda part: -part.seconds):
+        todo.put(part)
+    done: SimpleQueue[_Answer] = SimpleQueue()
+    workers: list[DecompositionProcess] = []
+    try:
+        workers.extend(DecompositionProcess() for _ in range(count))
+        for worker in workers:
+            threading.Thread(target=_work, args=(worker, todo, done), daemon=True).start()
+        for _ in parts:
+            yield _next(done, progress)
+    finally:
+        for worker in workers:
+            worker.close()
+
+
+def _work(worker: DecompositionProcess, todo: SimpleQueue[HollowPart], done: SimpleQueue[_Answer]) -> None:
+    """Have a process cut what is left, until nothing is."""
+    while True:
+        try:
+            part = todo.get_nowait()
+        except Empty:
+            return
+        try:
+            done.put((part, worker.cut(part) if worker.has_started else _cut_here(part)))
+        except InterruptedError:
+            done.put(None)
+            return
+
+
+def _next(done: SimpleQueue[_Answer], progress: DecompositionProgress) -> tuple[HollowPart, ConvexPieces | None]:
+    while True:
+        try:
+            answer = done.get(timeout=_TICK_S)
+        except Empty:
+            progress.show()
+            continue
+        if answer is not None:
+            return answer
+        if threading.current_thread() is threading.main_thread():
+            raise KeyboardInterrupt
+        raise UsageError("stopped while meshes were cut")

@@ -1,0 +1,142 @@
+"""Hollow meshes of a world, cut up ahead of its compile: equal parts once, each kept on disk as it is done.
+
+How closely a part is cut depends on what comes before it in the file, by an estimate of the time that takes, and never
+on a clock or on what is kept: runs repeat to the byte on a slow machine and on a fast one.
+"""
+
+import hashlib
+import os
+from collections.abc import Iterable
+from contextlib import closing
+from typing import TypeAlias, TypeVar
+
+import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
+from numpy.typing import NDArray
+
+from .cache import find_pieces, keep_pieces
+from .jobs import cut_parts
+from .pieces import MOST_PIECES, MOST_SLABS, ConvexPieces, Detail, HollowPart, Split, filled, in_one, split
+
+_Points = NDArray[np.float64]
+_Faces = NDArray[np.intp]
+_K = TypeVar("_K")
+_V = TypeVar("_V")
+MeshRequest: TypeAlias = tuple[_Points, _Faces, bool]
+"""Vertices (N, 3) [m], faces (M, 3) counter-clockwise from outside, and whether it never moves."""
+FULL = "TRUNDLE_FULL_DECOMPOSITION"
+"""Environment variable that lets cutting take as long as it takes."""
+MOST_SECONDS = 120.0
+"""[s] That one processor cuts for a world; what comes then is cut coarsely."""
+MOST_SECONDS_A_MESH = 40.0
+_MOST_KNOWN = 1024
+
+_splits: dict[bytes, Split] = {}
+"""By mesh; the longest unused first."""
+_known: dict[str, ConvexPieces] = {}
+"""By part, likewise."""
+
+
+class CutMesh(Struct, frozen=True):
+    """Convex pieces of a mesh."""
+
+    pieces: ConvexPieces
+    is_coarse: bool
+    """There are fewer than could be, to save time."""
+    is_failed: bool
+    """Some part is filled, for it could not be cut."""
+
+
+class Decomposition:
+    """How the meshes of one world are cut."""
+
+    def __init__(self) -> None:
+        self._plans: dict[bytes, tuple[Split, list[HollowPart]]] = {}
+        self._chosen: dict[str, HollowPart] = {}
+        """How a part is cut, by how it would be if there were time."""
+        self._seconds = 0.0
+        self._slabs = 0
+        self._failed: dict[str, ConvexPieces] = {}
+
+    def cut_ahead(self, meshes: Iterable[MeshRequest]) -> None:
+        """Cut meshes, in the order of the file, in several processes where it takes long."""
+        wanted: dict[str, HollowPart] = {}
+        for vertices, faces, fixed in meshes:
+            _, parts = self._plan(vertices, faces, fixed=fixed)
+            wanted.update((part.key, part) for part in parts)
+        todo = {key: part for key, part in wanted.items() if key not in self._failed and self._find(part) is None}
+        with closing(cut_parts(list(todo.values()))) as done:
+            for part, pieces in done:
+                if pieces is None:
+                    self._failed[part.key] = filled(part)
+                    continue
+                _remember(_known, part.key, pieces)
+                if part.detail is not Detail.HULL:
+                    keep_pieces(part.key, pieces)
+
+    def pieces_of(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> CutMesh:
+        """Find the convex pieces of a mesh; what was not cut ahead is cut now."""
+        whole, parts = self._plan(vertices, faces, fixed=fixed)
+        pieces = ConvexPieces(list(whole.corners), [])
+        for (lowest, _), part in zip(whole.hollow, parts, strict=True):
+            if self._find(part) is None and part.key not in self._failed:
+                self.cut_ahead([(vertices, faces, fixed)])
+            cut = self._find(part) or self._failed[part.key]
+            pieces.corners.extend(corners + lowest for corners in cut.corners)
+            pieces.misfits.extend(cut.misfits)
+        is_coarse = any(part.detail is Detail.COARSE for part in parts)
+        return CutMesh(pieces, is_coarse, any(part.key in self._failed for part in parts))
+
+    def _plan(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> tuple[Split, list[HollowPart]]:
+        """Find what a mesh consists of, and how its hollow parts are cut."""
+        digest = hashlib.sha256(b"%d %d " % (fixed, len(vertices)) + vertices.tobytes() + faces.tobytes()).digest()
+        if digest not in self._plans:
+            whole = _splits.get(digest) or split(vertices, faces, fixed=fixed)
+            _remember(_splits, digest, whole)
+            if len(whole.corners) > MOST_PIECES and len(whole.corners) > MOST_SLABS - self._slabs:
+                whole = in_one(vertices, faces)
+            self._slabs += len(whole.corners)
+            self._plans[digest] = whole, self._chosen_parts([part for _, part in whole.hollow])
+        return self._plans[digest]
+
+    def _chosen_parts(self, parts: Iterable[HollowPart]) -> list[HollowPart]:
+        """Choose how the parts of a mesh are cut, while there is time."""
+        before_s = self._seconds
+        chosen: list[HollowPart] = []
+        for part in parts:
+            key = part.key
+            if key not in self._chosen:
+                left_s = min(MOST_SECONDS - self._seconds, MOST_SECONDS_A_MESH - (self._seconds - before_s))
+                if part.detail is Detail.FULL and part.seconds > left_s and FULL not in os.environ:
+                    part = replace(part, detail=Detail.COARSE)
+                self._chosen[key] = part
+                self._seconds += part.seconds
+            chosen.append(self._chosen[key])
+        return chosen
+
+    def _find(self, part: HollowPart) -> ConvexPieces | None:
+        pieces = _known.get(part.key)
+        if pieces is None and part.detail is not Detail.HULL:
+            pieces = find_pieces(part.key)
+        if pieces is not None:
+            _remember(_known, part.key, pieces)
+        return pieces
+
+
+def forget() -> None:
+    """Let go of what is known in memory."""
+    _splits.clear()
+    _known.clear()
+
+
+def _remember(memory: dict[_K, _V], key: _K, value: _V) -> None:
+    memory.pop(key, None)
+    memory[key] = value
+    if len(memory) > _MOST_KNOWN:
+        del memory[next(iter(memory))]
+
+
+def convex_pieces(vertices: _Points, faces: _Faces, *, fixed: bool) -> ConvexPieces:
+    """Cut one mesh up, or find how it was."""
+    return Decomposition().pieces_of(vertices, faces, fixed=fixed).pieces

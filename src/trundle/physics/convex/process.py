@@ -1,0 +1,86 @@
+"""One process that cuts hollow parts, from the side of the one that started it."""
+
+import atexit
+import os
+import pickle
+import signal
+import subprocess
+import sys
+from contextlib import suppress
+
+from .pieces import ConvexPieces, HollowPart
+
+_INTERRUPTED = (-signal.SIGINT, 0xC000013A)
+"""Exit codes of what Ctrl-C ends, also on Windows."""
+_ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+"""There are as many processes as processors."""
+
+
+class DecompositionProcess:
+    """`decomposition_worker`, started again where a mesh ends it."""
+
+    def __init__(self) -> None:
+        """Start it; it is ready some time later."""
+        self._is_closed = False
+        self._start()
+
+    def _start(self) -> None:
+        self._is_ready: bool | None = None
+        # Not `multiprocessing`, which runs the user's own script once more where it spawns.
+        self._process = subprocess.Popen(
+            [sys.executable, "-P", "-m", "trundle.physics.convex.worker"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env={**os.environ, **_ONE_THREAD},
+        )
+        atexit.register(self._process.kill)
+
+    @property
+    def has_started(self) -> bool:
+        """Whether it could be started, once it is clear."""
+        if self._is_ready is None:
+            assert self._process.stdout is not None
+            try:
+                pickle.load(self._process.stdout)
+                self._is_ready = True
+            except (OSError, EOFError, pickle.UnpicklingError):
+                self._is_ready = False
+                self._raise_if_interrupted()
+        return self._is_ready
+
+    def cut(self, part: HollowPart) -> ConvexPieces | None:
+        """Have a part cut; None where it cannot be.
+
+        Raises:
+            InterruptedError: Ctrl-C has ended the process, or it was closed.
+        """
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        try:
+            pickle.dump(part, self._process.stdin, protocol=5)
+            self._process.stdin.flush()
+            return pickle.load(self._process.stdout)
+        except (OSError, ValueError, EOFError, pickle.UnpicklingError):
+            self._raise_if_interrupted()
+            self._end()
+            self._start()
+            return None
+
+    def close(self) -> None:
+        """End it, whatever it does."""
+        self._is_closed = True
+        self._end()
+
+    def _raise_if_interrupted(self) -> None:
+        if self._is_closed or self._process.wait() in _INTERRUPTED:
+            raise InterruptedError
+
+    def _end(self) -> None:
+        self._process.kill()
+        self._process.wait()
+        atexit.unregister(self._process.kill)
+        for pipe in (self._process.stdin, self._process.stdout):
+            with suppress(OSError):  # what it was to read is lost
+                assert pipe is not None
+                pipe.close()

@@ -1,0 +1,127 @@
+"""Surfaces as thin walls: convex sheets, each along a part of a mesh that is nearly flat.
+
+For what is hollow and thin, as trays, buckets and tubes are, of which a grid of voxels keeps little.
+"""
+
+from collections.abc import Iterator
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .hulls import area_around, area_of, distance, hull_of, volume_of
+
+_Points = NDArray[np.float64]
+_Faces = NDArray[np.intp]
+_MOST = 64
+_BENDS = (0.002, 0.005, 0.01, 0.02, 0.04)
+"""Parts of the mesh's size by which a sheet may be bent: the first that makes few enough of them."""
+_STEEPEST = 0.7
+"""Cosine between the normals of a sheet's faces and its own."""
+_WASTE = 1.02
+"""Times its faces' area that the polygon around them may have without a closer look."""
+_PROBES, _SAMPLES = 64, 1000
+"""Points by which walls are tried; what comes of them is measured with more."""
+_THICK = 0.01
+"""Part of its size that what has no thickness is thick, and"""
+_THINNEST, _THICKEST = 1e-3, 0.01
+"""[m] at least and at most."""
+
+
+def shell_pieces(points: _Points, faces: _Faces, *, closed: bool) -> list[_Points]:
+    """Corners (N, 3) of each sheet [m]; none where it would take too many.
+
+    Args:
+        points: (N, 3) [m].
+        faces: (M, 3) indices into them, none without area.
+        closed: the surface has an inside, where its walls go, half as thick as it is between its two sides; those of
+            an open one have it in their middle.
+    """
+    if not closed:
+        # What is seen from both sides may be there twice.
+        faces = faces[np.unique(np.sort(faces, axis=1), axis=0, return_index=True)[1]]
+    size = float(np.ptp(points, axis=0).max())
+    thickness = min(max(_THICK * size, _THINNEST), _THICKEST)
+    if closed:
+        triangles = points[faces]
+        thickness = abs(volume_of(triangles)) / area_of(triangles)
+    surface = _Surface(points, faces, thickness, closed=closed)
+    for bend in _BENDS:
+        sheets = list(islice(surface.sheets(bend * size), _MOST + 1))
+        if len(sheets) <= _MOST:
+            return sheets
+    return []
+
+
+class _Surface:
+    """Faces, and which are beside which."""
+
+    def __init__(self, points: _Points, faces: _Faces, thickness: float, *, closed: bool) -> None:
+        self._points = points
+        self._faces = faces
+        self._thickness = thickness
+        self._closed = closed
+        a, b, c = (points[faces[:, i]] for i in range(3))
+        across = np.cross(b - a, c - a)
+        lengths = np.linalg.norm(across, axis=1)
+        self._normals = across / lengths[:, None]
+        self._areas = lengths / 2
+        self._beside: list[list[int]] = [[] for _ in faces]
+        by_edge: dict[tuple[int, int], list[int]] = {}
+        for i, (u, v, w) in enumerate(faces.tolist()):
+            for edge in ((u, v), (v, w), (w, u)):
+                others = by_edge.setdefault((min(edge), max(edge)), [])
+                for other in others:
+                    self._beside[i].append(other)
+                    self._beside[other].append(i)
+                others.append(i)
+
+    def sheets(self, bend: float) -> Iterator[_Points]:
+        """Walls along all of it, each bent by so much at most [m]."""
+        free = np.ones(len(self._faces), dtype=bool)
+        for seed in np.argsort(-self._areas, kind="stable").tolist():
+            if not free[seed]:
+                continue
+            normal = self._normals[seed]
+            heights = self._points @ normal - self._points[self._faces[seed, 0]] @ normal
+            facing = self._normals @ normal
+            alike = (facing if self._closed else np.abs(facing)) >= _STEEPEST
+            patch = self._around(seed, free & alike & (np.abs(heights) <= bend)[self._faces].all(axis=1))
+            free[patch] = False
+            yield from self._walls(patch, normal, bend)
+
+    def _around(self, seed: int, wanted: NDArray[np.bool_]) -> _Faces:
+        """The wanted faces that hang together with one of them."""
+        found, todo = {seed}, [seed]
+        while todo:
+            for face in self._beside[todo.pop()]:
+                if wanted[face] and face not in found:
+                    found.add(face)
+                    todo.append(face)
+        return np.array(sorted(found), dtype=np.intp)
+
+    def _walls(self, patch: _Faces, normal: _Points, bend: float) -> Iterator[_Points]:
+        """A wall along a patch, which is halved as long as its hull covers what is not there."""
+        corners, inward = self._points[np.unique(self._faces[patch])], normal * self._thickness
+        layers = (corners, corners - inward) if self._closed else (corners - inward / 2, corners + inward / 2)
+        wall = np.concatenate(layers)
+        if len(patch) == 1 or self._is_full(patch, corners, normal) or self._is_near(wall, bend):
+            yield wall
+            return
+        middles = self._points[self._faces[patch]].mean(axis=1)
+        centred = middles - middles.mean(axis=0)
+        along = centred @ np.linalg.eigh(centred.T @ centred)[1][:, -1]
+        order = np.argsort(along, kind="stable")
+        yield from self._walls(patch[order[: len(patch) // 2]], normal, bend)
+        yield from self._walls(patch[order[len(patch) // 2 :]], normal, bend)
+
+    def _is_full(self, patch: _Faces, corners: _Points, normal: _Points) -> bool:
+        seen = self._areas[patch] @ np.abs(self._normals[patch] @ normal)
+        return area_around(corners, normal) <= _WASTE * float(seen)
+
+    def _is_near(self, wall: _Points, bend: float) -> bool:
+        solid = hull_of(wall)
+        if solid is None:
+            return True
+        away = distance(solid.triangles, self._points[self._faces], probes=_PROBES, samples=_SAMPLES)
+        return away <= bend + self._thickness

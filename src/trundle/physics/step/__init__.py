@@ -1,0 +1,1 @@
+"""Steps a compiled world, reads and writes its state."""

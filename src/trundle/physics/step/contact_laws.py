@@ -1,0 +1,88 @@
+"""Contact laws that MuJoCo does not have, in C++: installed in the MuJoCo that Python has loaded.
+
+Bounces, friction with a direction of its own, moving and slipping surfaces, and velocities that decay. The tables of
+`law_tables` say which of them a model has; they act within `mj_step`, whoever calls it.
+"""
+
+import ctypes
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import mujoco
+
+from trundle.built import refuse_stale
+from trundle.diagnostics import TrundleError
+
+from .. import _contact_laws
+from ..compile.compiled_world import CompiledWorld
+from ..compile.law_tables import find_table, set_needstage
+
+if TYPE_CHECKING:
+    from .surface_motion import LinkGrip
+
+_SPECULATIVE = int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
+_LIBRARIES = {"win32": "mujoco.dll", "darwin": "libmujoco.*.dylib"}
+
+
+def bind() -> None:
+    """Find MuJoCo's functions in its loaded library.
+
+    Raises:
+        TrundleError: it is another release than the one whose structures the C++ knows, or that is of other sources.
+    """
+    refuse_stale(_contact_laws)
+    found = mujoco.mj_version()
+    if found != _contact_laws.VERSION:
+        built, here = (f"{v // 1_000_000}.{v // 1000 % 1000}.{v % 1000}" for v in (_contact_laws.VERSION, found))
+        what = f"Trundle is built for MuJoCo {built}, and mujoco-core {here} is installed"
+        raise TrundleError(f"{what}; pip install mujoco-core=={built}")
+    pattern = _LIBRARIES.get(sys.platform, "libmujoco.so.*")
+    library = ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob(pattern))))
+    _contact_laws.bind([ctypes.addressof(ctypes.c_byte.in_dll(library, name)) for name in _contact_laws.names()])
+    _contact_laws.install()
+
+
+bind()
+
+
+class ContactLaws:
+    """The laws of one model in motion."""
+
+    def __init__(self, compiled: CompiledWorld, data: mujoco.MjData) -> None:
+        self._model = compiled.model
+        self._data = data
+        self._motions = find_table(compiled.model, "motions")
+        self._head = find_table(compiled.model, "laws")[0]
+        self._head[7] = data._address
+        slides = bool((compiled.model.geom_bodyid > 0).any())
+        decays = bool(find_table(compiled.model, "damping").any())
+        self._always = slides or decays or bool(self._head[4:7].any())
+
+    @property
+    def acts(self) -> bool:
+        """Whether any law has anything to do."""
+        return self._always or self.is_watched
+
+    @property
+    def is_watched(self) -> bool:
+        """Whether nothing may sleep, for surfaces move."""
+        return bool(self._head[2])
+
+    def install(self) -> None:
+        """See that MuJoCo calls the laws, whatever callback somebody else has set since."""
+        _contact_laws.install()
+
+    def look_ahead(self) -> None:
+        """Have whoever steps next look ahead where the model needs it: the laws switch that while the engine steps."""
+        if self._head[8] > 0.0:
+            self._model.opt.enableflags |= _SPECULATIVE
+
+    def set_grips(self, grips: "Mapping[int, LinkGrip]") -> None:
+        """Have the surfaces of bodies, by number, move and slip like this; all others are ordinary."""
+        self._motions[:] = 0.0
+        for body, grip in grips.items():
+            self._motions[body] = grip.row
+        self._head[2] = self._model.flg_surfacevel = bool(grips)
+        set_needstage(self._model, solved=bool(grips) or self._head[6] > 0)

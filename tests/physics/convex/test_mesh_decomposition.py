@@ -1,0 +1,372 @@
+"""Hollow meshes that are cut into convex pieces: in other processes, each once, kept on disk, within a budget."""
+
+import io
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from trundle.bringup.check import check
+from trundle.physics.convex import decomposition, jobs, mesh_decomposition, pieces
+from trundle.physics.convex.cache import find_pieces, keep_pieces
+from trundle.physics.convex.mesh_decomposition import Decomposition, convex_pieces
+from trundle.physics.convex.native_output import muted
+from trundle.physics.convex.pieces import Detail, HollowPart, cut_part, split
+from trundle.physics.convex.progress import DecompositionProgress
+
+Mesh = tuple[NDArray[np.float64], NDArray[np.intp]]
+LINUX = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
+
+
+def gate(high: float = 1.5, at: float = 0.0) -> Mesh:
+    """A closed block with a passage of 1 x 1 m through it, as high as it is told: two feet and what lies on them."""
+    corners = [(x + at, y, z) for z in (0.0, 1.0, high) for y in (-0.5, 0.5) for x in (-1.0, -0.5, 0.5, 1.0)]
+    cells = {(0, 0), (2, 0), (0, 1), (1, 1), (2, 1)}
+    faces: list[tuple[int, int, int]] = []
+    for i, j in sorted(cells):
+        a, b, c, d = (i + 8 * j, i + 1 + 8 * j, i + 1 + 8 * (j + 1), i + 8 * (j + 1))
+        sides = {(-1, 0): (d, d + 4, a + 4, a), (1, 0): (b, b + 4, c + 4, c), (0, -1): (a, a + 4, b + 4, b)}
+        sides[0, 1] = (c, c + 4, d + 4, d)
+        quads = [(a, b, c, d), (a + 4, d + 4, c + 4, b + 4)]
+        quads += [quad for (di, dj), quad in sides.items() if (i + di, j + dj) not in cells]
+        faces += [triangle for p, q, r, s in quads for triangle in ((p, q, r), (p, r, s))]
+    return np.array(corners), np.array(faces, dtype=np.intp)
+
+
+def open_box(*, double: bool) -> Mesh:
+    """Four walls and a floor without thickness; there twice, seen from outside and from inside, or once."""
+    corners = np.array([(i & 1, i >> 1 & 1, (i >> 2) * 0.4) for i in range(8)], dtype=float)
+    quads = [(0, 2, 3, 1), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    faces = np.array([t for p, q, r, s in quads for t in ((p, q, r), (p, r, s))], dtype=np.intp)
+    return corners, np.concatenate([faces, faces[:, ::-1]]) if double else faces
+
+
+def obj(mesh: Mesh) -> str:
+    points, faces = mesh
+    return "\n".join([*(f"v {x} {y} {z}" for x, y, z in points), *(f"f {a} {b} {c}" for a, b, c in faces + 1)])
+
+
+def world(folder: Path, meshes: list[str], *, static: bool = False) -> Path:
+    """A world file whose models each have one mesh."""
+    models = ""
+    for i, text in enumerate(meshes):
+        (folder / f"m{i}.obj").write_text(text)
+        models += (
+            f'<model name="m{i}"><static>{static}</static><pose>0 {3 * i} 0 0 0 0</pose><link name="l"><collision '
+            f'name="c"><geometry><mesh><uri>m{i}.obj</uri></mesh></geometry></collision></link></model>'
+        )
+    file = folder / "w.world"
+    file.write_text(f'<sdf version="1.6"><world name="w">{models}</world></sdf>')
+    return file
+
+
+@pytest.fixture(autouse=True)
+def cache(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Path]:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    mesh_decomposition.forget()
+    yield tmp_path / "cache/trundle/meshes"
+    mesh_decomposition.forget()
+
+
+@pytest.fixture
+def cut(monkeypatch: pytest.MonkeyPatch) -> list[HollowPart]:
+    """What is cut in this process, in order."""
+    seen: list[HollowPart] = []
+
+    def counted(part: HollowPart) -> pieces.ConvexPieces:
+        seen.append(part)
+        return cut_part(part)
+
+    monkeypatch.setattr(jobs, "cut_part", counted)
+    return seen
+
+
+def corners_of(decomposed: pieces.ConvexPieces) -> list[list[list[float]]]:
+    return [corners.tolist() for corners in decomposed.corners]
+
+
+def test_a_process_of_its_own_cuts_the_same_pieces(monkeypatch: pytest.MonkeyPatch, cut: list[HollowPart]) -> None:
+    meshes = [(*gate(high), False) for high in (1.5, 1.6)]
+    here = [corners_of(convex_pieces(points, faces, fixed=fixed)) for points, faces, fixed in meshes]
+    assert len(cut) == 2
+    monkeypatch.setenv("XDG_CACHE_HOME", "/nowhere")
+    monkeypatch.setattr(jobs, "SHORT_S", 0.0)
+    mesh_decomposition.forget()
+    world = Decomposition()
+    world.cut_ahead(meshes)
+    assert [corners_of(world.pieces_of(p, f, fixed=fixed).pieces) for p, f, fixed in meshes] == here
+    assert len(cut) == 2
+
+
+class _Deadly:
+    """Points that end the process which reads them."""
+
+    def __reduce__(self) -> tuple[Callable[[int], None], tuple[int]]:
+        return os._exit, (3,)
+
+
+def test_a_mesh_that_ends_its_process_stops_no_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(jobs, "SHORT_S", 0.0)
+    monkeypatch.setattr(jobs, "_WORKER_S", 0.01)
+    _, good = split(*gate(), fixed=False).hollow[0]
+    bad = HollowPart(_Deadly(), good.faces, Detail.HULL)  # type: ignore[arg-type]
+    answers = {id(part): found for part, found in jobs.cut_parts([bad, good, bad])}
+    assert answers[id(bad)] is None
+    assert answers[id(good)] is not None
+
+
+def test_a_mesh_that_cannot_be_cut_is_filled_aloud(
+    tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(jobs, "cut_part", None)
+    outcome = check(str(world(tmp_path, [obj(gate())])), {}, start=tmp_path, collisions=True)
+    (said,) = [warning for warning in outcome.report.warnings if "hollow" in warning]
+    assert "physics fills it: 1.5 times its volume" in said
+    assert said.endswith("; it could not be cut into convex pieces")
+    assert not cache.exists()
+
+
+def test_the_worker_loads_little_of_trundle() -> None:
+    program = (
+        "import sys, trundle.physics.convex.pieces; print(*sorted(m for m in sys.modules if m.startswith('trundle.')))"
+    )
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert not re.findall(r"trundle\.(?:meshes|model|description|ros|render|simulation|bringup)\b", result.stdout)
+
+
+def _children(pid: int) -> list[int]:
+    try:
+        return [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    except FileNotFoundError:
+        return []
+
+
+def _is_alive(pid: int) -> bool:
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] not in "ZX"
+    except FileNotFoundError:
+        return False
+
+
+def _wait_until(what: Callable[[], object]) -> None:
+    for _ in range(1500):
+        if what():
+            return
+        time.sleep(0.02)
+    pytest.fail("it did not come to be within 30 s")
+
+
+@LINUX
+@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL], ids=["Ctrl-C", "the parent dies"])
+def test_an_interruption_leaves_no_process_behind_and_keeps_what_is_done(
+    end: signal.Signals, tmp_path: Path, cache: Path
+) -> None:
+    file = world(tmp_path, [obj(gate(1.5 + i / 100)) for i in range(40)])
+    process = subprocess.Popen(
+        [sys.executable, "-m", "trundle", "run", str(file), "--headless", "--no-ros", "--duration", "0.01", "--json"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    _wait_until(lambda: cache.is_dir() and len(list(cache.glob("*.npz"))) > 1)
+    workers = _children(process.pid)
+    process.send_signal(end)
+    out, errors = process.communicate(timeout=30)
+    assert process.returncode == (130 if end == signal.SIGINT else -end)
+    assert out == ""
+    assert "Traceback" not in errors
+    assert workers
+    _wait_until(lambda: not any(map(_is_alive, workers)))
+    kept = list(cache.glob("pieces-*.npz"))
+    assert 1 < len(kept) < 40
+    assert all(find_pieces(path.stem.removeprefix("pieces-")) for path in kept)
+
+
+def test_equal_meshes_are_cut_once_wherever_they_are(cut: list[HollowPart]) -> None:
+    points, faces = gate()
+    both = np.concatenate([points, gate(at=5.0)[0]]), np.concatenate([faces, faces + len(points)])
+    world = Decomposition()
+    world.cut_ahead([(points, faces, False), (*both, False), (points / 2 * 2, faces, False)])
+    assert len(cut) == 1
+    one, two = (world.pieces_of(*mesh, fixed=False).pieces for mesh in (gate(), both))
+    assert len(two.corners) == 2 * len(one.corners)
+    assert np.concatenate(two.corners)[:, 0].max() == pytest.approx(6.0)
+
+
+@pytest.mark.parametrize("double", [False, True])
+def test_a_thin_shell_of_few_faces_is_a_slab_for_each(double: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(decomposition, "_voxels", None)
+    found = convex_pieces(*open_box(double=double), fixed=False)
+    assert len(found.corners) == 5
+    (misfit,) = found.misfits
+    assert misfit.away <= 0.0051  # half a wall of 1 cm
+    assert not misfit.is_filled
+
+
+@pytest.mark.parametrize("spoil", ["cut", "text", "other", "nan"])
+def test_a_kept_cut_that_makes_no_sense_is_made_again(spoil: str, cache: Path, cut: list[HollowPart]) -> None:
+    first = corners_of(convex_pieces(*gate(), fixed=False))
+    (kept,) = cache.glob("*.npz")
+    if spoil == "other":
+        keep_pieces(kept.stem.removeprefix("pieces-"), pieces.ConvexPieces([], []))
+    elif spoil == "nan":
+        keep_pieces(kept.stem.removeprefix("pieces-"), pieces.ConvexPieces([np.full((4, 3), np.nan)], []))
+    else:
+        kept.write_bytes({"cut": kept.read_bytes()[:200], "text": b"hello"}[spoil])
+    mesh_decomposition.forget()
+    assert corners_of(convex_pieces(*gate(), fixed=False)) == first
+    assert len(cut) == 2
+    mesh_decomposition.forget()
+    convex_pieces(*gate(), fixed=False)
+    assert len(cut) == 2
+
+
+def test_what_takes_too_long_is_cut_coarsely_aloud_and_the_same_whatever_is_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Two meshes of half a second each, and time for one.
+    monkeypatch.setattr(mesh_decomposition, "MOST_SECONDS", 0.6)
+    file = world(tmp_path, [obj(gate(1.5)), obj(gate(1.6))])
+
+    def said() -> list[str]:
+        mesh_decomposition.forget()
+        outcome = check(str(file), {}, start=tmp_path, collisions=True)
+        return [finding.what for finding in outcome.report.findings if "hollow mesh" in finding.what]
+
+    in_full, coarse = said()
+    assert "fewer pieces" not in in_full
+    assert re.search(r"takes it for [2-8] convex pieces: .*a surface up to \S+ m away; fewer pieces than could", coarse)
+    assert coarse.endswith("to save time: TRUNDLE_FULL_DECOMPOSITION=1 has them all")
+    monkeypatch.setenv("TRUNDLE_FULL_DECOMPOSITION", "1")
+    assert not any("fewer pieces" in what for what in said())  # and now both are kept in full
+    monkeypatch.delenv("TRUNDLE_FULL_DECOMPOSITION")
+    assert said() == [in_full, coarse]
+
+
+def test_the_estimate_of_time_goes_by_size_alone() -> None:
+    points, faces = gate()
+    part = HollowPart(points, faces, Detail.FULL)
+    coarse = HollowPart(points, faces, Detail.COARSE)
+    assert HollowPart(points * 7, faces, Detail.FULL).seconds == part.seconds > coarse.seconds > 0
+
+
+def test_check_cuts_nothing_unless_asked(tmp_path: Path, cut: list[HollowPart], cache: Path) -> None:
+    file = world(tmp_path, [obj(gate())])
+    outcome = check(str(file), {}, start=tmp_path)
+    (said,) = [finding.what for finding in outcome.report.findings if "triangles" in finding.what]
+    assert said == (
+        "collision 'c': a mesh of 44 triangles that is not convex; how physics cuts it was not looked at "
+        "(check --collisions)"
+    )
+    assert not cut
+    check(str(file), {}, start=tmp_path, collisions=True)
+    assert len(cut) == 1
+
+
+class _Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_a_terminal_has_a_line_with_the_time_left_that_goes(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [100.0]
+    terminal = _Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    progress = DecompositionProgress([1.0] * 38, 2)
+    now[0] += 9.0
+    for _ in range(12):
+        progress.done(1.0)
+    drawn = [line.strip() for line in terminal.getvalue().split("\r")]
+    assert drawn[1] == "cutting meshes: 0 of 38, about 19 s left"
+    assert drawn[-1] == "cutting meshes: 12 of 38, about 20 s left"  # 12 in 9 s: 26 in 19.5 s
+    progress.close()
+    assert terminal.getvalue().split("\r")[-2:] == [" " * len(drawn[-1]), ""]
+
+
+def test_a_log_has_a_line_at_the_start_and_one_at_the_end_where_it_takes_long(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    now = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    progress = DecompositionProgress([2.0] * 30, 2)
+    now[0] += 27.0
+    for _ in range(30):
+        progress.done(2.0)
+    progress.close()
+    DecompositionProgress([0.5], 1).close()
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.splitlines() == [
+        "cutting 30 hollow meshes into convex pieces, about 30 s; that is done once",
+        "cut 30 of 30 hollow meshes in 27 s",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("faces", "is_convex"),
+    [
+        ([(0, 1, 2), (0, 2, 3)], True),
+        ([(0, 1, 2)], True),
+        ([(0, 1, 2), (0, 2, 3), (2, 1, 0), (3, 2, 0)], True),
+        ([(0, 1, 4), (0, 4, 3)], False),
+    ],
+)
+def test_a_flat_mesh_is_convex_where_it_fills_the_polygon_around_it(
+    faces: list[tuple[int, int, int]], is_convex: bool
+) -> None:
+    corners = np.array([*SQUARE, (0.4, 0.4, 0)], dtype=float)
+
+    assert (split(corners, np.array(faces, dtype=np.intp), fixed=False).hollow == []) is is_convex
+
+
+SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+DEGENERATE = {
+    "flat": SQUARE,
+    "almost flat": [*SQUARE[:2], (1, 1, 1e-7), (0, 1, 0), (0.5, 0.5, 1e-7)],
+    "flat and far away": [(x + 5000, y + 5000, z + 5000) for x, y, z in [*SQUARE[:3], (0, 1, 1e-4)]],
+    "large and flat": [(x * 5000, y * 5000, 0) for x, y, _ in SQUARE],
+    "a line": [(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)],
+    "a point": [(0, 0, 0)] * 4,
+    "not a number": [*SQUARE, ("nan", 0, 0)],
+    "infinite": [*SQUARE, ("inf", 0, 0)],
+}
+
+
+@pytest.mark.parametrize("static", [True, False])
+@pytest.mark.parametrize("case", DEGENERATE)
+def test_a_degenerate_mesh_has_a_sentence_of_ours(
+    case: str, static: bool, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    corners = DEGENERATE[case]
+    last = len(corners)
+    faces = [(1, 2, 3), (1, 3, 4), (1, 2, last)]
+    text = [f"v {x} {y} {z}" for x, y, z in corners] + [f"f {a} {b} {c}" for a, b, c in faces]
+    file = world(tmp_path, ["\n".join(text)], static=static)
+    outcome = check(str(file), {}, start=tmp_path, collisions=True)
+    captured = capfd.readouterr()
+    assert captured.out + captured.err == ""
+    assert not outcome.report.errors
+    said = [warning for warning in outcome.report.warnings if "mesh" in warning or ".obj" in warning]
+    assert said or static  # what stands has a slab behind each face, as thick as those of any mesh
+    for warning in said:
+        assert "w.world:1: warning: " in warning
+        assert re.search(r"physics uses [0-9.]+ mm|the collision is left out", warning)
+    assert not re.search("qhull|engine", outcome.text(), re.IGNORECASE)
+
+
+def test_words_of_others_come_through_where_the_engines_do_not(capfd: pytest.CaptureFixture[str]) -> None:
+    with muted():
+        os.write(2, b"QH7089 qhull precision warning: The initial hull is narrow.\n")
+    with muted():
+        os.write(1, b"a line\n")
+        os.write(2, b"a warning\n")
+    assert capfd.readouterr() == ("a line\n", "a warning\n")

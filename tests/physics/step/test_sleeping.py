@@ -1,0 +1,188 @@
+"""What is at rest costs nothing, changes nothing, and moves again when it is made to."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+import trundle
+from trundle.physics.step.sleeping import EVERY
+from trundle.simulation import Simulation
+from trundle.spatial import Pose, Twist, Wrench
+
+Load = Callable[..., Simulation]
+FLOOR = (
+    '<model name="floor"><static>true</static><link name="l"><collision name="c"><geometry><plane>'
+    "<normal>0 0 1</normal></plane></geometry></collision></link></model>"
+)
+INERTIA = (
+    "<inertial><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz>"
+    "</inertia></inertial>"
+)
+
+
+def box(name: str, pose: str, *, sleeps: bool = True, mu: float = 1.0, extra: str = "") -> str:
+    return (
+        f'<model name="{name}"><allow_auto_disable>{sleeps}</allow_auto_disable><pose>{pose}</pose>'
+        f'<link name="l">{INERTIA}<collision name="c"><geometry><box><size>0.2 0.2 0.2</size></box></geometry>'
+        f"<surface><friction><ode><mu>{mu}</mu><mu2>{mu}</mu2></ode></friction></surface></collision></link>{extra}"
+        "</model>"
+    )
+
+
+ARM = (
+    f'<link name="arm"><pose>0 0 0.1 0 0 0</pose>{INERTIA}</link><joint name="j" type="revolute"><parent>l</parent>'
+    "<child>arm</child><axis><xyz>0 0 1</xyz></axis></joint>"
+)
+
+
+@pytest.fixture
+def load(tmp_path: Path) -> Load:
+    """Load models on a floor."""
+
+    def load(*models: str, floor: str = FLOOR) -> Simulation:
+        file = tmp_path / "w.world"
+        file.write_text(f'<sdf version="1.6"><world name="w">{floor}{"".join(models)}</world></sdf>')
+        return trundle.load(str(file))
+
+    return load
+
+
+def asleep(load: Load, *models: str) -> Simulation:
+    sim = load(*models)
+    sim.run(2.0)
+    assert sim.engine.asleep == len(models)
+    return sim
+
+
+def test_sleep_changes_nothing_that_can_be_seen(load: Load) -> None:
+    ends: list[list[float]] = []
+    for sleeps in (True, False):
+        pile = [box(f"b{i}", f"0 0 {0.1 + 0.2 * i} 0 0 {0.1 * i}", sleeps=sleeps) for i in range(5)]
+        sim = load(*pile)
+        sim.run(10.0)
+        assert sim.engine.asleep == (5 if sleeps else 0)
+        ends.append(sim.snapshot().poses.ravel().tolist())
+    assert ends[0] == pytest.approx(ends[1], abs=1e-6)
+
+
+def test_a_push_wakes(load: Load) -> None:
+    sim = asleep(load, box("b", "0 0 0.1 0 0 0", mu=0.0))
+    sim["b"].apply_wrench(Wrench(force=(1.0, 0.0, 0.0)))
+    sim.run(0.5)
+    assert sim["b"].pose.position[0] == pytest.approx(0.125, rel=0.01)
+
+
+def test_an_order_to_a_joint_wakes_and_the_same_again_does_not(load: Load) -> None:
+    sim = asleep(load, box("b", "0 0 0.1 0 0 0", extra=ARM))
+    joint = sim["b"].joint("j")
+    joint.hold(0.5)
+    sim.run(0.5)
+    assert 0.1 < joint.position < 0.5
+    sim.run(8.0)
+    assert joint.position == pytest.approx(0.5, abs=1e-4)
+    assert sim.engine.asleep == 1
+    joint.hold(0.5)
+    sim.step(2)
+    assert sim.engine.asleep == 1
+    joint.set_velocity(1.0)
+    sim.run(0.2)
+    assert joint.velocity == pytest.approx(1.0, rel=0.01)
+
+
+def test_what_is_put_elsewhere_falls_from_there(load: Load) -> None:
+    sim = asleep(load, box("b", "0 0 0.1 0 0 0"), box("c", "3 0 0.1 0 0 0"))
+    sim["b"].set_pose(Pose((0.0, 0.0, 1.1)))
+    sim["c"].set_twist(Twist(linear=(0.0, 0.0, 2.0)))
+    sim.run(0.2)
+    assert sim["b"].pose.position[2] == pytest.approx(1.1 - 9.8 * 0.02, abs=0.01)
+    assert sim["c"].pose.position[2] == pytest.approx(0.1 + 2.0 * 0.2 - 9.8 * 0.02, abs=0.01)
+
+
+def test_what_is_hit_wakes_and_what_it_leans_on_with_it(load: Load) -> None:
+    sim = asleep(load, box("low", "0 0 0.1 0 0 0"), box("high", "0 0 0.3 0 0 0"), box("ram", "-1 0 0.1 0 0 0", mu=0.0))
+    sim["ram"].set_twist(Twist(linear=(3.0, 0.0, 0.0)))
+    sim.run(1.0)
+    assert sim["low"].pose.position[0] > 0.05
+    assert math.dist(sim["high"].pose.position, (0.0, 0.0, 0.3)) > 0.01
+
+
+def test_what_is_about_to_slide_never_freezes(load: Load) -> None:
+    tilt, mu = 0.35, 0.999 * math.tan(0.35)
+    slope = FLOOR.replace("<static>", f"<pose>0 0 0 0 {tilt} 0</pose><static>")
+    x, z = 0.1 * math.sin(tilt), 0.1 * math.cos(tilt)
+    sim = load(box("b", f"{x} 0 {z} 0 {tilt} 0", mu=mu), floor=slope)
+    sim.run(2.0)  # it settles with a jerk
+    places: list[float] = []
+    for _ in range(3):
+        places.append(sim["b"].pose.position[0] / math.cos(tilt))
+        sim.run(1.0)
+    first, second, third = places
+    assert third - 2 * second + first == pytest.approx(9.8 * 0.001 * math.sin(tilt), rel=0.01)
+
+
+def test_a_state_saved_asleep_goes_on_to_the_bit(load: Load) -> None:
+    sim = asleep(load, box("b", "0 0 0.1 0 0 0"), box("c", "0 0 0.3 0 0 0"))
+    saved = sim.save()
+    ends: list[bytes] = []
+    for _ in range(2):
+        sim.restore(saved)
+        sim.run(0.3)
+        sim["c"].apply_wrench(Wrench(force=(5.0, 0.0, 0.0)))
+        sim.run(0.7)
+        ends.append(sim.snapshot().poses.tobytes())
+        sim["c"].apply_wrench(Wrench())
+    assert ends[0] == ends[1]
+
+
+def test_a_world_that_sleeps_as_a_whole_is_not_stepped_and_goes_on_to_the_bit(
+    load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sim = asleep(load, box("b", "0 0 0.1 0 0 0"), box("c", "0 0 0.3 0 0 0", extra=ARM))
+    saved, steps, whole = sim.save(), 3 * EVERY, mujoco.mj_step
+    ends: list[bytes] = []
+    for at_once in (steps, 1):
+        taken: list[int] = []
+
+        def counted(model: mujoco.MjModel, data: mujoco.MjData, nstep: int = 1, taken: list[int] = taken) -> None:
+            taken.append(nstep)
+            whole(model, data, nstep=nstep)
+
+        monkeypatch.setattr(mujoco, "mj_step", counted)
+        sim.restore(saved)
+        for _ in range(steps // at_once):
+            sim.step(at_once)
+        assert sum(taken) < 10 if at_once > 1 else sum(taken) == steps
+        sim["c"].joint("j").set_velocity(1.0)
+        sim.step(300)
+        data = sim.engine.save().data
+        ends.append(np.array([data.time, *data.qpos, *data.qvel]).tobytes())
+        sim["c"].joint("j").set_effort(0.0)
+    assert ends[0] == ends[1]
+    assert sim.time_ns == (2000 + steps + 300) * 1_000_000
+
+
+def test_what_sleeps_still_touches(load: Load) -> None:
+    sim = asleep(load, box("b", "0 0 0.1 0 0 0"))
+    before = sim.snapshot().poses.tobytes()
+    contacts = sim.contacts()
+    assert sum(abs(contact.force.force[2]) for contact in contacts) == pytest.approx(9.8, rel=1e-3)
+    assert sim.engine.asleep == 1
+    assert sim.snapshot().poses.tobytes() == before
+
+
+def test_islands_are_looked_for_only_where_half_of_the_world_is_at_rest(load: Load) -> None:
+    """A box that slides straight moves in one of six ways, and is not at rest in the other five."""
+    sliding = [box(f"s{i}", f"0 {i} 0.1 0 0 0", mu=0.0) for i in range(3)]
+    standing = [box(f"b{i}", f"5 {i} 0.1 0 0 0") for i in range(3)]
+    rests: list[bool] = []
+    for models in (sliding, [*sliding, *standing]):
+        sim = load(*models)
+        for i in range(3):
+            sim[f"s{i}"].set_twist(Twist((1.0, 0.0, 0.0)))
+        sim.run(2.0)
+        rests.append(sim.engine.asleep > 0)
+    assert rests == [False, True]
