@@ -14,8 +14,8 @@ import mujoco
 
 import trundle
 from bench.table import Row
-from trundle.bringup.run import RunOptions
-from trundle.bringup.run import run as launch_run
+from trundle.bringup.run.run import RunOptions
+from trundle.bringup.run.run import run as launch_run
 
 ROBOT = Path(__file__).parents[1] / "examples/rp2w"
 PUBLISHED = ROBOT.parents[2] / "shared/seeds/rp2w"

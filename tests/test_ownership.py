@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from tests.graphs import running_graph
 
-from trundle.bringup.launch_logs import log_folder
+from trundle.bringup.launch.logs import log_folder
 from trundle.meshes import RawPart, keep, load_kept
 from trundle.outputs import write_whole
 from trundle.ownership import home_folder, is_ours

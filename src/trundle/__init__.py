@@ -25,6 +25,6 @@ def load(file: str, *, seed: int = 0) -> "Simulation":
     Raises:
         TrundleError: one sentence with file and line. Warnings are in the simulation's `report`.
     """
-    from trundle.bringup.stage import load_simulation
+    from trundle.bringup.world_setup import load_simulation
 
     return load_simulation(file, seed=seed)

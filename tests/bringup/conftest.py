@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from tests.graphs import PATIENCE_S, running_graph, until
 
-from trundle.bringup.gazebo_world import GazeboWorld
+from trundle.bringup.gazebo.world import GazeboWorld
 from trundle.bringup.graph import Graph
 from trundle.diagnostics import Diagnostics
 from trundle.nodes import Host

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup.run import OnInstability, RunOptions, run
+from trundle.bringup.run.run import OnInstability, RunOptions, run
 from trundle.cli.main import main
 from trundle.physics import SimulationUnstableError
 

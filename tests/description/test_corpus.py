@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from tests.description.compare import close, differences, same_pose, shape_of
 
-from trundle.bringup.check_json import described
+from trundle.bringup.check.json_output import described
 from trundle.description import expand_xacro, load, load_urdf
 from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.packages import Packages

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from trundle.bringup.check_json import described
+from trundle.bringup.check.json_output import described
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.model import flattened

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from trundle.bringup.check_json import described
+from trundle.bringup.check.json_output import described
 from trundle.description import Loaded, load_text, write_sdf, write_urdf, written_uri
 from trundle.description.writing.tag import Tag
 from trundle.diagnostics import DescriptionError, Diagnostics

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from trundle.bringup.launch_words import read_words
+from trundle.bringup.launch.request import read_request
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.launch import LaunchNode, read_launch, resolve_params
 from trundle.packages import Packages
@@ -87,7 +87,7 @@ def _env(package: Path) -> dict[str, str]:
 def _read(words: list[str], env: dict[str, str]) -> list[Any] | None:
     report = Diagnostics()
     packages = Packages(env, start=Path(words[0]))
-    request = read_words(words, packages)
+    request = read_request(words, packages)
     try:
         plan = read_launch(request.files, packages=packages, report=report, arguments=request.arguments, env=env)
         params = resolve_params(plan, report, expand_xacro=lambda _file, _arguments: "", env=env)

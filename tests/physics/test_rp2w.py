@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from trundle.bringup.stage import set_stage
+from trundle.bringup.world_setup import load_world
 from trundle.diagnostics import Diagnostics
 from trundle.model import World
 from trundle.packages import Packages
@@ -26,7 +26,7 @@ AXLES: dict[str, Vector3] = {
 def world(shared: Path) -> World:
     """The RP2W on Gazebo's ground plane."""
     robot = shared / "seeds" / "rp2w" / "model.sdf"
-    return set_stage(str(robot), Packages({}, start=robot), Diagnostics()).world
+    return load_world(str(robot), Packages({}, start=robot), Diagnostics()).world
 
 
 def on_the_ground(world: World) -> Simulation:

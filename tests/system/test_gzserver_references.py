@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from trundle.bringup.stage import set_stage
+from trundle.bringup.world_setup import load_world
 from trundle.diagnostics import Diagnostics
 from trundle.model import Link
 from trundle.packages import Packages
@@ -59,7 +59,7 @@ def test_models_rest_where_gazebo_has_them(corpus: Path, tmp_path: Path) -> None
             "ROS_PACKAGE_PATH": str(corpus / "repos"),
         }
         file = described(corpus, answer["file"], tmp_path)
-        stage = set_stage(str(file), Packages(environment, start=tmp_path), report)
+        stage = load_world(str(file), Packages(environment, start=tmp_path), report)
         simulation = Simulation(stage.world, report)
         poses = simulation.snapshot().poses
         theirs = {link["name"].partition("::")[2]: link for link in answer["model"]["links"]}

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from trundle.bringup.plugins import load_plugins
-from trundle.bringup.stage import set_stage
+from trundle.bringup.world_setup import load_world
 from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
 from trundle.plugins import Plugin
@@ -20,7 +20,7 @@ class Run:
 
     def __init__(self, folder: Path) -> None:
         report = Diagnostics()
-        stage = set_stage(str(folder), Packages({}, start=folder), report)
+        stage = load_world(str(folder), Packages({}, start=folder), report)
         self.sim = Simulation(stage.world, report)
         self.robot = self.sim.models[0]
         self.plugin: Plugin = load_plugins(self.sim, None, {}, say=lambda _: None)[0]

@@ -11,8 +11,8 @@ from trundle.model import flattened
 from trundle.outputs import write_whole
 from trundle.packages import Packages
 
-from .described_file import load_described
 from .file_copies import FileCopies
+from .load_input import load_input
 
 Format: TypeAlias = Literal["sdf", "urdf", "mjcf"]
 
@@ -43,7 +43,7 @@ def convert(
         DescriptionError: the file makes no sense, or not in that format.
         UsageError: no such model, or the output cannot be written.
     """
-    loaded = load_described(file, report, packages=Packages(environment, start=start), start=start)
+    loaded = load_input(file, report, packages=Packages(environment, start=start), start=start)
     if output is None:
         return _written(loaded, to, written_uri, lambda _: None, report)
     copies = FileCopies(output, report)

@@ -67,7 +67,7 @@ class Graph:
             raise
 
     @property
-    def story(self) -> str:
+    def summary(self) -> str:
         """One line that says which graph this is."""
         return f"ROS master started: {self.master_uri}" if self.core is not None else _joined(self.master_uri)
 

@@ -11,9 +11,9 @@ from trundle.sensors import CameraReading, CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 from trundle.viewer import Drive, Pause, Play, Reset, SetJoint, SetSpeed, Step, Viewer, ViewerState
 
-from .pace import Pacer
 from .page_layout import drawn_lines, joint_indices, lay_out, slider_names
-from .sight import Sight
+from .ray_overlay import RayOverlay
+from .realtime_pacer import RealtimePacer
 
 _FRAME_NS = 33_000_000
 """The page is fed 30 times a second of wall time."""
@@ -39,7 +39,7 @@ class Page:
     ) -> None:
         self._viewer = viewer
         self._driver = driver
-        self._sight = Sight(lambda: viewer.alive)
+        self._sight = RayOverlay(lambda: viewer.alive)
         self._numbers: dict[CameraSensor, int] = {}
         """Of the cameras, as the page shows them."""
         self._heard: set[CameraSensor] = set()
@@ -100,7 +100,7 @@ class Page:
         """Where the page is."""
         return self._viewer.url
 
-    def feed(self, pacer: Pacer, *, paused: bool, at_once: bool = False) -> None:
+    def update(self, pacer: RealtimePacer, *, paused: bool, at_once: bool = False) -> None:
         """Show where everything is now, if the page has not been fed just before."""
         now = time.monotonic_ns()
         if not at_once and now - self._fed_ns < _FRAME_NS:
@@ -118,7 +118,7 @@ class Page:
             )
         )
 
-    def obey(self, pacer: Pacer, *, paused: bool) -> bool:
+    def handle_requests(self, pacer: RealtimePacer, *, paused: bool) -> bool:
         """Do what was pressed since the last call; return whether the simulation is paused now."""
         for request in self._viewer.requests():
             match request:
@@ -131,11 +131,11 @@ class Page:
                     paused = True
                     self._simulation.step(count)
                     pacer.restart()
-                    self.feed(pacer, paused=True, at_once=True)
+                    self.update(pacer, paused=True, at_once=True)
                 case Reset():
                     self._simulation.reset()
                     pacer.restart()
-                    self.feed(pacer, paused=paused, at_once=True)
+                    self.update(pacer, paused=paused, at_once=True)
                 case SetSpeed(factor):
                     pacer.set_speed(None if math.isinf(factor) else factor)
                 case SetJoint(name, position):

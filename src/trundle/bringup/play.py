@@ -18,8 +18,8 @@ from trundle.page_address import AllowedNames
 from trundle.simulation import Simulation, StateLog, read_state_log
 from trundle.viewer import Pause, Play, Reset, SetSpeed, Step, Viewer, ViewerState
 
+from .console import Console
 from .page_layout import joint_indices, lay_out
-from .showing import Showing
 from .signals import StopFlag, stop_flag
 
 _FRAME_S = 1 / 30
@@ -54,7 +54,7 @@ def play(file: Path, options: PlayOptions) -> int:
     if simulation.engine.compiled.link_names != log.links:
         raise DescriptionError(Source(str(file), 1), "the world in this log has other links than were recorded")
     layout = lay_out(simulation, [], drive=False)
-    show = Showing(sys.stderr, report)
+    show = Console(sys.stderr, report)
     show.findings()
     with stop_flag() as stop, ExitStack() as open_things:
         viewer = Viewer.start(

@@ -15,8 +15,8 @@ from trundle.page_address import AllowedNames
 from trundle.ros import GraphLoop, MasterProxy, MasterUnreachableError, Node, follow_time, master_uri_from_env
 from trundle.viewer import GraphPage
 
-from .exposure import warn_of_exposure
-from .showing import Showing
+from .console import Console
+from .network_warning import warn_of_network
 from .signals import stop_flag
 
 
@@ -49,8 +49,8 @@ def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> 
             f"no ROS master answers at {uri}; start one with 'trundle core' or 'trundle launch', or set ROS_MASTER_URI"
         ) from None
     report = Diagnostics()
-    show = Showing(sys.stderr, report)
-    warn_of_exposure(options.host, show.line)
+    show = Console(sys.stderr, report)
+    warn_of_network(options.host, show.line)
     with stop_flag() as stop, ExitStack() as open_things:
         loop = open_things.enter_context(GraphLoop())
         # Anonymous, as the original's: a launch may have a node called rviz, which a second one would shut down.

@@ -40,7 +40,7 @@ def main(args: argparse.Namespace) -> int:
 
 def _check(args: argparse.Namespace) -> int:
     with quiet_imports():
-        from trundle.bringup.check import check
+        from trundle.bringup.check.check import check
 
     outcome = check(args.file, dict(os.environ), start=Path.cwd(), collisions=args.collisions)
     warned = any(finding.severity == "warning" for finding in outcome.report.findings)

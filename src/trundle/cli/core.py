@@ -9,8 +9,8 @@ from contextlib import suppress
 from pathlib import Path
 from queue import Empty, SimpleQueue
 
-from trundle.bringup.exposure import warn_of_exposure
-from trundle.bringup.launch_logs import log_folder
+from trundle.bringup.launch.logs import log_folder
+from trundle.bringup.network_warning import warn_of_network
 from trundle.diagnostics import UsageError
 from trundle.ros import DISTROS, NOETIC, Core, GraphLoop, RosError, host_and_port
 
@@ -56,7 +56,7 @@ def main(args: argparse.Namespace) -> int:
         )
         loop.run(core.start())
         if args.host is not None:
-            warn_of_exposure(args.host, lambda line: print(line, file=sys.stderr, flush=True))
+            warn_of_network(args.host, lambda line: print(line, file=sys.stderr, flush=True))
         try:
             loop.run(core.ready(), timeout_s=_READY_S)
         except TimeoutError:

@@ -17,8 +17,8 @@ from .typed import typed_number
 if TYPE_CHECKING:
     from collections.abc import Generator, Sequence
 
-    from trundle.bringup.gazebo_world import GazeboWorld
-    from trundle.bringup.showing import Showing
+    from trundle.bringup.console import Console
+    from trundle.bringup.gazebo.world import GazeboWorld
     from trundle.nodes import Replacement
     from trundle.ros import Node
     from trundle.viewer import GraphPage
@@ -158,15 +158,15 @@ def _stand_in(args: argparse.Namespace, stand_in: "Replacement") -> int:
 @contextmanager
 def _world(node: "Node", *, with_window: bool) -> "Generator[GazeboWorld]":
     """What gzserver simulates in; what its files leave to be said is said."""
-    from trundle.bringup.gazebo_world import GazeboWorld
+    from trundle.bringup.console import Console
+    from trundle.bringup.gazebo.world import GazeboWorld
     from trundle.bringup.graph import Graph
-    from trundle.bringup.launch_logs import log_folder
-    from trundle.bringup.showing import Showing
+    from trundle.bringup.launch.logs import log_folder
     from trundle.diagnostics import Diagnostics
     from trundle.page_address import PageAddress
 
     report = Diagnostics()
-    show = Showing(sys.stderr, report)
+    show = Console(sys.stderr, report)
     loopback = "127.0.0.1"
     world = GazeboWorld(
         graph=Graph(node.loop, node.master_uri, None, loopback),
@@ -186,7 +186,7 @@ def _world(node: "Node", *, with_window: bool) -> "Generator[GazeboWorld]":
         show.findings()
 
 
-async def _tell(show: "Showing") -> None:
+async def _tell(show: "Console") -> None:
     while True:
         show.findings()
         await asyncio.sleep(_LOOK_S)

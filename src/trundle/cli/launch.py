@@ -11,7 +11,7 @@ from .main import add_allow_outside, add_lenient, add_page_access, add_renderer,
 from .speed import read_speed
 
 if TYPE_CHECKING:
-    from trundle.bringup.launch_options import LaunchOptions
+    from trundle.bringup.launch.options import LaunchOptions
 
 EXAMPLES = """
   trundle launch smartcar_description smartcar_display.rviz.launch
@@ -90,8 +90,8 @@ def main(args: argparse.Namespace) -> int:
     if not min(args.sigint_timeout, args.sigterm_timeout) > 0.0:
         raise UsageError("--sigint-timeout and --sigterm-timeout must be > 0 s")
     with quiet_imports():
-        from trundle.bringup.launch import launch
-        from trundle.bringup.launch_options import LaunchOptions
+        from trundle.bringup.launch.launch import launch
+        from trundle.bringup.launch.options import LaunchOptions
 
     options = LaunchOptions(
         headless=args.headless or args.core,
@@ -128,7 +128,7 @@ def _child(args: argparse.Namespace, options: "LaunchOptions") -> int:
         args.refuse("--child, --server_uri and --run_id go together: roslaunch gives its children all three")
     if args.words or args.core or args.port is not None:
         args.refuse("a child launches what its parent sends, at the parent's master: no files, --core or --port")
-    from trundle.bringup.launch_child import run_child
-    from trundle.bringup.launch_parent import Parent
+    from trundle.bringup.launch.child import run_child
+    from trundle.bringup.launch.parent import Parent
 
     return run_child(Parent(args.child, args.server_uri, args.run_id), options)

@@ -40,8 +40,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Draw one picture, or many."""
-    from trundle.bringup.film import MOVING, run_of, turntable, write_film
-    from trundle.bringup.picture import PictureOptions, Studio
+    from trundle.bringup.picture.picture import PictureOptions, Studio
+    from trundle.bringup.picture.video import MOVING, simulated_frames, turntable, write_video
     from trundle.diagnostics import Diagnostics, UsageError
 
     moves = args.output.suffix.lower() in MOVING
@@ -63,9 +63,11 @@ def main(args: argparse.Namespace) -> int:
         print(f"{args.file}: {studio.unseen}", file=sys.stderr)
     if moves:
         frames = (
-            turntable(studio) if args.orbit else run_of(studio, _FILM_S if args.duration is None else args.duration)
+            turntable(studio)
+            if args.orbit
+            else simulated_frames(studio, _FILM_S if args.duration is None else args.duration)
         )
-        write_film(frames, args.output, tell=_tell)
+        write_video(frames, args.output, tell=_tell)
         return 0
     try:
         studio.picture().save(args.output)

@@ -48,7 +48,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Simulate until the duration is over or Ctrl-C."""
     with quiet_imports():
-        from trundle.bringup.run import RunOptions, run
+        from trundle.bringup.run.run import RunOptions, run
 
     options = RunOptions(
         headless=args.headless,

@@ -35,9 +35,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Run each test in a launch of its own; 0 when all passed, 1 when one did not run, 2 when a case failed."""
     with quiet_imports():
-        from trundle.bringup.launch_options import LaunchOptions
-        from trundle.bringup.launch_test_options import LaunchTestOptions
-        from trundle.bringup.launch_tests import run_tests
+        from trundle.bringup.launch.options import LaunchOptions
+        from trundle.bringup.launch.test_options import LaunchTestOptions
+        from trundle.bringup.launch.tests import run_tests
 
     options = LaunchOptions(headless=True, output="screen" if args.text else None, strict=args.strict)
     how = LaunchTestOptions(

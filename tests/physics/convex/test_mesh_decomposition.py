@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from trundle.bringup.check import check
+from trundle.bringup.check.check import check
 from trundle.physics.convex import decomposition, jobs, mesh_decomposition, pieces
 from trundle.physics.convex.cache import find_pieces, keep_pieces
 from trundle.physics.convex.mesh_decomposition import Decomposition, convex_pieces

@@ -1,0 +1,1 @@
+"""`trundle check`: what a file says, and what is doubtful about it."""

@@ -1,0 +1,104 @@
+"""`trundle check` of a robot, a model or a world."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from trundle.description import Loaded
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.lint.description_lint import lint_description
+from trundle.lint.empty_scene import why_empty
+from trundle.lint.physics_precheck import physics_accepts
+from trundle.model import World, flattened
+from trundle.packages import Packages
+from trundle.physics import name_wheels
+
+from ..load_input import Piped, load_input
+
+if TYPE_CHECKING:
+    from trundle.diagram import TreeNode
+
+
+@dataclass(frozen=True, slots=True)
+class DescriptionFindings:
+    """What was read, and the same without nested models."""
+
+    loaded: Loaded
+    flat: World
+
+    def as_json(self) -> dict[str, object]:
+        """As `check --json` prints it."""
+        from .json_output import described
+
+        return described(self.loaded)
+
+    def trees(self) -> "list[TreeNode]":
+        """Of each model."""
+        from .kinematic_tree import kinematic_trees
+
+        return kinematic_trees(self.loaded)
+
+    def sentence(self) -> str:
+        """How many of what."""
+        models = self.flat.models
+        links = sum(len(model.links) for model in models)
+        joints = sum(len(model.joints) for model in models)
+        sensors = sum(len(link.sensors) for model in models for link in model.links)
+        what = {"world": "a world", "model": "a model", "urdf": "a URDF"}[self.loaded.kind]
+        version = f" (SDF {self.flat.sdf_version})" if self.flat.sdf_version else ""
+        counts = f"{len(models)} models, {links} links, {joints} joints, {sensors} sensors"
+        unseen = why_empty(self.flat)
+        return f"{what}{version}: {counts}{f'; {unseen}' if unseen else ''}"
+
+
+def check_description(
+    file: str,
+    *,
+    packages: Packages,
+    start: Path,
+    report: Diagnostics,
+    collisions: bool = False,
+    piped: Piped | None = None,
+) -> DescriptionFindings:
+    """Read a description and put it to use as far as shows what is wrong with it.
+
+    Args:
+        file: as `trundle check` takes it.
+        packages: where URIs lead.
+        start: relative URIs in standard input start here.
+        report: takes everything worth saying.
+        collisions: cut hollow meshes as physics does, which may take a minute.
+        piped: what came through `file`, where that is no file.
+
+    Raises:
+        DescriptionError: of which nothing sensible can be made.
+        UsageError: no such model.
+    """
+    loaded = load_input(file, report, packages=packages, start=start, piped=piped)
+    flat = flattened(loaded.world)
+    lint_description(loaded, report)
+    _name_silent_sensors(flat, report)
+    _name_what_physics_does(flat, report, collisions=collisions)
+    return DescriptionFindings(loaded, flat)
+
+
+def _name_what_physics_does(flat: World, report: Diagnostics, *, collisions: bool) -> None:
+    try:
+        if not physics_accepts(flat):
+            from trundle.physics import compile_world  # slow to load, and most robots need none of its mending
+
+            compile_world(flat, report, cut_meshes=collisions)
+        name_wheels(flat, report)
+    except DescriptionError as error:
+        report.error(error)
+
+
+def _name_silent_sensors(flat: World, report: Diagnostics) -> None:
+    sensors = [sensor for model in flat.models for link in model.links for sensor in link.sensors]
+    if not sensors:
+        return
+    from trundle.sensors import SIMULATED  # slow to load
+
+    for sensor in sensors:
+        if sensor.type not in SIMULATED:
+            report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")

@@ -1,0 +1,86 @@
+"""`trundle check` of a launch file; commands are named, not run."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from trundle.diagnostics import Diagnostics
+from trundle.diagram import TreeNode
+from trundle.launch import LaunchPlan, ParamCommand, read_launch, read_launch_text
+from trundle.packages import Packages
+
+from ..load_input import Piped
+
+
+@dataclass(frozen=True, slots=True)
+class LaunchFindings:
+    """What a launch file asks for."""
+
+    plan: LaunchPlan
+
+    def as_json(self) -> dict[str, object]:
+        """As `check --json` prints it."""
+        return {
+            "kind": "launch",
+            "nodes": [
+                {
+                    "name": node.full_name,
+                    "package": node.package,
+                    "type": node.type,
+                    "args": node.arguments,
+                    "remaps": [list(pair) for pair in node.remappings],
+                    "required": node.required,
+                    "respawn": node.respawn,
+                }
+                for node in self.plan.nodes
+            ],
+            "params": {
+                param.name: {"command": param.value.line}
+                if isinstance(param.value, ParamCommand)
+                else _plain(param.value)
+                for param in self.plan.params
+            },
+        }
+
+    def trees(self) -> list[TreeNode]:
+        """None: robots are in other files."""
+        return []
+
+    def sentence(self) -> str:
+        """How many of what."""
+        commands = sum(isinstance(param.value, ParamCommand) for param in self.plan.params)
+        to_run = f", {commands} of them by a command" if commands else ""
+        return f"a launch of {len(self.plan.nodes)} nodes with {len(self.plan.params)} parameters{to_run}"
+
+
+def check_launch(
+    file: str, environment: Mapping[str, str], *, packages: Packages, report: Diagnostics, piped: Piped | None = None
+) -> LaunchFindings:
+    """Read a launch file, or what came through a pipe in place of one.
+
+    Raises:
+        DescriptionError: of which nothing sensible can be made.
+    """
+    if piped is not None:
+        text = piped.data.decode(errors="replace")
+        return LaunchFindings(
+            read_launch_text(text, name=piped.name, packages=packages, report=report, env=environment)
+        )
+    path = Path(file)
+    return LaunchFindings(read_launch(path, packages=packages.around(path), report=report, env=environment))
+
+
+def _plain(value: object) -> object:
+    """A parameter's value as JSON has it: bytes and numbers that are none become text."""
+    match value:
+        case bytes():
+            return value.hex()
+        case float() if not math.isfinite(value):
+            return str(value)
+        case list():
+            return [_plain(each) for each in value]
+        case dict():
+            return {str(key): _plain(each) for key, each in value.items()}
+        case _:
+            return value

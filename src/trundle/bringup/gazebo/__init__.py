@@ -1,0 +1,1 @@
+"""The simulation of a launch behind /gazebo: its world, models, plugins, sensors and page."""

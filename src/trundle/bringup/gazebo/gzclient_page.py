@@ -1,0 +1,73 @@
+"""The window of the world behind /gazebo: a page, once somebody asks for it."""
+
+from collections.abc import Callable, Sequence
+
+from trundle.diagnostics import TrundleError
+from trundle.page_address import PageAddress
+from trundle.ros import Node
+from trundle.sensors import CameraSensor, InstrumentSensor
+from trundle.simulation import Simulation
+
+from ..page import Page
+from ..realtime_pacer import RealtimePacer
+
+
+class GzclientPage:
+    """What gzclient shows; all but `url`, `is_over` and `is_wanted` belongs to the simulation's thread."""
+
+    def __init__(self, at: PageAddress | None, say: Callable[[str], None]) -> None:
+        """Show nothing yet.
+
+        Args:
+            at: address of the page; None: headless.
+            say: is told where the page is.
+        """
+        self._at = at
+        self._say = say
+        self._page: Page | None = None
+
+    @property
+    def url(self) -> str | None:
+        """Where the page is; None before it is served."""
+        page = self._page
+        return None if page is None else page.url
+
+    @property
+    def is_over(self) -> bool:
+        """Whether there will be no page."""
+        return self._at is None
+
+    @property
+    def is_wanted(self) -> bool:
+        """Whether a page is still to be opened."""
+        return self._at is not None and self._page is None
+
+    def open(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor], node: Node) -> None:
+        """Open the page, unless it is open or cannot be; a node says why."""
+        if self._at is None or self._page is not None:
+            return
+        try:
+            self._page = Page.open(simulation, sensors, None, self._at)
+        except TrundleError as error:
+            node.log_error(str(error))
+            self._at = None
+        else:
+            self._say(f"see the simulation at {self._page.url}")
+
+    def replace(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
+        """Show it anew: models or lights came or went."""
+        if self._page is not None:
+            self._page.replace(simulation, sensors)
+
+    def update(self, pacer: RealtimePacer, *, paused: bool) -> bool:
+        """Do what was pressed, and show where everything is; return whether the simulation is paused now."""
+        if self._page is not None:
+            paused = self._page.handle_requests(pacer, paused=paused)
+            self._page.update(pacer, paused=paused)
+        return paused
+
+    def close(self) -> None:
+        """Take the page down."""
+        if self._page is not None:
+            self._page.close()
+            self._page = None

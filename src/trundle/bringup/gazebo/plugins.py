@@ -1,0 +1,85 @@
+"""The plugins of the world behind /gazebo, and their nodes, as models come and go."""
+
+from collections.abc import Callable, Mapping
+
+from trundle.ros import Clock, Node
+from trundle.simulation import ModelHandle, Simulation
+
+from ..graph import Graph
+from ..plugins import load_plugins, load_world_plugins
+
+_END_S = 30.0
+
+
+class GazeboPlugins:
+    """Plugins of one simulation; each has a node of its own, which ends with its model."""
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        server: Node,
+        *,
+        graph: Graph,
+        env: Mapping[str, str],
+        clock: Clock,
+        deliver: Callable[[Callable[[], None]], None],
+        say: Callable[[str], None],
+    ) -> None:
+        """Have none yet.
+
+        Args:
+            simulation: what they act on.
+            server: gzserver's node; theirs are of its distribution.
+            graph: where their nodes live.
+            env: says where plugins are.
+            clock: their nodes' time.
+            deliver: gets what their nodes hear to the simulation's thread.
+            say: is told what is loaded.
+        """
+        self._simulation = simulation
+        self._server = server
+        self._graph = graph
+        self._env = env
+        self._clock = clock
+        self._deliver = deliver
+        self._say = say
+        self._nodes: dict[str, list[Node]] = {}
+        """By model; the world's have no name."""
+
+    def load(self) -> None:
+        """Load those of every model, and then the world's."""
+        for model in self._simulation.models:
+            self.load_of(model)
+        load_world_plugins(self._simulation, lambda name: self._node(name, ""), self._env, say=self._say)
+
+    def load_of(self, model: ModelHandle) -> None:
+        """Load those of a model."""
+        load_plugins(
+            self._simulation, lambda name: self._node(name, model.name), self._env, say=self._say, models=[model]
+        )
+
+    def unload(self, model: str) -> None:
+        """End the nodes of a model that is gone."""
+        for node in self._nodes.pop(model, []):
+            self._graph.loop.run(node.shutdown(), timeout_s=_END_S)
+
+    def close(self) -> None:
+        """Have every node end, without waiting; from any thread."""
+        for nodes in self._nodes.values():
+            for node in nodes:
+                self._graph.loop.spawn(node.shutdown())
+        self._nodes.clear()
+
+    def _node(self, name: str, model: str) -> Node:
+        graph = self._graph
+        node = Node(
+            name,
+            loop=graph.loop,
+            master_uri=graph.master_uri,
+            clock=self._clock,
+            deliver=self._deliver,
+            host=graph.host,
+        )
+        node.profile = self._server.profile
+        self._nodes.setdefault(model, []).append(node)
+        return node

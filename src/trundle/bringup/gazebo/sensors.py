@@ -1,0 +1,71 @@
+"""The sensors of the world behind /gazebo, and their topics, as models come and go."""
+
+from trundle.bridge import FrameNames, camera_topics, sensor_topics
+from trundle.diagnostics import Diagnostics
+from trundle.robot import Robot
+from trundle.ros import Endpoint, Node, StaticTransformBroadcaster
+from trundle.sensors import CameraSensor, InstrumentSensor, RayScene, mount_cameras, mount_sensors
+from trundle.simulation import Simulation
+
+from ..plugins import attach_sensor_plugins
+from ..renderers import RENDERERS, RendererName
+
+
+class GazeboSensors:
+    """Everything that measures, on the simulation's thread."""
+
+    def __init__(self, simulation: Simulation, node: Node, renderer: RendererName, report: Diagnostics) -> None:
+        """Have nothing measure yet."""
+        self._simulation = simulation
+        self._node = node
+        self._still = StaticTransformBroadcaster(node)
+        self._renderer: RendererName = renderer
+        self._report = report
+        self._around = RayScene(simulation)
+        self._ends: dict[str, list[Endpoint]] = {}
+        """Model → topics and services of its sensors."""
+        self._robots: dict[str, Robot] = {}
+        """Model → the URDF that it was spawned from."""
+        self.all: list[CameraSensor | InstrumentSensor] = []
+        """In the order in which they came."""
+
+    def mount(self, model: str | None = None, *, robot: Robot | None = None) -> None:
+        """Have the sensors of every model, or of one that came, measure; those that are there go on.
+
+        Args:
+            model: that came; None: every one there is.
+            robot: the URDF that it came from. Of the only one, the links' frames are those of robot_state_publisher.
+        """
+        simulation = self._simulation
+        if model is not None and robot is not None:
+            self._robots[model] = robot
+        beside = [sensor for sensor in self.all if isinstance(sensor, CameraSensor)]
+        cameras = mount_cameras(simulation, RENDERERS[self._renderer], model=model, beside=beside)
+        sensors = mount_sensors(simulation, model=model, around=self._around)
+        for sensor in (*cameras, *sensors):
+            sensor.start(simulation)
+        self.all += [*cameras, *sensors]
+        for owner in dict.fromkeys(sensor.model.name for sensor in (*cameras, *sensors)):
+            with self._node.recording_endpoints() as self._ends[owner]:
+                self._speak(
+                    [camera for camera in cameras if camera.model.name == owner],
+                    [sensor for sensor in sensors if sensor.model.name == owner],
+                    FrameNames.of_robot(robot) if robot is not None and len(self._robots) == 1 else FrameNames(),
+                )
+
+    def unmount(self, model: str) -> None:
+        """Have a model that is gone measure no more, and end its topics but those that others have, too."""
+        gone = [sensor for sensor in self.all if sensor.model.name == model]
+        self.all = [sensor for sensor in self.all if sensor not in gone]
+        for sensor in gone:
+            sensor.stop(self._simulation)
+        self._robots.pop(model, None)
+        ends = self._ends.pop(model, [])
+        shared = {id(end) for others in self._ends.values() for end in others}
+        for end in ends:
+            if id(end) not in shared:
+                end.unregister()
+
+    def _speak(self, cameras: list[CameraSensor], sensors: list[InstrumentSensor], names: FrameNames) -> None:
+        camera_topics(self._node, self._still, attach_sensor_plugins(cameras, self._node, self._report), names)
+        sensor_topics(self._node, self._still, attach_sensor_plugins(sensors, self._node, self._report), names)

@@ -1,0 +1,1 @@
+"""`trundle launch` and `trundle test`: launch files brought up, watched and ended."""

@@ -1,0 +1,45 @@
+"""Time of a flat-out launch without a simulation: told on /clock, a tick once the nodes are done with the last."""
+
+import threading
+
+from trundle.ros import Node
+
+from ..lockstep import Lockstep
+
+_TICK_NS = 10_000_000
+"""As often as Gazebo tells it."""
+_IDLE_S = 0.005
+
+
+class ClockPublisher:
+    """Publishes /clock from a thread of its own, as fast as the nodes of this process can follow."""
+
+    def __init__(self, node: Node, steps: Lockstep) -> None:
+        """Start; time stands still until the launch has begun.
+
+        Args:
+            node: who publishes.
+            steps: says when time may go on, and how far.
+        """
+        self._loop = node.loop
+        self._publisher = node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=10)
+        self._steps = steps
+        self._ending = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="trundle-time", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Let time stand still."""
+        self._ending.set()
+        self._thread.join()
+
+    def _run(self) -> None:
+        time_ns, steps = 0, self._steps
+        while not self._ending.is_set():
+            if not steps.may_pass:
+                self._ending.wait(_IDLE_S)
+                continue
+            time_ns = steps.target_ns(time_ns + _TICK_NS)
+            self._publisher.publish({"clock": time_ns})
+            steps.settle(lambda: None, lambda: False, self._ending.is_set)
+            steps.stepped(time_ns)

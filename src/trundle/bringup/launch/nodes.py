@@ -1,0 +1,172 @@
+"""Turns a launch file's nodes into jobs: processes, or stand-ins that run here."""
+
+import contextlib
+import shlex
+import socket
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
+
+import yaml
+
+from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.launch import LaunchNode
+from trundle.names import parse_arguments
+from trundle.nodes import ROSCPP, Executable, Host, Missing, Replacement, find_node, interpreter, run_stand_in
+from trundle.packages import Packages
+from trundle.ros import Loggers, Node
+from trundle.supervisor import Command, Job, Policy, ProcessJob, ProcessTree, TaskJob
+from trundle.yaml_loader import load_yaml
+
+from ..graph import Graph
+from .logs import ros_home
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Launched:
+    """What became of one node of a launch."""
+
+    node: LaunchNode
+    kind: Literal["process", "stand-in", "missing", "failed"]
+    what: str
+    """The program, what is stood in for, or why there is neither."""
+    job: Job | None = None
+    log_files: str = ""
+
+    def failed(self) -> "Launched":
+        """The same, when it could not be started after all."""
+        return replace(self, kind="failed", job=None)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NodeStarter:
+    """Makes the jobs of one launch."""
+
+    graph: Graph
+    packages: Packages
+    env: Mapping[str, str]
+    report: Diagnostics
+    host: Host
+    """What stand-ins may use."""
+    tree: ProcessTree
+    """Started processes belong to it, and end with it."""
+    log_folder: Path
+    output: Literal["screen", "log"] | None = None
+    """Overrides what the launch file says."""
+    all_required: bool = False
+
+    def prepare(
+        self, node: LaunchNode, label: str, *, show: Callable[[str, str], None], more: tuple[str, ...] = ()
+    ) -> Launched:
+        """Find what runs a node; where nothing can, a warning says so.
+
+        Args:
+            node: to be run.
+            label: what messages call it.
+            show: takes the label and a line of output.
+            more: words of a program's command line behind those of the launch file.
+
+        Raises:
+            DescriptionError: nothing can run it, and the launch requires it.
+        """
+        assert node.address is not None, "a launch with a node of no machine is refused"
+        if not is_here(node.address, self.env):
+            why = f"{node.address} is another machine, and nothing is started there; run trundle launch on it, too"
+            return self._missing(node, f"{why}, with ROS_MASTER_URI={self.graph.master_uri}")
+        env = {**self.env, "ROS_NAMESPACE": node.namespace, "ROS_MASTER_URI": self.graph.master_uri, **dict(node.env)}
+        if env["ROS_NAMESPACE"] == "/":
+            del env["ROS_NAMESPACE"]
+        name = label.replace("/", "-")
+        match find_node(node.package, node.type, self.packages.find_package, env=env, arguments=node.arguments):
+            case Executable(path):
+                job = ProcessJob(self._command(node, label, path, env, more), show, tree=self.tree)
+                logs = f"{self.log_folder / name}*.log"
+                return Launched(node=node, kind="process", what=str(path), job=job, log_files=logs)
+            case Replacement() as stand_in:
+                if node.launch_prefix:
+                    what = f"launch-prefix {node.launch_prefix!r} is not used; the stand-in runs within this process"
+                    self.report.warn(node.at, f"node {node.full_name}: {what}")
+                log = None if (self.output or node.output) == "screen" else self.log_folder / f"{name}-stdout.log"
+                job = TaskJob(label, lambda: self._run(node, stand_in, log))
+                logs = "" if log is None else str(log)
+                return Launched(node=node, kind="stand-in", what=f"{node.package}/{node.type}", job=job, log_files=logs)
+            case Missing(why):
+                return self._missing(node, why)
+
+    def _missing(self, node: LaunchNode, why: str) -> Launched:
+        what = f"node {node.full_name}: {why}"
+        if self.policy(node).required:
+            raise DescriptionError(node.at, f"{what}; the launch requires it")
+        self.report.warn(node.at, f"{what}; the launch goes on without it")
+        return Launched(node=node, kind="missing", what=why)
+
+    def policy(self, node: LaunchNode) -> Policy:
+        """What the node's end means."""
+        required = node.required or self.all_required
+        return Policy(respawn=node.respawn, respawn_delay_s=node.respawn_delay_s, required=required)
+
+    async def _run(self, node: LaunchNode, stand_in: Replacement, log: Path | None) -> int:
+        given = parse_arguments(_split(node.arguments, node))
+        ros_node = Node(
+            given.name or node.name,
+            loop=self.graph.loop,
+            master_uri=self.graph.master_uri,
+            namespace=given.namespace or node.namespace,
+            remappings={**dict(node.remappings), **given.remappings},
+            params={name: _value(text) for name, text in given.params.items()},
+            host=self.graph.host,
+        )
+        if (node.package, node.type) in ROSCPP:
+            ros_node.loggers = Loggers.of_roscpp(node.package)
+        with contextlib.ExitStack() as files:
+            if log is not None:
+                ros_node.quiet_log = files.enter_context(log.open("a", encoding="utf-8"))
+            host = replace(self.host, env=dict(node.env), tree=self.tree)
+            return await run_stand_in(stand_in, ros_node, list(given.rest), host)
+
+    def _command(
+        self, node: LaunchNode, label: str, program: Path, env: Mapping[str, str], more: tuple[str, ...]
+    ) -> Command:
+        log = self.log_folder / label.replace("/", "-")
+        return Command(
+            name=label,
+            argv=(
+                *_split(node.launch_prefix, node),
+                *interpreter(program, env),
+                str(program),
+                *_split(node.arguments, node),
+                *more,
+                *(f"{there}:={here}" for there, here in node.remappings),
+                f"__name:={node.name}",
+                f"__log:={log}.log",
+            ),
+            env=env,
+            cwd=program.parent if node.cwd == "node" else ros_home(env),
+            output=self.output or node.output,
+            log_file=log.with_name(f"{log.name}-stdout.log"),
+        )
+
+
+def is_here(address: str, env: Mapping[str, str]) -> bool:
+    """Tell whether a machine of a launch file is this one, by any of its names."""
+    names = {"", "localhost", "::1", socket.gethostname(), env.get("ROS_HOSTNAME"), env.get("ROS_IP")}
+    return address in names or address.startswith("127.")
+
+
+def _split(text: str, node: LaunchNode) -> list[str]:
+    try:
+        return shlex.split(text)
+    except ValueError as error:
+        raise DescriptionError(
+            node.at, f"node {node.full_name}: {text!r} cannot be split into words: {error}"
+        ) from None
+
+
+def _value(text: str) -> bool | int | float | str | list[object] | dict[str, object]:
+    """A `_name:=value` of a node's arguments: YAML where it is YAML, else the text."""
+    try:
+        value = load_yaml(text)
+    except yaml.YAMLError:
+        return text
+    return text if value is None else value

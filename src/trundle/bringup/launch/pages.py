@@ -1,0 +1,47 @@
+"""The pages that a launch's nodes open, and where they are."""
+
+import time
+from collections.abc import Callable, Sequence
+from typing import Protocol
+
+from trundle.nodes import CLIENTS, WINDOWS
+
+from .nodes import Launched
+
+_PATIENCE_S = 20.0
+"""A world may take longer to read; its page is then told of on a line of its own."""
+_LOOK_S = 0.05
+
+
+class OpeningPage(Protocol):
+    """A page that is served soon, or never."""
+
+    @property
+    def url(self) -> str | None: ...
+    @property
+    def is_over(self) -> bool: ...
+
+
+def pages_of(
+    launched: Sequence[Launched], graph: OpeningPage | None, world: OpeningPage | None
+) -> Sequence[OpeningPage]:
+    """Which pages the started nodes open.
+
+    Args:
+        launched: the nodes.
+        graph: the page of the graph, which windows open; None: headless.
+        world: the page of the simulated world, which gzclient or gazebo opens.
+    """
+    started = {(entry.node.package, entry.node.type) for entry in launched if entry.kind == "stand-in"}
+    expected = ((world, not CLIENTS.isdisjoint(started)), (graph, not WINDOWS.isdisjoint(started)))
+    return [page for page, opens in expected if page is not None and opens]
+
+
+def await_urls(pages: Sequence[OpeningPage], is_ending: Callable[[], bool]) -> list[str]:
+    """Wait until each is served or will not be; return where they are."""
+    deadline = time.monotonic() + _PATIENCE_S
+    while not is_ending() and time.monotonic() < deadline:
+        if all(page.url is not None or page.is_over for page in pages):
+            break
+        time.sleep(_LOOK_S)
+    return [page.url for page in pages if page.url is not None]

@@ -1,0 +1,94 @@
+"""What `trundle launch` was asked for: which files, with which arguments."""
+
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from trundle.diagnostics import UsageError
+from trundle.files import is_stream, read_standard_input, read_stream
+from trundle.packages import Packages
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LaunchRequest:
+    """Launch files and the `name:=value` of the command line."""
+
+    files: tuple[Path, ...] = ()
+    arguments: dict[str, str] = field(default_factory=dict[str, str])
+    texts: tuple[tuple[str, str], ...] = ()
+    """(name, XML) of what came in on standard input and through pipes."""
+    namespace: str = ""
+    """`__ns:=`, which everything is put in; empty: not said."""
+
+
+def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
+    """Tell `PKG FILE` from `FILE…`, as roslaunch does: a first word that is a file is one; `-` is standard input.
+
+    Raises:
+        UsageError: no such file or package, with what there is instead.
+    """
+    arguments: dict[str, str] = {}
+    special: dict[str, str] = {}
+    rest: list[str] = []
+    for word in words:
+        name, assigned, value = word.partition(":=")
+        if assigned:
+            if name and value:  # roslaunch does not hear an empty one: the file's default holds
+                (special if name.startswith("__") else arguments)[name] = value
+        else:
+            rest.append(word)
+    if not rest:
+        raise UsageError("no launch file; say PKG FILE or a path, such as: trundle launch robot.launch")
+    if _is_text(rest[0]) or os.path.isfile(rest[0]):
+        texts = [word for word in rest if _is_text(word)]
+        files = [word for word in rest if word not in texts]
+        missing = [word for word in files if not os.path.isfile(word)]
+        if missing:
+            raise UsageError(f"no such file: {', '.join(missing)}")
+        if texts.count("-") > 1:
+            raise UsageError("standard input ('-') can be read only once")
+        return LaunchRequest(
+            files=tuple(map(Path, files)),
+            arguments=arguments,
+            texts=tuple(map(_read, texts)),
+            namespace=special.get("__ns", ""),
+        )
+    if len(rest) == 1:
+        raise UsageError(f"no such file: {rest[0]}")
+    package = packages.find_package(rest[0])
+    if package is None:
+        raise UsageError(f"{packages.why_not_found(rest[0])}; {rest[0]!r} is no file either")
+    if (workspace := packages.workspace_of(package)) is not None:
+        print(f"using the workspace {workspace}", file=sys.stderr)
+    found = tuple(_in_package(package, rest[0], word) for word in rest[1:])
+    return LaunchRequest(files=found, arguments=arguments, namespace=special.get("__ns", ""))
+
+
+def _is_text(word: str) -> bool:
+    """Whether a word names standard input or a pipe."""
+    return word == "-" or is_stream(word)
+
+
+def _read(word: str) -> tuple[str, str]:
+    """A name for messages, and the text.
+
+    Raises:
+        UsageError: there is no end of it.
+    """
+    name = "<stdin>" if word in ("-", "/dev/stdin") else "<pipe>"
+    try:
+        return name, (read_standard_input() if word == "-" else read_stream(word)).decode(errors="replace")
+    except OSError as error:
+        raise UsageError(f"{word}: {error.strerror}") from None
+
+
+def _in_package(folder: Path, package: str, name: str) -> Path:
+    if os.path.isfile(folder / name):
+        return folder / name
+    found = sorted(path for path in folder.rglob(Path(name).name) if os.path.isfile(path) and path.match(name))
+    if found:
+        return found[0]
+    there = sorted(path.name for path in folder.rglob("*.launch"))
+    raise UsageError(f"package {package!r} ({folder}) has no {name}; launch files there: {', '.join(there) or 'none'}")

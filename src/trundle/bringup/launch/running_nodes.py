@@ -1,0 +1,117 @@
+"""The nodes of one launch under their supervisor, and what the terminal says of them."""
+
+import asyncio
+from collections.abc import Awaitable, Callable, Sequence
+from typing import TypeAlias
+
+from trundle.launch import LaunchNode
+from trundle.nodes import WORLDS, module_of_ros, without_rospy
+from trundle.supervisor import Event, Patience, Supervisor
+
+from ..console import say
+from .nodes import Launched, NodeStarter
+
+_RULE = "=" * 80
+
+Listener: TypeAlias = Callable[[Event, str], None]
+"""Told what happened to a node, and the sentence that says so."""
+
+
+class RunningNodes:
+    """Starts, watches and stops; on the graph's loop."""
+
+    def __init__(
+        self, starter: NodeStarter, nodes: Sequence[LaunchNode], *, patience: Patience, quiet: bool, listener: Listener
+    ) -> None:
+        """`quiet`: say only what goes wrong."""
+        self._starter = starter
+        self._nodes = nodes
+        self._patience = patience
+        self._listener = listener
+        self._unsaid = {"started", "finished", "stopping"} if quiet else set[str]()
+        self._supervisor: Supervisor | None = None
+        self._waiting: asyncio.Task[str | None] | None = None
+        self._logs: dict[str, str] = {}
+        self._worlds: set[str] = set()
+        self._ended: set[str] = set()
+        self.launched: list[Launched] = []
+        """What became of each node, in the file's order."""
+
+    async def start(
+        self, is_ending: Callable[[], bool], let_start: Callable[[Callable[[], bool]], Awaitable[None]] | None = None
+    ) -> None:
+        """Start everything that can be started, unless the end comes first; wait for `let_start` after each node."""
+        self._supervisor = Supervisor(self._tell, patience=self._patience)
+        for number, node in enumerate(self._nodes, start=1):
+            if is_ending():
+                break
+            label = f"{node.full_name.strip('/')}-{number}"
+            if (node.package, node.type) in WORLDS:
+                self._worlds.add(label)
+            launched = self._starter.prepare(node, label, show=_show_output)
+            if launched.job is not None:
+                self._logs[label] = launched.log_files
+                if not await self._supervisor.start(launched.job, self._starter.policy(node)):
+                    launched = launched.failed()
+            self.launched.append(launched)
+            if let_start is not None:
+                await let_start(is_ending)
+        self._waiting = asyncio.create_task(self._supervisor.wait())
+
+    async def stop(self) -> None:
+        """Stop everything, the last started first."""
+        if self._supervisor is not None:
+            await self._supervisor.stop()
+
+    @property
+    def over(self) -> bool:
+        """Whether every node has ended, or a required one."""
+        return self._waiting is not None and self._waiting.done()
+
+    @property
+    def required_died(self) -> bool:
+        """Whether it was a required one's end that ended the launch."""
+        return self.over and self._waiting is not None and self._waiting.result() is not None
+
+    def is_worldless(self) -> bool:
+        """Whether a world was started, and every one that was has ended since."""
+        return bool(self._worlds) and self._worlds <= self._ended
+
+    def _tell(self, event: Event) -> None:
+        name = event.name
+        if event.kind == "started":
+            self._ended.discard(name)
+        elif event.kind in ("failed", "finished", "died"):
+            self._ended.add(name)
+        match event.kind:
+            case "started":
+                text = f"process[{name}]: {event.text}"
+            case "finished" | "died":
+                log = self._logs[name]
+                text = f"[{name}] process {event.text}{log and f'{chr(10)}log file: {log}'}"
+                if module := module_of_ros(event.text):
+                    text = f"{text}\n[{name}] {without_rospy(module)}"
+            case "required":
+                text = f"{_RULE}\nREQUIRED process [{name}] has died!\nInitiating shutdown!\n{_RULE}"
+            case _:
+                text = f"[{name}] {event.text}"
+        self._listener(event, text)
+        if event.kind not in self._unsaid:
+            say(text)
+
+
+def what_runs(launched: Sequence[Launched], pages: Sequence[str] = ()) -> str:
+    """A short table: what runs as a process, what here in place of the original, what is missing, where it is seen."""
+    rows = [(entry.kind, entry.node.full_name, entry.what) for entry in launched]
+    widths = [max((len(row[column]) for row in rows), default=0) for column in (0, 1)]
+    return "\n".join(
+        [
+            "WHAT RUNS",
+            *(f"  {kind:<{widths[0]}}  {name:<{widths[1]}}  {what}" for kind, name, what in rows),
+            *(f"  {'page':<{widths[0]}}  {url}" for url in pages),
+        ]
+    )
+
+
+def _show_output(_name: str, line: str) -> None:
+    say(line)  # the original prints a node's own lines as they are

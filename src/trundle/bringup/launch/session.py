@@ -1,0 +1,292 @@
+"""One launch from its graph to its nodes: opened, started, watched, closed."""
+
+import time
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
+
+from trundle.garbage import no_garbage
+from trundle.launch import LaunchNode, LaunchPlan
+from trundle.nodes import WINDOWS, WORLDS, Executable, Host, Simulator, find_node
+from trundle.page_address import PageAddress
+from trundle.ros import DISTROS, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
+from trundle.supervisor import Event, Patience, ProcessTree
+
+from ..console import say
+from ..graph import Graph
+from ..lockstep import START_S, Lockstep
+from . import printing
+from .clock_publisher import ClockPublisher
+from .loaded_launch import LoadedLaunch
+from .logs import LaunchLog, log_folder
+from .nodes import NodeStarter
+from .options import LaunchOptions
+from .pages import await_urls, pages_of
+from .params import set_params
+from .running_nodes import Listener, RunningNodes, what_runs
+
+if TYPE_CHECKING:
+    from trundle.viewer import GraphPage
+
+    from ..gazebo.world import GazeboWorld
+
+NS = 1_000_000_000
+_START_S = 60.0
+"""Starting programs takes its time on a busy machine."""
+_SILENCE_S = 5.0
+_LAST_S = 13.0
+"""What stopping may take beyond the patience with each program."""
+
+
+class LaunchSession:
+    """A graph with the launch's parameters on it, and its nodes once they are started."""
+
+    def __init__(
+        self,
+        read: LoadedLaunch,
+        options: LaunchOptions,
+        *,
+        ports: Sequence[int] = (),
+        rosout: bool = True,
+        listener: Listener = lambda _event, _text: None,
+    ) -> None:
+        """Join or start a graph and set the parameters.
+
+        Args:
+            read: what to launch.
+            options: how.
+            ports: as `Graph.open`.
+            rosout: as `Graph.open`.
+            listener: is told what happens to each node, on the graph's thread.
+        """
+        self._read = read
+        self._options = options
+        self._listener = listener
+        self._open_things = ExitStack()
+        self._running: RunningNodes | None = None
+        self.recording_broke_off = False
+        self._steps: Lockstep | None = None
+        self._page: GraphPage | None = None
+        self._world: GazeboWorld | None = None
+        try:
+            with no_garbage():
+                self._open(ports, rosout=rosout)
+        except BaseException:
+            self._open_things.close()
+            raise
+
+    def _open(self, ports: Sequence[int], *, rosout: bool) -> None:
+        read, options, show = self._read, self._options, self._read.show
+        graph = self.graph = self._open_things.enter_context(
+            Graph.open(
+                read.env, host=options.host, ports=ports, rosout=rosout, log_folder=partial(log_folder, read.env)
+            )
+        )
+        show.line(graph.summary)
+        launcher = Node("/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False)
+        logs = log_folder(read.env, str(graph.loop.run(launcher.get_param("/run_id", ""))))
+        self._log = LaunchLog(logs)
+        self._open_things.callback(self._log.close)
+        show.log_to(self._log.write)
+        if options.distro is not None:
+            profile = DISTROS[options.distro]
+            for name, value in (("/rosdistro", profile.distro), ("/rosversion", profile.version)):
+                graph.loop.run(launcher.set_param(name, f"{value}\n"))
+        if options.summary and not options.core_only:
+            core = {name: str(graph.loop.run(launcher.get_param(name, ""))).strip() for name in _SHOWN}
+            values = {**core, **{param.name: param.value for param in read.params}}
+            self._say(printing.summary(read.plan, values))
+        graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
+        programs = self._programs()
+        tells_time = options.speed is None and not programs and self._may_tell_time(launcher)
+        in_step = tells_time or (options.speed is None and _has_world(read.plan))
+        if tells_time or (in_step and not graph.loop.run(launcher.has_param("/use_sim_time"))):
+            graph.loop.run(launcher.set_param("/use_sim_time", True))
+        self.clock = graph.loop.run(follow_time(launcher))
+        recorder = None if options.record is None else self._record(options.record, in_step, programs)
+        if in_step:
+            end_ns = None if options.duration_s is None else round(options.duration_s * NS)
+            self._steps = Lockstep(graph.loop, end_ns=end_ns, recorder=recorder, say=show.line)
+            if tells_time:
+                show.line("no simulation tells the time: /clock is told here, as fast as the nodes can follow")
+                self._open_things.callback(ClockPublisher(launcher, self._steps).close)
+        if not options.headless:
+            from trundle.viewer import GraphPage  # a launch without a page does not wait for it
+
+            self._page = page = GraphPage(
+                packages=read.packages,
+                report=read.report,
+                say=show.line,
+                host=options.host,
+                port=options.view_port,
+                allowed=options.allowed,
+            )
+            self._open_things.callback(page.close)
+        tree = self._open_things.enter_context(ProcessTree(terminate_s=options.terminate_s))
+        self.starter = NodeStarter(
+            graph=graph,
+            packages=read.packages,
+            env=read.env,
+            report=read.report,
+            host=Host(display=self._page, simulator=self._simulator(logs) if _simulates(read.plan) else None),
+            tree=tree,
+            log_folder=logs,
+            output=options.output,
+            all_required=options.all_required,
+        )
+
+    def _record(self, file: Path, in_step: bool, programs: Sequence[str]) -> StepRecorder | None:
+        """Write every topic into a bag; return who does it where that is done in step with the nodes."""
+        graph = self.graph
+        if in_step and not programs:
+            steps = StepRecorder(graph.loop, file, complain=self._complain)
+            self._open_things.callback(steps.close)
+            self._read.show.line(
+                f"{file} will be the same whenever this is run; /rosout and other programs are left out"
+            )
+            return steps
+        if self._options.speed is None:
+            why = f"{', '.join(programs)} run as programs of their own" if programs else "time is told by others"
+            self._read.show.line(f"{file} will differ from run to run: {why}")
+        node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
+        self._open_things.callback(lambda: graph.loop.run(node.shutdown(), timeout_s=_START_S))
+        graph.loop.run(follow_time(node))
+        options = RecordOptions(all_topics=True, path=file)
+        recorder = Recorder(node, options, say=node.log_debug, complain=self._complain)
+        recorder.start()
+        self._open_things.callback(recorder.stop)
+        return None
+
+    def _complain(self, why: str) -> None:
+        self.recording_broke_off = True
+        self._read.show.line(why)
+
+    def _may_tell_time(self, launcher: Node) -> bool:
+        """Whether nobody else does: a simulation, a graph that was there, or a bag that will be played."""
+        graph = self.graph
+        if _has_world(self._read.plan) or graph.core is None:
+            return False
+        return graph.loop.run(launcher.get_param("/use_sim_time", False)) is not True
+
+    def _programs(self) -> list[str]:
+        """Names of the nodes that are programs of their own."""
+        read, find = self._read, self._read.packages.find_package
+        return [
+            n.name for n in read.plan.nodes if isinstance(find_node(n.package, n.type, find, env=read.env), Executable)
+        ]
+
+    @property
+    def has_master(self) -> bool:
+        """Whether the graph's master ends with this launch, which stays for it as roslaunch does."""
+        return self.graph.core is not None
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the time that a flat-out launch is given has passed, and all of it is recorded."""
+        return self._steps is not None and self._steps.over.is_set()
+
+    @property
+    def in_step(self) -> bool:
+        """Whether time waits for nodes."""
+        return self._steps is not None
+
+    def _simulator(self, logs: Path) -> Simulator:
+        from ..gazebo.world import GazeboWorld  # a launch without Gazebo does not wait for the physics
+
+        options, read = self._options, self._read
+        gazebo = self._world = GazeboWorld(
+            graph=self.graph,
+            start=read.start,
+            env=read.env,
+            report=read.report,
+            folder=logs / "spawned",
+            say=read.show.line,
+            window=None
+            if options.headless
+            else PageAddress(host=options.host, port=self._window_port(), allowed=options.allowed),
+            speed=options.speed,
+            renderer=options.renderer,
+            steps=self._steps,
+        )
+        self._open_things.callback(gazebo.close)
+        return gazebo
+
+    def _window_port(self) -> int | None:
+        """Of the simulation's page: beside that of rviz and its like it is the next one."""
+        port = self._options.view_port
+        is_beside = any((node.package, node.type) in WINDOWS for node in self._read.plan.nodes)
+        return port + 1 if port and is_beside else port
+
+    def start(self, nodes: Sequence[LaunchNode], *, is_ending: Callable[[], bool] = lambda: False) -> RunningNodes:
+        """Start nodes, unless the end comes first, and say what runs."""
+        loop, options = self.graph.loop, self._options
+        patience = Patience(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
+        running = self._running = RunningNodes(
+            self.starter, nodes, patience=patience, quiet=options.quiet, listener=self._heard
+        )
+        steps = self._steps
+        loop.run(running.start(is_ending, None if steps is None else steps.let_start), timeout_s=_START_S + START_S)
+        if steps is not None:
+            steps.begin()
+        self._read.show.findings()
+        if running.launched and not options.quiet:
+            pages = pages_of(running.launched, self._page, self._world)
+            urls = await_urls(pages, lambda: is_ending() or running.over)
+            self._say(what_runs(running.launched, urls))
+        return running
+
+    def _say(self, text: str) -> None:
+        say(text)
+        self._log.write(text)
+
+    def _heard(self, event: Event, text: str) -> None:
+        self._log.write(text)
+        self._listener(event, text)
+
+    def close(self) -> None:
+        """Stop the nodes, the last started first, then everything else."""
+        options = self._options
+        try:
+            if self._running is not None:
+                timeout_s = options.interrupt_s + options.terminate_s + _LAST_S
+                self.graph.loop.run(self._running.stop(), timeout_s=timeout_s)
+        finally:
+            self._open_things.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+_SHOWN = ("/rosdistro", "/rosversion")
+"""Parameters of the core that roslaunch's summary shows."""
+
+
+class SilentClock:
+    """Says once that simulated time is waited for and nobody tells it, which makes every node stand still."""
+
+    def __init__(self, clock: Clock, say: Callable[[str], None]) -> None:
+        self._clock = clock
+        self._say: Callable[[str], None] | None = say
+        self._due = time.monotonic() + _SILENCE_S
+
+    def look(self) -> None:
+        """See whether there is a time by now."""
+        if self._say is None or self._clock.now_ns() > 0:
+            self._say = None
+        elif time.monotonic() > self._due:
+            self._say("/use_sim_time is true, but nothing has published a time on /clock yet (a simulation, a bag?)")
+            self._say = None
+
+
+def _simulates(plan: LaunchPlan) -> bool:
+    return any(node.package == "gazebo_ros" for node in plan.nodes)
+
+
+def _has_world(plan: LaunchPlan) -> bool:
+    """Whether a node of it runs Gazebo's world, and so tells the time; a spawner alone may be for another's."""
+    return any((node.package, node.type) in WORLDS for node in plan.nodes)

@@ -1,0 +1,68 @@
+"""A description by its name, or from a pipe or standard input."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from trundle.description import Loaded, load, load_text
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.files import is_stream, read_standard_input, read_stream
+from trundle.packages import Packages
+
+_STANDARD_INPUT = "-"
+
+
+class Piped(NamedTuple):
+    """Contents that came through a pipe or standard input."""
+
+    name: str
+    """As messages call it."""
+    data: bytes
+
+
+def read_piped(file: str) -> Piped | None:
+    """Read what is no file: standard input, "-", or a pipe; None: it is one, or nothing.
+
+    Raises:
+        DescriptionError: it cannot be read.
+    """
+    is_standard = file == _STANDARD_INPUT
+    if not is_standard and not is_stream(file):
+        return None
+    name = "<stdin>" if is_standard or Path(file).name == "stdin" else "<pipe>"
+    try:
+        return Piped(name, read_standard_input() if is_standard else read_stream(file))
+    except OSError as error:
+        raise DescriptionError(Source(name if is_standard else file), f"cannot be read: {error.strerror}") from None
+
+
+def name_workspace(file: str, packages: Packages, say: Callable[[str], None]) -> None:
+    """Say which workspace a package:// leads into, where ROS_PACKAGE_PATH does not name it."""
+    scheme, _, rest = file.partition("://")
+    folder = packages.find_package(rest.partition("/")[0]) if scheme == "package" else None
+    workspace = None if folder is None else packages.workspace_of(folder)
+    if workspace is not None:
+        say(f"using the workspace {workspace}")
+
+
+def load_input(
+    file: str, report: Diagnostics, *, packages: Packages, start: Path, piped: Piped | None = None
+) -> Loaded:
+    """Read a description.
+
+    Args:
+        file: as `trundle.description.load` takes it, or "-" for standard input.
+        report: takes everything worth saying.
+        packages: where URIs lead.
+        start: relative URIs in standard input start here.
+        piped: what `file` holds, where that was read already.
+
+    Raises:
+        DescriptionError: of which nothing sensible can be made.
+        UsageError: no such model.
+    """
+    piped = piped or read_piped(file)
+    if piped is not None:
+        return load_text(piped.data, name=piped.name, folder=start, packages=packages, report=report)
+    name_workspace(file, packages, lambda what: report.info(Source(file), what))
+    return load(file, report, packages=packages)

@@ -1,0 +1,1 @@
+"""`trundle render`: pictures and videos of what a file describes."""

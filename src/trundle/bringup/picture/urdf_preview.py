@@ -1,0 +1,33 @@
+"""A URDF that cannot be simulated, as it is written: links without mass are left out of a simulation."""
+
+import numpy as np
+from msgspec.structs import replace
+from numpy.typing import NDArray
+
+from trundle.diagnostics import Diagnostics
+from trundle.packages import Packages
+from trundle.render import Scene
+from trundle.robot import Robot, root_from_links
+
+from .lowest_point import lowest_of
+
+
+def with_robot(
+    scene: Scene, robot: Robot, packages: Packages, report: Diagnostics
+) -> tuple[Scene, NDArray[np.float64]]:
+    """Stand a robot on the ground of a scene, its joints at zero.
+
+    Returns:
+        the scene with the robot's links as further bodies; (links, 7) their poses in the world.
+    """
+    from trundle.viewer import robot_scene  # the page's own: a simulation that draws everything does not load it
+
+    drawn = robot_scene(robot, packages, report)
+    poses = root_from_links(robot, {})
+    links = [poses[name] for name in drawn.bodies]
+    heights = [lowest_of(shape.geometry, links[shape.body] @ shape.body_from_shape) for shape in drawn.shapes]
+    rows = np.array([(*pose.position, *pose.quaternion) for pose in links])
+    rows[:, 2] -= min(heights, default=0.0)
+    first = len(scene.bodies)
+    moved = tuple(replace(shape, body=shape.body + first) for shape in drawn.shapes)
+    return replace(scene, bodies=(*scene.bodies, *drawn.bodies), shapes=(*scene.shapes, *moved)), rows

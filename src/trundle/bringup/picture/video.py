@@ -1,0 +1,84 @@
+"""Pictures one after another, as a file that moves."""
+
+import math
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from trundle.diagnostics import UsageError
+
+from .picture import Studio
+
+FRAMES_PER_S = 25
+_TURN_S = 8.0
+"""Once around everything."""
+_PILLOW = {".webp": "WEBP", ".gif": "GIF", ".apng": "PNG"}
+MOVING = (".mp4", *_PILLOW)
+"""How the names of films end."""
+
+
+def turntable(studio: Studio) -> Iterator[Image.Image]:
+    """Once around what stands still."""
+    count = int(_TURN_S * FRAMES_PER_S)
+    for i in range(count):
+        yield studio.picture(turned_rad=2.0 * math.pi * i / count)
+
+
+def simulated_frames(studio: Studio, duration_s: float) -> Iterator[Image.Image]:
+    """What happens from now on, in real time."""
+    start_ns = studio.simulation.time_ns
+    for i in range(max(round(duration_s * FRAMES_PER_S), 1)):
+        behind_s = (start_ns - studio.simulation.time_ns) * 1e-9 + i / FRAMES_PER_S
+        if behind_s > 0.0:
+            studio.simulation.run(behind_s)
+        yield studio.picture()
+
+
+def write_video(frames: Iterator[Image.Image], output: Path, *, tell: Callable[[int], None]) -> None:
+    """Write frames to a file, in the format that its name says.
+
+    Args:
+        frames: all of one size.
+        output: ends in one of `MOVING`.
+        tell: is told how many are done.
+
+    Raises:
+        UsageError: it cannot be written, or the package for it is not there.
+    """
+    try:
+        if output.suffix.lower() == ".mp4":
+            _write_mp4(frames, output, tell)
+        else:
+            _write_pillow(frames, output, tell)
+    except (OSError, ValueError) as error:
+        raise UsageError(f"cannot write {output}: {error}") from None
+
+
+def _write_pillow(frames: Iterator[Image.Image], output: Path, tell: Callable[[int], None]) -> None:
+    kept: list[Image.Image] = []
+    for frame in frames:
+        kept.append(frame)
+        tell(len(kept))
+    first, *rest = kept
+    duration_ms = 1000 // FRAMES_PER_S
+    first.save(output, _PILLOW[output.suffix.lower()], save_all=True, append_images=rest, duration=duration_ms, loop=0)
+
+
+def _write_mp4(frames: Iterator[Image.Image], output: Path, tell: Callable[[int], None]) -> None:
+    try:
+        import av
+    except ImportError:
+        what = "mp4 needs the package 'av': pip install 'trundle[video]'; .webp, .apng and .gif need nothing"
+        raise UsageError(what) from None
+    with av.open(str(output), "w", format="mp4") as container:
+        stream = container.add_stream("libx264", rate=FRAMES_PER_S, options={"crf": "20"})
+        stream.pix_fmt = "yuv420p"
+        for done, frame in enumerate(frames, 1):
+            even = np.asarray(frame.convert("RGB"))[: frame.height // 2 * 2, : frame.width // 2 * 2]
+            if done == 1:
+                stream.height, stream.width = even.shape[:2]
+            container.mux(stream.encode(av.VideoFrame.from_ndarray(np.ascontiguousarray(even), format="rgb24")))
+            tell(done)
+        container.mux(stream.encode())

@@ -1,0 +1,83 @@
+"""What sensors with <visualize> see, as lines on the page: the rays of lidars, the cones of sonars."""
+
+import math
+from collections.abc import Callable, Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.sensors import CameraSensor, InstrumentSensor, RangeReading, RangeSensor, SonarSensor, directions_of
+from trundle.simulation import Snapshot
+from trundle.spatial import Pose
+from trundle.viewer import DrawnLine
+
+_MOST_RAYS = 90
+"""Of one sensor: of more, every so many."""
+_RIM = 24
+_BLUE = (90, 150, 255)
+
+
+class RayOverlay:
+    """Keeps the last reading of each."""
+
+    def __init__(self, shown: Callable[[], bool]) -> None:
+        """Listen as long as somebody looks.
+
+        Args:
+            shown: whether anybody does.
+        """
+        self._shown = shown
+        self._ends: dict[RangeSensor | SonarSensor, NDArray[np.float64]] = {}
+        """(rays, 3) in the sensor's frame [m]; of a sonar in its beam's."""
+        self._heard: set[int] = set()
+
+    def follow(self, sensors: Iterable[CameraSensor | InstrumentSensor]) -> None:
+        """Draw these, and no others."""
+        seen = [each for each in sensors if isinstance(each, RangeSensor | SonarSensor) and each.sensor.visualize]
+        self._ends = {sensor: self._ends.get(sensor, np.zeros((0, 3))) for sensor in seen}
+        for sensor in seen:
+            if id(sensor) in self._heard:
+                continue
+            self._heard.add(id(sensor))
+            if isinstance(sensor, RangeSensor):
+                self._listen_to_rays(sensor)
+            else:
+                self._listen_to_sonar(sensor)
+
+    def lines(self, snapshot: Snapshot) -> tuple[DrawnLine, ...]:
+        """Where the rays are now."""
+        return tuple(_fan(_place(sensor, snapshot), ends) for sensor, ends in self._ends.items() if len(ends))
+
+    def _listen_to_rays(self, sensor: RangeSensor) -> None:
+        directions = directions_of(sensor.scan)
+        chosen = np.arange(0, len(directions), -(-len(directions) // _MOST_RAYS))
+
+        def keep(reading: RangeReading) -> None:
+            ranges = np.clip(reading.ranges.ravel()[chosen], sensor.scan.min_m, sensor.scan.max_m)
+            self._ends[sensor] = directions[chosen] * ranges[:, None]
+
+        sensor.listen(keep, wanted=lambda: sensor in self._ends and self._shown())
+
+    def _listen_to_sonar(self, sensor: SonarSensor) -> None:
+        half = min(sensor.fov_rad / 2.0, math.pi / 2.0)
+        turns = np.linspace(0.0, math.tau, _RIM, endpoint=False)
+        rim = [np.full(_RIM, math.cos(half)), math.sin(half) * np.cos(turns), math.sin(half) * np.sin(turns)]
+        directions = np.stack(rim, axis=1)
+        sensor.listen(
+            lambda reading: self._ends.update({sensor: directions * reading.range_m}),
+            wanted=lambda: sensor in self._ends and self._shown(),
+        )
+
+
+def _place(sensor: RangeSensor | SonarSensor, snapshot: Snapshot) -> Pose:
+    if isinstance(sensor, SonarSensor):
+        return sensor.world_from_link(snapshot) @ sensor.link_from_beam
+    return sensor.world_from_sensor(snapshot)
+
+
+def _fan(world_from_rays: Pose, ends: NDArray[np.float64]) -> DrawnLine:
+    """One strip that goes out along each ray and back."""
+    strip = np.empty((2 * len(ends) + 1, 3), dtype=np.float32)
+    strip[0::2] = world_from_rays.position
+    strip[1::2] = [world_from_rays.point((x, y, z)) for x, y, z in ends.tolist()]
+    return DrawnLine(strip, _BLUE)

@@ -1,0 +1,123 @@
+"""The ROS side of a simulation: its node, clock, frames, images and parameters on the graph."""
+
+from collections.abc import Mapping, Sequence
+from typing import Self
+
+from trundle.bridge import ClockTopic, FrameNames, JointStates, SimulationFrames, camera_topics, sensor_topics
+from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
+from trundle.sensors import CameraSensor, InstrumentSensor
+from trundle.simulation import Simulation
+
+from ..graph import DEFAULT_PORT, Graph
+from ..plugins import attach_sensor_plugins
+from ..world_setup import LoadedWorld
+
+NODE_NAME = "/trundle"
+
+
+class RunningClock(SimClock):
+    """The simulation's own time, exact at every instant; who sleeps is woken when a stride is over."""
+
+    def __init__(self, loop: GraphLoop, simulation: Simulation) -> None:
+        super().__init__(loop)
+        self._simulation = simulation
+
+    def now_ns(self) -> int:
+        """Simulation time [ns]."""
+        return self._simulation.time_ns
+
+
+class RosInterface:
+    """Everything of one simulation that other ROS nodes see."""
+
+    def __init__(
+        self,
+        graph: Graph,
+        simulation: Simulation,
+        cameras: Sequence[CameraSensor],
+        sensors: Sequence[InstrumentSensor],
+        stage: LoadedWorld,
+    ) -> None:
+        self._graph = graph
+        self._simulation = simulation
+        self.clock = RunningClock(graph.loop, simulation)
+        self.node = self.make_node(NODE_NAME)
+        loop = graph.loop
+        loop.run(self.node.wait_registered())
+        loop.run(self.node.set_param("/use_sim_time", True))
+        ClockTopic(self.node).attach(simulation)
+        still = StaticTransformBroadcaster(self.node)
+        frames = SimulationFrames(self.node, still, stage.world, simulation.snapshot())
+        simulation.add_hook(frames, period_ns=frames.period_ns, wanted=frames.wanted)
+        report = simulation.report
+        names = FrameNames.of(stage.world, stage.robot)
+        camera_topics(self.node, still, attach_sensor_plugins(cameras, self.node, report), names)
+        sensor_topics(self.node, still, attach_sensor_plugins(sensors, self.node, report), names)
+        if stage.urdf is not None:
+            loop.run(self.node.set_param("/robot_description", stage.urdf))
+            states = JointStates(self.node, simulation.models[0])
+            simulation.add_hook(states, period_ns=states.period_ns, wanted=states.wanted)
+        self._cmd_vel = None
+
+    @classmethod
+    def open(
+        cls,
+        simulation: Simulation,
+        stage: LoadedWorld,
+        cameras: Sequence[CameraSensor],
+        sensors: Sequence[InstrumentSensor],
+        environment: Mapping[str, str],
+        *,
+        host: str,
+    ) -> Self:
+        """Join or start a graph and put the simulation on it."""
+        graph = Graph.open(environment, host=host, ports=(DEFAULT_PORT, 0))
+        try:
+            return cls(graph, simulation, cameras, sensors, stage)
+        except BaseException:
+            graph.close()
+            raise
+
+    @property
+    def graph(self) -> Graph:
+        """The ROS graph that the simulation is part of."""
+        return self._graph
+
+    def make_node(self, name: str) -> Node:
+        """A node on simulation time, whose callbacks run on the simulation's thread between two steps."""
+        simulation = self._simulation
+        return Node(
+            name,
+            loop=self._graph.loop,
+            master_uri=self._graph.master_uri,
+            clock=self.clock,
+            deliver=lambda call: simulation.post(lambda _: call()),
+            host=self._graph.host,
+        )
+
+    def tick(self, *, wait: bool) -> None:
+        """Let the nodes here know that a stride is over.
+
+        Args:
+            wait: until every message published so far has reached the nodes of this process. Flat-out runs do, so
+                that who hears what before which step does not depend on how fast the machine is.
+        """
+        self.clock.set(self._simulation.time_ns)
+        if wait:
+            self._graph.loop.flush_deliveries()
+
+    def drive(self, linear: float, angular: float) -> None:
+        """Publish a velocity command [m/s, rad/s], as the page's drive pad asks."""
+        if self._cmd_vel is None:
+            self._cmd_vel = self.node.advertise("/cmd_vel", "geometry_msgs/Twist")
+        self._cmd_vel.publish({"linear": {"x": linear}, "angular": {"z": angular}})
+
+    def close(self) -> None:
+        """Leave the graph; stop it if it was started here."""
+        self._graph.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

@@ -1,0 +1,203 @@
+"""`trundle run`: one world, simulated, seen and heard until its time is over."""
+
+import os
+import sys
+import time
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from trundle.diagnostics import Diagnostics
+from trundle.garbage import no_garbage
+from trundle.packages import Packages
+from trundle.page_address import AllowedNames, PageAddress
+from trundle.physics import SimulationUnstableError
+from trundle.sensors import mount_cameras, mount_sensors
+from trundle.simulation import Simulation, with_actors
+
+from ..console import Console
+from ..load_input import name_workspace
+from ..network_warning import warn_of_network
+from ..plugins import load_plugins, load_world_plugins
+from ..realtime_pacer import NS, RealtimePacer, shorten_gil_interval
+from ..renderers import RENDERERS, RendererName
+from ..signals import StopFlag, stop_flag
+from ..world_setup import load_world
+from .run_result import RunResult
+
+if TYPE_CHECKING:  # a run without a page or a graph starts without their modules
+    from ..page import Page
+    from ..state_logs import RunRecorder
+    from .ros_interface import RosInterface
+
+OnInstability: TypeAlias = Literal["pause", "reset", "exit"]
+_MOST_RESETS = 10
+"""A world that blows up so often will do so again."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RunOptions:
+    """How to run; the defaults are those of `trundle run`."""
+
+    headless: bool = False
+    host: str = "127.0.0.1"
+    port: int | None = None
+    """Of the page; None: 8080 or the next free one."""
+    allowed: AllowedNames = AllowedNames()
+    """Hosts and origins that the page serves beside its own."""
+    duration_s: float | None = None
+    """Simulation time; None: until interrupted."""
+    speed: float | None = 1.0
+    """Times real time; None: flat out."""
+    paused: bool = False
+    seed: int = 0
+    ros: bool = True
+    sensors: bool = True
+    renderer: RendererName = "cpu"
+    """What draws the pictures of cameras: our own renderer, or OpenGL over EGL."""
+    strict: bool = False
+    record: Path | None = None
+    """Where to write a state log."""
+    on_instability: OnInstability | None = None
+    """What to do when the physics blows up; None: pause where there is a page to look at it, exit where there is none.
+    """
+
+
+def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = None) -> RunResult:
+    """Simulate what a file describes.
+
+    Args:
+        file: a path, a folder with model.config, model://NAME, or package://NAME/FILE.
+        options: how.
+        environment: None: the process's own.
+
+    Raises:
+        TrundleError: the file, or the request, is at fault.
+    """
+    env = dict(os.environ if environment is None else environment)
+    report = Diagnostics(strict=options.strict)
+    show = Console(sys.stderr, report)
+    if options.ros:
+        from ..graph import named_master
+
+        if joined := named_master(env):
+            show.line(f"{joined}: something else started it")
+    warn_of_network(options.host, show.line)
+    packages = Packages(env, start=Path.cwd())
+    name_workspace(file, packages, show.line)
+    with no_garbage():
+        stage = load_world(file, packages, report, seed=options.seed)
+        simulation = Simulation(stage.world, report, seed=options.seed)  # nothing is open yet: Ctrl-C ends it at once
+    with stop_flag() as stop, ExitStack() as open_things:
+        cameras = mount_cameras(simulation, RENDERERS[options.renderer])
+        sensors = mount_sensors(simulation)
+        if not options.sensors:
+            cameras.clear()
+            sensors.clear()
+        for sensor in (*cameras, *sensors):
+            sensor.start(simulation)
+        show.findings()
+        ros = None
+        if options.ros:
+            from .ros_interface import RosInterface
+
+            ros = open_things.enter_context(
+                RosInterface.open(simulation, stage, cameras, sensors, env, host=options.host)
+            )
+            if ros.graph.core is not None:
+                show.line(ros.graph.summary)
+        recorder = None
+        if options.record is not None:
+            from ..state_logs import RunRecorder, begin_state_log
+
+            log = begin_state_log(options.record, simulation, stage.written, report)
+            recorder = RunRecorder(log, show.line)
+            simulation.add_hook(recorder, period_ns=recorder.period_ns)
+            open_things.callback(recorder.close)
+        make_node = None if ros is None else ros.make_node
+        load_plugins(simulation, make_node, env, say=show.line)
+        load_world_plugins(simulation, make_node, env, say=show.line)
+        show.findings()
+        page = None
+        if not options.headless:
+            from ..page import Page
+
+            shown = (*cameras, *sensors)
+            at = PageAddress(host=options.host, port=options.port, allowed=options.allowed)
+            page = open_things.enter_context(Page.open(simulation, shown, ros, at))
+            show.line(f"see it at {page.url}")
+        wall_s = _drive(simulation, ros, page, options, stop, show.line, recorder=recorder)
+        show.findings()
+        return RunResult(
+            world=with_actors(stage.written, report),
+            snapshot=simulation.snapshot(),
+            steps=simulation.simulated_steps,
+            simulated_s=simulation.simulated_ns / NS,
+            wall_s=wall_s,
+            images=sum(camera.images for camera in cameras),
+            report=report,
+            interrupted=stop.is_set(),
+            recording_broke_off=recorder is not None and recorder.broke_off,
+        )
+
+
+def _drive(
+    simulation: Simulation,
+    ros: "RosInterface | None",
+    page: "Page | None",
+    options: RunOptions,
+    stop: StopFlag,
+    say: Callable[[str], None],
+    *,
+    recorder: "RunRecorder | None",
+) -> float:
+    """Step until the time is over, recording breaks off or somebody asks to stop; return the wall time it took [s].
+
+    Raises:
+        SimulationUnstableError: the physics blew up, and that is to be the end.
+    """
+    end_ns = None if options.duration_s is None else round(options.duration_s * NS)
+    pacer = RealtimePacer(options.speed)
+    shorten_gil_interval()
+    paused = options.paused
+    resets = 0
+    started = time.monotonic()
+    while not stop.is_set() and (end_ns is None or simulation.time_ns < end_ns):
+        try:
+            if page is not None:
+                paused = page.handle_requests(pacer, paused=paused)
+                page.update(pacer, paused=paused)
+            if paused:
+                stop.wait(0.02)
+                pacer.restart()
+                continue
+            target_ns = pacer.next_target(simulation.time_ns)
+            simulation.advance(target_ns if end_ns is None else min(target_ns, end_ns))
+        except SimulationUnstableError as error:
+            resets += 1
+            paused = _recover(simulation, options, error, resets, say)
+            pacer.restart()
+            continue
+        if ros is not None:
+            ros.tick(wait=pacer.speed is None)
+        if recorder is not None and recorder.broke_off:
+            break
+    return time.monotonic() - started
+
+
+def _recover(
+    simulation: Simulation, options: RunOptions, error: SimulationUnstableError, times: int, say: Callable[[str], None]
+) -> bool:
+    """Do what was asked for when the physics blows up; return whether the simulation is paused now."""
+    match options.on_instability or ("exit" if options.headless else "pause"):
+        case "pause":
+            say(f"{error}; the simulation is paused where it last was sound, at {simulation.time_ns / NS:.3f} s")
+            return True
+        case "reset" if times <= _MOST_RESETS:
+            say(f"{error}; the simulation starts anew")
+            simulation.reset()
+            return False
+        case _:
+            raise error

@@ -1,0 +1,62 @@
+"""Puts what a file describes into a world that can be simulated."""
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
+
+from trundle.description import Loaded, load
+from trundle.diagnostics import Diagnostics
+from trundle.model import World, flattened
+from trundle.packages import Packages
+from trundle.simulation import Simulation, with_actors
+
+if TYPE_CHECKING:  # an SDF file starts without what reads URDF
+    from trundle.robot import Robot
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadedWorld:
+    """A world ready to compile, and the URDF it came from, if it came from one."""
+
+    world: World
+    """Nested models are part of the outer ones, as everything that simulates wants it."""
+    written: World
+    """The same, nested as in the file."""
+    robot: "Robot | None"
+    urdf: str | None
+    """The expanded XML, what goes on the parameter /robot_description."""
+
+
+def load_world(file: str, packages: Packages, report: Diagnostics, *, seed: int = 0) -> LoadedWorld:
+    """Read a file; a robot alone is put on a ground plane under a sun, a world is taken as it is.
+
+    Raises:
+        DescriptionError: the file cannot be made sense of.
+    """
+    loaded = load(file, report, packages=packages, seed=seed)
+    world = loaded.world if loaded.kind == "world" else _on_the_ground(loaded, packages, report)
+    return LoadedWorld(world=with_actors(flattened(world), report), written=world, robot=loaded.robot, urdf=loaded.urdf)
+
+
+def load_simulation(file: str, *, seed: int = 0) -> Simulation:
+    """Read a file and compile it, with the process's environment; see `trundle.load`."""
+    report = Diagnostics()
+    stage = load_world(file, Packages(dict(os.environ), start=Path.cwd()), report, seed=seed)
+    return Simulation(stage.world, report, seed=seed)
+
+
+def _on_the_ground(loaded: Loaded, packages: Packages, report: Diagnostics) -> World:
+    ground = load("model://ground_plane", report, packages=packages).world.models
+    sun = load("model://sun", report, packages=packages).world.lights
+    world = loaded.world
+    return replace(
+        world,
+        models=(
+            *world.models,
+            *(replace(m, added=True) for m in ground if m.name not in {t.name for t in world.models}),
+        ),
+        lights=(*world.lights, *(replace(light, added=True) for light in sun)),
+    )

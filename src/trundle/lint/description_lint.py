@@ -1,0 +1,119 @@
+"""Names what a description may say and hardly ever means; it changes nothing."""
+
+import math
+import re
+from collections.abc import Iterator
+
+from trundle.description import Loaded
+from trundle.diagnostics import Diagnostics, Source
+from trundle.model import (
+    Box,
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    Geometry,
+    Inertial,
+    JointType,
+    Link,
+    Model,
+    Sphere,
+    flattened,
+)
+from trundle.names import is_legal_base_name, ros_name
+from trundle.spatial import Pose
+
+from .overlaps import report_overlaps
+
+_SLUGGISH = 2.0
+"""Times the largest moment that the mass could have within the link's shapes."""
+_TWITCHY = 1e-4
+"""Likewise, the other way."""
+_PASSIVE = frozenset({JointType.FIXED, JointType.BALL})
+_TRANSMISSION = re.compile(r"<transmission\b.*?</transmission>", re.DOTALL)
+
+
+def lint_description(loaded: Loaded, report: Diagnostics) -> None:
+    """Report on every model: inertias of no body, bodies in one another, idle joints, names that ROS cannot have."""
+    driven = " ".join(_TRANSMISSION.findall(loaded.urdf or ""))
+    models = flattened(loaded.world).models
+    report_overlaps(models, report)
+    for model in models:
+        if model.static:
+            continue
+        for link in model.links:
+            _doubt_inertia(link, report)
+        _doubt_joints(model, driven, report)
+        _doubt_names(model, report)
+
+
+def _doubt_inertia(link: Link, report: Diagnostics) -> None:
+    inertial = link.inertial
+    reach = _reach(link)
+    if reach is None or not inertial.mass > 0.0:
+        return
+    most = inertial.mass * reach * reach
+    largest = max(inertial.moments)
+    if largest > _SLUGGISH * most:
+        report.warn(
+            link.at,
+            f"link {link.name!r}: a moment of inertia of {largest:g} kg·m² belongs to no body of {inertial.mass:g} kg "
+            f"within {reach:.3g} m, whose largest is {most:.3g}; it will turn far too slowly",
+        )
+    elif 0.0 < largest < _TWITCHY * most:
+        report.warn(
+            link.at,
+            f"link {link.name!r}: moments of inertia of at most {largest:g} kg·m² are tiny for {inertial.mass:g} kg "
+            f"within {reach:.3g} m ({most:.3g} would be the largest); it may jitter",
+        )
+
+
+def _reach(link: Link) -> float | None:
+    """How far from the centre of mass the link's shapes go at most [m]; None where that is not known."""
+    shapes = [(shape.geometry, shape.link_from_collision) for shape in link.collisions]
+    shapes = shapes or [(shape.geometry, shape.link_from_visual) for shape in link.visuals]
+    reaches = [_shape_reach(geometry, pose, link.inertial) for geometry, pose in shapes]
+    known = [reach for reach in reaches if reach is not None]
+    return max(known) if known and len(known) == len(reaches) else None
+
+
+def _shape_reach(geometry: Geometry, pose: Pose, inertial: Inertial) -> float | None:
+    match geometry:
+        case Box(size):
+            half = math.hypot(*size) / 2
+        case Cylinder(radius, length):
+            half = math.hypot(radius, length / 2)
+        case Capsule(radius, length):
+            half = radius + length / 2
+        case Sphere(radius):
+            half = radius
+        case Ellipsoid(radii):
+            half = max(radii)
+        case _:
+            return None
+    return half + math.dist(pose.position, inertial.link_from_com.position)
+
+
+def _doubt_joints(model: Model, driven: str, report: Diagnostics) -> None:
+    told = driven + " ".join(plugin.node.xml() for plugin in model.plugins)
+    idle = [
+        joint.name
+        for joint in model.joints
+        if joint.type not in _PASSIVE
+        and not (joint.axis is not None and (joint.axis.is_rigid or joint.axis.mimic is not None))
+        and not re.search(rf"\b{re.escape(joint.name)}\b", told)
+    ]
+    if idle:
+        names = ", ".join(map(repr, idle[:8])) + (f" and {len(idle) - 8} more" if len(idle) > 8 else "")
+        report.info(model.at, f"model {model.name!r}: no plugin or transmission here names {names}; they move freely")
+
+
+def _doubt_names(model: Model, report: Diagnostics) -> None:
+    for name, at in _names(model):
+        if not is_legal_base_name(name.replace("::", "_")):
+            report.info(at, f"{name!r} is no name ROS can have; on the graph and in tf it is {ros_name(name)!r}")
+
+
+def _names(model: Model) -> Iterator[tuple[str, Source]]:
+    yield model.name, model.at
+    for each in (*model.links, *model.joints):
+        yield each.name, each.at

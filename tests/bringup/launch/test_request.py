@@ -1,0 +1,66 @@
+"""What `trundle launch` is asked for: files, packages, pipes."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+from trundle.bringup.launch.request import read_request
+from trundle.diagnostics import UsageError
+from trundle.packages import Packages
+
+
+@pytest.fixture
+def workspace(tmp_path: Path) -> Path:
+    """A workspace of one package with a launch file."""
+    arm = tmp_path / "ws/src/robots/arm"
+    arm.mkdir(parents=True)
+    (arm / "package.xml").write_text("<package><name>arm</name></package>")
+    (arm / "arm.launch").write_text("<launch/>")
+    return tmp_path / "ws"
+
+
+def test_which_workspace_is_used_is_said(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    request = read_request(["arm", "arm.launch"], Packages({"HOME": "/nobody"}, start=workspace))
+
+    assert request.files == (workspace / "src/robots/arm/arm.launch",)
+    assert capsys.readouterr().err == f"using the workspace {workspace}\n"
+
+
+def test_what_ros_package_path_names_comes_first_and_needs_no_word(
+    workspace: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = tmp_path / "other/arm"
+    other.mkdir(parents=True)
+    (other / "package.xml").write_text("<package><name>arm</name></package>")
+    (other / "arm.launch").write_text("<launch/>")
+    sourced = f"{tmp_path / 'other'}:{workspace / 'src'}"
+
+    request = read_request(["arm", "arm.launch"], Packages({"ROS_PACKAGE_PATH": sourced}, start=workspace))
+
+    assert request.files == (other / "arm.launch",)
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no /dev/fd")
+def test_a_pipe_is_read_as_standard_input_is(tmp_path: Path) -> None:
+    """`trundle launch <(sed … robot.launch)`."""
+    ours, theirs = os.pipe()
+    os.write(theirs, b"<launch/>")
+    os.close(theirs)
+    (tmp_path / "b.launch").write_text("<launch/>")
+
+    request = read_request([f"/dev/fd/{ours}", str(tmp_path / "b.launch")], Packages({}, start=tmp_path))
+
+    assert (request.files, request.texts) == ((tmp_path / "b.launch",), (("<pipe>", "<launch/>"),))
+    os.close(ours)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no FIFOs")
+def test_a_pipe_that_nothing_writes_to_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("trundle.files._TIMEOUT_S", 0.01)
+    os.mkfifo(tmp_path / "a.launch")
+
+    with pytest.raises(UsageError, match=r"a\.launch: nothing has written it to its end within 0\.01 s"):
+        read_request([str(tmp_path / "a.launch")], Packages({}, start=tmp_path))

@@ -1,0 +1,35 @@
+"""How low things reach, however they are turned."""
+
+import math
+
+import numpy as np
+import pytest
+
+from trundle.bringup.picture.lowest_point import lowest_of
+from trundle.meshes import Mesh
+from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
+from trundle.render import ShapeGeometry
+from trundle.spatial import Pose
+
+CUBE = Mesh(
+    np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float32),
+    np.zeros((1, 3), dtype=np.int32),
+)
+
+
+@pytest.mark.parametrize(
+    ("geometry", "roll", "below"),
+    [
+        (Box((2.0, 2.0, 2.0)), math.pi / 4, math.sqrt(2)),
+        (CUBE, math.pi / 4, math.sqrt(2)),
+        (Sphere(0.7), 0.3, 0.7),
+        (Cylinder(0.5, 2.0), math.pi / 2, 0.5),
+        (Cylinder(0.5, 2.0), math.pi / 4, 1.5 * math.sqrt(0.5)),
+        (Capsule(0.5, 2.0), math.pi / 4, math.sqrt(0.5) + 0.5),
+        (Ellipsoid((1.0, 2.0, 3.0)), math.pi / 2, 2.0),
+        (Plane((0.0, 0.0, 1.0), (1.0, 1.0)), 0.0, -math.inf),
+    ],
+)
+def test_a_shape_reaches_as_low_as_its_lowest_point(geometry: ShapeGeometry, roll: float, below: float) -> None:
+    """Turned about x, and then about the vertical, which changes nothing."""
+    assert lowest_of(geometry, Pose.from_rpy(4.0, 5.0, 6.0, roll, 0.0, 0.8)) == pytest.approx(6.0 - below)

@@ -1,0 +1,42 @@
+"""Time that waits for nodes."""
+
+import threading
+from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
+
+import trundle
+from trundle.bringup.gazebo.world import GazeboWorld
+from trundle.bringup.lockstep import Lockstep
+from trundle.ros import GraphLoop
+
+
+def test_a_start_that_never_rests_ends_when_asked_to() -> None:
+    said: list[str] = []
+    ending = threading.Event()
+    with GraphLoop() as loop:
+        steps = Lockstep(loop, end_ns=None, recorder=None, say=said.append)
+        never_done = loop.work.begin()
+        waiting = loop.spawn(steps.let_start(ending.is_set))
+        ending.set()
+        waiting.result(60.0)
+        loop.work.end(never_done)
+    assert said == []  # it was not the patience that ended
+
+
+def test_a_world_that_is_reset_amid_a_stretch_goes_on_for_what_was_left(tmp_path: Path) -> None:
+    file = tmp_path / "w.sdf"
+    file.write_text('<sdf version="1.6"><world name="w"/></sdf>')
+    sim = trundle.load(str(file))
+    sim.run(0.5)
+    times: list[int] = []
+    calls = SimpleNamespace(obey=lambda: None, any=lambda: False)
+    world = SimpleNamespace(
+        _paused=False, _ending=threading.Event(), _calls=calls, _clock=SimpleNamespace(set=times.append)
+    )
+
+    sim.post(lambda sim: sim.reset())
+    steps = SimpleNamespace(settle=lambda *_: None, stepped=lambda _: None)
+    GazeboWorld._go_in_step(cast(GazeboWorld, world), sim, cast(Lockstep, steps), sim.time_ns + 20_000_000)
+
+    assert (sim.time_ns, times) == (20_000_000, [20_000_000])

@@ -1,0 +1,56 @@
+"""The pacer, on a wall clock that the test moves."""
+
+import pytest
+
+from trundle.bringup.realtime_pacer import RealtimePacer
+
+MS = 1_000_000
+
+
+class Wall:
+    """A wall clock that only sleeping moves."""
+
+    def __init__(self) -> None:
+        self.ns = 0
+
+    def now(self) -> int:
+        return self.ns
+
+    def sleep(self, seconds: float) -> None:
+        self.ns += round(seconds * 1e9)
+
+
+@pytest.mark.parametrize("speed", [0.5, 1.0, 4.0])
+def test_simulation_time_follows_the_wall_at_the_speed_asked_for(speed: float) -> None:
+    wall = Wall()
+    pacer = RealtimePacer(speed, wall_ns=wall.now, sleep=wall.sleep)
+    time_ns = 0
+
+    while wall.ns < 1000 * MS:
+        time_ns = pacer.next_target(time_ns)
+
+    assert time_ns / wall.ns == pytest.approx(speed, rel=0.05)
+    assert pacer.real_time_factor == pytest.approx(speed, rel=0.05)
+
+
+def test_flat_out_never_waits() -> None:
+    wall = Wall()
+    pacer = RealtimePacer(None, wall_ns=wall.now, sleep=wall.sleep)
+
+    assert pacer.next_target(0) > 0
+    assert wall.ns == 0
+
+
+def test_a_long_stall_is_not_caught_up() -> None:
+    """After a laptop's sleep the robot goes on at its speed; it does not race through the lost hour."""
+    wall = Wall()
+    pacer = RealtimePacer(1.0, wall_ns=wall.now, sleep=wall.sleep)
+    time_ns = pacer.next_target(pacer.next_target(0))
+    wall.ns += 3_600_000 * MS
+    start = wall.ns
+
+    time_ns_after = time_ns
+    while wall.ns < start + 1000 * MS:
+        time_ns_after = pacer.next_target(time_ns_after)
+
+    assert time_ns_after - time_ns == pytest.approx(1000 * MS, rel=0.1)
