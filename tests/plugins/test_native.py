@@ -8,7 +8,7 @@ import pytest
 import trundle
 from trundle.bringup.plugins import load_plugins
 from trundle.model import Box, Cylinder, Link
-from trundle.plugins.bounds import bounding_box
+from trundle.plugins.gazebo.bounds import bounding_box
 from trundle.simulation import Simulation
 from trundle.spatial import Twist, Vector3
 

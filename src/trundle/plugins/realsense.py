@@ -13,7 +13,7 @@ from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor, DepthCameraSensor
 from trundle.simulation import ModelHandle, Simulation
 
-from .gazebo_ros.place import ignore
+from .gazebo_ros.namespaces import ignore
 from .gazebo_ros.sensor import Outlet
 from .plugin import Plugin
 

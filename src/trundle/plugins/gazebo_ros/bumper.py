@@ -6,7 +6,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import ContactReading, ContactSensor, InstrumentSensor
 
-from .place import ignore, namespace_of
+from .namespaces import ignore, namespace_of
 from .sensor import Outlet, topic_of
 
 

@@ -9,7 +9,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node, Option, Options, ReconfigureServer
 from trundle.sensors import CameraReading, CameraSensor
 
-from .place import ignore, namespace_of, topic_in
+from .namespaces import ignore, namespace_of, topic_in
 from .sensor import Outlet, frame_of
 
 _FASTEST_HZ = 1000.0

@@ -12,7 +12,7 @@ from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor, DepthCameraSensor
 
 from .camera import camera_topic, keep_borders_if_told, offer_rate, told_calibration
-from .place import ignore
+from .namespaces import ignore
 from .sensor import Outlet, frame_of
 
 _IMAGE, _INFO, _POINTS = "sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/PointCloud2"

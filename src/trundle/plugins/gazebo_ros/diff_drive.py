@@ -8,15 +8,15 @@ from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import JointHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
+from .namespaces import ignore, namespace_of, period_of, topic_in
 from .odometry import WIDE, OdometryTopic, true_motion
-from .on_graph import GraphPlugin
-from .place import ignore, namespace_of, period_of, topic_in
+from .ros_plugin import RosPlugin
 from .twist_command import TwistCommand
 
 _VARIANCES = (1e-5, 1e-5, WIDE, WIDE, WIDE, 1e-3)
 
 
-class DiffDrive(GraphPlugin):
+class DiffDrive(RosPlugin):
     """Keeps two wheels at the speeds that a body speed asks for.
 
     Parameters, with gazebo_ros' defaults: <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,

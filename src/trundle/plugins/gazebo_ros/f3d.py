@@ -5,11 +5,11 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Wrench
 
-from .on_graph import GraphPlugin, required
-from .place import namespace_of, topic_in
+from .namespaces import namespace_of, topic_in
+from .ros_plugin import RosPlugin, required
 
 
-class F3D(GraphPlugin):
+class F3D(RosPlugin):
     """Publishes geometry_msgs/WrenchStamped at every step: what plugins and services apply, in world axes.
 
     Parameters, of gazebo_ros: <bodyName> and <topicName> (required), <frameName> (of the header alone) world. As in

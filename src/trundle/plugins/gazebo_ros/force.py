@@ -5,11 +5,11 @@ from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Wrench
 
-from .on_graph import GraphPlugin, required
-from .place import namespace_of, topic_in
+from .namespaces import namespace_of, topic_in
+from .ros_plugin import RosPlugin, required
 
 
-class Force(GraphPlugin):
+class Force(RosPlugin):
     """Pushes <bodyName> with the last geometry_msgs/Wrench of <topicName>, in world axes, until the next comes."""
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:

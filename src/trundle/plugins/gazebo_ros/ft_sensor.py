@@ -7,11 +7,11 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Vector3
 
-from .on_graph import GraphPlugin, required
-from .place import namespace_of, period_of, topic_in
+from .namespaces import namespace_of, period_of, topic_in
+from .ros_plugin import RosPlugin, required
 
 
-class ForceTorque(GraphPlugin):
+class ForceTorque(RosPlugin):
     """Publishes geometry_msgs/WrenchStamped in the axes of the joint's child: what the child does to its parent.
 
     Parameters: <jointName> and <topicName> (required), <gaussianNoise> 0, <updateRate> 0 (every step).

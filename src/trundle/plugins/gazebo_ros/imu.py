@@ -8,11 +8,11 @@ from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose, Vector3
 
 from .link_motion import LinkMotion
-from .on_graph import GraphPlugin, required
-from .place import namespace_of, period_of, topic_in
+from .namespaces import namespace_of, period_of, topic_in
+from .ros_plugin import RosPlugin, required
 
 
-class Imu(GraphPlugin):
+class Imu(RosPlugin):
     """Publishes sensor_msgs/Imu.
 
     Parameters, with gazebo_ros' defaults: <bodyName> (required), <topicName> and <serviceName> default_imu,

@@ -10,7 +10,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import ImuReading, ImuSensor, InstrumentSensor
 
-from .place import ignore, leave_out, namespace_of
+from .namespaces import ignore, leave_out, namespace_of
 from .sensor import Outlet, frame_of, topic_of
 
 

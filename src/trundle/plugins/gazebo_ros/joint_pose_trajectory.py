@@ -8,13 +8,13 @@ from trundle.model import PluginTag
 from trundle.ros import Message, Node, ns_of
 from trundle.simulation import ModelHandle, Simulation
 
-from .on_graph import GraphPlugin
-from .place import namespace_of, period_of, topic_in
+from .namespaces import namespace_of, period_of, topic_in
+from .ros_plugin import RosPlugin
 
 _MOST_POINTS = 100_000
 
 
-class JointPoseTrajectory(GraphPlugin):
+class JointPoseTrajectory(RosPlugin):
     """Takes trajectories of joint positions, each set when its time has come; none is set in between.
 
     Parameters, with gazebo_ros' defaults: <topicName> set_joint_trajectory, <serviceName> set_joint_trajectory,

@@ -6,11 +6,11 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
-from .on_graph import GraphPlugin
-from .place import namespace_of, period_of, topic_in
+from .namespaces import namespace_of, period_of, topic_in
+from .ros_plugin import RosPlugin
 
 
-class JointStatePublisher(GraphPlugin):
+class JointStatePublisher(RosPlugin):
     """Publishes `joint_states`.
 
     Parameters: <jointName> (a list of names between commas or spaces; all joints), <updateRate> 100.

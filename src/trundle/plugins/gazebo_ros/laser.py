@@ -8,7 +8,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
-from .place import ignore, leave_out, namespace_of, topic_in
+from .namespaces import ignore, leave_out, namespace_of, topic_in
 from .sensor import Outlet, frame_of, topic_of
 
 

@@ -8,7 +8,7 @@ from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import ModelHandle
 from trundle.spatial import Pose, Twist
 
-from .place import topic_in
+from .namespaces import topic_in
 
 WIDE = 1e12
 """Variance of what odometry on a plane does not know."""

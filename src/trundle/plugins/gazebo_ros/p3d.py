@@ -9,13 +9,13 @@ from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose, Twist
 
-from .on_graph import GraphPlugin, required
-from .place import namespace_of, period_of, topic_in
+from .namespaces import namespace_of, period_of, topic_in
+from .ros_plugin import RosPlugin, required
 
 _WORLD = frozenset({"", "/", "world", "/world", "map", "/map", "/my_frame"})
 
 
-class P3D(GraphPlugin):
+class P3D(RosPlugin):
     """Publishes a link's pose and velocity in the frame of another link, or of the world.
 
     Parameters: <bodyName> and <topicName> (required), <frameName> world, <xyzOffset> and <rpyOffset> 0 0 0 (also with

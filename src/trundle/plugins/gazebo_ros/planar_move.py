@@ -7,13 +7,13 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Twist
 
+from .namespaces import namespace_of, period_of
 from .odometry import WIDE, OdometryTopic, true_motion
-from .on_graph import GraphPlugin
-from .place import namespace_of, period_of
+from .ros_plugin import RosPlugin
 from .twist_command import TwistCommand
 
 
-class PlanarMove(GraphPlugin):
+class PlanarMove(RosPlugin):
     """Gives the model its velocity at every step: it neither falls nor tilts by itself.
 
     Parameters, with gazebo_ros' defaults: <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,

@@ -7,7 +7,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
-from .place import ignore, namespace_of
+from .namespaces import ignore, namespace_of
 from .sensor import Outlet, frame_of, topic_of
 
 _KINDS = {"ultrasound": 0, "infrared": 1}

@@ -6,7 +6,7 @@ from typing import Protocol
 from trundle.model import PluginTag
 from trundle.ros import Node, Publisher
 
-from .place import period_of, topic_in
+from .namespaces import period_of, topic_in
 
 
 class Throttle:

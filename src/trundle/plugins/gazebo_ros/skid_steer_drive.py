@@ -5,13 +5,13 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
+from .namespaces import namespace_of, period_of
 from .odometry import WIDE, OdometryTopic, true_motion
-from .on_graph import GraphPlugin
-from .place import namespace_of, period_of
+from .ros_plugin import RosPlugin
 from .twist_command import TwistCommand
 
 
-class SkidSteerDrive(GraphPlugin):
+class SkidSteerDrive(RosPlugin):
     """Keeps the wheels of each side at one speed.
 
     Parameters, with gazebo_ros' defaults: <leftFrontJoint> left_front_joint and so on, <wheelSeparation> 0.4,

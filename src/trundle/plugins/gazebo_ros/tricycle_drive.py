@@ -8,16 +8,16 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
+from .namespaces import leave_out, namespace_of, period_of, topic_in
 from .odometry import WIDE, OdometryTopic, true_motion
-from .on_graph import GraphPlugin
-from .place import leave_out, namespace_of, period_of, topic_in
+from .ros_plugin import RosPlugin
 from .twist_command import TwistCommand
 
 _LAG = 2
 """Updates in which an angle is made good for."""
 
 
-class TricycleDrive(GraphPlugin):
+class TricycleDrive(RosPlugin):
     """Turns the driven wheel at linear.x over its radius, and steers it to angular.z, which is an angle here [rad].
 
     Parameters, with gazebo_ros' defaults: <steeringJoint> front_steering_joint, <actuatedWheelJoint> front_wheel_joint,

@@ -6,7 +6,7 @@ from typing import Self
 from trundle.model import PluginTag
 from trundle.ros import Message, Node
 
-from .place import topic_in
+from .namespaces import topic_in
 
 
 class TwistCommand:

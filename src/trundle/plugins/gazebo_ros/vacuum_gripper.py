@@ -9,8 +9,8 @@ from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Wrench
 
-from .on_graph import GraphPlugin, required
-from .place import topic_in
+from .namespaces import topic_in
+from .ros_plugin import RosPlugin, required
 
 _REACH = 0.05
 """[m] From origin to origin."""
@@ -20,7 +20,7 @@ _STRONGEST = 20.0
 """[N]"""
 
 
-class VacuumGripper(GraphPlugin):
+class VacuumGripper(RosPlugin):
     """`on` and `off` (std_srvs/Empty); <topicName> tells at every step whether something is held (std_msgs/Bool).
 
     Parameters, of gazebo_ros: <bodyName> and <topicName> (required), <robotNamespace>. Links of other models whose

@@ -7,7 +7,7 @@ from trundle.names import ros_name
 from trundle.ros import Node, Option, Options, ReconfigureServer
 from trundle.simulation import ModelHandle, Simulation
 
-from ..wheel_slip import WheelSlip
+from ..gazebo.wheel_slip import WheelSlip
 
 _AS_THEY_ARE = -1.0
 _MOST = 20.0

@@ -8,7 +8,7 @@ from trundle.model import Joint, JointType, Link, Model, Surface
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
 from trundle.xmlnode import XmlNode
 
-from .touching import Touching
+from .contact_average import ContactAverage
 
 
 class Arm:
@@ -42,7 +42,7 @@ class Arm:
             self.fingers |= dict.fromkeys(names, found)
         self.held = ""
         """The collision that is held, `model::link::collision`."""
-        self.grip: list[Touching] = []
+        self.grip: list[ContactAverage] = []
         """Where the fingers were on it when it was taken."""
         self._surfaces: list[Surface] = []
 
@@ -50,7 +50,7 @@ class Arm:
     def _joint(self) -> str:
         return f"{self._model.name}::{self.name}::grasp"
 
-    def take(self, collision: str, link: LinkHandle, grip: list[Touching]) -> None:
+    def take(self, collision: str, link: LinkHandle, grip: list[ContactAverage]) -> None:
         """Weld an object's link to the palm as it lies now.
 
         Args:

@@ -13,7 +13,7 @@ from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
 from .arm import Arm
-from .touching import Touching, by_pair, is_held
+from .contact_average import ContactAverage, by_pair, is_held
 
 _USUAL_TOPIC = "__default_topic__"
 
@@ -92,7 +92,7 @@ class GraspFix(Plugin):
 
     def _forget(self) -> None:
         self._next_ns = self._sim.time_ns + self._every_ns
-        self._touching: dict[str, dict[str, Touching]] = {}
+        self._touching: dict[str, dict[str, ContactAverage]] = {}
         """By object's collision and finger's."""
         self._count: Counter[str] = Counter()
         """How often each object was found held, less how often not."""
@@ -123,10 +123,10 @@ class GraspFix(Plugin):
                 continue
             found = self._touching.setdefault(name, {})
             if finger not in found:
-                found[finger] = Touching(arm.name, link, _link_of(owner, name))
+                found[finger] = ContactAverage(arm.name, link, _link_of(owner, name))
             found[finger].add(forces, points)
 
-    def _take(self, name: str, touching: list[Touching]) -> None:
+    def _take(self, name: str, touching: list[ContactAverage]) -> None:
         """Have the arm with most fingers on an object hold it, unless one of those that touch it holds something."""
         fingers = Counter(each.arm for each in touching)
         if any(self._arms[arm].held for arm in fingers):

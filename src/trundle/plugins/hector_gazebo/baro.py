@@ -5,7 +5,7 @@ from trundle.ros import Node, Publisher
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
 from .errors import ErrorModel
-from .part import LinkSensor
+from .link_sensor import LinkSensor
 
 _SCALE_M, _POWER = 44330.0, 5.263157
 """Of the barometric formula, as the original has it."""

@@ -7,9 +7,9 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist, Wrench
 
+from ..gazebo_ros.namespaces import namespace_of, period_of
 from ..gazebo_ros.odometry import WIDE, OdometryTopic
-from ..gazebo_ros.on_graph import GraphPlugin
-from ..gazebo_ros.place import namespace_of, period_of
+from ..gazebo_ros.ros_plugin import RosPlugin
 from ..gazebo_ros.twist_command import TwistCommand
 
 _VARIANCES = (1e-3, 1e-3, WIDE, WIDE, WIDE, 1e-2)
@@ -20,7 +20,7 @@ _STRAIGHT = 1e-4
 """[rad/s] What turns more slowly drives straight."""
 
 
-class ForceBasedMove(GraphPlugin):
+class ForceBasedMove(RosPlugin):
     """Pushes <robotBaseFrame> at its centre of mass with gain · (asked − measured) along x and y, and about z.
 
     Parameters, with hector_gazebo's defaults: <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,

@@ -8,7 +8,7 @@ from trundle.sensors import geodetic
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
 from .errors import ErrorModel
-from .part import LinkSensor
+from .link_sensor import LinkSensor
 
 _DIAGONAL_KNOWN = 2
 """sensor_msgs/NavSatFix's number for it."""

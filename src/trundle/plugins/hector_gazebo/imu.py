@@ -7,7 +7,7 @@ from trundle.spatial import ZERO, Pose
 
 from ..gazebo_ros.link_motion import LinkMotion
 from .errors import ErrorModel
-from .part import LinkSensor
+from .link_sensor import LinkSensor
 
 _G = 9.8065
 """The original's [m/s²]."""

@@ -8,7 +8,7 @@ from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose
 
 from .errors import ErrorModel
-from .part import LinkSensor
+from .link_sensor import LinkSensor
 
 
 class Magnetic(LinkSensor):

@@ -7,7 +7,7 @@ from trundle.model import PluginTag, ScanAxis
 from trundle.ros import Node
 from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
-from ..gazebo_ros.place import ignore, namespace_of
+from ..gazebo_ros.namespaces import ignore, namespace_of
 from ..gazebo_ros.sensor import Outlet, topic_of
 from .errors import ErrorModel
 

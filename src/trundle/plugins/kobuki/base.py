@@ -10,10 +10,10 @@ from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
+from ..gazebo_ros.namespaces import namespace_of, period_of, topic_in
 from ..gazebo_ros.odometry import OdometryTopic
-from ..gazebo_ros.on_graph import GraphPlugin, required
-from ..gazebo_ros.place import namespace_of, period_of, topic_in
-from .feelers import Feelers, SensorTopic
+from ..gazebo_ros.ros_plugin import RosPlugin, required
+from .sensors import KobukiSensors, SensorTopic
 
 _BASE = "mobile_base"
 _POSE_VARIANCES = (0.1, 0.1, 1e6, 1e6, 1e6, 0.05)
@@ -22,12 +22,13 @@ _ON = 1
 """kobuki_msgs/MotorPower.ON"""
 
 
-class Kobuki(GraphPlugin):
+class Kobuki(RosPlugin):
     """Drives by `mobile_base/commands/velocity`; tells odom, joint_states, and on `mobile_base/…` what it feels.
 
     Parameters: <left_wheel_joint_name>, <right_wheel_joint_name>, <wheel_separation> [m], <wheel_diameter> [m],
-    <torque> [N·m], <velocity_command_timeout> [s], <imu_name> and those of `Feelers`, all required; <publish_tf> false,
-    <update_rate> 0 (every step). As in the original, the heading is the gyro's and the way the wheels'.
+    <torque> [N·m], <velocity_command_timeout> [s], <imu_name> and those of `KobukiSensors`, all required;
+    <publish_tf> false, <update_rate> 0 (every step). As in the original, the heading is the gyro's and
+    the way the wheels'.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -66,7 +67,7 @@ class Kobuki(GraphPlugin):
         def sensor(name: str) -> SensorTopic:
             return _find_sensor(model, required(parameters, name))
 
-        self._feelers = Feelers(model, node, topic(_BASE), parameters, report, sensor)
+        self._feelers = KobukiSensors(model, node, topic(_BASE), parameters, report, sensor)
         self._gyro: Message | None = None
         node.subscribe(sensor("imu_name").topic("imu"), "sensor_msgs/Imu", self._take_gyro, queue_size=1)
         commands = topic(f"{_BASE}/commands")
@@ -98,7 +99,7 @@ class Kobuki(GraphPlugin):
                     "linear_acceleration": self._gyro.linear_acceleration,
                 }
             )
-        self._feelers.tell(time_ns)
+        self._feelers.publish(time_ns)
 
     def reset(self) -> None:
         """Stand still, powered, at the origin of the odometry."""

@@ -7,7 +7,7 @@ from typing import Self
 from trundle.ros import Message
 
 from .base_odometry import BaseOdometry
-from .controller import Ends, Site
+from .controller import ControllerContext, Endpoints
 from .drive_settings import length, origin, speed_limit, wheel_radius
 from .transmissions import Interface
 
@@ -27,7 +27,7 @@ class AckermannSteering:
     twist_covariance_diagonal.
     """
 
-    def __init__(self, site: Site) -> None:
+    def __init__(self, site: ControllerContext) -> None:
         settings = site.settings
         self._node = site.node
         self._wheel = site.joint(settings.text("rear_wheel", "rear_wheel_joint"), "VelocityJointInterface")
@@ -45,7 +45,7 @@ class AckermannSteering:
         sections = (settings.section("linear").section("x"), settings.section("angular").section("z"))
         self._limits = tuple(map(speed_limit, sections))
         self._window = max(1, round(settings.number("velocity_rolling_window_size", 10)))
-        self._ends = Ends()
+        self._ends = Endpoints()
         self._odometry = BaseOdometry(site, self._ends, frame=settings.text("odom_frame_id", "odom"))
         self._commands = site.node.subscribe(f"{site.name}/cmd_vel", "geometry_msgs/Twist", self._take, queue_size=1)
         self._ends.add(self._commands)
@@ -56,7 +56,7 @@ class AckermannSteering:
         """Last and last but one command, linear and angular."""
 
     @classmethod
-    def make(cls, site: Site) -> Self:
+    def make(cls, site: ControllerContext) -> Self:
         """See `Controller.make`."""
         return cls(site)
 
@@ -77,7 +77,7 @@ class AckermannSteering:
         if self._odometry.due(time_ns):
             count = max(1, len(self._speeds))
             linear, angular = (sum(speed[i] for speed in self._speeds) / count for i in (0, 1))
-            self._odometry.tell(time_ns, self._place, (linear, 0.0, angular))
+            self._odometry.publish(time_ns, self._place, (linear, 0.0, angular))
         for number, wanted in enumerate(self._wanted(time_ns)):
             last, before = self._history[number]
             self._history[number] = (self._limits[number].limited(wanted, last, before, dt), last)

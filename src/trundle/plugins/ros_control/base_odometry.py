@@ -4,14 +4,14 @@ import math
 
 from trundle.ros import Transform, TransformBroadcaster
 
-from .controller import Cadence, Ends, Site
+from .controller import Cadence, ControllerContext, Endpoints
 from .drive_settings import covariance
 
 
 class BaseOdometry:
     """Tells by publish_rate 50, base_frame_id base_link, enable_odom_tf true, pose_ and twist_covariance_diagonal."""
 
-    def __init__(self, site: Site, ends: Ends, *, frame: str) -> None:
+    def __init__(self, site: ControllerContext, ends: Endpoints, *, frame: str) -> None:
         """Advertise.
 
         Args:
@@ -36,7 +36,7 @@ class BaseOdometry:
         """Whether to tell now; if so, the next period begins."""
         return self._cadence.due(time_ns)
 
-    def tell(self, time_ns: int, place: tuple[float, float, float], speed: tuple[float, float, float]) -> None:
+    def publish(self, time_ns: int, place: tuple[float, float, float], speed: tuple[float, float, float]) -> None:
         """Publish.
 
         Args:

@@ -12,7 +12,7 @@ from .transmissions import Interface
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Site:
+class ControllerContext:
     """Where a controller works."""
 
     name: str
@@ -56,7 +56,7 @@ class Controller(Protocol):
     """Interface → joints that nobody else may command."""
 
     @classmethod
-    def make(cls, site: Site) -> Self:
+    def make(cls, site: ControllerContext) -> Self:
         """Read parameters, advertise and subscribe.
 
         Raises:
@@ -92,7 +92,7 @@ def group_command(message: Message, count: int, node: Node) -> list[float]:
     return values if all(map(math.isfinite, values)) else []
 
 
-class Ends:
+class Endpoints:
     """What a controller has on the graph, to be taken off again."""
 
     def __init__(self) -> None:

@@ -8,7 +8,7 @@ from trundle.control import DifferentialDrive, WheelOdometry
 from trundle.ros import Message, NodeParams, ParamError
 
 from .base_odometry import BaseOdometry
-from .controller import Ends, Site
+from .controller import ControllerContext, Endpoints
 from .drive_settings import joint_names, length, origin, speed_limit, wheel_radius
 from .transmissions import Interface
 
@@ -26,7 +26,7 @@ class DiffDriveController:
     acceleration_limits and jerk_limits, pose_ and twist_covariance_diagonal, publish_cmd false.
     """
 
-    def __init__(self, site: Site) -> None:
+    def __init__(self, site: ControllerContext) -> None:
         settings = site.settings
         self._site = site
         self._left = [site.joint(name, _VELOCITY) for name in joint_names(settings, "left_wheel")]
@@ -54,7 +54,7 @@ class DiffDriveController:
 
     def _advertise(self, settings: NodeParams) -> None:
         site = self._site
-        self._ends = Ends()
+        self._ends = Endpoints()
         self._odometry = BaseOdometry(site, self._ends, frame=settings.text("odom_frame_id", "odom"))
         self._ends.add(site.node.subscribe(f"{site.name}/cmd_vel", "geometry_msgs/Twist", self._take, queue_size=1))
         self._told = None
@@ -63,7 +63,7 @@ class DiffDriveController:
             self._ends.add(self._told)
 
     @classmethod
-    def make(cls, site: Site) -> Self:
+    def make(cls, site: ControllerContext) -> Self:
         """See `Controller.make`."""
         return cls(site)
 
@@ -150,7 +150,7 @@ class DiffDriveController:
     def _tell(self, time_ns: int) -> None:
         place, count = self._place, max(1, len(self._speeds))
         linear, angular = (sum(speed[i] for speed in self._speeds) / count for i in (0, 1))
-        self._odometry.tell(time_ns, (place.x, place.y, place.yaw), (linear, 0.0, angular))
+        self._odometry.publish(time_ns, (place.x, place.y, place.yaw), (linear, 0.0, angular))
 
     def _geometry(self, settings: NodeParams) -> DifferentialDrive:
         """As the parameters say, else as the model has it."""

@@ -8,7 +8,7 @@ from trundle.model import Cylinder, Sphere, model_from_joint
 from trundle.ros import NodeParams, ParamError
 from trundle.spatial import Vector3
 
-from .controller import Site
+from .controller import ControllerContext
 from .hardware import JointHardware
 
 
@@ -53,7 +53,7 @@ def covariance(settings: NodeParams, name: str) -> list[float]:
     return [float(values[row]) if row == column else 0.0 for row in range(6) for column in range(6)]
 
 
-def length(site: Site, name: str, otherwise: float | None) -> float:
+def length(site: ControllerContext, name: str, otherwise: float | None) -> float:
     """A length [m]: the parameter, else as the model has it; None: it does not say.
 
     Raises:
@@ -65,12 +65,12 @@ def length(site: Site, name: str, otherwise: float | None) -> float:
     return value
 
 
-def origin(site: Site, joint: JointHardware) -> Vector3:
+def origin(site: ControllerContext, joint: JointHardware) -> Vector3:
     """Where a joint is in the model with all joints at zero [m]."""
     return model_from_joint(site.model.model, joint.handle.joint).position
 
 
-def wheel_radius(site: Site, wheel: JointHardware) -> float:
+def wheel_radius(site: ControllerContext, wheel: JointHardware) -> float:
     """The parameter wheel_radius, else that of the wheel's collision [m].
 
     Raises:

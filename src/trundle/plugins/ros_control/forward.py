@@ -5,7 +5,7 @@ from typing import ClassVar, Self
 
 from trundle.ros import Message
 
-from .controller import Ends, Site, group_command
+from .controller import ControllerContext, Endpoints, group_command
 from .transmissions import Interface
 
 
@@ -14,15 +14,15 @@ class ForwardController:
 
     interface: ClassVar[Interface]
 
-    def __init__(self, site: Site) -> None:
+    def __init__(self, site: ControllerContext) -> None:
         self._joint = site.joint(site.settings.text("joint"), self.interface)
         self.claims: dict[Interface | str, list[str]] = {self.interface: [self._joint.name]}
         self._wanted: float | None = None
-        self._ends = Ends()
+        self._ends = Endpoints()
         self._ends.add(site.node.subscribe(f"{site.name}/command", "std_msgs/Float64", self._take, queue_size=1))
 
     @classmethod
-    def make(cls, site: Site) -> Self:
+    def make(cls, site: ControllerContext) -> Self:
         """See `Controller.make`."""
         return cls(site)
 
@@ -56,17 +56,17 @@ class ForwardGroup:
 
     interface: ClassVar[Interface]
 
-    def __init__(self, site: Site) -> None:
+    def __init__(self, site: ControllerContext) -> None:
         self._joints = [site.joint(name, self.interface) for name in site.joint_setting()]
         self.claims: dict[Interface | str, list[str]] = {self.interface: [joint.name for joint in self._joints]}
         self._wanted: list[float] = []
         self._node = site.node
-        self._ends = Ends()
+        self._ends = Endpoints()
         kind = "std_msgs/Float64MultiArray"
         self._ends.add(site.node.subscribe(f"{site.name}/command", kind, self._take, queue_size=1))
 
     @classmethod
-    def make(cls, site: Site) -> Self:
+    def make(cls, site: ControllerContext) -> Self:
         """See `Controller.make`."""
         return cls(site)
 

@@ -8,7 +8,7 @@ from trundle.control import FourWheelSteering, Wheels, axle_angle
 from trundle.ros import Message, ParamError
 
 from .base_odometry import BaseOdometry
-from .controller import Ends, Site
+from .controller import ControllerContext, Endpoints
 from .drive_settings import joint_names, length, origin, speed_limit, wheel_radius
 from .hardware import JointHardware
 from .transmissions import Interface
@@ -27,7 +27,7 @@ class FourWheelDrive:
     angles, with rates that grow as they do: the original's have the other sign, and it mistakes the wheels' offset.
     """
 
-    def __init__(self, site: Site) -> None:
+    def __init__(self, site: ControllerContext) -> None:
         settings = site.settings
         self._node = site.node
         self._wheels = _pair(site, "front_wheel", "VelocityJointInterface")
@@ -42,7 +42,7 @@ class FourWheelDrive:
         sections = (settings.section("linear").section("x"), settings.section("angular").section("z"))
         self._limits = tuple(map(speed_limit, sections))
         self._window = max(1, round(settings.number("velocity_rolling_window_size", 10)))
-        self._ends = Ends()
+        self._ends = Endpoints()
         self._odometry = BaseOdometry(site, self._ends, frame="odom")
         told = f"{_PACKAGE}/FourWheelSteeringStamped"
         self._steering_topic = site.node.advertise(f"{site.name}/odom_steer", told, queue_size=100)
@@ -61,7 +61,7 @@ class FourWheelDrive:
         """Last and last but one command, linear and angular."""
 
     @classmethod
-    def make(cls, site: Site) -> Self:
+    def make(cls, site: ControllerContext) -> Self:
         """See `Controller.make`."""
         return cls(site)
 
@@ -94,7 +94,7 @@ class FourWheelDrive:
         )
         self._told.append((math.copysign(math.hypot(forward, sideways), forward), front, rear, dt))
         if self._odometry.due(time_ns):
-            self._odometry.tell(time_ns, self._place, (forward, sideways, turning))
+            self._odometry.publish(time_ns, self._place, (forward, sideways, turning))
             self._tell_angles(time_ns)
         self._drive(time_ns, dt)
 
@@ -163,7 +163,7 @@ class FourWheelDrive:
             return True
         return False
 
-    def _geometry(self, site: Site) -> FourWheelSteering:
+    def _geometry(self, site: ControllerContext) -> FourWheelSteering:
         """As the parameters say, else as the model has it."""
         front, rear, steer = self._wheels[0], self._wheels[2], self._steers[0]
         offset = math.dist(origin(site, steer), origin(site, front))
@@ -176,7 +176,7 @@ class FourWheelDrive:
         )
 
 
-def _pair(site: Site, name: str, interface: Interface) -> list[JointHardware]:
+def _pair(site: ControllerContext, name: str, interface: Interface) -> list[JointHardware]:
     """A left and a right joint."""
     names = joint_names(site.settings, name)
     if len(names) != 2:

@@ -3,14 +3,14 @@
 from trundle.control import ToolboxPid
 from trundle.ros import Node, NodeParams, Option, Options, ReconfigureServer
 
-from .controller import Ends
+from .controller import Endpoints
 
 _MOST_P = 100_000.0
 _MOST = 1_000.0
 """control_toolbox's bounds, of p and of everything else."""
 
 
-def tunable_pid(node: Node, settings: NodeParams, ends: Ends) -> ToolboxPid:
+def tunable_pid(node: Node, settings: NodeParams, ends: Endpoints) -> ToolboxPid:
     """Gains p, i, d, i_clamp (or i_clamp_min and i_clamp_max, whose smaller magnitude counts) and antiwindup.
 
     Users may change them while they are in use, as control_toolbox's.

@@ -6,7 +6,7 @@ from typing import Any, ClassVar, Self
 
 from trundle.ros import ActionOutcome, ActionServer, Message
 
-from .controller import Ends, Site
+from .controller import ControllerContext, Endpoints
 from .gains import tunable_pid
 from .transmissions import Interface
 
@@ -20,12 +20,12 @@ class GripperController:
 
     interface: ClassVar[Interface]
 
-    def __init__(self, site: Site) -> None:
+    def __init__(self, site: ControllerContext) -> None:
         settings = site.settings
         self._node = site.node
         self._joint = site.joint(settings.text("joint"), self.interface)
         self.claims: dict[Interface | str, list[str]] = {self.interface: [self._joint.name]}
-        self._ends = Ends()
+        self._ends = Endpoints()
         self._pid = None
         if self.interface == "EffortJointInterface":
             self._pid = tunable_pid(site.node, settings.section("gains").section(self._joint.name), self._ends)
@@ -42,7 +42,7 @@ class GripperController:
         )
 
     @classmethod
-    def make(cls, site: Site) -> Self:
+    def make(cls, site: ControllerContext) -> Self:
         """See `Controller.make`."""
         return cls(site)
 

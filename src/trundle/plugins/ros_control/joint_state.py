@@ -2,14 +2,14 @@
 
 from typing import Self
 
-from .controller import Cadence, Ends, Site
+from .controller import Cadence, ControllerContext, Endpoints
 from .transmissions import Interface
 
 
 class JointStateController:
     """`<robot>/joint_states` at `publish_rate`, joints in the order of their names, then `extra_joints`."""
 
-    def __init__(self, site: Site) -> None:
+    def __init__(self, site: ControllerContext) -> None:
         self.claims: dict[Interface | str, list[str]] = {}
         settings = site.settings
         named = settings.texts("joints")
@@ -20,11 +20,11 @@ class JointStateController:
         self._names = [joint.name for joint in self._joints] + [str(joint.get("name", "")) for joint in self._extra]
         self._cadence = Cadence(settings.rate_hz("publish_rate"))
         self._states = site.node.advertise(f"{site.namespace}/joint_states", "sensor_msgs/JointState", queue_size=4)
-        self._ends = Ends()
+        self._ends = Endpoints()
         self._ends.add(self._states)
 
     @classmethod
-    def make(cls, site: Site) -> Self:
+    def make(cls, site: ControllerContext) -> Self:
         """See `Controller.make`."""
         return cls(site)
 

@@ -8,7 +8,7 @@ from trundle.ros import Message, Node, NodeParams, ParamError
 from trundle.simulation import ModelHandle
 
 from .catalog import CONTROLLERS, find_controller
-from .controller import Controller, Site
+from .controller import Controller, ControllerContext
 from .hardware import Hardware
 
 _STRICT = 2
@@ -100,7 +100,7 @@ class ControllerManager:
                 f"configuration on the parameter server (namespace: '{self._namespace or '/'}')?"
             )
             return False
-        site = Site(
+        site = ControllerContext(
             name=full,
             namespace=self._namespace,
             node=self._node,

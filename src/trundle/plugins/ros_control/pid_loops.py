@@ -7,7 +7,7 @@ from typing import ClassVar, Self
 from trundle.control import ToolboxPid
 from trundle.ros import Message, NodeParams
 
-from .controller import Ends, Site, group_command
+from .controller import ControllerContext, Endpoints, group_command
 from .gains import tunable_pid
 from .hardware import JointHardware
 from .transmissions import Interface
@@ -50,10 +50,10 @@ class PidController:
     interface: ClassVar[Interface]
     of_speed: ClassVar[bool] = False
 
-    def __init__(self, site: Site) -> None:
+    def __init__(self, site: ControllerContext) -> None:
         joint = site.joint(site.settings.text("joint"), self.interface)
         self.claims: dict[Interface | str, list[str]] = {self.interface: [joint.name]}
-        self._ends = Ends()
+        self._ends = Endpoints()
         self._loop = _Loop(joint, tunable_pid(site.node, site.settings.section("pid"), self._ends), self.of_speed)
         self._updates = 0
         self._state = site.node.advertise(f"{site.name}/state", "control_msgs/JointControllerState", queue_size=1)
@@ -61,7 +61,7 @@ class PidController:
         self._ends.add(self._state, commands)
 
     @classmethod
-    def make(cls, site: Site) -> Self:
+    def make(cls, site: ControllerContext) -> Self:
         """See `Controller.make`."""
         return cls(site)
 
@@ -112,8 +112,8 @@ class PidController:
 class EffortGroupPosition:
     """effort_controllers/JointGroupPositionController: `joints`, each by the gains `<joint>/pid`."""
 
-    def __init__(self, site: Site) -> None:
-        self._node, self._ends = site.node, Ends()
+    def __init__(self, site: ControllerContext) -> None:
+        self._node, self._ends = site.node, Endpoints()
         self._loops = [
             _Loop(site.joint(name, "EffortJointInterface"), self._pid(site.settings, name), of_speed=False)
             for name in site.joint_setting()
@@ -125,7 +125,7 @@ class EffortGroupPosition:
         self._ends.add(site.node.subscribe(f"{site.name}/command", kind, self._take, queue_size=1))
 
     @classmethod
-    def make(cls, site: Site) -> Self:
+    def make(cls, site: ControllerContext) -> Self:
         """See `Controller.make`."""
         return cls(site)
 

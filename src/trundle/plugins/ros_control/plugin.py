@@ -10,7 +10,7 @@ from trundle.simulation import ModelHandle, Simulation
 from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
-from .controller import Ends
+from .controller import Endpoints
 from .gains import tunable_pid
 from .hardware import JointHardware
 from .manager import ControllerManager
@@ -47,7 +47,7 @@ class GazeboRosControl(Plugin):
             node.subscribe(f"{self._namespace}/{stop_topic}", "std_msgs/Bool", lambda m: self._stop(m.data))
         parameters.find(_OLD_INDIGO)
         parameters.report_unread(report)
-        self._ends = Ends()
+        self._ends = Endpoints()
         self._hardware: dict[str, JointHardware] = {}
         self._manager: ControllerManager | None = None
         self._last_ns = sim.time_ns

@@ -4,7 +4,7 @@ from typing import ClassVar, Never
 
 from trundle.ros import ParamError
 
-from .controller import Site
+from .controller import ControllerContext
 
 
 class SensorController:
@@ -13,7 +13,7 @@ class SensorController:
     interface: ClassVar[str]
 
     @classmethod
-    def make(cls, site: Site) -> Never:
+    def make(cls, site: ControllerContext) -> Never:
         """Refuse.
 
         Raises:

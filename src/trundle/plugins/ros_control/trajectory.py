@@ -7,10 +7,10 @@ from typing import Any, ClassVar, Self
 from trundle.control import ToolboxPid
 from trundle.ros import ActionOutcome, ActionServer, Message, ns_of
 
-from .controller import Cadence, Ends, Site
+from .controller import Cadence, ControllerContext, Endpoints
 from .gains import tunable_pid
 from .hardware import JointHardware
-from .trajectory_goal import Course, GoalError, Tolerances, read_course, read_tolerances
+from .trajectory_goal import GoalError, SampledTrajectory, Tolerances, read_tolerances, read_trajectory
 from .transmissions import Interface
 
 _GRACE_S = 0.2
@@ -28,13 +28,13 @@ class TrajectoryController:
 
     interface: ClassVar[Interface]
 
-    def __init__(self, site: Site) -> None:
+    def __init__(self, site: ControllerContext) -> None:
         settings, node = site.settings, site.node
         self._node = node
         self._joints = [site.joint(name, self.interface) for name in site.joint_setting()]
         names = [joint.name for joint in self._joints]
         self.claims: dict[Interface | str, list[str]] = {self.interface: names}
-        self._ends = Ends()
+        self._ends = Endpoints()
         self._pids: list[ToolboxPid] = []
         if self.interface != "PositionJointInterface":
             gains = settings.section("gains")
@@ -45,7 +45,7 @@ class TrajectoryController:
         self._partial = settings.flag("allow_partial_joints_goal", default=False)
         self._states = Cadence(settings.rate_hz("state_publish_rate", 50.0))
         self._monitors = Cadence(settings.rate_hz("action_monitor_rate", 20.0))
-        self._course: Course | None = None
+        self._course: SampledTrajectory | None = None
         self._time_ns = 0
         self._settled: Callable[[ActionOutcome], None] | None = None
         """Told once how the action's goal ended."""
@@ -61,7 +61,7 @@ class TrajectoryController:
         self._server = ActionServer(node, action, "control_msgs/FollowJointTrajectory", self._asked, side_by_side=True)
 
     @classmethod
-    def make(cls, site: Site) -> Self:
+    def make(cls, site: ControllerContext) -> Self:
         """See `Controller.make`."""
         return cls(site)
 
@@ -130,17 +130,19 @@ class TrajectoryController:
         assert self._course is not None, "start() comes first"
         now = self._course.at(self._time_ns)
         names = [joint.name for joint in self._joints]
-        course = read_course(trajectory, names, now, self._time_ns, tolerances, partial=self._partial)
+        course = read_trajectory(trajectory, names, now, self._time_ns, tolerances, partial=self._partial)
         for number, joint in enumerate(self._joints):
             if joint.is_endless:  # the first point is gone to the short way round
                 course.unwind(number)
         self._course = course
 
     def _stay(self) -> None:
-        self._course = Course.standing([joint.position for joint in self._joints], self._time_ns, self._usual)
+        self._course = SampledTrajectory.standing(
+            [joint.position for joint in self._joints], self._time_ns, self._usual
+        )
 
     def _query(self, request: Message) -> dict[str, Any]:
-        course = self._course or Course.standing([joint.position for joint in self._joints], 0, self._usual)
+        course = self._course or SampledTrajectory.standing([joint.position for joint in self._joints], 0, self._usual)
         position, velocity, acceleration = zip(*course.at(ns_of(request.time)), strict=True)
         return {
             "name": [joint.name for joint in self._joints],
@@ -187,7 +189,7 @@ class TrajectoryController:
             self._settled = None
             self._stay()
 
-    def _watch(self, course: Course, desired: list[tuple[float, float, float]]) -> None:
+    def _watch(self, course: SampledTrajectory, desired: list[tuple[float, float, float]]) -> None:
         """Compare with the tolerances, and tell the action how it goes."""
         tolerances, late_s = course.tolerances, (self._time_ns - course.end_ns) / 1e9
         for number, joint in enumerate(self._joints):

@@ -66,7 +66,7 @@ def read_tolerances(constraints: NodeParams, joints: Sequence[str]) -> Tolerance
     )
 
 
-class Course:
+class SampledTrajectory:
     """Where every joint is to be from a time on."""
 
     def __init__(self, points: list[list[JointPoint]], start_ns: int, tolerances: Tolerances) -> None:
@@ -77,7 +77,7 @@ class Course:
         self.tolerances = tolerances
 
     @classmethod
-    def standing(cls, positions: Sequence[float], start_ns: int, tolerances: Tolerances) -> "Course":
+    def standing(cls, positions: Sequence[float], start_ns: int, tolerances: Tolerances) -> "SampledTrajectory":
         """Stay at positions."""
         return cls([[JointPoint(0.0, position)] for position in positions], start_ns, tolerances)
 
@@ -101,7 +101,7 @@ class Course:
         self._splines[number] = JointSpline(self._points[number])
 
 
-def read_course(
+def read_trajectory(
     trajectory: Message,
     joints: Sequence[str],
     now: Sequence[tuple[float, float, float]],
@@ -109,7 +109,7 @@ def read_course(
     tolerances: Tolerances,
     *,
     partial: bool,
-) -> Course:
+) -> SampledTrajectory:
     """Read a trajectory_msgs/JointTrajectory.
 
     Args:
@@ -156,7 +156,7 @@ def read_course(
             start = []
             points = [_point(0.0, trajectory.points[-1], column, len(names))]
         columns.append([*start, *points])
-    return Course(columns, now_ns, tolerances)
+    return SampledTrajectory(columns, now_ns, tolerances)
 
 
 def _point(time_s: float, point: Message, column: int, width: int) -> JointPoint:

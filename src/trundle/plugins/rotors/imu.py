@@ -14,8 +14,8 @@ from trundle.spatial import Vector3
 from trundle.xmlnode import XmlNode
 
 from ..gazebo_ros.link_motion import LinkMotion
-from ..gazebo_ros.on_graph import GraphPlugin, required
-from .place import topic_of
+from ..gazebo_ros.ros_plugin import RosPlugin, required
+from .namespaces import topic_of
 
 
 @dataclass(slots=True)
@@ -47,7 +47,7 @@ class _Axes:
         return [self.density**2 if number % 4 == 0 else 0.0 for number in range(9)]
 
 
-class Imu(GraphPlugin):
+class Imu(RosPlugin):
     """Publishes sensor_msgs/Imu at every step; the orientation is true, its covariance says that there is none.
 
     Parameters, with RotorS' defaults, an ADIS16448's: <robotNamespace>, <linkName> (required), <imuTopic> imu,

@@ -6,9 +6,9 @@ from trundle.model import PluginTag
 from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation
 
-from ..gazebo_ros.on_graph import GraphPlugin
+from ..gazebo_ros.ros_plugin import RosPlugin
 from ..plugin import WorldPlugin
-from .place import topic_of
+from .namespaces import topic_of
 
 _ACTUATORS = "mav_msgs/Actuators"
 
@@ -27,7 +27,7 @@ class RosInterface(WorldPlugin):
         return cls()
 
 
-class ControllerInterface(GraphPlugin):
+class ControllerInterface(RosPlugin):
     """Passes what controllers want of the motors on to the motors' own topic, as it comes.
 
     Parameters, with RotorS' defaults: <robotNamespace>, <commandMotorSpeedSubTopic> command/motor_speed,

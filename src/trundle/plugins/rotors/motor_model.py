@@ -14,8 +14,8 @@ from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Vector3, Wrench
 from trundle.xmlnode import XmlNode
 
-from ..gazebo_ros.on_graph import GraphPlugin, required
-from .place import topic_of
+from ..gazebo_ros.ros_plugin import RosPlugin, required
+from .namespaces import topic_of
 
 _WAYS = {"cw": -1.0, "ccw": 1.0}
 _GAINS = (
@@ -30,7 +30,7 @@ _GAINS = (
 Kind = Literal["velocity", "position", "force"]
 
 
-class MotorModel(GraphPlugin):
+class MotorModel(RosPlugin):
     """Takes mav_msgs/Actuators; the value at <motorNumber> is a speed [rad/s], an angle [rad] or an effort [N·m].
 
     Parameters, with RotorS' defaults: <robotNamespace>, <jointName>, <linkName>, <turningDirection> cw or ccw

@@ -6,13 +6,13 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import JointHandle, ModelHandle, Simulation, Snapshot
 
-from ..gazebo_ros.on_graph import GraphPlugin
-from .place import topic_in, topic_of
+from ..gazebo_ros.ros_plugin import RosPlugin
+from .namespaces import topic_in, topic_of
 
 _ROTOR = re.compile(r"rotor_(\d+)")
 
 
-class MultirotorBase(GraphPlugin):
+class MultirotorBase(RosPlugin):
     """Publishes mav_msgs/Actuators on <motorPubTopic> motor_speed, and joint_states of the rotors.
 
     Parameters, with RotorS' defaults: <robotNamespace>, <linkName> base_link, <rotorVelocitySlowdownSim> 10. Rotors

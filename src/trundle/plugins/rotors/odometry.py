@@ -12,9 +12,9 @@ from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose, Quaternion, Twist, cross, quaternion_product
 
-from ..gazebo_ros.on_graph import GraphPlugin, required
-from ..gazebo_ros.place import leave_out
-from .place import topic_of
+from ..gazebo_ros.namespaces import leave_out
+from ..gazebo_ros.ros_plugin import RosPlugin, required
+from .namespaces import topic_of
 
 _TOPICS = {
     "poseTopic": ("pose", "geometry_msgs/Pose"),
@@ -27,7 +27,7 @@ _NOISES = ("Position", "Quaternion", "LinearVelocity", "AngularVelocity")
 _WORLD = "world"
 
 
-class Odometry(GraphPlugin):
+class Odometry(RosPlugin):
     """Publishes a link's centre of mass on five topics and /tf, its velocities in its own axes.
 
     Parameters, with RotorS' defaults: <robotNamespace>, <linkName> (required), <poseTopic> pose,

@@ -6,7 +6,7 @@ from trundle.ros import Node
 from trundle.sensors import ContactReading, ContactSensor, InstrumentSensor
 from trundle.spatial import Vector3
 
-from ..gazebo_ros.place import ignore
+from ..gazebo_ros.namespaces import ignore
 from ..gazebo_ros.sensor import Outlet
 
 

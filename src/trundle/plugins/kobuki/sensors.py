@@ -52,7 +52,7 @@ class _Switches:
             self._publisher.publish({self._field: self._order.index(side), "state": int(on), **more})
 
 
-class Feelers:
+class KobukiSensors:
     """Reads the model's contact and ray sensors by their own topics.
 
     Parameters: <bumper_name> (a contact sensor), <cliff_sensor_left_name>, <cliff_sensor_center_name>,
@@ -108,7 +108,7 @@ class Feelers:
         for switches in (self._bumpers, self._cliffs, self._drops):
             switches.on = set()
 
-    def tell(self, time_ns: int) -> None:
+    def publish(self, time_ns: int) -> None:
         """Say what is felt now."""
         if not self._core.has_subscribers:
             return

@@ -14,7 +14,7 @@ from trundle.simulation import JointHandle, ModelHandle, Simulation
 from trundle.spatial import Pose
 from trundle.xmlnode import XmlNode
 
-from .plugin import Plugin
+from ..plugin import Plugin
 
 _PID = (("p", "p"), ("i", "i"), ("d", "d"), ("i_min", "i_min"), ("i_max", "i_max"), ("low", "cmd_min"))
 _STILL = 1e-6

@@ -10,7 +10,7 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Pose, Vector3, normalized
 
-from .plugin import Plugin
+from ..plugin import Plugin
 
 _SPEED = 0.8
 """[m/s]"""

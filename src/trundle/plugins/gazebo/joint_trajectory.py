@@ -7,7 +7,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import JointHandle, ModelHandle, Simulation
 
-from .plugin import Plugin
+from ..plugin import Plugin
 
 _SWINGS = {
     "arm_shoulder_pan_joint": (0.0, 1.0, 1.0),

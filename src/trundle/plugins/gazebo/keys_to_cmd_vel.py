@@ -8,8 +8,8 @@ from trundle.names import ros_name
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
-from .keys import listen_to_keys
-from .plugin import Plugin
+from ..plugin import Plugin
+from .key_topic import listen_to_keys
 
 _KEYS = {
     "stop": (13, 32),

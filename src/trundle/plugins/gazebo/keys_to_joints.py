@@ -10,9 +10,9 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.xmlnode import XmlNode
 
+from ..plugin import Plugin
 from .joint_controller import ControlledJoint
-from .keys import listen_to_keys
-from .plugin import Plugin
+from .key_topic import listen_to_keys
 
 _NEEDED = ("key", "scale", "type")
 
@@ -25,7 +25,7 @@ class _Key:
 
 
 class KeysToJoints(Plugin):
-    """Moves joints by keys; see `trundle.plugins.keys` for where they come from.
+    """Moves joints by keys; see `trundle.plugins.gazebo.key_topic` for where they come from.
 
     Parameters, of any number of <map key="…" scale="…" type="…" kp="0" ki="0" kd="0">: <joint>. Type position: each
     press moves the target by scale [rad or m] from where the joint is; velocity: scale is the target [rad/s or m/s];

@@ -18,7 +18,7 @@ _LEAST_FORCE = 1e-4
 
 
 @dataclass(slots=True)
-class Touching:
+class ContactAverage:
     """One collision of a finger on one object: sums over the steps in which they touched."""
 
     arm: str

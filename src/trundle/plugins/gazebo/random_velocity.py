@@ -10,7 +10,7 @@ from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
 from trundle.spatial import ZERO, Twist, Vector3
 
-from .plugin import Plugin
+from ..plugin import Plugin
 
 NS = 1_000_000_000
 

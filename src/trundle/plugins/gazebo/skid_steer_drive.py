@@ -6,8 +6,8 @@ from trundle.model import PluginTag, model_from_joint
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
+from ..plugin import Plugin
 from .bounds import bounding_box
-from .plugin import Plugin
 from .velocity_command import VelocityCommand
 
 

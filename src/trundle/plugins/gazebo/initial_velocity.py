@@ -7,7 +7,7 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import ZERO, Twist
 
-from .plugin import Plugin
+from ..plugin import Plugin
 
 
 class InitialVelocity(Plugin):

@@ -7,8 +7,8 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Pose
 
+from ..plugin import Plugin
 from .bounds import bounding_box
-from .plugin import Plugin
 from .velocity_command import VelocityCommand
 
 

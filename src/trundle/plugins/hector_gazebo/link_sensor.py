@@ -6,11 +6,11 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
-from ..gazebo_ros.on_graph import GraphPlugin
-from ..gazebo_ros.place import namespace_of, period_of, topic_in
+from ..gazebo_ros.namespaces import namespace_of, period_of, topic_in
+from ..gazebo_ros.ros_plugin import RosPlugin
 
 
-class LinkSensor(GraphPlugin):
+class LinkSensor(RosPlugin):
     """Sits on <bodyName> (the first link), tells in <frameId>, at <updateRate>."""
 
     def __init__(

@@ -6,8 +6,8 @@ from trundle.model import Cylinder, PluginTag
 from trundle.ros import Node
 from trundle.simulation import JointHandle, ModelHandle, Simulation
 
+from ..plugin import Plugin
 from .bounds import bounding_box
-from .plugin import Plugin
 from .tracked_vehicle import Tracks
 
 

@@ -12,7 +12,7 @@ from trundle.simulation import LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Vector3, cross, normalized
 from trundle.xmlnode import XmlNode
 
-from .plugin import Plugin
+from ..plugin import Plugin
 
 
 @dataclass(slots=True, eq=False)

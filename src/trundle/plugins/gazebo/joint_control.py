@@ -8,8 +8,8 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.xmlnode import XmlNode
 
+from ..plugin import Plugin
 from .joint_controller import ControlledJoint, gazebo_pid
-from .plugin import Plugin
 
 _TYPES = ("force", "position", "velocity")
 

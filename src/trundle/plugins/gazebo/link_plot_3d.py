@@ -11,7 +11,7 @@ from trundle.ros import Node
 from trundle.simulation import DebugLine, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Pose, Vector3
 
-from .plugin import Plugin
+from ..plugin import Plugin
 
 _APART = 0.05
 """[m] Between two points."""

@@ -9,8 +9,8 @@ from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
 from trundle.spatial import ZERO, Vector3, Wrench
 
+from ..plugin import Plugin
 from .bounds import bounding_box
-from .plugin import Plugin
 
 _WATER = 999.1026
 """[kg/m³] Gazebo's default fluid."""

@@ -8,7 +8,7 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Vector3
 
-from .plugin import Plugin
+from ..plugin import Plugin
 from .tracked_vehicle import Tracks
 
 _SLOWEST = 0.1

@@ -13,7 +13,7 @@ from trundle.simulation import LinkHandle, Simulation
 from trundle.spatial import Vector3, Wrench
 from trundle.xmlnode import XmlNode
 
-from .plugin import WorldPlugin
+from ..plugin import WorldPlugin
 
 
 class Wind(WorldPlugin):

@@ -8,7 +8,7 @@ from trundle.ros import Node
 from trundle.simulation import JointHandle, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Vector3, Wrench, cross, normalized
 
-from .plugin import Plugin
+from ..plugin import Plugin
 
 _SLOWEST = 0.01
 """[m/s] Below it Gazebo's plugin does nothing."""

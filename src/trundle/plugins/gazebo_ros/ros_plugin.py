@@ -9,10 +9,10 @@ from trundle.simulation import ModelHandle, Simulation
 from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
-from .place import ignore
+from .namespaces import ignore
 
 
-class GraphPlugin(Plugin):
+class RosPlugin(Plugin):
     """Reads its parameters when it is made; those that it did not read are named then."""
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:

@@ -1,0 +1,1 @@
+"""Gazebo's own model and world plugins."""
