@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from trundle.cli.main import COMMANDS
-from trundle.nodes import STAND_INS
+from trundle.nodes import BUILTIN_NODES
 from trundle.plugins import BUILTIN, OF_SENSORS
 from trundle.sensors import SIMULATED
 
@@ -33,8 +33,8 @@ def table() -> str:
 def _nodes() -> list[str]:
     """Each package with its types as a shell would put them; `driver.py` is not told apart from a `driver`."""
     types: dict[str, list[str]] = {}
-    for package, type_ in sorted(STAND_INS):
-        if not type_.endswith(".py") or (package, type_.removesuffix(".py")) not in STAND_INS:
+    for package, type_ in sorted(BUILTIN_NODES):
+        if not type_.endswith(".py") or (package, type_.removesuffix(".py")) not in BUILTIN_NODES:
             types.setdefault(package, []).append(type_)
     return [
         f"{package}/{{{','.join(own)}}}" if len(own) > 1 else package if own == [package] else f"{package}/{own[0]}"

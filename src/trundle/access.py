@@ -1,7 +1,7 @@
 """Access to the page: which requests are served, and which header fields answers carry.
 
 Any web page that a person visits can have the browser send requests to loopback, and a name of its own can lead
-there (DNS rebinding). What it cannot do is choose `Origin` and `Host`, or guess the session's token.
+there (DNS rebinding). What it cannot do is choose `Origin` and `NodeHost`, or guess the session's token.
 """
 
 import secrets
@@ -116,7 +116,7 @@ def _is_own(request: PageRequest) -> bool:
 
 
 def _name(host: str | None) -> str:
-    """The name or address in a `Host` field; nothing where there is none."""
+    """The name or address in a `NodeHost` field; nothing where there is none."""
     found = AUTHORITY.fullmatch((host or "").lower())
     return "" if found is None else found[1].strip("[]").rstrip(".")
 

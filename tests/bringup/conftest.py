@@ -10,7 +10,7 @@ from tests.graphs import PATIENCE_S, running_graph, until
 from trundle.bringup.gazebo.world import GazeboWorld
 from trundle.bringup.graph import Graph
 from trundle.diagnostics import Diagnostics
-from trundle.nodes import Host
+from trundle.nodes import NodeHost
 from trundle.nodes.gazebo import GazeboServer
 from trundle.ros import DISTROS, GraphLoop, Message, Node
 
@@ -31,7 +31,7 @@ class Gazebo:
             say=self.said.append,
             window=None,
         )
-        self.host = Host(simulator=self.world)
+        self.host = NodeHost(simulator=self.world)
         self.client = Node("/client", loop=loop, master_uri=uri)
 
     def start(self, distro: str = "noetic", world: str = "") -> None:

@@ -5,7 +5,7 @@ from typing import Any
 
 from tests.bringup.conftest import PATIENCE_S, Gazebo, until
 
-from trundle.nodes import Host
+from trundle.nodes import NodeHost
 from trundle.nodes.controller_manager import Spawner
 from trundle.ros import Message, Node
 
@@ -52,7 +52,7 @@ class Robot:
         """Start controllers as a launch file does, and wait until they run."""
         name, uri = f"/r/spawner{len(self._spawners)}", self.gazebo.client.master_uri
         node = Node(name, loop=self.gazebo.loop, master_uri=uri)
-        self._spawners.append((self.gazebo.loop.spawn(Spawner(node, list(words), Host()).run()), node))
+        self._spawners.append((self.gazebo.loop.spawn(Spawner(node, list(words), NodeHost()).run()), node))
         names = {word for word in words if not word.startswith("--")}
         wanted = "initialized" if "--stopped" in words else "running"
         until(lambda: names <= {c.name for c in self.list() if c.state == wanted})

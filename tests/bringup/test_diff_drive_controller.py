@@ -8,7 +8,7 @@ import pytest
 from tests.bringup.conftest import PATIENCE_S, Gazebo, until
 
 from trundle.control import SpeedLimit
-from trundle.nodes import Host
+from trundle.nodes import NodeHost
 from trundle.nodes.controller_manager import Spawner
 from trundle.ros import Message, Node
 
@@ -56,7 +56,7 @@ def car(gazebo: Gazebo) -> Iterator[Gazebo]:
     )
     assert answer.success, answer.status_message
     node = Node("/spawner", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
-    future = gazebo.loop.spawn(Spawner(node, ["base"], Host()).run())
+    future = gazebo.loop.spawn(Spawner(node, ["base"], NodeHost()).run())
     gazebo.call("unpause_physics")
     yield gazebo
     future.cancel()

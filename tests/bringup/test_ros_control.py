@@ -8,7 +8,7 @@ import pytest
 from tests.bringup.conftest import PATIENCE_S, Gazebo, until
 from tests.bringup.controlled import MANAGER, Robot, driven, standing
 
-from trundle.nodes import Host
+from trundle.nodes import NodeHost
 from trundle.nodes.controller_manager import ControllerManagerTool, Spawner
 from trundle.ros import Node
 
@@ -112,7 +112,7 @@ def test_the_command_line_tool(robot: Robot, capsys: pytest.CaptureFixture[str])
 
         async def run() -> int:
             try:
-                return await ControllerManagerTool(node, words.split(), Host()).run()
+                return await ControllerManagerTool(node, words.split(), NodeHost()).run()
             finally:
                 await node.shutdown()
 
@@ -154,7 +154,7 @@ def test_a_spawner_without_a_manager_gives_up(gazebo: Gazebo, capfd: pytest.Capt
     node = Node("/spawner", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
 
     async def run() -> int:
-        return await asyncio.create_task(Spawner(node, ["--timeout", "0.2", "a"], Host()).run())
+        return await asyncio.create_task(Spawner(node, ["--timeout", "0.2", "a"], NodeHost()).run())
 
     assert gazebo.loop.run(run(), timeout_s=PATIENCE_S) == 1
     assert "Controller Spawner: " in capfd.readouterr().err

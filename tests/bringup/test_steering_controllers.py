@@ -9,7 +9,7 @@ import pytest
 from tests.bringup.conftest import PATIENCE_S, Gazebo, until
 from tests.bringup.steered import RADIUS, knuckle, robot, wheel
 
-from trundle.nodes import Host
+from trundle.nodes import NodeHost
 from trundle.nodes.controller_manager import Spawner
 from trundle.ros import Message, Node
 
@@ -52,7 +52,7 @@ def driving(gazebo: Gazebo, urdf: str, settings: dict[str, Any]) -> Generator[No
     )
     assert answer.success, answer.status_message
     node = Node("/spawner", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
-    future = gazebo.loop.spawn(Spawner(node, ["base"], Host()).run())
+    future = gazebo.loop.spawn(Spawner(node, ["base"], NodeHost()).run())
     gazebo.call("unpause_physics")
     yield
     future.cancel()

@@ -10,8 +10,8 @@ import pytest
 from tests.graphs import PATIENCE_S, running_graph, until
 
 from trundle.names import parse_arguments
-from trundle.nodes import Host, Replacement, run_stand_in
-from trundle.nodes.catalog import STAND_INS
+from trundle.nodes import NodeHost, Replacement, run_builtin_node
+from trundle.nodes.catalog import BUILTIN_NODES
 from trundle.ros import Core, GraphLoop, Message, Messages, Node, Publisher
 from trundle.supervisor import ProcessTree
 
@@ -30,7 +30,7 @@ class Stage:
         self._tree = ProcessTree()
 
     def start(
-        self, what: str, arguments: str = "", *, name: str = "", host: Host | None = None, **params: Any
+        self, what: str, arguments: str = "", *, name: str = "", host: NodeHost | None = None, **params: Any
     ) -> Future[int]:
         """Start `package/type` as a launch would; the future is its exit code."""
         package, _, kind = what.partition("/")
@@ -42,9 +42,9 @@ class Stage:
             remappings=given.remappings,
             params={**given.params, **params},
         )
-        stand_in = Replacement(STAND_INS[package, kind])
+        stand_in = Replacement(BUILTIN_NODES[package, kind])
         future = self.loop.spawn(
-            run_stand_in(stand_in, node, list(given.rest), replace(host or Host(), tree=self._tree))
+            run_builtin_node(stand_in, node, list(given.rest), replace(host or NodeHost(), tree=self._tree))
         )
         self._running.append((future, node))
         return future

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from tests.nodes.fakes import FakeClock, FakeNode, run_to_end
 
-from trundle.nodes import Host
+from trundle.nodes import NodeHost
 from trundle.nodes.arbotix import ArbotixDriver
 from trundle.nodes.arbotix.diff import Unicycle
 from trundle.nodes.arbotix.servos import HobbyServo
@@ -27,7 +27,7 @@ SMARTCAR: dict[str, Any] = {
 def drive(params: dict[str, Any], *, seconds: float, **clock: Any) -> FakeNode:
     """Run the driver from 1 s on; the smartcar's command comes before the first pass."""
     node = FakeNode(FakeClock(end_ns=round((1 + seconds) * S), **clock), params)
-    driver = ArbotixDriver(node, [], Host())  # pyright: ignore[reportArgumentType]
+    driver = ArbotixDriver(node, [], NodeHost())  # pyright: ignore[reportArgumentType]
     subscribe = node.subscribe
 
     def subscribe_and_command(topic: str, type_name: str, callback: Any, **options: Any) -> None:
@@ -101,7 +101,7 @@ def test_ten_seconds_of_a_command_end_alike_wherever_in_the_cycle_it_comes(phase
         return jitter.randrange(200_000, 1_200_000)
 
     clock._late_ns = late_ns  # pyright: ignore[reportPrivateUsage]
-    run_to_end(ArbotixDriver(node, [], Host()).run())  # pyright: ignore[reportArgumentType]
+    run_to_end(ArbotixDriver(node, [], NodeHost()).run())  # pyright: ignore[reportArgumentType]
 
     position = node.sent("/odom")[-1].pose.pose.position
     assert -0.999 <= position.x <= -0.888
@@ -159,7 +159,7 @@ def test_it_says_what_the_original_says() -> None:
 )
 def test_parameters_of_no_use_end_it_with_a_sentence(params: dict[str, Any], message: str) -> None:
     node = FakeNode(FakeClock(end_ns=2 * S), params)
-    assert run_to_end(ArbotixDriver(node, [], Host()).run()) == 1  # pyright: ignore[reportArgumentType]
+    assert run_to_end(ArbotixDriver(node, [], NodeHost()).run()) == 1  # pyright: ignore[reportArgumentType]
     assert node.logged[-1] == ("error", message)
 
 
@@ -180,7 +180,7 @@ def test_a_controller_that_cannot_be_made_is_named_and_left_out() -> None:
 def test_a_servo_moves_by_its_speed_limit_in_whole_ticks() -> None:
     params = {"sim": True, "joints": {"arm": {"id": 1, "max_speed": 90.0}}}
     node = FakeNode(FakeClock(end_ns=4 * S), params)
-    driver = ArbotixDriver(node, [], Host())  # pyright: ignore[reportArgumentType]
+    driver = ArbotixDriver(node, [], NodeHost())  # pyright: ignore[reportArgumentType]
     subscribe = node.subscribe
 
     def subscribe_and_command(topic: str, type_name: str, callback: Any, **options: Any) -> None:
@@ -212,7 +212,7 @@ def test_a_servo_that_a_controller_moves_does_not_obey_its_topic() -> None:
 def test_a_disabled_servo_takes_no_command() -> None:
     params = {"sim": True, "joints": {"arm": {"id": 1}}}
     node = FakeNode(FakeClock(end_ns=round(1.2 * S)), params)
-    assert run_to_end(ArbotixDriver(node, [], Host()).run()) is None  # pyright: ignore[reportArgumentType]
+    assert run_to_end(ArbotixDriver(node, [], NodeHost()).run()) is None  # pyright: ignore[reportArgumentType]
     request = node.messages.new("arbotix_msgs/EnableRequest", {"enable": False})
     assert node.services["/arm/enable"](request) == {"state": False}
     node.hear("/arm/command", {"data": 1.0}, "std_msgs/Float64")

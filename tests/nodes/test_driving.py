@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from tests.nodes.conftest import PATIENCE_S
 
-from trundle.nodes import Host
+from trundle.nodes import NodeHost
 from trundle.nodes.twist_mux import Source, find_driver, read_sources
 from trundle.ros import Node, ParamError
 
@@ -118,7 +118,7 @@ class _Page:
 
 def test_a_joystick_of_the_page_is_told_when_it_has_moved(stage) -> None:
     page = _Page()
-    stage.start("joy/joy_node", deadzone=0.5, host=Host(display=page))  # pyright: ignore[reportArgumentType]
+    stage.start("joy/joy_node", deadzone=0.5, host=NodeHost(display=page))  # pyright: ignore[reportArgumentType]
     heard: list[Any] = stage.listen("/joy", "sensor_msgs/Joy")
     stage.until(lambda: page.moves and stage.connected("/joy") and stage.linked("/joy"))
     for x, told in ((0.25, 0.0), (0.75, 0.5), (0.625, 0.25)):  # the first is within the dead zone

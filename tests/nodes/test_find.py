@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.nodes import STAND_INS, Executable, Missing, Replacement, find_node, program_names
+from trundle.nodes import BUILTIN_NODES, Executable, Missing, Replacement, find_node, program_names
 
 
 def program(path: Path, mode: int = 0o755) -> Path:
@@ -15,7 +15,7 @@ def program(path: Path, mode: int = 0o755) -> Path:
     return path
 
 
-@pytest.mark.parametrize("target", sorted(set(STAND_INS.values())))
+@pytest.mark.parametrize("target", sorted(set(BUILTIN_NODES.values())))
 def test_every_stand_in_of_the_catalog_is_there(target: str) -> None:
     module, _, name = target.partition(":")
     assert callable(getattr(importlib.import_module(module), name).run)
@@ -95,7 +95,7 @@ def test_a_script_for_a_ros_that_is_not_installed_gives_way_to_the_stand_in(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The tutorials clone arbotix_ros into the workspace."""
-    monkeypatch.setattr("trundle.nodes.scripts._DEBIAN_MODULES", str(tmp_path / "none"))
+    monkeypatch.setattr("trundle.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "none"))
     path = program(tmp_path / "bin/arbotix_driver")
     path.write_text("#!/usr/bin/env python\n\nimport rospy\n")
     (tmp_path / "ros/rospy").mkdir(parents=True)
@@ -111,7 +111,7 @@ def test_a_script_for_a_ros_that_is_not_installed_gives_way_to_the_stand_in(
 
 def test_so_does_one_whose_messages_nobody_built(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Debian has rospy, but no ros_control, whose sources may lie in the workspace."""
-    monkeypatch.setattr("trundle.nodes.scripts._DEBIAN_MODULES", str(tmp_path / "modules"))
+    monkeypatch.setattr("trundle.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "modules"))
     (tmp_path / "modules/rospy").mkdir(parents=True)
     path = program(tmp_path / "scripts/spawner")
     path.write_text("import rospy\nfrom controller_manager_msgs.srv import *\n")

@@ -8,7 +8,7 @@ import pytest
 from tests.nodes.fakes import MESSAGES, FakeClock, FakeNode, run_to_end
 
 from trundle.diagnostics import Diagnostics
-from trundle.nodes import Host, Slider
+from trundle.nodes import NodeHost, Slider
 from trundle.nodes.joint_state_publisher import JointSet, JointStatePublisher, JointStatePublisherGui
 from trundle.ros import NOETIC, NodeParams
 from trundle.xmlnode import parse_xml
@@ -30,12 +30,12 @@ def publish(
     *,
     robot: str = ROBOT,
     seconds: float = 1.05,
-    host: Host | None = None,
+    host: NodeHost | None = None,
     distro: str = "noetic",
     kind: Callable[..., JointStatePublisher] = JointStatePublisher,
 ) -> FakeNode:
     node = FakeNode(FakeClock(end_ns=round((1 + seconds) * S)), {"/robot_description": robot, **params}, distro=distro)
-    assert run_to_end(kind(node, [], host or Host()).run()) is None
+    assert run_to_end(kind(node, [], host or NodeHost()).run()) is None
     return node
 
 
@@ -123,7 +123,7 @@ def test_a_joint_without_limits_is_named_and_left_out() -> None:
 )
 def test_what_cannot_be_published_ends_it_with_a_sentence(params: dict[str, Any], message: str) -> None:
     node = FakeNode(FakeClock(end_ns=2 * S), {"/robot_description": ROBOT, **params})
-    assert run_to_end(JointStatePublisher(node, [], Host()).run()) == 1  # pyright: ignore[reportArgumentType]
+    assert run_to_end(JointStatePublisher(node, [], NodeHost()).run()) == 1  # pyright: ignore[reportArgumentType]
     assert node.logged[-1][0] == "error"
     assert message in node.logged[-1][1]
 
@@ -145,7 +145,7 @@ class Page:
 @pytest.mark.parametrize(("kind", "params"), [(JointStatePublisherGui, {}), (JointStatePublisher, {"/use_gui": True})])
 def test_sliders_on_the_page_move_joints(kind: Callable[..., JointStatePublisher], params: dict[str, Any]) -> None:
     page = Page()
-    node = publish(params, host=Host(display=page), kind=kind)
+    node = publish(params, host=NodeHost(display=page), kind=kind)
     assert [slider.name for slider in page.sliders] == ["wheel", "lift"]
     assert (page.sliders[0].lower, page.sliders[0].upper) == (-math.pi, math.pi)
     assert node.sent("/joint_states")[0].position[0] == 0.125

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from tests.nodes.fakes import FakeClock, FakeNode, run_to_end
 
-from trundle.nodes import Host
+from trundle.nodes import NodeHost
 from trundle.nodes.robot_state_publisher import RobotStatePublisher, StatePublisher
 
 S = 1_000_000_000
@@ -32,7 +32,7 @@ def play(script: Callable[[FakeNode], None], params: dict[str, Any] | None = Non
 
     async def run() -> FakeNode:
         node = FakeNode(FakeClock(start_ns=100 * S, end_ns=10_000 * S), {"/robot_description": ROBOT, **(params or {})})
-        task = asyncio.ensure_future(RobotStatePublisher(node, [], Host()).run())  # pyright: ignore[reportArgumentType]
+        task = asyncio.ensure_future(RobotStatePublisher(node, [], NodeHost()).run())  # pyright: ignore[reportArgumentType]
         while "/joint_states" not in node.callbacks or "/tf_static" not in node.topics:
             assert not task.done(), node.logged
             await asyncio.sleep(0)
@@ -75,7 +75,7 @@ def test_fixed_joints_are_repeated_half_a_second_ahead_in_indigo(params: dict[st
     node = FakeNode(
         clock, {"/robot_description": ROBOT, "publish_frequency": 10, **params}, distro="noetic" if params else "indigo"
     )
-    assert run_to_end(RobotStatePublisher(node, [], Host()).run()) is None  # pyright: ignore[reportArgumentType]
+    assert run_to_end(RobotStatePublisher(node, [], NodeHost()).run()) is None  # pyright: ignore[reportArgumentType]
     assert len(node.sent("/tf")) == 10
     stamp = node.sent("/tf")[0].transforms[0].header.stamp
     assert stamp.sec * S + stamp.nanosec == round(100.6 * S)
@@ -87,7 +87,7 @@ def test_planar_joints_are_held_as_kdl_holds_them_and_floating_ones_left_to_othe
       <joint name="plane" type="planar"><parent link="base"/><child link="b"/></joint></robot>"""
     params = {"/robot_description": robot, "use_tf_static": False, "publish_frequency": 10}
     node = FakeNode(FakeClock(end_ns=round(1.15 * S)), params)
-    assert run_to_end(RobotStatePublisher(node, [], Host()).run()) is None  # pyright: ignore[reportArgumentType]
+    assert run_to_end(RobotStatePublisher(node, [], NodeHost()).run()) is None  # pyright: ignore[reportArgumentType]
     assert [t.child_frame_id for t in node.sent("/tf")[0].transforms] == ["b"]
 
 
@@ -157,13 +157,13 @@ def test_frames_carry_the_tf_prefix(prefix: str) -> None:
 )
 def test_a_robot_that_cannot_be_read_ends_it_with_a_sentence(params: dict[str, Any]) -> None:
     node = FakeNode(FakeClock(end_ns=2 * S), params)
-    assert run_to_end(RobotStatePublisher(node, [], Host()).run()) == 1  # pyright: ignore[reportArgumentType]
+    assert run_to_end(RobotStatePublisher(node, [], NodeHost()).run()) == 1  # pyright: ignore[reportArgumentType]
     assert node.logged[-1][0] == "error"
 
 
 def test_the_old_name_says_so_and_works() -> None:
     node = FakeNode(FakeClock(end_ns=2 * S), {})
-    assert run_to_end(StatePublisher(node, [], Host()).run()) == 1  # pyright: ignore[reportArgumentType]
+    assert run_to_end(StatePublisher(node, [], NodeHost()).run()) == 1  # pyright: ignore[reportArgumentType]
     assert node.logged[0] == (
         "warn",
         "The 'state_publisher' executable is deprecated. Please use 'robot_state_publisher' instead",

@@ -23,7 +23,7 @@ from tests.graphs import until
 from trundle.description import expand_xacro
 from trundle.diagnostics import Diagnostics
 from trundle.launch import LaunchNode, LaunchPlan, read_launch, resolve_params
-from trundle.nodes import Host, Replacement, find_node, run_stand_in
+from trundle.nodes import NodeHost, Replacement, find_node, run_builtin_node
 from trundle.packages import Packages
 from trundle.ros import Core, GraphLoop, MasterProxy, Message, Node
 from trundle.supervisor import Event, Supervisor, TaskJob
@@ -72,7 +72,7 @@ async def set_up(plan: LaunchPlan, params: Any, loop: GraphLoop, uri: str, event
 
         async def run(planned: LaunchNode = planned, found: Replacement = found) -> int:
             node = Node(planned.name, loop=loop, master_uri=uri, namespace=planned.namespace)
-            return await run_stand_in(found, node, shlex.split(planned.arguments), Host())
+            return await run_builtin_node(found, node, shlex.split(planned.arguments), NodeHost())
 
         await supervisor.start(TaskJob(planned.full_name, run))
     return supervisor

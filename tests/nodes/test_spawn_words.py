@@ -6,7 +6,7 @@ import pytest
 
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, UsageError
-from trundle.nodes.gazebo.spawn_words import SpawnRequest
+from trundle.nodes.gazebo.spawn_arguments import SpawnRequest
 from trundle.nodes.gazebo.trimesh import trimesh_sdf
 from trundle.packages import Packages
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from tests.nodes.fakes import FakeClock, FakeNode, run_to_end
 
-from trundle.nodes import Host
+from trundle.nodes import NodeHost
 from trundle.nodes.static_transform_publisher import Tf2StaticTransformPublisher, TfStaticTransformPublisher
 
 S = 1_000_000_000
@@ -16,7 +16,7 @@ S = 1_000_000_000
 def run(kind: Callable[..., Any], line: str, params: dict[str, Any] | None = None) -> tuple[FakeNode, int | None]:
     node = FakeNode(FakeClock(end_ns=2 * S), params)
     node.closed.set()
-    return node, run_to_end(kind(node, line.split(), Host()).run())
+    return node, run_to_end(kind(node, line.split(), NodeHost()).run())
 
 
 def test_the_old_one_repeats_with_slashes_kept_and_one_period_ahead() -> None:

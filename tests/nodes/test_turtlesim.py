@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from trundle.nodes import Host
+from trundle.nodes import NodeHost
 from trundle.nodes.turtlesim.picture import SIZE_M, SIZE_PX, Picture
 from trundle.nodes.turtlesim.turtle import Turtle
 from trundle.ros import Node
@@ -170,13 +170,13 @@ class _Page:
 )
 def test_the_page_steers_for_rqt(stage, params: dict[str, str], topic: str) -> None:
     page = _Page()
-    stage.start("rqt_robot_steering/rqt_robot_steering", host=Host(display=page), **params)  # pyright: ignore[reportArgumentType]
+    stage.start("rqt_robot_steering/rqt_robot_steering", host=NodeHost(display=page), **params)  # pyright: ignore[reportArgumentType]
     stage.until(lambda: page.shown)
     assert page.driven == [topic]
 
 
 def test_its_picture_is_on_the_page_and_the_pad_drives_it(stage) -> None:
     page = _Page()
-    stage.start("turtlesim/turtlesim_node", host=Host(display=page))  # pyright: ignore[reportArgumentType]
+    stage.start("turtlesim/turtlesim_node", host=NodeHost(display=page))  # pyright: ignore[reportArgumentType]
     stage.until(lambda: page.shown)
     assert (page.images, page.driven) == (["/turtlesim_node/image"], ["/turtle1/cmd_vel"])

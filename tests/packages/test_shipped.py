@@ -182,7 +182,7 @@ def test_every_stock_package_with_a_stand_in_can_be_found_where_none_is_installe
     monkeypatch.setattr("trundle.packages.ros_packages._INSTALLED", tmp_path / "none")
     packages = Packages({"HOME": "/nobody"}, start=HERE)
     plugins = {"gazebo_plugins", "gazebo_ros_control", "hector_gazebo_plugins", "velodyne_gazebo_plugins"}
-    nodes = {package for package, _ in catalog.STAND_INS}
+    nodes = {package for package, _ in catalog.BUILTIN_NODES}
     names = {kind.partition("/")[0] for kind in CONTROLLERS} | nodes | plugins | {"xacro"}
     assert [name for name in sorted(names) if packages.find_folder(name) is None] == []
     assert packages.find_package("rviz") is None

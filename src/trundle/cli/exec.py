@@ -110,9 +110,9 @@ class _List(argparse.Action):
         super().__init__(option_strings, dest, nargs=0, help=help)
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
-        from trundle.nodes import STAND_INS
+        from trundle.nodes import BUILTIN_NODES
 
-        print("\n".join(f"{package} {executable}" for package, executable in sorted(STAND_INS)))
+        print("\n".join(f"{package} {executable}" for package, executable in sorted(BUILTIN_NODES)))
         parser.exit()
 
 
@@ -131,7 +131,7 @@ def _stand_in(args: argparse.Namespace, stand_in: "Replacement") -> int:
     import yaml
 
     from trundle.names import parse_arguments
-    from trundle.nodes import CLIENTS, ROSCPP, WINDOWS, WORLDS, Host, default_name, run_stand_in
+    from trundle.nodes import CLIENTS, ROSCPP, WINDOWS, WORLDS, NodeHost, default_name, run_builtin_node
     from trundle.ros import GraphLoop, Loggers, Node, master_uri_from_env
 
     words = parse_arguments(args.arguments)
@@ -151,8 +151,8 @@ def _stand_in(args: argparse.Namespace, stand_in: "Replacement") -> int:
         with ExitStack() as stack:
             page = stack.enter_context(closing(_page())) if what in WINDOWS else None
             world = stack.enter_context(_world(node, with_window=what in CLIENTS)) if what in WORLDS else None
-            host = Host(display=page, simulator=world)
-            return loop.run(run_stand_in(stand_in, node, list(words.rest), host), None)
+            host = NodeHost(display=page, simulator=world)
+            return loop.run(run_builtin_node(stand_in, node, list(words.rest), host), None)
 
 
 @contextmanager

@@ -2,13 +2,13 @@
 
 import argparse
 
-from trundle.nodes import STAND_INS, Host, Replacement, run_stand_in
+from trundle.nodes import BUILTIN_NODES, NodeHost, Replacement, run_builtin_node
 
 from .running import running_node
 
 
 def main(args: argparse.Namespace) -> int:
     """Be tf2_ros' static_transform_publisher."""
-    stand_in = Replacement(STAND_INS["tf2_ros", "static_transform_publisher"])
+    stand_in = Replacement(BUILTIN_NODES["tf2_ros", "static_transform_publisher"])
     with running_node("static_transform_publisher", args.words) as (loop, node):
-        return 1 if loop.run(run_stand_in(stand_in, node, args.numbers, Host()), None) else 0
+        return 1 if loop.run(run_builtin_node(stand_in, node, args.numbers, NodeHost()), None) else 0

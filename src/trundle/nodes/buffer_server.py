@@ -20,7 +20,7 @@ from trundle.ros import (
 )
 from trundle.spatial import Pose
 
-from .host import Host
+from .host import NodeHost
 
 _ACTION = "tf2_buffer_server"
 _NO_ERROR, _LOOKUP_ERROR, _CONNECTIVITY_ERROR, _EXTRAPOLATION_ERROR, _INVALID_ARGUMENT_ERROR = 0, 1, 2, 3, 4
@@ -33,7 +33,7 @@ class BufferServer:
     Parameters, of the namespace: buffer_size 120 [s], publish_frame_service, use_node_namespace (the action is `~`).
     """
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
 

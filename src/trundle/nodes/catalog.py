@@ -1,11 +1,11 @@
 """Which stock executables have a stand-in; a stand-in is imported only when a launch asks for it."""
 
-STAND_INS: dict[tuple[str, str], str] = {
+BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("arbotix_controllers", "gripper_controller"): "trundle.nodes.arbotix:GripperController",
     ("arbotix_controllers", "gripper_controller.py"): "trundle.nodes.arbotix:GripperController",
     ("arbotix_python", "arbotix_driver"): "trundle.nodes.arbotix:ArbotixDriver",
     ("arbotix_python", "arbotix_driver.py"): "trundle.nodes.arbotix:ArbotixDriver",
-    ("arbotix_python", "arbotix_gui"): "trundle.nodes.windows:Window",
+    ("arbotix_python", "arbotix_gui"): "trundle.nodes.rqt_windows:Window",
     ("arbotix_python", "driver.py"): "trundle.nodes.arbotix:ArbotixDriver",
     ("controller_manager", "controller_manager"): "trundle.nodes.controller_manager:ControllerManagerTool",
     ("controller_manager", "spawner"): "trundle.nodes.controller_manager:Spawner",
@@ -16,7 +16,7 @@ STAND_INS: dict[tuple[str, str], str] = {
         "depthimage_to_laserscan",
     ): "trundle.nodes.depthimage_to_laserscan:DepthImageToLaserScan",
     ("dynamic_reconfigure", "dynparam"): "trundle.nodes.dynparam:Dynparam",
-    ("dynamic_reconfigure", "reconfigure_gui"): "trundle.nodes.windows:ReconfigureWindow",
+    ("dynamic_reconfigure", "reconfigure_gui"): "trundle.nodes.rqt_windows:ReconfigureWindow",
     ("gazebo_ros", "debug"): "trundle.nodes.gazebo:GazeboServer",
     ("gazebo_ros", "gazebo"): "trundle.nodes.gazebo:Gazebo",
     ("gazebo_ros", "gdbrun"): "trundle.nodes.gazebo:GazeboServer",
@@ -25,7 +25,7 @@ STAND_INS: dict[tuple[str, str], str] = {
     ("gazebo_ros", "perf"): "trundle.nodes.gazebo:GazeboServer",
     ("gazebo_ros", "spawn_model"): "trundle.nodes.gazebo:SpawnModel",
     ("gazebo_ros", "urdf_spawner"): "trundle.nodes.gazebo:SpawnModel",
-    ("image_view", "image_view"): "trundle.nodes.windows:ImageView",
+    ("image_view", "image_view"): "trundle.nodes.rqt_windows:ImageView",
     ("joint_state_publisher", "joint_state_publisher"): "trundle.nodes.joint_state_publisher:JointStatePublisher",
     (
         "joint_state_publisher_gui",
@@ -46,17 +46,17 @@ STAND_INS: dict[tuple[str, str], str] = {
     ("rosparam", "rosparam"): "trundle.nodes.tools:Rosparam",
     ("rosservice", "rosservice"): "trundle.nodes.tools:Rosservice",
     ("rostopic", "rostopic"): "trundle.nodes.tools:Rostopic",
-    ("rqt_console", "rqt_console"): "trundle.nodes.windows:Window",
-    ("rqt_graph", "rqt_graph"): "trundle.nodes.windows:RqtGraph",
-    ("rqt_gui", "rqt_gui"): "trundle.nodes.windows:Window",
-    ("rqt_image_view", "rqt_image_view"): "trundle.nodes.windows:RqtImageView",
-    ("rqt_joint_trajectory_controller", "rqt_joint_trajectory_controller"): "trundle.nodes.windows:Window",
-    ("rqt_plot", "rqt_plot"): "trundle.nodes.windows:RqtPlot",
-    ("rqt_reconfigure", "rqt_reconfigure"): "trundle.nodes.windows:ReconfigureWindow",
-    ("rqt_robot_monitor", "rqt_robot_monitor"): "trundle.nodes.windows:Window",
-    ("rqt_robot_steering", "rqt_robot_steering"): "trundle.nodes.windows:RqtRobotSteering",
-    ("rqt_tf_tree", "rqt_tf_tree"): "trundle.nodes.windows:Window",
-    ("rqt_topic", "rqt_topic"): "trundle.nodes.windows:Window",
+    ("rqt_console", "rqt_console"): "trundle.nodes.rqt_windows:Window",
+    ("rqt_graph", "rqt_graph"): "trundle.nodes.rqt_windows:RqtGraph",
+    ("rqt_gui", "rqt_gui"): "trundle.nodes.rqt_windows:Window",
+    ("rqt_image_view", "rqt_image_view"): "trundle.nodes.rqt_windows:RqtImageView",
+    ("rqt_joint_trajectory_controller", "rqt_joint_trajectory_controller"): "trundle.nodes.rqt_windows:Window",
+    ("rqt_plot", "rqt_plot"): "trundle.nodes.rqt_windows:RqtPlot",
+    ("rqt_reconfigure", "rqt_reconfigure"): "trundle.nodes.rqt_windows:ReconfigureWindow",
+    ("rqt_robot_monitor", "rqt_robot_monitor"): "trundle.nodes.rqt_windows:Window",
+    ("rqt_robot_steering", "rqt_robot_steering"): "trundle.nodes.rqt_windows:RqtRobotSteering",
+    ("rqt_tf_tree", "rqt_tf_tree"): "trundle.nodes.rqt_windows:Window",
+    ("rqt_topic", "rqt_topic"): "trundle.nodes.rqt_windows:Window",
     ("rviz", "rviz"): "trundle.nodes.rviz:Rviz",
     ("teleop_twist_joy", "teleop_node"): "trundle.nodes.teleop_twist_joy:TeleopTwistJoy",
     ("teleop_twist_keyboard", "teleop_twist_keyboard.py"): "trundle.nodes.teleop_twist_keyboard:TeleopTwistKeyboard",
@@ -103,7 +103,7 @@ WORLDS = frozenset(("gazebo_ros", type_) for type_ in ("gzserver", "gazebo", "de
 
 WINDOWS = frozenset(
     key
-    for key in STAND_INS
+    for key in BUILTIN_NODES
     if key[0] in ("image_view", "joint_state_publisher_gui", "joy", "rviz") or key[0].startswith("rqt_")
 ) | {
     ("turtlesim", "turtlesim_node"),
@@ -132,6 +132,6 @@ _IN_PYTHON = (
     "turtlebot",
 )
 ROSCPP = frozenset(
-    key for key in STAND_INS if not key[0].startswith(_IN_PYTHON) and key[1] not in ("spawn_model", "urdf_spawner")
+    key for key in BUILTIN_NODES if not key[0].startswith(_IN_PYTHON) and key[1] not in ("spawn_model", "urdf_spawner")
 )
 """Those whose originals are C++: such nodes name their loggers otherwise."""

@@ -9,7 +9,7 @@ from trundle.files import read_file
 from trundle.ros import Message, Node, NodeParams, ParamError
 from trundle.yaml_loader import load_yaml
 
-from .host import Host
+from .host import NodeHost
 
 _KIND = "geometry_msgs/Twist"
 _IDLE = "idle"
@@ -38,7 +38,7 @@ class CmdVelMux:
     are the node's own. A source keeps its turn until it is silent, unless one of a higher priority speaks.
     """
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
         self._allowed: Source | None = None

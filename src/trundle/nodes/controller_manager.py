@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 from trundle.diagnostics import UsageError
 from trundle.ros import Message, Node, RosError
 
-from .host import Host
+from .host import NodeHost
 
 _PACKAGE = "controller_manager_msgs"
 _WAIT_S = 120.0
@@ -82,7 +82,7 @@ class _Manager:
 class Spawner:
     """Loads controllers and starts them; when it is ended by itself, stops and unloads them again."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments
@@ -151,7 +151,7 @@ class Spawner:
 class Unspawner:
     """Stops controllers; when it is ended by itself, starts them again."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments
@@ -182,7 +182,7 @@ class Unspawner:
 class ControllerManagerTool:
     """The command line of that name: list, list-types, load, unload, start, stop, spawn, kill, reload-libraries."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments

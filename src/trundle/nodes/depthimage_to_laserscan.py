@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from trundle.ros import Message, Node, NodeParams, Option, Options, ReconfigureServer
 
-from .host import Host
+from .host import NodeHost
 
 _ENCODINGS: dict[str, tuple[type[np.generic], float]] = {
     "32FC1": (np.float32, 1.0),
@@ -62,7 +62,7 @@ def scan_of(
 class DepthImageToLaserScan:
     """Turns `image` with its camera_info into `scan`."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
         self._camera: Pinhole | None = None

@@ -12,7 +12,7 @@ from trundle.outputs import write_whole
 from trundle.ros import Node, Options, ServiceError, find_reconfigurable, read_options, set_options
 from trundle.yaml_loader import BoundedLoader, load_yaml
 
-from .host import Host
+from .host import NodeHost
 
 _PYTHON_OBJECT = "tag:yaml.org,2002:python/object/new:"
 
@@ -20,7 +20,7 @@ _PYTHON_OBJECT = "tag:yaml.org,2002:python/object/new:"
 class Dynparam:
     """Does one command, and ends with 1 where it cannot."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments

@@ -10,14 +10,14 @@ from typing import TypeAlias, cast
 from trundle.packages import cmake_programs, program_folders
 from trundle.ros import Node
 
-from .catalog import NODELETS, OURS_ALWAYS, STAND_INS
-from .host import Host, StandIn
+from .catalog import BUILTIN_NODES, NODELETS, OURS_ALWAYS
+from .host import BuiltinNode, NodeHost
 from .missing import WAYS_OUT
-from .scripts import can_run
+from .python_interpreter import can_run
 
 _NOT_SEARCHED = frozenset({"__pycache__", "node_modules", "build"})
 _SOURCES_NAMED = 2
-StandInClass: TypeAlias = Callable[[Node, list[str], Host], StandIn]
+BuiltinNodeClass: TypeAlias = Callable[[Node, list[str], NodeHost], BuiltinNode]
 FindPackage: TypeAlias = Callable[[str], Path | None]
 
 
@@ -35,10 +35,10 @@ class Replacement:
     target: str
     """module:Class"""
 
-    def load(self) -> StandInClass:
+    def load(self) -> BuiltinNodeClass:
         """Import it."""
         module, _, name = self.target.partition(":")
-        return cast(StandInClass, getattr(importlib.import_module(module), name))
+        return cast(BuiltinNodeClass, getattr(importlib.import_module(module), name))
 
     @property
     def command(self) -> tuple[str, ...] | None:
@@ -69,7 +69,7 @@ def find_node(
         env: what a process would be started with.
         arguments: of its command line; of a nodelet they say what it is.
     """
-    target = STAND_INS.get((package, type_name))
+    target = BUILTIN_NODES.get((package, type_name))
     if target is not None and package in OURS_ALWAYS:
         return Replacement(target)
     folder = find_package(package)
@@ -91,7 +91,7 @@ def find_node(
     if folder is not None:
         why = f"no executable {type_name!r} in {folder}, and no stand-in for {package}/{type_name}"
         return Missing(f"{why}{_to_compile(folder, type_name)}{way_out}")
-    known = sorted(name for owner, name in STAND_INS if owner == package)
+    known = sorted(name for owner, name in BUILTIN_NODES if owner == package)
     there_is = f"; stand-ins of that package: {', '.join(known)}" if known else way_out
     return Missing(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
 
@@ -129,7 +129,7 @@ def _built(package: str, name: str, folder: Path, env: Mapping[str, str]) -> Pat
 
 def program_names(package: str, folder: Path | None, *, env: Mapping[str, str]) -> set[str]:
     """Names that `find_node` knows in a package."""
-    found = {name for owner, name in STAND_INS if owner == package}
+    found = {name for owner, name in BUILTIN_NODES if owner == package}
     for home in [folder, *program_folders(package, folder, env)] if folder is not None else ():
         for root, folders, files in os.walk(home):
             folders[:] = [each for each in folders if not each.startswith(".") and each not in _NOT_SEARCHED]

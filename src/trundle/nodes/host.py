@@ -155,7 +155,7 @@ class Simulator(Protocol):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Host:
+class NodeHost:
     """What the program offers its stand-ins."""
 
     display: Display | None = None
@@ -168,14 +168,14 @@ class Host:
     """The node's own processes belong to it, and end with it."""
 
 
-class StandIn(Protocol):
+class BuiltinNode(Protocol):
     """A node that runs in this process in place of a stock executable.
 
     Made on the graph's loop with `(node, arguments, host)`: `arguments` is the command line without the program and
     without what ROS itself reads. It tells and waits for time through `node.clock` alone.
     """
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None: ...
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None: ...
 
     async def run(self) -> int:
         """Do what the original does until it would exit; return its exit code. Cancelled when everything stops."""

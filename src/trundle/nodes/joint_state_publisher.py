@@ -8,7 +8,7 @@ from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
 from trundle.ros import Distro, Message, Node, NodeParams, ParamError
 from trundle.xmlnode import XmlNode, parse_numbers, parse_xml
 
-from .host import Host, Slider
+from .host import NodeHost, Slider
 from .rate import Rate
 
 _OPTIONS = (
@@ -165,7 +165,7 @@ class JointSet:
 class JointStatePublisher:
     """Publishes joint_states at a fixed rate; with `use_gui`, what the sliders on the page say."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
         self._node = node
         self._display = host.display
@@ -238,7 +238,7 @@ class JointStatePublisher:
 class JointStatePublisherGui(JointStatePublisher):
     """joint_state_publisher_gui: always with sliders."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         super().__init__(node, arguments, host)
         self._always_sliders = True
 

@@ -6,7 +6,7 @@ from itertools import zip_longest
 
 from trundle.ros import Message, Node, NodeParams
 
-from .host import Host
+from .host import NodeHost
 from .rate import Rate
 
 _AXES, _BUTTONS = 8, 11
@@ -19,7 +19,7 @@ _WIDEST = 0.9
 class JoyNode:
     """Publishes joy when it is moved, and again at ~autorepeat_rate."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
         self._node = node
         self._display = host.display

@@ -4,13 +4,13 @@ from trundle.ros import Node
 
 from .catalog import NODELETS
 from .find import Replacement, missing_nodelet
-from .host import Host
+from .host import NodeHost
 
 
 class Nodelet:
     """Is the nodelet that it is told to load; a launch names those that nothing stands in for, and starts none."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._node = node
         self._arguments = [word for word in arguments if not word.startswith("--")]
         self._host = host

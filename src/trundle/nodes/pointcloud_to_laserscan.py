@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from trundle.ros import Message, Node, NodeParams, Subscription, TransformError, TransformListener, ns_of
 from trundle.spatial import Pose
 
-from .host import Host
+from .host import NodeHost
 from .rate import Throttle
 
 _HUGE, _LEAST = sys.float_info.max, sys.float_info.min
@@ -54,7 +54,7 @@ class Slice:
 class PointCloudToLaserScan:
     """Turns `cloud_in` into `scan` while somebody listens."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
         self._waiting: Message | None = None

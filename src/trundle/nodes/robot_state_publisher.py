@@ -7,7 +7,7 @@ from trundle.robot import Robot, RobotJoint, parent_from_child, read_robot
 from trundle.ros import Message, Node, NodeParams, StaticTransformBroadcaster, Transform, TransformBroadcaster, ns_of
 from trundle.xmlnode import parse_xml
 
-from .host import Host
+from .host import NodeHost
 from .rate import Throttle, period_ns
 
 _NS = 1_000_000_000
@@ -67,7 +67,7 @@ class RobotFrames:
 class RobotStatePublisher:
     """Publishes moving joints whenever joint_states says where they are, fixed ones by themselves."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
         self._last_published_ns: dict[str, int] = {}

@@ -4,7 +4,7 @@ import os
 
 from trundle.ros import Message, Node
 
-from .host import Host
+from .host import NodeHost
 
 _SEND_FILE_PATH = "std_msgs/String path\n---\nbool success\n"
 _TAKES_A_VALUE = ("-d", "--display-config", "-f", "--fixed-frame", "-s", "--splash-screen", "--help-file", "-t")
@@ -13,7 +13,7 @@ _TAKES_A_VALUE = ("-d", "--display-config", "-f", "--fixed-frame", "-s", "--spla
 class Rviz:
     """Opens the launch's one viewer page; without a display it is there and does nothing."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._node = node
         self._display = host.display
         self._options = _options(arguments)

@@ -6,7 +6,7 @@ from typing import Any
 from trundle.ros import Node, ParameterError, StaticTransformBroadcaster, Transform, TransformBroadcaster
 from trundle.spatial import Quaternion, Vector3, quaternion_from_rpy
 
-from .host import Host
+from .host import NodeHost
 
 _TF_USAGE = (
     "usage: static_transform_publisher x y z yaw pitch roll frame_id child_frame_id period_ms, "
@@ -23,7 +23,7 @@ _WRONG_ARGUMENTS = 255
 class TfStaticTransformPublisher:
     """tf/static_transform_publisher: sends its transform again and again, stamped one period ahead."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments
@@ -60,7 +60,7 @@ class TfStaticTransformPublisher:
 class Tf2StaticTransformPublisher:
     """tf2_ros/static_transform_publisher: sends its transform once, latched."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments

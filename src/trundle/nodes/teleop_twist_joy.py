@@ -2,7 +2,7 @@
 
 from trundle.ros import Message, Node, NodeParams
 
-from .host import Host
+from .host import NodeHost
 
 _MOVES = {"x": ("linear", "x"), "y": ("linear", "y"), "z": ("linear", "z")}
 _TURNS = {"yaw": ("angular", "z"), "pitch": ("angular", "y"), "roll": ("angular", "x")}
@@ -11,7 +11,7 @@ _TURNS = {"yaw": ("angular", "z"), "pitch": ("angular", "y"), "roll": ("angular"
 class TeleopTwistJoy:
     """Sends cmd_vel while ~enable_button is held, faster with ~enable_turbo_button, and one stop when it is let go."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
         self._sent_stop = False

@@ -5,7 +5,7 @@ import math
 
 from trundle.ros import Node, NodeParams
 
-from .host import Host
+from .host import NodeHost
 from .keyboard import Keyboard
 
 _HELP = """
@@ -67,7 +67,7 @@ class TeleopTwistKeyboard:
     speed, turn = 0.5, 1.0
     """[m/s], [rad/s] where no parameter says."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
         self._display = host.display
         self._node = node

@@ -9,7 +9,7 @@ import sys
 
 from trundle.ros import Node
 
-from .host import Host
+from .host import NodeHost
 
 _PATIENCE_S = 5.0
 """How long a tool may take to end after SIGINT: a bag is closed readable."""
@@ -21,7 +21,7 @@ class Tool:
     command: tuple[str, ...]
     takes_remappings = True
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._env = host.env
         self._tree = host.tree
         self._node = node

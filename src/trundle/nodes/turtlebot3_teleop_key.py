@@ -5,7 +5,7 @@ import os
 from trundle.control import approach
 from trundle.ros import Node, NodeParams
 
-from .host import Host
+from .host import NodeHost
 from .keyboard import Keyboard
 
 _HELP = """
@@ -33,7 +33,7 @@ _PERIOD_S = 0.1
 class Turtlebot3TeleopKey:
     """Publishes cmd_vel ten times a second, and goes to a new speed by half a step each time."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
         self._node = node
         self._env = {**os.environ, **host.env}

@@ -6,7 +6,7 @@ from typing import Any
 
 from trundle.ros import Message, Node, NodeParams, ParamError
 
-from .host import Host
+from .host import NodeHost
 
 _KIND = "geometry_msgs/Twist"
 _DIAGNOSTICS_S = 1.0
@@ -73,7 +73,7 @@ def find_driver(sources: Sequence[Source], locks: Sequence[Source], now_ns: int)
 class TwistMux:
     """Passes on one of its topics as cmd_vel_out."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
         self._sources: list[Source] = []

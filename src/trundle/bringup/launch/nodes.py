@@ -13,7 +13,7 @@ import yaml
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.launch import LaunchNode
 from trundle.names import parse_arguments
-from trundle.nodes import ROSCPP, Executable, Host, Missing, Replacement, find_node, interpreter, run_stand_in
+from trundle.nodes import ROSCPP, Executable, Missing, NodeHost, Replacement, find_node, interpreter, run_builtin_node
 from trundle.packages import Packages
 from trundle.ros import Loggers, Node
 from trundle.supervisor import Command, Job, Policy, ProcessJob, ProcessTree, TaskJob
@@ -47,7 +47,7 @@ class NodeStarter:
     packages: Packages
     env: Mapping[str, str]
     report: Diagnostics
-    host: Host
+    host: NodeHost
     """What stand-ins may use."""
     tree: ProcessTree
     """Started processes belong to it, and end with it."""
@@ -123,7 +123,7 @@ class NodeStarter:
             if log is not None:
                 ros_node.quiet_log = files.enter_context(log.open("a", encoding="utf-8"))
             host = replace(self.host, env=dict(node.env), tree=self.tree)
-            return await run_stand_in(stand_in, ros_node, list(given.rest), host)
+            return await run_builtin_node(stand_in, ros_node, list(given.rest), host)
 
     def _command(
         self, node: LaunchNode, label: str, program: Path, env: Mapping[str, str], more: tuple[str, ...]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Self
 
 from trundle.garbage import no_garbage
 from trundle.launch import LaunchNode, LaunchPlan
-from trundle.nodes import WINDOWS, WORLDS, Executable, Host, Simulator, find_node
+from trundle.nodes import WINDOWS, WORLDS, Executable, NodeHost, Simulator, find_node
 from trundle.page_address import PageAddress
 from trundle.ros import DISTROS, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
 from trundle.supervisor import Event, Patience, ProcessTree
@@ -130,7 +130,7 @@ class LaunchSession:
             packages=read.packages,
             env=read.env,
             report=read.report,
-            host=Host(display=self._page, simulator=self._simulator(logs) if _simulates(read.plan) else None),
+            host=NodeHost(display=self._page, simulator=self._simulator(logs) if _simulates(read.plan) else None),
             tree=tree,
             log_folder=logs,
             output=options.output,

@@ -2,7 +2,7 @@
 
 from trundle.ros import Message, MessageError, Node, NodeParams, ParamError
 
-from ..host import Host
+from ..host import NodeHost
 from ..rate import Cadence, Rate
 from .diff import DiffController
 from .follow import FollowController
@@ -14,7 +14,7 @@ from .servos import DynamixelServo, HobbyServo, ServoController
 class ArbotixDriver:
     """Runs the controllers and joints that the node's parameters ask for, in one loop as the original does."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
         self._joints: dict[str, Joint] = {}

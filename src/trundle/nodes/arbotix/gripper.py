@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from trundle.ros import ActionOutcome, ActionServer, Message, Node, NodeParams, ParamError
 
-from ..host import Host
+from ..host import NodeHost
 
 _NEAR_RAD = 0.02
 """A joint so near to its command is there; servos count in ticks of 0.3 degrees."""
@@ -91,7 +91,7 @@ def _jaw(settings: NodeParams, joint: str, default: str, center: str, invert: st
 class GripperController:
     """Commands its servos, and tells when they are there or move no more."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
         self._positions: dict[str, float] = {}

@@ -2,13 +2,13 @@
 
 from trundle.ros import Node
 
-from ..host import Host
+from ..host import NodeHost
 
 
 class GazeboClient:
     """Shows the simulated world in the browser; without a page it idles, as gzclient without a display cannot."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
         self._node = node
         self._simulator = host.simulator

@@ -3,8 +3,8 @@
 from trundle.ros import Node, Option, Options, ReconfigureServer
 
 from ..host import Simulator
-from .changes import LONGEST_S, SHORTEST_S, set_physics
 from .ode import IGNORED, OdeSettings
+from .property_setters import LONGEST_S, SHORTEST_S, set_physics
 
 _MOST_GRAVITY = 100.0
 _FASTEST_HZ = 1_000_000.0

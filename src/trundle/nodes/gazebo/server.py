@@ -6,17 +6,17 @@ import re
 from trundle.diagnostics import TrundleError
 from trundle.ros import Node
 
-from ..host import Host, Simulator
-from .changes import advertise_changes
-from .efforts import advertise_efforts
+from ..host import NodeHost, Simulator
+from .load_services import advertise_load_services
 from .metrics import MetricsTopic
-from .models import advertise_models
+from .model_services import advertise_model_services
 from .ode import OdeSettings
-from .properties import advertise_properties
+from .pause_services import advertise_pause_services
+from .property_getters import advertise_property_getters
+from .property_setters import advertise_property_setters
 from .reconfigure import advertise_options
+from .state_services import advertise_state_services
 from .state_topics import StateTopics
-from .states import advertise_states
-from .timing import advertise_timing
 
 _EMPTY_WORLD = "worlds/empty.world"
 _TAKES_A_VALUE = frozenset(
@@ -38,7 +38,7 @@ _UNSUPPORTED = {
 class GazeboServer:
     """Opens a world and answers for it; the window is gzclient's."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._node = node
         self._arguments = arguments
         self._simulator = host.simulator
@@ -81,14 +81,14 @@ class GazeboServer:
 
     def _advertise(self, simulator: Simulator) -> None:
         for advertise in (
-            advertise_models,
-            advertise_states,
-            advertise_efforts,
-            advertise_timing,
+            advertise_model_services,
+            advertise_state_services,
+            advertise_load_services,
+            advertise_pause_services,
         ):
             advertise(self._node, simulator)
         ode = OdeSettings()
-        for advertise in (advertise_properties, advertise_changes, advertise_options):
+        for advertise in (advertise_property_getters, advertise_property_setters, advertise_options):
             advertise(self._node, simulator, ode)
 
     def _read_arguments(self) -> tuple[str, bool, str | None]:

@@ -8,9 +8,9 @@ from trundle.diagnostics import TrundleError, UsageError
 from trundle.files import read_input, read_standard_input
 from trundle.ros import Message, Node, ParameterError, RosError
 
-from ..host import Host
+from ..host import NodeHost
 from .messages import pose_fields
-from .spawn_words import SpawnRequest
+from .spawn_arguments import SpawnRequest
 from .trimesh import trimesh_sdf
 
 _STDIN = "-stdin"
@@ -22,7 +22,7 @@ _MESH = re.compile(r"""(<\s*mesh\s[^>]*?\bfilename\s*=\s*["'])package://""")
 class SpawnModel:
     """Spawns one model and ends; with -b it stays, and takes the model away at its end."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments

@@ -9,7 +9,7 @@ import numpy as np
 from trundle.diagnostics import UsageError
 from trundle.ros import Message, Node
 
-from ..host import Host
+from ..host import NodeHost
 from .occupancy import OccupancyMap, write_map
 
 _USAGE = "usage: map_saver [--occ 1…100] [--free 0…100] [-f NAME]"
@@ -18,7 +18,7 @@ _USAGE = "usage: map_saver [--occ 1…100] [--free 0…100] [-f NAME]"
 class MapSaver:
     """Waits for one map, writes it and ends."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments

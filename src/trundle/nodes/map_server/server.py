@@ -11,7 +11,7 @@ from typing import Any
 from trundle.diagnostics import UsageError
 from trundle.ros import Message, Node, NodeParams, ParamError
 
-from ..host import Host
+from ..host import NodeHost
 from .occupancy import OccupancyMap, positive, read_cells, read_map
 
 _USAGE = "usage: map_server MAP.yaml"
@@ -21,7 +21,7 @@ _SUCCESS, _DOES_NOT_EXIST, _INVALID = 0, 1, 2
 class MapServer:
     """Publishes its map, latched, and gives it to whoever asks."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments

@@ -2,8 +2,8 @@
 
 from trundle.ros import Node, RawMessage
 
-from ..host import Host
-from .passing import Inlet, Outlet
+from ..host import NodeHost
+from .raw_relay import RawPublisher, RawSubscriber
 
 _USAGE = "usage: drop IN_TOPIC X Y [OUT_TOPIC]; X of every Y messages are dropped"
 
@@ -11,7 +11,7 @@ _USAGE = "usage: drop IN_TOPIC X Y [OUT_TOPIC]; X of every Y messages are droppe
 class Drop:
     """Drops the first X of every Y messages."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments
@@ -23,7 +23,7 @@ class Drop:
         if not 3 <= len(words) <= 4 or len(counts) != 2 or counts[1] < 1:
             node.log_error(f"{_USAGE}; got {' '.join(words)!r}")
             return 1
-        outlet = Outlet(node, words[3] if len(words) > 3 else f"{words[0]}_drop")
+        outlet = RawPublisher(node, words[3] if len(words) > 3 else f"{words[0]}_drop")
         dropped, every = counts
         count = 0
 
@@ -33,6 +33,6 @@ class Drop:
                 outlet.put(message)
             count = (count + 1) % every
 
-        Inlet(node, words[0], take).open()
+        RawSubscriber(node, words[0], take).open()
         await node.closed.wait()
         return 0

@@ -4,8 +4,8 @@ from typing import Any
 
 from trundle.ros import Message, Node, NodeParams, RawMessage, ServiceError
 
-from ..host import Host
-from .passing import Inlet, Outlet, listen_lazily
+from ..host import NodeHost
+from .raw_relay import RawPublisher, RawSubscriber, listen_lazily
 
 _NONE = "__none"
 
@@ -13,11 +13,11 @@ _NONE = "__none"
 class Mux:
     """Listens to all its inputs, or with ~lazy to the selected one alone and while somebody listens."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments
-        self._inlets: dict[str, Inlet] = {}
+        self._inlets: dict[str, RawSubscriber] = {}
         """Global name → its subscription, in the order given."""
         self._selected: str | None = None
 
@@ -28,7 +28,7 @@ class Mux:
             node.log_error(f"usage: mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 …]; got {' '.join(words)!r}")
             return 1
         settings = NodeParams(await node.get_param("~", {}), node.name)
-        self._outlet = Outlet(node, words[0], latch=settings.flag("latch", default=False))
+        self._outlet = RawPublisher(node, words[0], latch=settings.flag("latch", default=False))
         self._said = node.advertise("mux/selected", "std_msgs/String", latch=True, queue_size=1)
         for topic in words[1:]:
             self._add(topic)
@@ -52,7 +52,7 @@ class Mux:
             if self._selected == name:
                 self._outlet.put(message)
 
-        self._inlets[name] = Inlet(self._node, name, take)
+        self._inlets[name] = RawSubscriber(self._node, name, take)
         self._inlets[name].open()
 
     def _begin(self, topic: str) -> None:

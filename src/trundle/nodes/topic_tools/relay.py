@@ -4,8 +4,8 @@ import asyncio
 
 from trundle.ros import Node, NodeParams, RawMessage
 
-from ..host import Host
-from .passing import Inlet, Outlet, listen_lazily
+from ..host import NodeHost
+from .raw_relay import RawPublisher, RawSubscriber, listen_lazily
 
 _USAGE = "usage: relay IN_TOPIC [OUT_TOPIC]"
 
@@ -13,7 +13,7 @@ _USAGE = "usage: relay IN_TOPIC [OUT_TOPIC]"
 class Relay:
     """Passes on every message; with ~lazy only while somebody listens, with ~stealth only while others are heard."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments
@@ -27,7 +27,7 @@ class Relay:
         source, target = (*self._arguments, f"{self._arguments[0]}_relay")[:2]
         settings = NodeParams(await node.get_param("~", {}), node.name)
         is_stealthy = settings.flag("stealth", default=False)
-        outlet = Outlet(node, target)
+        outlet = RawPublisher(node, target)
 
         def relay(message: RawMessage) -> None:
             learns = not outlet.is_typed
@@ -35,7 +35,7 @@ class Relay:
             if learns and is_stealthy:  # the next look decides; who subscribes meanwhile is sent nothing
                 inlet.close()
 
-        inlet = Inlet(node, source, relay)
+        inlet = RawSubscriber(node, source, relay)
         inlet.open()
         if is_stealthy:
             monitored = node.resolve(settings.text("monitor_topic", source))
@@ -45,7 +45,7 @@ class Relay:
         await node.closed.wait()
         return 0
 
-    async def _hide(self, inlet: Inlet, outlet: Outlet, monitored: str, *, every_s: float) -> None:
+    async def _hide(self, inlet: RawSubscriber, outlet: RawPublisher, monitored: str, *, every_s: float) -> None:
         """Listen only while another node subscribes to a topic; looks every so often: the original calls it a rate.
 
         The output is advertised once the type is known: the first message is waited for.

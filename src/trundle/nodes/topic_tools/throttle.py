@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from trundle.ros import Node, NodeParams, RawMessage
 
-from ..host import Host
-from .passing import Inlet, Outlet, listen_lazily
+from ..host import NodeHost
+from .raw_relay import RawPublisher, RawSubscriber, listen_lazily
 
 _USAGE = (
     "usage: throttle messages IN_TOPIC MSGS_PER_SEC [OUT_TOPIC], "
@@ -61,7 +61,7 @@ class ByteGate:
 class Throttle:
     """Passes on what its gate lets through; with ~lazy it listens only while somebody listens."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments
@@ -79,13 +79,13 @@ class Throttle:
         except ValueError:
             node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 1
-        outlet = Outlet(node, target, latch=latch)
+        outlet = RawPublisher(node, target, latch=latch)
 
         def take(message: RawMessage) -> None:
             if gate.lets_through(len(message.data)):
                 outlet.put(message)
 
-        inlet = Inlet(node, source, take)
+        inlet = RawSubscriber(node, source, take)
         inlet.open()
         if settings.flag("lazy", default=False):
             await listen_lazily(node, outlet, lambda: [(inlet, True)])

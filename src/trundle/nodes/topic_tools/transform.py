@@ -7,7 +7,7 @@ from typing import Any
 
 from trundle.ros import Message, MessageError, Node, RawMessage
 
-from ..host import Host
+from ..host import NodeHost
 
 _USAGE = "usage: transform INPUT[/FIELD] OUTPUT TYPE EXPRESSION [--import MODULE…]; the message is m in the expression"
 
@@ -17,7 +17,7 @@ _LOOK_S = 0.2
 class Transform:
     """Evaluates its expression for every message; like any node of a launch file, it is code that the user runs."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from trundle.ros import Message, Node
 
-from ..host import Host
+from ..host import NodeHost
 from ..rate import Rate
 
 _SIDE_M = 2.0
@@ -15,7 +15,7 @@ _RATE_HZ = 62.5
 class DrawSquare:
     """Goes two metres, turns by a quarter, and again."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
         self._pose: Message | None = None

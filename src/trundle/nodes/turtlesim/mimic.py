@@ -2,13 +2,13 @@
 
 from trundle.ros import Message, Node
 
-from ..host import Host
+from ..host import NodeHost
 
 
 class Mimic:
     """Turns `input/pose` into `output/cmd_vel`."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from trundle.ros import Message, Node, Publisher, Service, ServiceError, Subscription
 
-from ..host import Host
+from ..host import NodeHost
 from ..rate import Rate
 from .picture import SIZE_M, SIZE_PX, Picture
 from .turtle import Colour, Turtle
@@ -46,7 +46,7 @@ class _Registered:
 class TurtleSim:
     """Starts with turtle1 in the middle; `spawn` brings more."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
         self._node = node
         self._display = host.display

@@ -2,7 +2,7 @@
 
 from trundle.ros import Node, NodeParams
 
-from ..host import Host
+from ..host import NodeHost
 from ..keyboard import Keyboard
 
 _MOVES = {"up": (1.0, 0.0), "down": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
@@ -11,7 +11,7 @@ _MOVES = {"up": (1.0, 0.0), "down": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0
 class TurtleTeleopKey:
     """Publishes one command a key press."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
         self._node = node
         self._display = host.display

@@ -10,7 +10,7 @@ from .entities import world_from
 from .messages import pose_of, provide
 
 
-def advertise_models(node: Node, simulator: Simulator) -> None:
+def advertise_model_services(node: Node, simulator: Simulator) -> None:
     """Provide spawn_urdf_model, spawn_sdf_model and delete_model."""
     for name in ("spawn_urdf_model", "spawn_sdf_model"):
         provide(node, name, "SpawnModel", _spawn(node, simulator), "SpawnModel: Successfully spawned entity")

@@ -10,10 +10,10 @@ from trundle.spatial import Wrench, cross
 from ..host import Simulator
 from .entities import find_joint, find_link, is_world, world_from
 from .messages import provide, vector_of
-from .schedule import Schedule
+from .timed_loads import TimedLoads
 
 
-def advertise_efforts(node: Node, simulator: Simulator) -> None:
+def advertise_load_services(node: Node, simulator: Simulator) -> None:
     """Provide apply_body_wrench, clear_body_wrenches, apply_joint_effort and clear_joint_forces (old: efforts)."""
     efforts = _Efforts(node, simulator)
     provide(node, "apply_body_wrench", "ApplyBodyWrench", efforts.push, "")
@@ -27,8 +27,8 @@ class _Efforts:
     def __init__(self, node: Node, simulator: Simulator) -> None:
         self._node = node
         self._simulator = simulator
-        self._wrenches = Schedule[LinkHandle, Wrench](simulator.simulation, _push)
-        self._efforts = Schedule[JointHandle, float](simulator.simulation, _turn)
+        self._wrenches = TimedLoads[LinkHandle, Wrench](simulator.simulation, _push)
+        self._efforts = TimedLoads[JointHandle, float](simulator.simulation, _turn)
         for schedule in (self._wrenches, self._efforts):
             simulator.post(schedule.begin)
 

@@ -12,7 +12,7 @@ from .entities import find_link, find_model, is_world, world_from
 from .messages import pose_fields, pose_of, provide, twist_fields, twist_of
 
 
-def advertise_states(node: Node, simulator: Simulator) -> None:
+def advertise_state_services(node: Node, simulator: Simulator) -> None:
     """Provide get_ and set_model_state, get_ and set_link_state, set_model_configuration, and the two set_ topics."""
     states = _States(simulator)
     for name, kind, work, done in (

@@ -19,7 +19,7 @@ class _Job(Generic[Target, Load]):
     """None: never."""
 
 
-class Schedule(Generic[Target, Load]):
+class TimedLoads(Generic[Target, Load]):
     """Loads on links, or on joints; a hook that is called only while one of them has yet to begin or to end."""
 
     def __init__(self, simulation: Simulation, put: Callable[[Target, list[Load]], None]) -> None:

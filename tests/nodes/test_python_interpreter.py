@@ -16,8 +16,8 @@ def debian(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A machine whose own Python has rospy; its `bin` is returned."""
     python = _program(tmp_path / "usr" / "bin" / "python3")
     (tmp_path / "usr" / "modules" / "rospy").mkdir(parents=True)
-    monkeypatch.setattr("trundle.nodes.scripts._DEBIAN_PYTHON", str(python))
-    monkeypatch.setattr("trundle.nodes.scripts._DEBIAN_MODULES", str(tmp_path / "usr" / "modules"))
+    monkeypatch.setattr("trundle.nodes.python_interpreter._DEBIAN_PYTHON", str(python))
+    monkeypatch.setattr("trundle.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "usr" / "modules"))
     return python.parent
 
 

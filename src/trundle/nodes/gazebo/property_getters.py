@@ -21,7 +21,7 @@ _JOINT_TYPES = {
 _CONTINUOUS = 1
 
 
-def advertise_properties(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
+def advertise_property_getters(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
     """Provide the get_…_properties."""
     properties = _Properties(simulator, ode)
     for name, kind, work in (

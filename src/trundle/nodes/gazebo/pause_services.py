@@ -8,7 +8,7 @@ from trundle.ros import Message, Node
 from ..host import Simulator
 
 
-def advertise_timing(node: Node, simulator: Simulator) -> None:
+def advertise_pause_services(node: Node, simulator: Simulator) -> None:
     """Provide pause_physics, unpause_physics, reset_simulation and reset_world."""
     calls: dict[str, Callable[[], None]] = {
         "pause_physics": lambda: simulator.set_paused(True),

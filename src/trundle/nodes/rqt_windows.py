@@ -3,13 +3,13 @@
 from trundle.diagnostics import TrundleError
 from trundle.ros import Message, Node, NodeParams
 
-from .host import Display, Host
+from .host import Display, NodeHost
 
 
 class Window:
     """Any program of rqt: the launch's page, or nothing without one."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._node = node
         self._arguments = arguments
         self._display = host.display
@@ -29,7 +29,7 @@ class Window:
 class ImageView(Window):
     """image_view/image_view: the pictures of `image`; says once what they are."""
 
-    def __init__(self, node: Node, arguments: list[str], host: Host) -> None:
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         super().__init__(node, arguments, host)
         self._seen = False
 

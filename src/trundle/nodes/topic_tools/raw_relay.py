@@ -9,7 +9,7 @@ _QUEUE = 100
 _LOOK_S = 0.1
 
 
-class Outlet:
+class RawPublisher:
     """A topic that takes type and latching of what is first put on it; that one reaches nobody unless it is latched."""
 
     def __init__(self, node: Node, topic: str, *, latch: bool | None = None) -> None:
@@ -47,7 +47,7 @@ class Outlet:
         self._publisher.publish(message.data)
 
 
-class Inlet:
+class RawSubscriber:
     """A subscription to messages of any type that can be let go and taken up again."""
 
     def __init__(self, node: Node, topic: str, take: Callable[[RawMessage], None]) -> None:
@@ -68,7 +68,9 @@ class Inlet:
             self._subscription = None
 
 
-async def listen_lazily(node: Node, outlet: Outlet, inlets: Callable[[], Iterable[tuple[Inlet, bool]]]) -> None:
+async def listen_lazily(
+    node: Node, outlet: RawPublisher, inlets: Callable[[], Iterable[tuple[RawSubscriber, bool]]]
+) -> None:
     """Listen only while somebody listens to the outlet, and to everything until its type is known.
 
     Args:

@@ -23,7 +23,7 @@ SHORTEST_S, LONGEST_S = 1e-6, 1.0
 """As of a world's <max_step_size>."""
 
 
-def advertise_changes(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
+def advertise_property_setters(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
     """Provide set_physics_, set_link_, set_joint_ and set_light_properties, and delete_light."""
     changes = _Changes(simulator, ode)
     for name, kind, work, done in (
