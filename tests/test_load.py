@@ -58,7 +58,7 @@ def test_a_robot_loads_nothing_that_it_has_not() -> None:
         "trundle.model.measuring",
         "trundle.physics.convex.mesh_decomposition",
         "trundle.physics.step.surface_motion",
-        "trundle.render.skins",
+        "trundle.render.skinned_actors",
         "trundle.sensors.depth_camera",
         "trundle.sensors.imu",
         "trundle.sensors.mount_instruments",

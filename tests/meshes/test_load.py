@@ -151,11 +151,11 @@ def test_a_ball_comes_with_the_normals_of_its_file(
 def test_normals_turn_with_their_faces_where_a_mesh_is_bent() -> None:
     ball = trimesh.creation.icosphere(subdivisions=1)
     vertices, faces = ball.vertices.astype(np.float32), ball.faces.astype(np.int32)
-    assert Mesh(vertices, faces).bent(vertices * 2).normals is None
+    assert Mesh(vertices, faces).with_vertices(vertices * 2).normals is None
     turn = trimesh.transformations.rotation_matrix(0.7, (1.0, 2.0, 3.0))[:3, :3].T.astype(np.float32)
-    bent = Mesh(vertices, faces, normals=vertices[faces]).bent(vertices @ turn)
+    bent = Mesh(vertices, faces, normals=vertices[faces]).with_vertices(vertices @ turn)
     assert bent.normals == pytest.approx((vertices @ turn)[faces], abs=1e-5)
-    flattened = Mesh(vertices, faces, normals=vertices[faces]).bent(np.zeros_like(vertices))
+    flattened = Mesh(vertices, faces, normals=vertices[faces]).with_vertices(np.zeros_like(vertices))
     assert flattened.normals is not None
     assert not flattened.normals.any()
 

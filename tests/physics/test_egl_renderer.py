@@ -109,12 +109,12 @@ def test_a_mesh_that_is_reshaped_stands_where_ours_does(opengl: EglRenderer) -> 
     depths = []
     for each in (ours, opengl):
         each.update(np.array([[0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-        each.reshape(len(THINGS) - 1, mesh.vertices * np.float32([1.5, 0.3, 0.7]))
+        each.set_vertices(len(THINGS) - 1, mesh.vertices * np.float32([1.5, 0.3, 0.7]))
         picture = drawn(each, EYE, LENS, depth=True, segmentation=True)
         assert picture.depth is not None
         assert picture.segmentation is not None
         depths.append(np.where(picture.segmentation == len(THINGS) - 1, picture.depth, np.nan))
-    opengl.reshape(len(THINGS) - 1, mesh.vertices)
+    opengl.set_vertices(len(THINGS) - 1, mesh.vertices)
 
     assert (np.isnan(depths[0]) != np.isnan(depths[1])).mean() <= 0.001
     assert np.nanmedian(np.abs(depths[0] - depths[1])) <= 1e-4

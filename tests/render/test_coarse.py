@@ -66,7 +66,7 @@ def test_a_mesh_that_changes_its_form_is_drawn_as_it_is(heavy: Mesh) -> None:
     made = NativeRenderer(Scene(bodies=("a",), shapes=(ball,)))
     made.update(np.array([[8.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
     small = pictures.drawn(made, Pose(), LENS).rgb
-    made.reshape(0, 2.0 * heavy.vertices)
+    made.set_vertices(0, 2.0 * heavy.vertices)
     large = pictures.drawn(made, Pose(), LENS).rgb
     assert (large == pictures.drawn(made, Pose(), LENS, segmentation=True).rgb).all()
     assert (large != large[0, 0]).sum() > 3 * (small != small[0, 0]).sum()

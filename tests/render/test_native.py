@@ -333,7 +333,7 @@ def test_a_mesh_that_is_reshaped_is_drawn_and_met_as_it_is_now() -> None:
 
     assert not is_red(drawn(made, Pose(), WIDE).rgb).any()
     assert made.cast(Pose(), ahead, reach_m=50)[1].tolist() == [-1]
-    made.reshape(0, square)
+    made.set_vertices(0, square)
     picture = drawn(made, Pose(), WIDE, segmentation=True)
 
     assert picture.segmentation is not None
@@ -341,14 +341,14 @@ def test_a_mesh_that_is_reshaped_is_drawn_and_met_as_it_is_now() -> None:
     assert (picture.segmentation == 0).sum() + (picture.segmentation == 1).sum() == pytest.approx(side**2, rel=0.03)
     assert (picture.rgb[picture.segmentation == 1][:, 1] > 0).all()
     assert made.cast(Pose(), ahead, reach_m=50)[1].tolist() == [0]
-    made.reshape(0, square * np.float32([1, 0.5, 0.5]))
+    made.set_vertices(0, square * np.float32([1, 0.5, 0.5]))
     assert is_red(drawn(made, Pose(), WIDE).rgb).sum() < side**2 / 3
 
 
 def test_what_is_no_mesh_cannot_be_reshaped() -> None:
     made = renderer(shape(Sphere(0.3)))
     with pytest.raises(KeyError):
-        made.reshape(0, np.zeros((3, 3), dtype=np.float32))
+        made.set_vertices(0, np.zeros((3, 3), dtype=np.float32))
 
 
 _AWAY = np.linspace(2.0, 5.0, 500)

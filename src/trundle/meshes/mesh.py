@@ -78,7 +78,7 @@ class Mesh(Struct, frozen=True, eq=False):
             normals=None if self.normals is None else self.normals[:, ::step] * upright,
         )
 
-    def bent(self, vertices: NDArray[np.float32]) -> "Mesh":
+    def with_vertices(self, vertices: NDArray[np.float32]) -> "Mesh":
         """The mesh with its vertices elsewhere, (N, 3) [m]; its normals turn as their faces do."""
         if self.normals is None:
             return replace(self, vertices=vertices)

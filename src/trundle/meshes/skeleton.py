@@ -34,9 +34,9 @@ class Track:
     """(T,) [s], rising."""
     places: _Array
     """(T, 3) [m]"""
-    turns: _Array
+    rotations: _Array
     """(T, 4) Unit quaternions wxyz, each in the half of its predecessor."""
-    stretches: _Array
+    scales: _Array
     """(T, 3) along the bone's axes."""
 
     def at(self, time_s: float, scale: float) -> _Array:
@@ -50,7 +50,7 @@ class Track:
             return values[before] + u * (values[after] - values[before])
 
         pose = np.eye(4)
-        pose[:3, :3] = _matrix(_between(self.turns[before], self.turns[after], u)) * mixed(self.stretches)
+        pose[:3, :3] = _matrix(_between(self.rotations[before], self.rotations[after], u)) * mixed(self.scales)
         pose[:3, 3] = mixed(self.places) * scale
         return pose
 
@@ -91,7 +91,7 @@ class Skin:
     bones: tuple[Bone, ...]
     bound: _Array
     """(N, 4) the mesh's vertices where they were bound, homogeneous [m]."""
-    ties: NDArray[np.intp]
+    joint_indices: NDArray[np.intp]
     """(A,) the bone of each tie between the skin and a bone."""
     bone_from_skin: _Array
     """(A, 4, 4) where the skin was in that bone when it was tied."""
@@ -106,7 +106,7 @@ class Skin:
         for number, bone in enumerate(self.bones):
             local = poses.get(number, bone.rest)
             skin_from_bone[number] = local if bone.parent < 0 else skin_from_bone[bone.parent] @ local
-        moved = skin_from_bone[self.ties] @ self.bone_from_skin
+        moved = skin_from_bone[self.joint_indices] @ self.bone_from_skin
         found = np.zeros((len(self.bound), 3))
         for k in range(self.influences.shape[1]):
             along = np.einsum("nij,nj->ni", moved[self.influences[:, k], :3], self.bound)

@@ -61,7 +61,7 @@ def _load_skin(path: Path, state: tuple[int, int]) -> Skin:
         mesh=joined(parts, path, center=False),
         bones=bones,
         bound=np.column_stack([bound, np.ones(len(bound))]),
-        ties=np.array([numbers[name] for skin in skins for name in skin.bones], dtype=np.intp),
+        joint_indices=np.array([numbers[name] for skin in skins for name in skin.bones], dtype=np.intp),
         bone_from_skin=to_bones,
         influences=np.concatenate(
             [_padded(skin.influences, widest) + first for skin, first in zip(skins, firsts, strict=False)]

@@ -62,7 +62,7 @@ class EglRenderer:
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_camlight(self._model, self._data)
 
-    def reshape(self, shape: int, vertices: NDArray[np.float32]) -> None:
+    def set_vertices(self, shape: int, vertices: NDArray[np.float32]) -> None:
         """See `Renderer.reshape`; the light falls on it as it did before."""
         mesh = int(self._model.geom(f"s{shape}").dataid[0])
         first, count = int(self._model.mesh_vertadr[mesh]), int(self._model.mesh_vertnum[mesh])

@@ -1,5 +1,5 @@
-from .extent import corners_of as corners_of
-from .extent import outline_of as outline_of
+from .bounds import corners_of as corners_of
+from .bounds import outline_of as outline_of
 from .from_world import scene_of as scene_of
 from .native import NativeRenderer as NativeRenderer
 from .pixels import add_colour_noise as add_colour_noise
@@ -15,5 +15,5 @@ from .scene import SceneLight as SceneLight
 from .scene import SceneSkin as SceneSkin
 from .scene import Shape as Shape
 from .scene import ShapeGeometry as ShapeGeometry
-from .skins import move_skins as move_skins
-from .skins import why_stiff as why_stiff
+from .skinned_actors import move_skins as move_skins
+from .skinned_actors import unsupported_reason as unsupported_reason

@@ -54,7 +54,7 @@ def scene_of(world: World, report: Diagnostics, *, collisions: bool = False, mas
             actor = actors.get(link.name)
             moving = None
             if actor is not None and actor.name == model.name:
-                from .skins import skin_shapes  # these read COLLADA's bones, which most worlds have none of
+                from .skinned_actors import skin_shapes  # these read COLLADA's bones, which most worlds have none of
 
                 moving = skin_shapes(actor, len(bodies), len(shapes))
             if moving is None:

@@ -112,10 +112,10 @@ class NativeRenderer:
         """See `Renderer.update`."""
         self._renderer.update(np.ascontiguousarray(poses, dtype=np.float64))
 
-    def reshape(self, shape: int, vertices: NDArray[np.float32]) -> None:
+    def set_vertices(self, shape: int, vertices: NDArray[np.float32]) -> None:
         """See `Renderer.reshape`."""
         number, mesh = self._meshes[shape]
-        self._renderer.reshape(number, _native_mesh(mesh.bent(vertices)))
+        self._renderer.reshape(number, _native_mesh(mesh.with_vertices(vertices)))
 
     def render(
         self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False

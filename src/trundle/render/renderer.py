@@ -74,7 +74,7 @@ class Renderer(Protocol):
         """Move the scene's bodies: (bodies, 7) x y z qw qx qy qz in the world."""
         ...
 
-    def reshape(self, shape: int, vertices: NDArray[np.float32]) -> None:
+    def set_vertices(self, shape: int, vertices: NDArray[np.float32]) -> None:
         """Give a shape that is a mesh other places for its vertices, (N, 3); its faces stay."""
         ...
 

@@ -100,9 +100,9 @@ def _body(actor: "Actor", skin: "Skin", report: Diagnostics) -> Link:
         place = Pose.from_rpy(0.0, height / 2 - _HIPS, 0.0, -1.5707963)
     name = f"{actor.name}_pose"
     box = Visual(name=name, at=actor.at, geometry=Box((width, depth, height)), link_from_visual=place)
-    from trundle.render import why_stiff
+    from trundle.render import unsupported_reason
 
-    why = why_stiff(actor)
+    why = unsupported_reason(actor)
     if why is None:
         report.info(actor.at, f"actor {actor.name!r}: cameras and lidars see its bones move; the page draws it stiff")
     else:

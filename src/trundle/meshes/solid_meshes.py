@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .mesh import Mesh
-from .polygons import Point, triangles_of
+from .triangulation import Point, triangles_of
 
 _SIDES = 48
 

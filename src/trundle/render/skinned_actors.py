@@ -13,7 +13,7 @@ from .renderer import Renderer
 from .scene import Scene, SceneSkin, Shape
 
 
-def why_stiff(actor: Actor) -> str | None:
+def unsupported_reason(actor: Actor) -> str | None:
     """Why the bones of an actor's skin do not move; None: they do."""
     if actor.skin is None or actor.skin.path is None:
         return "its skin is nowhere"
@@ -35,13 +35,13 @@ def skin_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], Scene
         body: that it rides on.
         first: the number of the first of the shapes in the scene.
     """
-    if actor.skin is None or actor.skin.path is None or why_stiff(actor) is not None:
+    if actor.skin is None or actor.skin.path is None or unsupported_reason(actor) is not None:
         return None
-    puppet = Puppet(actor, load_skin(actor.skin.path))
+    puppet = SkinnedActor(actor, load_skin(actor.skin.path))
     mesh = puppet.skin.mesh
     numbers = np.repeat(np.arange(len(mesh.vertices), dtype=np.float32)[:, None], 3, axis=1)
     numbered = replace(mesh, vertices=numbers)
-    start = mesh.bent(puppet.vertices(AnimationState()))
+    start = mesh.with_vertices(puppet.vertices(AnimationState()))
     shapes: list[Shape] = []
     rows: list[NDArray[np.intp]] = []
     for piece, same in zip(start.by_look(), numbered.by_look(), strict=True):
@@ -58,10 +58,10 @@ def move_skins(renderer: Renderer, scene: Scene, moment_of: Callable[[str], Anim
     for skin in scene.skins:
         vertices = skin.vertices(moment_of(skin.actor))
         for number, rows in enumerate(skin.rows):
-            renderer.reshape(skin.first + number, vertices[rows])
+            renderer.set_vertices(skin.first + number, vertices[rows])
 
 
-class Puppet:
+class SkinnedActor:
     """A skin on its animations."""
 
     def __init__(self, actor: Actor, skin: Skin) -> None:
