@@ -4,7 +4,7 @@ from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.xmlnode import XmlNode
 
 from .attributes import Attributes
-from .draft import Draft
+from .plan_builder import PlanBuilder
 from .scope import Scope
 from .substitution import Substitution
 
@@ -13,7 +13,9 @@ _OLD = ("ros-root", "ros-package-path", "ros-ip", "ros-hostname")
 _DEFAULTS = ("true", "false", "never")
 
 
-def read_machine(node: XmlNode, scope: Scope, substitution: Substitution, draft: Draft, report: Diagnostics) -> None:
+def read_machine(
+    node: XmlNode, scope: Scope, substitution: Substitution, draft: PlanBuilder, report: Diagnostics
+) -> None:
     """Read a machine; one that is the default is that of the nodes that follow.
 
     Raises:

@@ -7,9 +7,9 @@ from trundle.names import canonical_name, is_legal_name
 from trundle.xmlnode import XmlNode
 
 from .attributes import Attributes
-from .draft import Draft
 from .params import PARAM_ATTRIBUTES, read_param, read_rosparam
 from .plan import LaunchNode, LaunchTest
+from .plan_builder import PlanBuilder
 from .scope import PrivateParam, Scope
 from .settings import read_env, read_remap
 from .substitution import Substitution
@@ -33,7 +33,7 @@ _TEST_ONLY = ("test-name", "time-limit", "retry")
 _NODE_ONLY = ("respawn", "respawn_delay", "output")
 
 
-def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: Draft, report: Diagnostics) -> None:
+def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: PlanBuilder, report: Diagnostics) -> None:
     """Read a node or a test; its parameters are set, it goes into the draft.
 
     Raises:
@@ -97,7 +97,7 @@ def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: Dr
 
 
 def _read_children(
-    node: XmlNode, inside: Scope, own: Scope, substitution: Substitution, draft: Draft, report: Diagnostics
+    node: XmlNode, inside: Scope, own: Scope, substitution: Substitution, draft: PlanBuilder, report: Diagnostics
 ) -> dict[str, PrivateParam]:
     """Read what stands inside: remappings and environment go into `own`, ~params are handed back."""
     private: dict[str, PrivateParam] = {}

@@ -7,9 +7,9 @@ from trundle.names import join_names
 from trundle.xmlnode import XmlNode
 
 from .attributes import Attributes
-from .draft import Draft
 from .files import read_file
 from .plan import ParamCommand, ParamStep, ParamType, ParamValue
+from .plan_builder import PlanBuilder
 from .scope import Scope
 from .substitution import Substitution
 from .values import convert_value, load_yaml
@@ -62,7 +62,9 @@ def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
         raise DescriptionError(at, f"param {name!r}: {error}") from None
 
 
-def read_rosparam(node: XmlNode, scope: Scope, substitution: Substitution, draft: Draft, report: Diagnostics) -> None:
+def read_rosparam(
+    node: XmlNode, scope: Scope, substitution: Substitution, draft: PlanBuilder, report: Diagnostics
+) -> None:
     """Read a <rosparam>; YAML is loaded here, `dump` and `delete` become steps.
 
     Raises:
@@ -86,7 +88,7 @@ def read_rosparam(node: XmlNode, scope: Scope, substitution: Substitution, draft
 
 
 def _step(
-    attributes: Attributes, draft: Draft, command: Literal["dump", "delete"], name: str, file: str | None
+    attributes: Attributes, draft: PlanBuilder, command: Literal["dump", "delete"], name: str, file: str | None
 ) -> None:
     if command == "delete" and file is not None:
         raise DescriptionError(attributes.at, "rosparam delete takes no 'file'")
@@ -95,7 +97,7 @@ def _step(
     draft.add_step(ParamStep(command=command, name=name, file=file or "", at=attributes.at))
 
 
-def _load(attributes: Attributes, draft: Draft, name: str, file: str | None, *, needs_mapping: bool) -> None:
+def _load(attributes: Attributes, draft: PlanBuilder, name: str, file: str | None, *, needs_mapping: bool) -> None:
     at = attributes.at
     try:
         text = read_file(file).decode() if file is not None else attributes.node.raw_text
@@ -111,7 +113,7 @@ def _load(attributes: Attributes, draft: Draft, name: str, file: str | None, *, 
     _set(draft, name, data, attributes)
 
 
-def _set(draft: Draft, name: str, value: ParamValue, attributes: Attributes) -> None:
+def _set(draft: PlanBuilder, name: str, value: ParamValue, attributes: Attributes) -> None:
     """Set a value; a mapping becomes one parameter for each of its leaves."""
     if not isinstance(value, dict):
         draft.set_param(name, value, attributes.at)

@@ -11,7 +11,6 @@ from trundle.xmlnode import XmlNode
 
 from .attributes import Attributes
 from .command_line import CommandLine
-from .draft import Draft
 from .launch_file import parse_launch_text, read_launch_file
 from .machines import read_machine
 from .missing import MissingPackageError, MissingPackages
@@ -19,6 +18,7 @@ from .nodes import read_node
 from .packages import PackageFinder
 from .params import read_param, read_rosparam
 from .plan import LaunchArgument, LaunchPlan
+from .plan_builder import PlanBuilder
 from .scope import Scope
 from .settings import read_env, read_remap
 from .substitution import Substitution
@@ -127,7 +127,7 @@ class _Reader:
         missing: MissingPackages | None = None,
     ) -> None:
         """With `missing`, go on behind whatever cannot be read: only what is missing is of interest."""
-        self.draft = Draft(report)
+        self.draft = PlanBuilder(report)
         self._report = report
         self._command_line = command_line
         self._goes_on = missing is not None

@@ -2,7 +2,7 @@ from .context import DEEPEST as DEEPEST
 from .context import Context as Context
 from .extra_joint import read_extra_joint as read_extra_joint
 from .gazebo_materials import GAZEBO_MATERIALS as GAZEBO_MATERIALS
-from .old_style import rewrite_old_style as rewrite_old_style
 from .required import name_missing_attributes as name_missing_attributes
+from .sdf_1_0 import rewrite_old_style as rewrite_old_style
 from .version import read_version as read_version
 from .world import read_root as read_root

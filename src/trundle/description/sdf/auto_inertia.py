@@ -6,7 +6,7 @@ from trundle.model import Box, Capsule, Collision, Cone, Cylinder, Ellipsoid, Ge
 from trundle.spatial import Pose, Vector3
 from trundle.xmlnode import XmlNode
 
-from ..bodies import together, turned
+from ..inertia_sum import sum_of, turned
 from .context import Context
 
 _WATER = 1000.0
@@ -38,7 +38,7 @@ def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inert
     tensors = [
         (mass, pose.position, turned((*moments, 0.0, 0.0, 0.0), pose.quaternion)) for mass, pose, moments in bodies
     ]
-    total, centre, tensor = together(tensors)
+    total, centre, tensor = sum_of(tensors)
     mass = link.inertial.mass if inertial.find("mass") is not None else total
     ixx, iyy, izz, ixy, ixz, iyz = (value * mass / total for value in tensor)
     return Inertial(mass=mass, link_from_com=Pose(centre), moments=(ixx, iyy, izz), products=(ixy, ixz, iyz))

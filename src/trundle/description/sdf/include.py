@@ -14,15 +14,15 @@ from trundle.xmlnode import XmlNode, read_xml
 from .context import DEEPEST, Context, RawPose, read_pose
 from .frames import MODEL, FrameGraph
 from .params import apply_params
-from .part import Part
 from .required import name_missing_attributes
 from .sensor import read_plugin
+from .unplaced_model import UnplacedModel
 from .version import read_version
 
 _DEEPEST_INCLUDE = 16
 _MOST_INCLUDES = 5_000
 """Files opened for one description; the published world of the most has 89."""
-ReadModel: TypeAlias = Callable[[XmlNode, Context], Part]
+ReadModel: TypeAlias = Callable[[XmlNode, Context], UnplacedModel]
 
 
 def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | None:
@@ -50,7 +50,7 @@ def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | N
 
 def read_included_model(
     node: XmlNode, root: XmlNode, inner: Context, context: Context, read_model: ReadModel
-) -> Part | None:
+) -> UnplacedModel | None:
     """The model of an opened <include>; None where there is no model in it."""
     if root.tag == "robot" and inner.read_urdf is not None:
         try:
@@ -69,7 +69,7 @@ def read_included_model(
     return _overridden(part, node, context)
 
 
-def _overridden(part: Part, node: XmlNode, context: Context) -> Part:
+def _overridden(part: UnplacedModel, node: XmlNode, context: Context) -> UnplacedModel:
     name, static = node.string("name"), node.find("static")
     has_pose, placement = node.find("pose") is not None, node.string("placement_frame")
     model = replace(
@@ -98,7 +98,7 @@ def _root(file: Path, node: XmlNode, context: Context) -> tuple[XmlNode, Context
     return root, context.inside(file.resolve(), version)
 
 
-def _robot(model: Model, context: Context) -> Part:
+def _robot(model: Model, context: Context) -> UnplacedModel:
     """A converted URDF, its links and frames known by their names."""
     graph = FrameGraph(MODEL, context.report, model.canonical_link)
     for link in model.links:
@@ -108,4 +108,4 @@ def _robot(model: Model, context: Context) -> Part:
     for joint in model.joints:
         if joint.name not in graph:
             graph.add(joint.name, RawPose(model_from_joint(model, joint)), joint.at, attached_to=joint.child)
-    return Part(model=model, scope=graph.scope(), raw=RawPose())
+    return UnplacedModel(model=model, scope=graph.scope(), raw=RawPose())

@@ -6,12 +6,12 @@ from trundle.model import Collision, Link, Visual
 from trundle.xmlnode import XmlNode
 
 from .auto_inertia import inertial_of_collisions
+from .camera_labels import with_plugins
 from .context import Context, leave_out, read_bits, read_pose
 from .frames import FrameGraph
 from .geometry import read_geometry
 from .inertial import read_inertial
 from .light import read_light
-from .marks import with_plugins
 from .material import read_material
 from .sensor import named_apart, read_sensor
 from .surface import read_surface

@@ -8,13 +8,13 @@ from trundle.spatial import Pose
 
 from .context import RawPose
 from .frames import MODEL, FrameGraph
-from .part import Part
+from .unplaced_model import UnplacedModel
 
 
 class Merged(Struct, frozen=True):
     """A model whose parts have become known as the outer model's, or the world's."""
 
-    part: Part
+    part: UnplacedModel
     frame: str
     """What stands for the lost model's frame."""
 
@@ -38,7 +38,7 @@ class Merged(Struct, frozen=True):
         )
 
 
-def merged(part: Part, graph: FrameGraph) -> Merged:
+def merged(part: UnplacedModel, graph: FrameGraph) -> Merged:
     """Make everything in a model known by its own names, relative to a frame that stands for the model."""
     frame = f"_merged__{part.model.name}__model__"
     graph.add(frame, part.placed(graph), part.model.at, attached_to=part.model.canonical_link or graph.root)

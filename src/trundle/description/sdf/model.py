@@ -9,21 +9,21 @@ from trundle.model import Frame, Joint, Model
 from trundle.spatial import Pose
 from trundle.xmlnode import XmlNode
 
+from .camera_labels import is_label, labelled
 from .context import Context, read_pose
 from .frames import MODEL, WORLD, FrameGraph
 from .include import open_include, read_included_model
 from .joint import TYPES, read_joint
 from .link import read_link
-from .marks import is_label, labelled
 from .merge import Merged, merged
-from .part import Part
 from .sensor import read_plugin
+from .unplaced_model import UnplacedModel
 
 _DEEPEST = 200
 """Models within models."""
 
 
-def read_model(node: XmlNode, context: Context, depth: int = 0) -> Part:
+def read_model(node: XmlNode, context: Context, depth: int = 0) -> UnplacedModel:
     """Read one model, nested and included ones with it.
 
     Raises:
@@ -65,7 +65,7 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> Part:
         context.report.info(node.at, f"attribute 'namespace' of model {name!r} is not supported; it is ignored")
     placement = node.attribute("placement_frame") or ""
     node.report_unread(context.report)
-    return Part(model=model, scope=graph.scope(), raw=raw, placement_frame=placement)
+    return UnplacedModel(model=model, scope=graph.scope(), raw=raw, placement_frame=placement)
 
 
 def placed_links(nodes: Iterable[XmlNode], graph: FrameGraph, context: Context) -> dict[str, XmlNode]:
@@ -83,9 +83,9 @@ def placed_links(nodes: Iterable[XmlNode], graph: FrameGraph, context: Context) 
     return links
 
 
-def _nested(node: XmlNode, graph: FrameGraph, context: Context, depth: int) -> tuple[list[Part], list[Merged]]:
+def _nested(node: XmlNode, graph: FrameGraph, context: Context, depth: int) -> tuple[list[UnplacedModel], list[Merged]]:
     """Models in this one, in file order, and those that dissolve in it."""
-    parts: list[Part] = []
+    parts: list[UnplacedModel] = []
     dissolved: list[Merged] = []
     for child in node.children:
         if child.tag == "model":
@@ -129,7 +129,7 @@ def read_frames(node: XmlNode, graph: FrameGraph, context: Context) -> list[Fram
 
 
 def _canonical(
-    node: XmlNode, links: Iterable[str], nested: Iterable[Part], dissolved: Iterable[Merged], graph: FrameGraph
+    node: XmlNode, links: Iterable[str], nested: Iterable[UnplacedModel], dissolved: Iterable[Merged], graph: FrameGraph
 ) -> str | None:
     """The link a model rides on: the one it names, else its first, its own before those of nested models."""
     named = node.attribute("canonical_link")

@@ -17,7 +17,7 @@ from trundle.xmlnode import XmlNode
 
 from .cluster import cluster_middles
 from .context import Context, RawPose, read_pose
-from .part import Part
+from .unplaced_model import UnplacedModel
 
 _MOST = 1_000
 """Models of one population; more than any machine moves."""
@@ -27,7 +27,9 @@ _SPACING = 0.1
 _Places: TypeAlias = list[Vector3]
 
 
-def read_population(node: XmlNode, read_model: Callable[[XmlNode, Context], Part], context: Context) -> list[Part]:
+def read_population(
+    node: XmlNode, read_model: Callable[[XmlNode, Context], UnplacedModel], context: Context
+) -> list[UnplacedModel]:
     """The models of one <population>, each in its place; none, after a warning, where it makes no sense."""
     report = context.report
     name = node.attribute("name") or ""

@@ -15,11 +15,11 @@ from .include import open_include, read_included_model
 from .light import read_light
 from .merge import Merged, merged
 from .model import WrittenJoint, read_frames, read_model
-from .part import Part
 from .population import read_population
 from .road import read_road
 from .sensor import read_plugin
 from .state import apply_state, inserted
+from .unplaced_model import UnplacedModel
 
 if TYPE_CHECKING:
     from trundle.model import Actor
@@ -109,7 +109,7 @@ class _Contents:
 
     def __init__(self, node: XmlNode, context: Context) -> None:
         self.graph = FrameGraph(WORLD, context.report)
-        self.parts: list[Part] = []
+        self.parts: list[UnplacedModel] = []
         self.lights: list[Light] = []
         self.dissolved: list[Merged] = []
         """Models that are none of the world's: what is in them is."""
@@ -163,7 +163,7 @@ class _Contents:
                 )
             )
 
-    def _can_dissolve(self, part: Part, node: XmlNode) -> bool:
+    def _can_dissolve(self, part: UnplacedModel, node: XmlNode) -> bool:
         """Links are in models only, and a name stands for one thing."""
         taken = [inner.name for inner in part.model.models if inner.name in self.graph]
         why = ""
@@ -175,7 +175,7 @@ class _Contents:
             self._context.report.warn(node.at, f"model {part.model.name!r} has {why}; it is not merged, but stays one")
         return not why
 
-    def _add(self, part: Part) -> None:
+    def _add(self, part: UnplacedModel) -> None:
         """Two models of one name are told apart by a number, as in Gazebo."""
         name, number = part.model.name, 0
         while name in self.graph:

@@ -20,7 +20,7 @@ from .lump import Lump
 if TYPE_CHECKING:
     from trundle.model import Joint, Light, Link, Material, Model, PluginTag, Sensor, Visual
 
-    from ..sdf.part import Part
+    from ..sdf.unplaced_model import UnplacedModel
 
 _TUNING = frozenset(
     {
@@ -185,7 +185,7 @@ class GazeboTags:
         from ..sdf.include import open_include, read_included_model
         from ..sdf.model import read_model
 
-        parts: list[Part] = []
+        parts: list[UnplacedModel] = []
         for node in nodes:
             if node.tag == "model":
                 opened, part = True, read_model(node, self._context, 1)

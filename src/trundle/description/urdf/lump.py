@@ -9,7 +9,7 @@ from trundle.robot import Robot, RobotInertial, RobotShape
 from trundle.spatial import ZERO, Pose, Quaternion
 from trundle.xmlnode import XmlNode
 
-from ..bodies import together, turned
+from ..inertia_sum import sum_of, turned
 
 WORLD = "world"
 
@@ -89,7 +89,7 @@ def lumped_inertial(parts: list[tuple[RobotInertial, Pose]], orientation: Quater
     """
     coms = [(part, pose @ part.link_from_com) for part, pose in parts]
     bodies = [(part.mass, com.position, turned((*part.moments, *part.products), com.quaternion)) for part, com in coms]
-    mass, center, tensor = together(bodies)
+    mass, center, tensor = sum_of(bodies)
     w, x, y, z = orientation
     ixx, iyy, izz, ixy, ixz, iyz = turned(tensor, (w, -x, -y, -z))
     return Inertial(

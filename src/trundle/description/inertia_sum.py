@@ -29,7 +29,7 @@ def turned(tensor: Tensor, turn: Quaternion) -> Tensor:
     return a, b, c, d, e, f
 
 
-def together(bodies: Sequence[tuple[float, Vector3, Tensor]]) -> tuple[float, Vector3, Tensor]:
+def sum_of(bodies: Sequence[tuple[float, Vector3, Tensor]]) -> tuple[float, Vector3, Tensor]:
     """Mass [kg], centre of mass [m] and inertia about it of several bodies as one.
 
     Args:

@@ -9,7 +9,7 @@ from .context import RawPose
 from .frames import FrameGraph, Scope
 
 
-class Part(Struct, frozen=True, kw_only=True):
+class UnplacedModel(Struct, frozen=True, kw_only=True):
     """A model, its frames, and where it is to go."""
 
     model: Model

@@ -13,7 +13,7 @@ XACRO = ("xacro", "xacro.py")
 
 
 @contextmanager
-def xacro_at_hand(argv: Sequence[str], env: Mapping[str, str]) -> Generator[tuple[list[str], dict[str, str]]]:
+def with_xacro(argv: Sequence[str], env: Mapping[str, str]) -> Generator[tuple[list[str], dict[str, str]]]:
     """Yield a command and its environment in which ours is the xacro that is named and not installed.
 
     Args:

@@ -11,7 +11,7 @@ from .plan import LaunchArgument, LaunchNode, LaunchParam, LaunchPlan, LaunchTes
 _MAX_PARAMS = 200_000
 
 
-class Draft:
+class PlanBuilder:
     """Collects nodes and parameters; a parameter set twice keeps its place and takes the later value."""
 
     def __init__(self, report: Diagnostics) -> None:
