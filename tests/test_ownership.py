@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 from tests.graphs import running_graph
 
+from trundle.atomic_write import write_whole
 from trundle.bringup.launch.logs import log_folder
 from trundle.meshes import RawPart, keep, load_kept
-from trundle.outputs import write_whole
 from trundle.ownership import home_folder, is_ours
 from trundle.ros import blocking_call
 from trundle.ros.transport.unix_sockets import UNIXROS, connect_unix

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from trundle.diagnostics import UsageError
-from trundle.supervisor import Command, Event, Patience, Policy, ProcessJob, ProcessTree, Supervisor, TaskJob
+from trundle.supervisor import Command, Event, Policy, ProcessJob, ProcessTree, StopTimeouts, Supervisor, TaskJob
 
 TIMEOUT_S = 60.0
 posix_only = pytest.mark.skipif(os.name != "posix", reason="signals and process groups are POSIX")
@@ -20,7 +20,7 @@ posix_only = pytest.mark.skipif(os.name != "posix", reason="signals and process 
 class Stage:
     """A supervisor whose events and lines are kept."""
 
-    def __init__(self, folder: Path, patience: Patience | None = None) -> None:
+    def __init__(self, folder: Path, patience: StopTimeouts | None = None) -> None:
         self.events: list[Event] = []
         self.lines: list[tuple[str, str]] = []
         self.folder = folder
@@ -53,7 +53,7 @@ class Stage:
 
 
 def on_stage(
-    folder: Path, play: Callable[[Stage], Coroutine[Any, Any, None]], patience: Patience | None = None
+    folder: Path, play: Callable[[Stage], Coroutine[Any, Any, None]], patience: StopTimeouts | None = None
 ) -> Stage:
     async def run() -> Stage:
         stage = Stage(folder, patience)
@@ -161,7 +161,7 @@ def test_a_deaf_program_and_its_children_are_killed(tmp_path: Path) -> None:
         await stage.python("a", code)
         await asyncio.wait_for(stage.seen.wait(), TIMEOUT_S)
 
-    stage = on_stage(tmp_path, play, Patience(interrupt_s=0.1, terminate_s=0.1))
+    stage = on_stage(tmp_path, play, StopTimeouts(interrupt_s=0.1, terminate_s=0.1))
     assert stage.supervisor.exit_codes() == {"a": -9}
     child = int(stage.lines[0][1])
     wait_for_end(Path(f"/proc/{child}/stat"))
@@ -245,4 +245,4 @@ def test_a_task_that_ignores_its_cancellation_holds_up_nobody(tmp_path: Path) ->
         await stage.supervisor.stop()
         release.set()
 
-    on_stage(tmp_path, play, Patience(terminate_s=0.05))
+    on_stage(tmp_path, play, StopTimeouts(terminate_s=0.05))

@@ -4,11 +4,11 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Literal, TypeAlias
 
+from trundle.atomic_write import write_whole
 from trundle.description import Loaded, UriOf, write_sdf, write_urdf, written_uri
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.meshes import Texture
 from trundle.model import flattened
-from trundle.outputs import write_whole
 from trundle.packages import Packages
 
 from .file_copies import FileCopies

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from .running import IntermixedParser, original_errors
+from .graph_command import IntermixedParser, original_errors
 
 EXAMPLES = """
   trundle bag record -O drive.bag /odom /tf /scan

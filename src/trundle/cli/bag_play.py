@@ -11,7 +11,7 @@ from typing import Any
 
 from trundle.ros import BagReader, Node, Player, PlayOptions, open_bag
 
-from .running import running_node
+from .graph_command import running_node
 
 _CONNECTED_S = 0.1
 _TERMINAL_S = 0.1

@@ -12,7 +12,7 @@ from pathlib import Path
 from trundle.diagnostics import UsageError
 from trundle.ros import BagError, Recorder, RecordOptions, follow_time
 
-from .running import ending_signals, running_node
+from .graph_command import ending_signals, running_node
 
 
 def main(args: argparse.Namespace) -> int:

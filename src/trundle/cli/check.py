@@ -45,8 +45,8 @@ def _check(args: argparse.Namespace) -> int:
     outcome = check(args.file, dict(os.environ), start=Path.cwd(), collisions=args.collisions)
     warned = any(finding.severity == "warning" for finding in outcome.report.findings)
     if args.graph is not None:
-        from trundle.diagram import tree_svg
-        from trundle.outputs import write_whole
+        from trundle.atomic_write import write_whole
+        from trundle.drawing.tree import tree_svg
 
         write_whole(args.graph, tree_svg(outcome.trees(), title=args.file))
     if args.json:
@@ -56,7 +56,7 @@ def _check(args: argparse.Namespace) -> int:
         print()
     else:
         if args.tree and not outcome.refused:
-            from trundle.diagram import tree_text
+            from trundle.drawing.tree import tree_text
 
             print(tree_text(outcome.trees()))
         print(outcome.text())

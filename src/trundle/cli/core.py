@@ -14,7 +14,7 @@ from trundle.bringup.network_warning import warn_of_network
 from trundle.diagnostics import UsageError
 from trundle.ros import DISTROS, NOETIC, Core, GraphLoop, RosError, host_and_port
 
-from .running import ending_signals
+from .graph_command import ending_signals
 
 EXAMPLES = """
   trundle core                  the usual place: http://localhost:11311

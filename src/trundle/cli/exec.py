@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 from trundle.diagnostics import UsageError
 
-from .running import interrupted_by_signals
-from .typed import typed_number
+from .graph_command import interrupted_by_signals
+from .prompt import typed_number
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Sequence

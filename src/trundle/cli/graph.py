@@ -4,11 +4,11 @@ import argparse
 import json
 from pathlib import Path
 
+from trundle.atomic_write import write_whole
 from trundle.diagnostics import UsageError
 from trundle.drawing import graph_dot, graph_of, graph_svg
-from trundle.outputs import write_whole
 
-from .running import master, original_errors
+from .graph_command import master, original_errors
 
 EXAMPLES = """
   trundle graph                   as text for Graphviz

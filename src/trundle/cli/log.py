@@ -10,7 +10,7 @@ from typing import Any
 from trundle.diagnostics import UsageError
 from trundle.ros import LEVELS, coloured
 
-from .running import original_errors, running_node
+from .graph_command import original_errors, running_node
 
 EXAMPLES = """
   trundle log

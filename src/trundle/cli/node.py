@@ -10,8 +10,8 @@ from typing import Any
 from trundle.diagnostics import UsageError
 from trundle.ros import MasterError, MasterProxy, RosError, blocking_call, host_of
 
-from .running import global_name, master, original_errors
-from .typed import typed_line, typed_number
+from .graph_command import global_name, master, original_errors
+from .prompt import typed_line, typed_number
 
 EXAMPLES = """
   trundle node list

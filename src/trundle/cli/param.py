@@ -9,13 +9,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from trundle.atomic_write import write_whole
 from trundle.diagnostics import UsageError
 from trundle.files import read_input, read_standard_input
 from trundle.names import join_names
-from trundle.outputs import write_whole
 from trundle.ros import set_leaves
 
-from .running import global_name, master, original_errors
+from .graph_command import global_name, master, original_errors
 
 if TYPE_CHECKING:
     from trundle.expressions import Interpreter

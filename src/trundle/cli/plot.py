@@ -7,9 +7,9 @@ import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from trundle.atomic_write import write_whole
 from trundle.diagnostics import UsageError
 from trundle.drawing import Curve, curves_svg, curves_text
-from trundle.outputs import write_whole
 from trundle.ros import (
     Field,
     GraphLoop,
@@ -23,7 +23,7 @@ from trundle.ros import (
     spread_fields,
 )
 
-from .running import global_name, master, original_errors, running_node
+from .graph_command import global_name, master, original_errors, running_node
 from .topic_field import wait_for_topic
 
 EXAMPLES = """

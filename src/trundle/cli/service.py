@@ -4,7 +4,7 @@ import argparse
 
 from trundle.ros import MasterError, MasterProxy, RosError, ServiceError
 
-from .running import global_name, master, original_errors
+from .graph_command import global_name, master, original_errors
 
 EXAMPLES = """
   trundle service list

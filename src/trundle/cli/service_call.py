@@ -21,7 +21,7 @@ from trundle.ros import (
     probe_service,
 )
 
-from .running import global_name, master, running_node
+from .graph_command import global_name, master, running_node
 from .yaml_input import piped_documents, yaml_value
 
 _SCRIPT = "rosservice"

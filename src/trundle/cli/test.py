@@ -3,8 +3,8 @@
 import argparse
 from pathlib import Path
 
+from .graph_command import interrupted_by_signals
 from .main import quiet_imports
-from .running import interrupted_by_signals
 
 EXAMPLES = """
   trundle test my_robot drive.test                    a package and a file in it

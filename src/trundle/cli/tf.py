@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Callable
 from importlib import import_module
 
-from .running import original_errors
+from .graph_command import original_errors
 
 EXAMPLES = """
   trundle tf echo odom base_link

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from trundle.diagnostics import UsageError
 from trundle.ros import Transform, TransformBuffer, TransformError, TransformListener, follow_time
 
-from .running import running_node
+from .graph_command import running_node
 from .yaml_input import yaml_value
 
 _FIRST_S = 1.0

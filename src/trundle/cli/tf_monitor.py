@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from trundle.ros import Clock, GraphLoop, Node, TransformBuffer, TransformError, TransformListener, follow_time
 
-from .running import running_node
+from .graph_command import running_node
 from .tf_traffic import TransformTraffic
 
 _EVERY_S = 1.0

@@ -4,7 +4,7 @@ import argparse
 
 from trundle.nodes import BUILTIN_NODES, NodeHost, Replacement, run_builtin_node
 
-from .running import running_node
+from .graph_command import running_node
 
 
 def main(args: argparse.Namespace) -> int:

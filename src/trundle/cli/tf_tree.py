@@ -6,12 +6,12 @@ import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from trundle.atomic_write import write_whole
 from trundle.diagnostics import UsageError
-from trundle.diagram import TreeNode, tree_svg, tree_text
-from trundle.outputs import write_whole
+from trundle.drawing.tree import TreeNode, tree_svg, tree_text
 from trundle.ros import follow_time
 
-from .running import running_node
+from .graph_command import running_node
 from .tf_traffic import FrameTraffic, TransformTraffic
 
 _SUFFIXES = (".svg", ".gv", ".dot")

@@ -5,7 +5,7 @@ import argparse
 from trundle.diagnostics import UsageError
 from trundle.ros import MasterError, MasterProxy, RosError, host_of
 
-from .running import IntermixedParser, global_name, master, original_errors
+from .graph_command import IntermixedParser, global_name, master, original_errors
 
 EXAMPLES = """
   trundle topic list

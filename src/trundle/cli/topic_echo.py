@@ -24,7 +24,7 @@ from trundle.ros import (
 )
 
 from .expression import expression
-from .running import global_name, master, running_node
+from .graph_command import global_name, master, running_node
 from .topic_field import wait_for_topic
 
 _FIRST_S = 2.0

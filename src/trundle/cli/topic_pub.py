@@ -8,7 +8,7 @@ from typing import Any, NoReturn
 from trundle.diagnostics import UsageError
 from trundle.ros import MessageError, MessagePrinter, Node, Publisher, WallClock, follow_time
 
-from .running import global_name, running_node
+from .graph_command import global_name, running_node
 from .yaml_input import piped_documents, yaml_file, yaml_value
 
 _ONCE_S = 3.0

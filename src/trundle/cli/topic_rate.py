@@ -13,7 +13,7 @@ from trundle.diagnostics import UsageError
 from trundle.ros import Clock, MessageView, RawMessage, WallClock, follow_time, ns_of
 
 from .expression import Expression, expression
-from .running import global_name, master, running_node
+from .graph_command import global_name, master, running_node
 from .topic_field import wait_for_topic
 
 _MAX_WINDOW = 50_000

@@ -32,10 +32,10 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _expand(args: argparse.Namespace) -> int:
+    from trundle.atomic_write import write_whole
     from trundle.description import expand_xacro
     from trundle.diagnostics import Diagnostics, UsageError
     from trundle.files import is_stream, read_stream
-    from trundle.outputs import write_whole
     from trundle.packages import Packages
 
     words = [word.partition(":=") for word in args.arguments]

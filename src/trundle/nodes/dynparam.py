@@ -7,8 +7,8 @@ from typing import Any, cast
 
 import yaml
 
+from trundle.atomic_write import write_whole
 from trundle.files import read_input
-from trundle.outputs import write_whole
 from trundle.ros import Node, Options, ServiceError, find_reconfigurable, read_options, set_options
 from trundle.yaml_loader import BoundedLoader, load_yaml
 

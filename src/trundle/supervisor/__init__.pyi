@@ -1,7 +1,7 @@
 from .job import Job as Job
 from .job import JobError as JobError
-from .job import Patience as Patience
 from .job import Policy as Policy
+from .job import StopTimeouts as StopTimeouts
 from .process import Command as Command
 from .process import ProcessJob as ProcessJob
 from .process_tree import ProcessTree as ProcessTree

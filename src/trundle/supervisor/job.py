@@ -5,7 +5,7 @@ from typing import Protocol
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Patience:
+class StopTimeouts:
     """How long each way of asking a job to end may take [s]; the defaults are roslaunch's."""
 
     interrupt_s: float = 15.0
@@ -42,7 +42,7 @@ class Job(Protocol):
         """Return the exit code once it has ended; negative: the signal that ended it."""
         ...
 
-    async def stop(self, patience: Patience) -> None:
+    async def stop(self, patience: StopTimeouts) -> None:
         """Ask it to end, ever more firmly; afterwards nothing of it is left. Harmless when it does not run."""
         ...
 

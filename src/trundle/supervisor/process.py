@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Literal
 
-from .job import JobError, Patience
+from .job import JobError, StopTimeouts
 from .process_tree import ProcessTree
 
 _POSIX = os.name == "posix"
@@ -93,7 +93,7 @@ class ProcessJob:
         self._tree.discard(self._process.pid)
         return code
 
-    async def stop(self, patience: Patience) -> None:
+    async def stop(self, patience: StopTimeouts) -> None:
         process = self._process
         if process is None or process.returncode is not None:
             return

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from .job import Job, JobError, Patience, Policy
+from .job import Job, JobError, Policy, StopTimeouts
 
 EventKind: TypeAlias = Literal["started", "failed", "finished", "died", "respawning", "stopping", "required"]
 
@@ -40,10 +40,10 @@ class _Watched:
 class Supervisor:
     """Watches over jobs on the running asyncio loop."""
 
-    def __init__(self, listener: Callable[[Event], None], *, patience: Patience | None = None) -> None:
+    def __init__(self, listener: Callable[[Event], None], *, patience: StopTimeouts | None = None) -> None:
         """`listener` is told what happens, on the loop's thread."""
         self._listener = listener
-        self._patience = patience or Patience()
+        self._patience = patience or StopTimeouts()
         self._watched: dict[str, _Watched] = {}
         self._ended = asyncio.Event()
         self._required: str | None = None

@@ -7,7 +7,7 @@ from typing import Any
 
 from trundle.diagnostics import TrundleError
 
-from .job import Patience
+from .job import StopTimeouts
 
 
 class TaskJob:
@@ -36,7 +36,7 @@ class TaskJob:
         self._last = (str(error) if isinstance(error, TrundleError) else _trace(error)).splitlines()
         return 1
 
-    async def stop(self, patience: Patience) -> None:
+    async def stop(self, patience: StopTimeouts) -> None:
         if self._task is None or self._task.done():
             return
         self._task.cancel()

@@ -15,7 +15,7 @@ from trundle.packages import Packages
 from ..load_input import Piped, read_piped
 
 if TYPE_CHECKING:
-    from trundle.diagram import TreeNode
+    from trundle.drawing.tree import TreeNode
 
 _LAUNCH = (".launch", ".launch.py", ".launch.xml", ".test")
 _LAUNCH_TAG = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>]*>)*+<launch[\s/>]", re.DOTALL)

@@ -16,7 +16,7 @@ from trundle.physics import name_wheels
 from ..load_input import Piped, load_input
 
 if TYPE_CHECKING:
-    from trundle.diagram import TreeNode
+    from trundle.drawing.tree import TreeNode
 
 
 @dataclass(frozen=True, slots=True)

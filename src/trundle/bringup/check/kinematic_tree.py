@@ -1,7 +1,7 @@
 """The links of a description as trees, joined by its joints."""
 
 from trundle.description import Loaded
-from trundle.diagram import TreeNode
+from trundle.drawing.tree import TreeNode
 from trundle.model import Joint, Model, flattened
 from trundle.robot import Robot
 

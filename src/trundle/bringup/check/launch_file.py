@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from trundle.diagnostics import Diagnostics
-from trundle.diagram import TreeNode
+from trundle.drawing.tree import TreeNode
 from trundle.launch import LaunchPlan, ParamCommand, read_launch, read_launch_text
 from trundle.packages import Packages
 

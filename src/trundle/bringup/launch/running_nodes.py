@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 from trundle.launch import LaunchNode
 from trundle.nodes import WORLDS, module_of_ros, without_rospy
-from trundle.supervisor import Event, Patience, Supervisor
+from trundle.supervisor import Event, StopTimeouts, Supervisor
 
 from ..console import say
 from .nodes import Launched, NodeStarter
@@ -21,7 +21,13 @@ class RunningNodes:
     """Starts, watches and stops; on the graph's loop."""
 
     def __init__(
-        self, starter: NodeStarter, nodes: Sequence[LaunchNode], *, patience: Patience, quiet: bool, listener: Listener
+        self,
+        starter: NodeStarter,
+        nodes: Sequence[LaunchNode],
+        *,
+        patience: StopTimeouts,
+        quiet: bool,
+        listener: Listener,
     ) -> None:
         """`quiet`: say only what goes wrong."""
         self._starter = starter

@@ -12,7 +12,7 @@ from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import WINDOWS, WORLDS, Executable, NodeHost, Simulator, find_node
 from trundle.page_address import PageAddress
 from trundle.ros import DISTROS, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
-from trundle.supervisor import Event, Patience, ProcessTree
+from trundle.supervisor import Event, ProcessTree, StopTimeouts
 
 from ..console import say
 from ..graph import Graph
@@ -222,7 +222,7 @@ class LaunchSession:
     def start(self, nodes: Sequence[LaunchNode], *, is_ending: Callable[[], bool] = lambda: False) -> RunningNodes:
         """Start nodes, unless the end comes first, and say what runs."""
         loop, options = self.graph.loop, self._options
-        patience = Patience(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
+        patience = StopTimeouts(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
         running = self._running = RunningNodes(
             self.starter, nodes, patience=patience, quiet=options.quiet, listener=self._heard
         )

@@ -10,7 +10,7 @@ from pathlib import Path
 from trundle.diagnostics import DescriptionError, UsageError
 from trundle.launch import LaunchTest
 from trundle.ros import GraphLoop, MasterProxy, MasterUnreachableError, master_uri_from_env
-from trundle.supervisor import Job, JobError, Patience
+from trundle.supervisor import Job, JobError, StopTimeouts
 
 from ..console import say
 from .launch import read_files
@@ -139,7 +139,7 @@ def _to_the_end(loop: GraphLoop, job: Job, limit_s: float) -> _Ended:
     except TimeoutError:
         code = None
     finally:  # also on Ctrl-C
-        loop.run(job.stop(Patience()), timeout_s=None)
+        loop.run(job.stop(StopTimeouts()), timeout_s=None)
     return _Ended(code, job.last_output())
 
 

@@ -36,12 +36,12 @@ def speed_limit(settings: NodeParams) -> SpeedLimit:
     braking, speeding = bounds("acceleration")
     lowest, highest = bounds("jerk")
     return SpeedLimit(
-        slowest=slowest,
-        fastest=fastest,
-        hardest_braking=braking,
-        hardest=speeding,
-        lowest_jerk=lowest,
-        highest_jerk=highest,
+        min_velocity=slowest,
+        max_velocity=fastest,
+        min_acceleration=braking,
+        max_acceleration=speeding,
+        min_jerk=lowest,
+        max_jerk=highest,
     )
 
 

@@ -1,6 +1,6 @@
 """Trees as text and as pictures."""
 
-from trundle.diagram import TreeNode, tree_svg, tree_text
+from trundle.drawing.tree import TreeNode, tree_svg, tree_text
 from trundle.xmlnode import parse_xml
 
 BASE = TreeNode(

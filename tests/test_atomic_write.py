@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from trundle.atomic_write import write_whole
 from trundle.cli import main
 from trundle.diagnostics import UsageError
-from trundle.outputs import write_whole
 
 MODEL = '<sdf version="1.6"><model name="m"><link name="l"/></model></sdf>'
 DEV_FULL = Path("/dev/full")
