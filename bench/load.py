@@ -25,7 +25,7 @@ _LOOKS = 20
 """So often it is said how it goes, and memory is looked at."""
 _SETTLED = 4
 """Looks until everything that is made once has been made; what memory grows by from there on counts."""
-MOST_GROWN_MB = 10.0
+MAX_GROWN_MB = 10.0
 _LATE_MS = 100
 """Ten ticks of /clock."""
 _TWIST, _STRING = "geometry_msgs/Twist", "std_msgs/String"
@@ -58,7 +58,7 @@ class Report:
     @property
     def faults(self) -> list[str]:
         """What is not well, but for a /clock that a busy machine makes late."""
-        grown = [f"the {name} process grew by {mb:.0f} MB" for name, mb in self.grown_mb.items() if mb > MOST_GROWN_MB]
+        grown = [f"the {name} process grew by {mb:.0f} MB" for name, mb in self.grown_mb.items() if mb > MAX_GROWN_MB]
         missed = [f"{self.missed_latched} newcomers missed the latched message"] if self.missed_latched else []
         back = [f"/clock went back {self.clock_backwards} times"] if self.clock_backwards else []
         return [*grown, *missed, *back]

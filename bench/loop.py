@@ -6,14 +6,14 @@ from collections.abc import Callable
 
 import mujoco
 
-from trundle.physics.compile.law_tables import switch_off
+from trundle.physics.compile.law_tables import disable_laws
 from trundle.simulation import Simulation
 
 
 def bare_loop(sim: Simulation) -> Callable[[int], None]:
     """Steps of the same bodies with the same options, from where the simulation is."""
     model, data = copy.copy(sim.engine.compiled.model), sim.engine.save().data
-    switch_off(model)
+    disable_laws(model)
     return lambda steps: mujoco.mj_step(model, data, nstep=steps)
 
 

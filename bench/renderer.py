@@ -14,7 +14,7 @@ from bench.table import Row
 from bench.tiny_renderer import TinyRenderer
 from trundle.diagnostics import UsageError
 from trundle.physics import EglRenderer
-from trundle.physics.egl_renderer import model_of
+from trundle.physics.egl_renderer import model_from_scene
 from trundle.render import Intrinsics, NativeRenderer, Renderer, Scene
 from trundle.sensors import mount_cameras
 from trundle.spatial import Pose
@@ -104,7 +104,7 @@ def _scans(name: str, scene: Scene, beams: int, height: int) -> Row:
     ours, eye = NativeRenderer(scene), Pose((0.0, 0.0, 0.5))
     poses = scenes.poses_at(scene, 0)
     ours.update(poses)
-    model = model_of(scene)
+    model = model_from_scene(scene)
     data = mujoco.MjData(model)
     for i, pose in enumerate(poses):
         data.mocap_pos[i], data.mocap_quat[i] = pose[:3], pose[3:]
@@ -134,7 +134,7 @@ def _rp2w() -> Row:
     sim = trundle.load(str(ROBOT))
     cameras = mount_cameras(sim, NativeRenderer)
     for camera in cameras:
-        sim.add_hook(camera, period_ns=camera.period_ns, wanted=lambda: True)
+        sim.add_hook(camera, period_ns=camera.period_ns, enabled=lambda: True)
     sim.run(1.0)
     start = time.process_time()
     sim.run(20.0)

@@ -45,7 +45,7 @@ class TinyRenderer:
         """Draw what cameras see."""
         bullet = self._bullet
         for eye, lens in views:
-            ahead, up = eye.direction((1.0, 0.0, 0.0)), eye.direction((0.0, 0.0, 1.0))
+            ahead, up = eye.transform_vector((1.0, 0.0, 0.0)), eye.transform_vector((0.0, 0.0, 1.0))
             target = [at + way for at, way in zip(eye.position, ahead, strict=True)]
             height_rad = 2 * math.atan(lens.height_px / 2 / lens.focal_px)
             bullet.getCameraImage(

@@ -7,7 +7,7 @@ from pathlib import Path
 from trundle.cli.main import COMMANDS
 from trundle.nodes import BUILTIN_NODES
 from trundle.plugins import BUILTIN, OF_SENSORS
-from trundle.sensors import SIMULATED
+from trundle.sensors import SIMULATED_CAMERAS
 
 README = Path(__file__).parents[1] / "README.md"
 BEGIN = "<!-- what runs: begin (made by `make format` from the code's catalogs) -->"
@@ -22,7 +22,7 @@ def table() -> str:
     rows = {
         "`trundle …`": _listed(COMMANDS),
         "nodes without ROS": _listed(_nodes()),
-        "sensors": _listed(sorted(SIMULATED)),
+        "sensors": _listed(sorted(SIMULATED_CAMERAS)),
         "Gazebo's plugins": f"{_listed(sorted(plugins - of_ros))}, your own in Python",
         f"`{GAZEBO_ROS}…` plugins": _listed(sorted(name.removeprefix(GAZEBO_ROS) for name in of_ros)),
     }

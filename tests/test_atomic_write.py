@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.atomic_write import write_whole
+from trundle.atomic_write import write_atomically
 from trundle.cli import main
 from trundle.diagnostics import UsageError
 
@@ -25,9 +25,9 @@ def test_a_file_is_replaced_and_a_link_to_it_stays_one(tmp_path: Path) -> None:
     file, link = tmp_path / "a.txt", tmp_path / "link"
     link.symlink_to(file)
 
-    write_whole(link, "α")
+    write_atomically(link, "α")
     file.chmod(0o600)
-    write_whole(link, "β")
+    write_atomically(link, "β")
 
     assert file.read_bytes() == "β".encode()
     assert file.stat().st_mode & 0o777 == 0o600
@@ -48,9 +48,9 @@ def test_a_pipe_is_written_into(tmp_path: Path, model: str) -> None:
 def test_what_cannot_be_written_leaves_what_was_there(tmp_path: Path) -> None:
     (tmp_path / "folder").mkdir()
     with pytest.raises(UsageError, match=r"cannot write .*folder: Is a directory"):
-        write_whole(tmp_path / "folder", "a")
+        write_atomically(tmp_path / "folder", "a")
     with pytest.raises(UsageError, match=r"cannot write .*none/a: No such file"):
-        write_whole(tmp_path / "none/a", "a")
+        write_atomically(tmp_path / "none/a", "a")
     assert [path.name for path in tmp_path.iterdir()] == ["folder"]
 
 

@@ -37,8 +37,8 @@ def test_an_error_that_ends_nothing_is_said_once_and_where_it_is() -> None:
     """A rendered error within a warning would name the place and the severity twice."""
     report = Diagnostics()
 
-    report.warn_of(DescriptionError(Source("b.urdf", 3), "no mesh"), Source("a.urdf", 1), "it is left out")
-    report.warn_of(UsageError("no joint"), Source("a.urdf", 1), "it is left out", who="plugin 'p'")
+    report.warn_error(DescriptionError(Source("b.urdf", 3), "no mesh"), Source("a.urdf", 1), "it is left out")
+    report.warn_error(UsageError("no joint"), Source("a.urdf", 1), "it is left out", who="plugin 'p'")
 
     assert report.warnings == [
         "b.urdf:3: warning: no mesh; it is left out",

@@ -43,10 +43,10 @@ def test_bytes_are_counted_as_they_are_read(tmp_path: Path) -> None:
     full = tmp_path / "full"
     full.write_bytes(b"12345")
 
-    assert files.read_file(full, most=5) == b"12345"
-    assert refused(lambda: files.read_file(full, most=4)) == "larger than 4 bytes, the largest file read"
+    assert files.read_file(full, max_bytes=5) == b"12345"
+    assert refused(lambda: files.read_file(full, max_bytes=4)) == "larger than 4 bytes, the largest file read"
     assert files.read_file("/proc/self/status")
-    assert "larger than 9 bytes" in refused(lambda: files.read_file("/proc/self/status", most=9))
+    assert "larger than 9 bytes" in refused(lambda: files.read_file("/proc/self/status", max_bytes=9))
 
 
 def test_a_text_has_the_lines_of_unix_and_no_byte_stops_it(tmp_path: Path) -> None:
@@ -74,7 +74,7 @@ def test_a_pipe_that_nothing_writes_to_does_not_hang(fifo: Path, monkeypatch: py
 
 
 def test_a_stream_without_end_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(files, "MOST_BYTES", 100_000)
+    monkeypatch.setattr(files, "MAX_BYTES", 100_000)
 
     assert refused(lambda: files.read_stream("/dev/zero")) == "larger than 100000 bytes, the largest file read"
 

@@ -22,7 +22,7 @@ from trundle.description import expand_xacro
 from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.launch import read_launch
 from trundle.meshes import load_mesh, load_motion, load_skin, mean_colour, read_heights
-from trundle.packages import Packages, model_file, needs
+from trundle.packages import Packages, model_file, run_dependencies
 from trundle.render.textures import load_texture
 from trundle.viewer import read_rviz_config
 
@@ -67,7 +67,7 @@ def _model_config(path: Path) -> None:
 
 
 def _package(path: Path) -> None:
-    needs(path.parent)
+    run_dependencies(path.parent)
     packages = Packages({"ROS_PACKAGE_PATH": str(path.parent)}, start=path.parent)
     packages.find_package("p")
     packages.worlds()

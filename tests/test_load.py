@@ -59,7 +59,7 @@ def test_a_robot_loads_nothing_that_it_has_not() -> None:
         "trundle.physics.convex.mesh_decomposition",
         "trundle.physics.step.surface_motion",
         "trundle.render.skinned_actors",
-        "trundle.sensors.depth_camera",
+        "trundle.sensors.cameras.depth",
         "trundle.sensors.imu",
         "trundle.sensors.mount_instruments",
         "trundle.simulation.state_log",

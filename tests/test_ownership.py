@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 from tests.graphs import running_graph
 
-from trundle.atomic_write import write_whole
+from trundle.atomic_write import write_atomically
 from trundle.bringup.launch.logs import log_folder
-from trundle.meshes import RawPart, keep, load_kept
-from trundle.ownership import home_folder, is_ours
+from trundle.meshes import RawPart, load_parts, save_parts
+from trundle.ownership import home_folder, is_owned_by_user
 from trundle.ros import blocking_call
 from trundle.ros.transport.unix_sockets import UNIXROS, connect_unix
 from trundle.viewer.mailbox import Mailbox
@@ -137,9 +137,9 @@ def test_a_cache_that_another_user_prepared_is_not_believed(
     stranger: Stranger, for_all: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(for_all / "cache"))
-    keep("k", [_part()])
+    save_parts("k", [_part()])
     kept = (for_all / "cache/trundle/meshes/k.npz").read_bytes()
-    assert load_kept("k") is not None
+    assert load_parts("k") is not None
     assert "PermissionError" in stranger.run("os.listdir(sys.argv[1])", for_all / "cache/trundle/meshes")[1]
 
     theirs = for_all / "theirs"
@@ -147,8 +147,8 @@ def test_a_cache_that_another_user_prepared_is_not_believed(
     assert stranger.run(program, theirs / "trundle/meshes") == ("", "")
     (theirs / "trundle/meshes/k.npz").write_bytes(kept)
     monkeypatch.setenv("XDG_CACHE_HOME", str(theirs))
-    assert load_kept("k") is None
-    keep("other", [_part()])
+    assert load_parts("k") is None
+    save_parts("other", [_part()])
     assert [file.name for file in (theirs / "trundle/meshes").iterdir()] == ["k.npz"]
 
 
@@ -159,7 +159,7 @@ def test_a_log_folder_that_another_user_prepared_is_not_used(stranger: Stranger,
 
     assert folder.parent == for_all
     assert folder != for_all / "gazebo"
-    assert is_ours(folder)
+    assert is_owned_by_user(folder)
 
 
 def test_a_link_where_a_file_is_about_to_be_written_is_not_followed(tmp_path: Path) -> None:
@@ -167,7 +167,7 @@ def test_a_link_where_a_file_is_about_to_be_written_is_not_followed(tmp_path: Pa
     ours.write_text("precious")
     (tmp_path / ".out.sdf.part").symlink_to(ours)
 
-    write_whole(out, "new")
+    write_atomically(out, "new")
 
     assert (ours.read_text(), out.read_text(), out.is_symlink()) == ("precious", "new", False)
 
@@ -175,12 +175,12 @@ def test_a_link_where_a_file_is_about_to_be_written_is_not_followed(tmp_path: Pa
 def test_folders_are_ours_where_no_other_user_can_change_the_way(tmp_path: Path) -> None:
     folder = tmp_path / "a/b"
     folder.mkdir(parents=True)
-    assert is_ours(folder)
-    assert not is_ours(tmp_path / "none")
+    assert is_owned_by_user(folder)
+    assert not is_owned_by_user(tmp_path / "none")
     folder.parent.chmod(0o777)
-    assert not is_ours(folder)
+    assert not is_owned_by_user(folder)
     folder.parent.chmod(0o1777)
-    assert is_ours(folder)
+    assert is_owned_by_user(folder)
 
 
 def test_without_home_the_systems_is_taken_and_never_a_folder_for_all(monkeypatch: pytest.MonkeyPatch) -> None:

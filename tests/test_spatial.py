@@ -16,12 +16,12 @@ points = st.tuples(length, length, length)
 
 @given(poses, poses, points)
 def test_composing_is_applying_one_after_the_other(a: Pose, b: Pose, p: tuple[float, float, float]) -> None:
-    assert (a @ b).point(p) == pytest.approx(a.point(b.point(p)), abs=1e-9)
+    assert (a @ b).transform_point(p) == pytest.approx(a.transform_point(b.transform_point(p)), abs=1e-9)
 
 
 @given(poses, points)
 def test_the_inverse_takes_a_point_back(pose: Pose, p: tuple[float, float, float]) -> None:
-    assert pose.inverse().point(pose.point(p)) == pytest.approx(p, abs=1e-9)
+    assert pose.inverse().transform_point(pose.transform_point(p)) == pytest.approx(p, abs=1e-9)
 
 
 @given(angle, angle, angle)
@@ -38,7 +38,7 @@ def test_rotations_are_about_fixed_axes_x_then_y_then_z() -> None:
     """SDF's and URDF's convention: a quarter of roll, then a quarter of yaw, takes z to x."""
     pose = Pose.from_rpy(0, 0, 0, math.pi / 2, 0, math.pi / 2)
 
-    assert pose.direction((0.0, 0.0, 1.0)) == pytest.approx((1.0, 0.0, 0.0), abs=1e-12)
+    assert pose.transform_vector((0.0, 0.0, 1.0)) == pytest.approx((1.0, 0.0, 0.0), abs=1e-12)
 
 
 @pytest.mark.parametrize("off", [0.0, 1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 1e-3])

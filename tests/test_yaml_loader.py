@@ -46,7 +46,7 @@ def test_what_cannot_be_loaded_is_a_sentence(text: str, words: str) -> None:
 
 
 def test_many_values_are_refused_before_they_are_made(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("trundle.yaml_loader._MOST_NODES", 100)
+    monkeypatch.setattr("trundle.yaml_loader._MAX_NODES", 100)
     with pytest.raises(yaml.YAMLError, match="more than 100 values"):
         load_yaml("[" + "0, " * 200 + "0]")
 

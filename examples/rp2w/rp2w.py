@@ -16,7 +16,7 @@ Forward is the model's +y, where both cameras look. Parameters, all optional, in
 import math
 
 from trundle import bridge, ros
-from trundle.control import DifferentialDrive, WheelOdometry, approach
+from trundle.control import DifferentialDrive, WheelOdometry, step_towards
 from trundle.model import PluginTag
 from trundle.plugins import Plugin
 from trundle.simulation import ModelHandle, Simulation, Snapshot
@@ -71,7 +71,7 @@ class Rp2w(Plugin):
         x_forward = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
         ros.StaticTransformBroadcaster(node).send(ros.Transform(parent="world", child="odom", rotation=x_forward))
         states = bridge.JointStates(node, model)
-        sim.add_hook(states, period_ns=states.period_ns, wanted=states.wanted)
+        sim.add_hook(states, period_ns=states.period_ns, enabled=states.wanted)
         node.subscribe("/cmd_vel", "geometry_msgs/Twist", self.take)
         node.subscribe("/camera/pan", "std_msgs/Float64", lambda message: self.look(self.pan, message.data))
         # The tilt joint's axis is the model's +x, to the right: turning about it lifts the view.
@@ -87,8 +87,8 @@ class Rp2w(Plugin):
 
     def before_step(self, _sim: Simulation) -> None:
         forward, turning = self.wanted
-        self.speed = approach(self.speed, forward, self.acceleration * PERIOD_S)
-        self.turning = approach(self.turning, turning, TURNING_ACCELERATION * PERIOD_S)
+        self.speed = step_towards(self.speed, forward, self.acceleration * PERIOD_S)
+        self.turning = step_towards(self.turning, turning, TURNING_ACCELERATION * PERIOD_S)
         left, right = self.drive.wheel_speeds(self.speed, self.turning)
         # Both wheels' axes point to the right (+x): rolling forwards (+y) turns them the negative way.
         self.left.set_velocity(-left, max_effort=self.max_torque)
@@ -97,7 +97,7 @@ class Rp2w(Plugin):
     def after_step(self, snapshot: Snapshot) -> None:
         before, self.turned = self.turned, (self.left.position, self.right.position)
         left, right = (then - now for now, then in zip(self.turned, before, strict=True))
-        distance, turn = self.odometry.roll(left, right)
+        distance, turn = self.odometry.update(left, right)
         if self.node is not None:
             self.publish(snapshot.time_ns, distance / PERIOD_S, turn / PERIOD_S)
 

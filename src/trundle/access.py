@@ -1,7 +1,7 @@
 """Access to the page: which requests are served, and which header fields answers carry.
 
 Any web page that a person visits can have the browser send requests to loopback, and a name of its own can lead
-there (DNS rebinding). What it cannot do is choose `Origin` and `NodeHost`, or guess the session's token.
+there (DNS rebinding). What it cannot do is choose `Origin` and `Host`, or guess the session's token.
 """
 
 import secrets
@@ -42,13 +42,13 @@ class Access:
 
     def refusal(self, request: PageRequest) -> str | None:
         """Return why a request is refused, in a sentence; None: it is served."""
-        if self._brings_token(request) or (self._keeps_token(request) and _is_own(request)):
+        if self._has_token_in_query(request) or (self._has_token_in_cookie(request) and _is_own(request)):
             return None
         if self._is_closed:
             return "this page asks for its token: open the address that trundle printed, with what follows '?token='"
         if request.origin is not None and _plain(request.origin) in map(_plain, self.allowed.origins):
             return None
-        if not self._knows(request.host):
+        if not self._allows_host(request.host):
             return (
                 f"this page is not served as {(request.host or '')[:100]!r}; open it at localhost, "
                 "or start trundle with --allow-host NAME"
@@ -78,7 +78,7 @@ class Access:
             "Referrer-Policy": "no-referrer",
             "X-Content-Type-Options": "nosniff",
         }
-        if self._brings_token(request):
+        if self._has_token_in_query(request):
             fields["Set-Cookie"] = f"{self._cookie}={self.token}; Path=/; HttpOnly; SameSite=Strict"
         return fields
 
@@ -91,17 +91,17 @@ class Access:
         """Cookies are of a host; the port keeps those of several pages apart."""
         return f"trundle-{self.port}"
 
-    def _brings_token(self, request: PageRequest) -> bool:
+    def _has_token_in_query(self, request: PageRequest) -> bool:
         return self._matches(parse_qs(request.target.partition("?")[2]).get("token", [""])[-1])
 
-    def _keeps_token(self, request: PageRequest) -> bool:
+    def _has_token_in_cookie(self, request: PageRequest) -> bool:
         kept = [pair.strip().partition("=") for pair in request.cookie.split(";")]
         return any(name == self._cookie and self._matches(value) for name, _, value in kept)
 
     def _matches(self, text: str) -> bool:
         return secrets.compare_digest(text.encode(), self.token.encode())
 
-    def _knows(self, host: str | None) -> bool:
+    def _allows_host(self, host: str | None) -> bool:
         name = _name(host)
         names = ("localhost", socket.gethostname(), self.host, *self.allowed.hosts)
         return bool(name) and (is_address(name) or name in map(_name, names))
@@ -116,7 +116,7 @@ def _is_own(request: PageRequest) -> bool:
 
 
 def _name(host: str | None) -> str:
-    """The name or address in a `NodeHost` field; nothing where there is none."""
+    """The name or address in a `Host` field; nothing where there is none."""
     found = AUTHORITY.fullmatch((host or "").lower())
     return "" if found is None else found[1].strip("[]").rstrip(".")
 

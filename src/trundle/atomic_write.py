@@ -7,7 +7,7 @@ from pathlib import Path
 from .diagnostics import UsageError
 
 
-def write_whole(path: Path, text: str) -> None:
+def write_atomically(path: Path, text: str) -> None:
     """Write a text as UTF-8; a file that is there keeps what it holds until the new text is on the disk.
 
     Who may read it stays, a link stays one, and what is no file, a pipe or /dev/stdout, is written into.

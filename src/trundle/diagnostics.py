@@ -88,7 +88,7 @@ class Diagnostics:
             raise DescriptionError(at, what)
         self._add(Diagnostic("warning", at, what))
 
-    def warn_of(self, error: TrundleError, at: Source, otherwise: str, *, who: str = "") -> None:
+    def warn_error(self, error: TrundleError, at: Source, otherwise: str, *, who: str = "") -> None:
         """Name an error that ends nothing, where it says itself or else at `at`; `otherwise` states what is done.
 
         Raises:

@@ -17,7 +17,7 @@ from typing import BinaryIO, TypeAlias
 
 AnyPath: TypeAlias = str | os.PathLike[str]
 
-MOST_BYTES = 64 * 1024 * 1024
+MAX_BYTES = 64 * 1024 * 1024
 """Size of a description or a text; the largest published ones are a few MB."""
 _CHUNK_BYTES = 64 * 1024
 _TIMEOUT_S = 60.0
@@ -29,27 +29,27 @@ _OPEN = os.O_RDONLY | sum(getattr(os, flag, 0) for flag in _FLAGS)
 """A pipe that nothing writes to is opened at once, too."""
 
 
-def read_file(path: AnyPath, /, *, most: int = MOST_BYTES) -> bytes:
+def read_file(path: AnyPath, /, *, max_bytes: int = MAX_BYTES) -> bytes:
     """Read a regular file.
 
     Args:
         path: where it is.
-        most: bytes; counted as they are read, for a file may grow, and those of /proc claim to be empty.
+        max_bytes: bytes; counted as they are read, for a file may grow, and those of /proc claim to be empty.
 
     Raises:
         OSError: no such file, a pipe, device or folder, a larger one, or one that cannot be read.
     """
     with open_file(path) as file:
-        return _joined(iter(lambda: file.read(_CHUNK_BYTES), b""), most, path)
+        return _joined(iter(lambda: file.read(_CHUNK_BYTES), b""), max_bytes, path)
 
 
-def read_text(path: AnyPath, /, *, most: int = MOST_BYTES) -> str:
+def read_text(path: AnyPath, /, *, max_bytes: int = MAX_BYTES) -> str:
     """Read a regular file as UTF-8, any other byte replaced, with the line ends of Unix.
 
     Raises:
         OSError: as `read_file`.
     """
-    return read_file(path, most=most).decode(errors="replace").replace("\r\n", "\n").replace("\r", "\n")
+    return read_file(path, max_bytes=max_bytes).decode(errors="replace").replace("\r\n", "\n").replace("\r", "\n")
 
 
 def open_file(path: AnyPath, /) -> BinaryIO:
@@ -93,14 +93,14 @@ def read_stream(path: AnyPath, /) -> bytes:
     """Read what the command line names in place of a file: a pipe such as `<(xacro robot.xacro)`, or /dev/stdin.
 
     Raises:
-        OSError: it has no end within a minute or `MOST_BYTES`, or cannot be read.
+        OSError: it has no end within a minute or `MAX_BYTES`, or cannot be read.
     """
     name = os.fspath(path)
     given = _DESCRIPTOR.fullmatch(name)
     # An end of a pipe that is here is not opened once more: that one would not see that the writer has gone.
     descriptor = os.open(path, _OPEN) if given is None else os.dup(int(given[1] or 0))
     try:
-        return _joined(_arriving(descriptor, name), MOST_BYTES, name)
+        return _joined(_chunks(descriptor, name), MAX_BYTES, name)
     finally:
         os.close(descriptor)
 
@@ -112,7 +112,7 @@ def read_standard_input() -> bytes:
         OSError: as `read_stream`.
     """
     descriptor = 0 if sys.stdin is None else sys.stdin.fileno()  # pyright: ignore[reportUnnecessaryComparison]
-    return _joined(_arriving(descriptor, "<stdin>"), MOST_BYTES, "<stdin>")
+    return _joined(_chunks(descriptor, "<stdin>"), MAX_BYTES, "<stdin>")
 
 
 def _refuse_irregular(mode: int, path: AnyPath) -> None:
@@ -123,18 +123,18 @@ def _refuse_irregular(mode: int, path: AnyPath) -> None:
         raise OSError(errno.EINVAL, f"it is {kind}, not a regular file", os.fspath(path))
 
 
-def _joined(chunks: Iterable[bytes], most: int, path: AnyPath) -> bytes:
+def _joined(chunks: Iterable[bytes], max_bytes: int, path: AnyPath) -> bytes:
     kept: list[bytes] = []
-    left = most
+    left = max_bytes
     for chunk in chunks:
         kept.append(chunk)
         left -= len(chunk)
         if left < 0:
-            raise OSError(errno.EFBIG, f"larger than {most} bytes, the largest file read", os.fspath(path))
+            raise OSError(errno.EFBIG, f"larger than {max_bytes} bytes, the largest file read", os.fspath(path))
     return b"".join(kept)
 
 
-def _arriving(descriptor: int, name: str) -> Iterator[bytes]:
+def _chunks(descriptor: int, name: str) -> Iterator[bytes]:
     due = time.monotonic() + (math.inf if os.isatty(descriptor) else _TIMEOUT_S)
     while (left := due - time.monotonic()) > 0.0 and _has_more(descriptor, left):
         chunk = os.read(descriptor, _CHUNK_BYTES)

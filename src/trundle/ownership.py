@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 
-def is_ours(folder: Path) -> bool:
+def is_owned_by_user(folder: Path) -> bool:
     """Tell whether a folder is this user's, and no other user but root can put something else in its place.
 
     As OpenSSH looks at ~/.ssh: each folder above is ours or the system's, and not writable by all, unless it is sticky
@@ -18,12 +18,12 @@ def is_ours(folder: Path) -> bool:
         if folder.stat().st_uid != os.geteuid():
             return False
         system = {0, os.geteuid(), Path("/").stat().st_uid}
-        return all(_is_kept(above, system) for above in (folder, *folder.parents))
+        return all(_is_protected(above, system) for above in (folder, *folder.parents))
     except (OSError, RuntimeError):
         return False
 
 
-def _is_kept(folder: Path, owners: set[int]) -> bool:
+def _is_protected(folder: Path, owners: set[int]) -> bool:
     found = folder.stat()
     return found.st_uid in owners and (not found.st_mode & 0o002 or bool(found.st_mode & 0o1000))
 

@@ -84,7 +84,7 @@ def rotate(q: Quaternion, v: Vector3) -> Vector3:
     )
 
 
-def upright(normal: Vector3) -> Quaternion:
+def rotation_from_z(normal: Vector3) -> Quaternion:
     """The shortest rotation that takes +z to a unit vector."""
     x, y, z = normal
     if z < -1 + 1e-12:
@@ -121,12 +121,12 @@ class Pose(Struct, frozen=True):
         px, py, pz = rotate(conjugate, self.position)
         return Pose((-px, -py, -pz), conjugate)
 
-    def point(self, p: Vector3) -> Vector3:
+    def transform_point(self, p: Vector3) -> Vector3:
         """Express a point given in frame b in frame a [m]."""
         x, y, z = rotate(self.quaternion, p)
         return (self.position[0] + x, self.position[1] + y, self.position[2] + z)
 
-    def direction(self, v: Vector3) -> Vector3:
+    def transform_vector(self, v: Vector3) -> Vector3:
         """Express a free vector given in frame b in frame a."""
         return rotate(self.quaternion, v)
 

@@ -8,27 +8,27 @@ from typing import Any
 
 import yaml
 
-MOST_VALUES = 500_000
+MAX_VALUES = 500_000
 """Counted with aliases followed."""
-_MOST_NODES = 250_000
+_MAX_NODES = 250_000
 """Counted as written; each takes half a kilobyte while the text is read."""
-_MOST_CHARACTERS = 16 * 1024 * 1024
+_MAX_CHARACTERS = 16 * 1024 * 1024
 
 
 class BoundedLoader(yaml.SafeLoader):
     """Plain data; what cannot be loaded is a YAMLError, whatever is wrong with it."""
 
     def __init__(self, stream: str) -> None:
-        if len(stream) > _MOST_CHARACTERS:
-            raise yaml.YAMLError(f"{len(stream)} characters of YAML; the most read is {_MOST_CHARACTERS}")
+        if len(stream) > _MAX_CHARACTERS:
+            raise yaml.YAMLError(f"{len(stream)} characters of YAML; the most read is {_MAX_CHARACTERS}")
         super().__init__(stream)  # looks at every character
         self._nodes = 0
 
     def compose_node(self, parent: Any, index: Any) -> Any:
         """Compose a node, unless there are too many."""
         self._nodes += 1
-        if self._nodes > _MOST_NODES:
-            raise yaml.YAMLError(f"more than {_MOST_NODES} values")
+        if self._nodes > _MAX_NODES:
+            raise yaml.YAMLError(f"more than {_MAX_NODES} values")
         return super().compose_node(parent, index)
 
     def compose_scalar_node(self, anchor: Any) -> Any:
@@ -45,8 +45,8 @@ class BoundedLoader(yaml.SafeLoader):
         """Compose a document and count what its aliases stand for."""
         try:
             node = super().compose_document()
-            if node is not None and _expanded_size(node, {}) > MOST_VALUES:
-                raise yaml.YAMLError(f"its aliases stand for more than {MOST_VALUES} values")
+            if node is not None and _expanded_size(node, {}) > MAX_VALUES:
+                raise yaml.YAMLError(f"its aliases stand for more than {MAX_VALUES} values")
         except RecursionError:
             raise yaml.YAMLError("nested too deeply") from None
         return node

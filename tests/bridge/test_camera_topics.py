@@ -55,7 +55,7 @@ def stage() -> Iterator[SimpleNamespace]:
     model = Model(name="bot", at=AT, links=(link,))
     world = World(name="w", at=AT, models=(model,))
     scenery = CameraScene(Simulation(world, Diagnostics()), lambda _: Ramp())
-    camera = CameraSensor(SensorMount(model, link, sensor, 0, (0,)), optics, scenery=scenery)
+    camera = CameraSensor(SensorMount(model, link, sensor, 0, (0,)), optics, scene=scenery)
     with running_graph() as running:
         node, viewer = running.node("sim"), running.node("viewer")
         topics = CameraTopics(node, StaticTransformBroadcaster(node), camera, FrameNames.of(world))
@@ -66,13 +66,13 @@ def stage() -> Iterator[SimpleNamespace]:
 
 
 def test_a_camera_without_subscribers_is_not_wanted(stage: SimpleNamespace) -> None:
-    assert not stage.camera.wanted()
+    assert not stage.camera.enabled()
 
 
 def test_a_picture_arrives_with_its_bytes_its_instant_and_its_frame(stage: SimpleNamespace) -> None:
     images: list[Any] = []
     stage.viewer.subscribe("/bot/head/my_eye/image_raw", "sensor_msgs/Image", images.append)
-    until(stage.camera.wanted)
+    until(stage.camera.enabled)
     stage.camera.after_step(snapshot(12_034_000_000))
     until(lambda: images)
     (image,) = images
@@ -87,7 +87,7 @@ def test_a_picture_arrives_with_its_bytes_its_instant_and_its_frame(stage: Simpl
 def test_the_calibration_is_that_of_gazebo_ros_and_comes_with_the_picture(stage: SimpleNamespace) -> None:
     infos: list[Any] = []
     stage.viewer.subscribe("/bot/head/my_eye/camera_info", "sensor_msgs/CameraInfo", infos.append)
-    until(stage.camera.wanted)
+    until(stage.camera.enabled)
     stage.camera.after_step(snapshot(1_500_000_000))
     until(lambda: infos)
     (info,) = infos
@@ -101,6 +101,6 @@ def test_the_calibration_is_that_of_gazebo_ros_and_comes_with_the_picture(stage:
 
 
 def test_an_optical_frame_has_z_ahead_x_to_the_right_and_y_down() -> None:
-    assert CAMERA_FROM_OPTICAL.direction((0.0, 0.0, 1.0)) == pytest.approx((1.0, 0.0, 0.0))
-    assert CAMERA_FROM_OPTICAL.direction((1.0, 0.0, 0.0)) == pytest.approx((0.0, -1.0, 0.0))
-    assert CAMERA_FROM_OPTICAL.direction((0.0, 1.0, 0.0)) == pytest.approx((0.0, 0.0, -1.0))
+    assert CAMERA_FROM_OPTICAL.transform_vector((0.0, 0.0, 1.0)) == pytest.approx((1.0, 0.0, 0.0))
+    assert CAMERA_FROM_OPTICAL.transform_vector((1.0, 0.0, 0.0)) == pytest.approx((0.0, -1.0, 0.0))
+    assert CAMERA_FROM_OPTICAL.transform_vector((0.0, 1.0, 0.0)) == pytest.approx((0.0, 0.0, -1.0))

@@ -168,7 +168,7 @@ def test_a_receiver_does_not_hear_what_is_too_weak(described: Any) -> None:
     sim = described(bot(own) + sent)
     (receiver,) = mount_sensors(sim)
 
-    assert receiver.measure(sim.snapshot()).heard == ()  # type: ignore[union-attr]
+    assert receiver.measure(sim.snapshot()).signals == ()  # type: ignore[union-attr]
 
 
 def test_an_rfid_sensor_tells_the_tags_within_five_metres(hear: Any) -> None:

@@ -74,7 +74,7 @@ def test_a_plugin_may_leave_out_the_crop(described: Any, told: str, is_whole: bo
 
     keep_borders_if_told(camera, PluginTag(name="p", filename="p.so", at=node.at, node=node), sim.report)
 
-    assert (np.abs(camera.view.slopes()[0]).max() > 32 / F) == is_whole
+    assert (np.abs(camera.projection.slopes()[0]).max() > 32 / F) == is_whole
     assert sim.report.warnings == []
 
 
@@ -184,7 +184,7 @@ def test_a_camera_that_can_make_no_picture_is_mended_aloud(described: Any, insid
 def test_what_is_seen_through_a_strange_lens_is_no_larger_than_a_picture_may_be(described: Any, inside: str) -> None:
     sim = described(eye("camera", cameras=f"<camera>{inside}</camera>"))
     (camera,) = mount_cameras(sim, NativeRenderer)
-    ((_, face),) = camera.view.pinhole_views
+    ((_, face),) = camera.projection.pinhole_views
 
     assert camera.measure(sim.snapshot()).rgb.shape == (240, 320, 3)
     assert max(face.width_px, face.height_px) <= 16384

@@ -78,21 +78,21 @@ def test_no_link_leads_them_elsewhere(described: Any, tmp_path: Path, link: str)
     assert f"a link in it leads out of {tmp_path}; no more pictures are saved" in sim.report.warnings[0]
 
 
-@pytest.mark.parametrize("bound", ["_MOST_IMAGES", "_MOST_BYTES"])
+@pytest.mark.parametrize("bound", ["_MAX_IMAGES", "_MAX_BYTES"])
 def test_they_end_with_a_sentence_where_they_are_too_many(
     described: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, bound: str
 ) -> None:
-    monkeypatch.setattr(f"trundle.sensors.image_saver.{bound}", 1)
+    monkeypatch.setattr(f"trundle.sensors.cameras.image_saver.{bound}", 1)
 
     sim = saved(described, "saved_images/shots")
 
-    assert len(list(tmp_path.rglob("*.jpg"))) == (1 if bound == "_MOST_IMAGES" else 0)
+    assert len(list(tmp_path.rglob("*.jpg"))) == (1 if bound == "_MAX_IMAGES" else 0)
     (warning,) = sim.report.warnings
     assert "are saved in a run; no more are; TRUNDLE_SAVE_ALL=1 lifts that" in warning
 
 
 def test_the_bound_can_be_lifted(described: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("trundle.sensors.image_saver._MOST_IMAGES", 1)
+    monkeypatch.setattr("trundle.sensors.cameras.image_saver._MAX_IMAGES", 1)
     monkeypatch.setenv("TRUNDLE_SAVE_ALL", "1")
 
     assert saved(described, "saved_images/shots").report.warnings == []

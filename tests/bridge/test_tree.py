@@ -10,7 +10,14 @@ import trundle
 from trundle.bridge import FrameNames, SimulationFrames, camera_topics, sensor_topics
 from trundle.render import NativeRenderer
 from trundle.ros import Transform, TransformBuffer
-from trundle.sensors import SIMULATED, CameraSensor, ForceTorqueSensor, SonarSensor, mount_cameras, mount_sensors
+from trundle.sensors import (
+    SIMULATED_CAMERAS,
+    CameraSensor,
+    ForceTorqueSensor,
+    SonarSensor,
+    mount_cameras,
+    mount_sensors,
+)
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose, Twist, quaternion_from_rpy
 
@@ -76,7 +83,7 @@ SEEING = ("boundingbox", "depth", "rgbd", "segmentation", "thermal")
 
 def robot(name: str, place: str) -> str:
     """It falls and turns; a nested model's link has the same sensors as its own."""
-    every = sensors(sorted(SIMULATED - set(SILENT)))
+    every = sensors(sorted(SIMULATED_CAMERAS - set(SILENT)))
     shape = '<collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>'
     arm = f'<model name="arm"><pose>0 1 0 0.3 0 0</pose><link name="base">{MASS}{shape}{every}</link></model>'
     weld = f"<parent>base</parent><child>arm::base</child>{sensors(['force_torque'])}"

@@ -19,7 +19,7 @@ from trundle.diagnostics import Diagnostics
 from trundle.model import MeshFile, flattened
 from trundle.packages import Packages
 from trundle.physics import compile_mjcf, compile_world
-from trundle.render import scene_of
+from trundle.render import scene_from_world
 
 MESH = "<visual name='v'><geometry><mesh><uri>{uri}</uri></mesh></geometry></visual>"
 MODEL = """<sdf version='1.6'><model name='cart'><link name='base'>{visuals}
@@ -210,7 +210,7 @@ def test_every_published_model_is_mjcf_that_loads_as_it_was(shared: Path) -> Non
         if not ours.nv:
             continue
         theirs = mujoco.MjModel.from_xml_string(
-            compile_mjcf(world, scene_of(flattened(world), Diagnostics()), Diagnostics())
+            compile_mjcf(world, scene_from_world(flattened(world), Diagnostics()), Diagnostics())
         )
         for name in ("body_mass", "body_inertia", "body_pos", "body_quat", "jnt_axis", "jnt_range", "dof_damping"):
             assert getattr(theirs, name) == pytest.approx(getattr(ours, name), rel=1e-9, abs=1e-11), (path, name)

@@ -108,7 +108,7 @@ def test_it_turns_left_for_a_positive_rate(car: Gazebo) -> None:
 
 def test_speeds_change_no_faster_than_their_limits() -> None:
     limit = SpeedLimit(min_velocity=-1.0, max_velocity=2.0, min_acceleration=-4.0, max_acceleration=1.0)
-    assert limit.limited(5.0, 0.0, 0.0, 0.1) == pytest.approx(0.1)
-    assert limit.limited(-5.0, 0.0, 0.0, 0.1) == pytest.approx(-0.4)
-    assert limit.limited(5.0, 1.95, 1.9, 0.1) == 2.0
-    assert SpeedLimit(max_jerk=10.0, min_jerk=-10.0).limited(5.0, 0.0, 0.0, 0.1) == pytest.approx(0.2)
+    assert limit.limit(5.0, 0.0, 0.0, 0.1) == pytest.approx(0.1)
+    assert limit.limit(-5.0, 0.0, 0.0, 0.1) == pytest.approx(-0.4)
+    assert limit.limit(5.0, 1.95, 1.9, 0.1) == 2.0
+    assert SpeedLimit(max_jerk=10.0, min_jerk=-10.0).limit(5.0, 0.0, 0.0, 0.1) == pytest.approx(0.2)

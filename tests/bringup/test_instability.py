@@ -60,4 +60,4 @@ def test_pause_keeps_the_last_good_state_until_somebody_ends_it(
 def test_the_error_can_be_asked_what_ran_away(world: Path) -> None:
     with pytest.raises(SimulationUnstableError) as caught:
         run(str(world), options(None))
-    assert (caught.value.runaway.link, caught.value.runaway.joint) == ("ball::l", None)
+    assert (caught.value.divergence.link, caught.value.divergence.joint) == ("ball::l", None)

@@ -30,7 +30,7 @@ def world(folder: Path, sensors: str) -> tuple[Simulation, list[Any]]:
     sim = trundle.load(str(file))
     mounted = [*mount_cameras(sim, NativeRenderer), *mount_sensors(sim)]
     for one in mounted:
-        sim.add_hook(one, period_ns=one.period_ns, wanted=one.wanted)
+        sim.add_hook(one, period_ns=one.period_ns, enabled=one.enabled)
     return sim, mounted
 
 
@@ -78,7 +78,7 @@ def test_what_is_not_to_be_seen_or_seen_by_nobody_costs_nothing(tmp_path: Path) 
 
     sim.run(0.2)
 
-    assert not any(each.wanted() for each in mounted)
+    assert not any(each.enabled() for each in mounted)
     assert sight.lines(sim.snapshot()) == ()
 
 
@@ -107,7 +107,7 @@ def test_a_camera_is_shown_once_and_where_it_is_now(tmp_path: Path) -> None:
     page.replace(sim, [first])
     sim.spawn(replace(sim["eye"].model, name="other"))
     second = mount_cameras(sim, NativeRenderer, model="other", beside=[first])[0]
-    sim.add_hook(second, period_ns=second.period_ns, wanted=second.wanted)
+    sim.add_hook(second, period_ns=second.period_ns, enabled=second.enabled)
 
     page.replace(sim, [first, second])
     sim.run(0.1)

@@ -12,7 +12,7 @@ import pytest
 from tests.cli.conftest import PATIENCE_S
 
 from trundle.cli import main
-from trundle.drawing import Drawing, Item, graph_svg
+from trundle.drawing import Item, NodeGraph, graph_svg
 from trundle.ros import WallClock
 from trundle.xmlnode import parse_xml
 
@@ -45,10 +45,10 @@ def test_the_graph_is_drawn(graph: Any, tmp_path: Path) -> None:
 def test_loops_are_drawn_too() -> None:
     items: list[Item] = [("node", "/a"), ("topic", "/t"), ("node", "/b"), ("topic", "/u")]
     circle = [(items[i], items[(i + 1) % 4]) for i in range(4)]
-    picture = parse_xml(graph_svg(Drawing(items, circle)), name="x.svg")
+    picture = parse_xml(graph_svg(NodeGraph(items, circle)), name="x.svg")
     assert len([path for path in picture.all("path") if path.attribute("marker-end")]) == 4
     assert len({(rect.attribute("x"), rect.attribute("y")) for rect in picture.all("rect")}) == 5
-    assert parse_xml(graph_svg(Drawing([], [])), name="x.svg").all("text") == []
+    assert parse_xml(graph_svg(NodeGraph([], [])), name="x.svg").all("text") == []
 
 
 @pytest.fixture

@@ -36,8 +36,8 @@ def test_a_slope_is_that_of_the_error() -> None:
 @given(st.tuples(number, number, number), st.tuples(number, number, number), st.floats(0.1, 10.0))
 def test_a_quintic_meets_both_ends(a: tuple[float, float, float], b: tuple[float, float, float], span: float) -> None:
     spline = JointSpline([JointPoint(1.0, *a), JointPoint(1.0 + span, *b)])
-    assert spline.at(1.0) == pytest.approx(a)
-    end = spline.at(1.0 + span * (1.0 - 1e-9))
+    assert spline.sample(1.0) == pytest.approx(a)
+    end = spline.sample(1.0 + span * (1.0 - 1e-9))
     assert end == pytest.approx(b, rel=1e-4, abs=1e-3)
 
 
@@ -45,14 +45,14 @@ def test_a_quintic_meets_both_ends(a: tuple[float, float, float], b: tuple[float
 def test_speeds_are_the_slope_of_positions(p0: float, p1: float, v0: float, v1: float, at: float) -> None:
     spline = JointSpline([JointPoint(0.0, p0, v0), JointPoint(2.0, p1, v1)])
     t, h = 0.1 + 1.8 * at, 1e-5
-    slope = (spline.at(t + h)[0] - spline.at(t - h)[0]) / (2 * h)
-    assert spline.at(t)[1] == pytest.approx(slope, rel=1e-5, abs=1e-5)
+    slope = (spline.sample(t + h)[0] - spline.sample(t - h)[0]) / (2 * h)
+    assert spline.sample(t)[1] == pytest.approx(slope, rel=1e-5, abs=1e-5)
 
 
 def test_without_speeds_it_goes_straight_and_outside_it_stays() -> None:
     spline = JointSpline([JointPoint(0.0, 1.0), JointPoint(2.0, 3.0), JointPoint(3.0, 0.0)])
-    assert spline.at(0.5) == (1.5, 1.0, 0.0)
-    assert spline.at(2.5) == (1.5, -3.0, 0.0)
-    assert spline.at(-1.0) == (1.0, 0.0, 0.0)
-    assert spline.at(9.0) == (0.0, 0.0, 0.0)
+    assert spline.sample(0.5) == (1.5, 1.0, 0.0)
+    assert spline.sample(2.5) == (1.5, -3.0, 0.0)
+    assert spline.sample(-1.0) == (1.0, 0.0, 0.0)
+    assert spline.sample(9.0) == (0.0, 0.0, 0.0)
     assert spline.end_s == 3.0

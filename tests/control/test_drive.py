@@ -5,7 +5,7 @@ import math
 import pytest
 
 import trundle.control
-from trundle.control import DifferentialDrive, WheelOdometry, approach
+from trundle.control import DifferentialDrive, WheelOdometry, step_towards
 
 DRIVE = DifferentialDrive(wheel_radius=0.0635, separation=0.3048)
 
@@ -26,7 +26,7 @@ def test_a_full_circle_ends_where_it_began() -> None:
     left, right = DRIVE.wheel_speeds(0.5, 0.5)
     steps = 10_000
     for _ in range(steps):
-        odometry.roll(left * 4 * math.pi / steps, right * 4 * math.pi / steps)
+        odometry.update(left * 4 * math.pi / steps, right * 4 * math.pi / steps)
 
     assert (odometry.x, odometry.y) == pytest.approx((0.0, 0.0), abs=1e-6)
     assert odometry.yaw == pytest.approx(2 * math.pi)
@@ -36,14 +36,14 @@ def test_a_quarter_circle_to_the_left_has_its_radius() -> None:
     odometry = WheelOdometry(DRIVE)
     left, right = DRIVE.wheel_speeds(1.0, 1.0)
     for _ in range(1000):
-        odometry.roll(left * math.pi / 2000, right * math.pi / 2000)
+        odometry.update(left * math.pi / 2000, right * math.pi / 2000)
 
     assert (odometry.x, odometry.y) == pytest.approx((1.0, 1.0), abs=1e-6)
 
 
 @pytest.mark.parametrize(("value", "target", "expected"), [(0.0, 1.0, 0.1), (0.0, -1.0, -0.1), (0.0, 0.05, 0.05)])
 def test_an_approach_is_no_faster_than_allowed(value: float, target: float, expected: float) -> None:
-    assert approach(value, target, 0.1) == pytest.approx(expected)
+    assert step_towards(value, target, 0.1) == pytest.approx(expected)
 
 
 def test_the_front_door_is_what_it_says() -> None:

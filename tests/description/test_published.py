@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from tests.description.compare import shape_of
 
-from trundle.description import Loaded, expand_xacro, load
+from trundle.description import LoadedDescription, expand_xacro, load
 from trundle.diagnostics import Diagnostics
 from trundle.model import Box, model_from_joint
 from trundle.packages import Packages
@@ -14,7 +14,7 @@ from trundle.xmlnode import parse_xml
 
 
 @pytest.fixture
-def rp2w(shared: Path) -> Loaded:
+def rp2w(shared: Path) -> LoadedDescription:
     folder = shared / "seeds/rp2w"
     return load(str(folder), Diagnostics(), packages=Packages({}, start=folder))
 
@@ -24,7 +24,7 @@ def smartcar_file(shared: Path) -> Path:
     return shared / "seeds/smartcar_description/urdf/smartcar.urdf.xacro"
 
 
-def test_the_rp2w_has_its_links_joints_and_cameras(rp2w: Loaded) -> None:
+def test_the_rp2w_has_its_links_joints_and_cameras(rp2w: LoadedDescription) -> None:
     (model,) = rp2w.world.models
 
     assert (len(model.links), len(model.joints)) == (7, 6)
@@ -36,7 +36,7 @@ def test_the_rp2w_has_its_links_joints_and_cameras(rp2w: Loaded) -> None:
     assert model.plugins[0].filename == "/home/larry/gazebo_plugin/librp2w.so"
 
 
-def test_its_joints_are_where_gazebo_has_them(rp2w: Loaded, shared: Path) -> None:
+def test_its_joints_are_where_gazebo_has_them(rp2w: LoadedDescription, shared: Path) -> None:
     """SDF 1.4 writes axes in the model frame: read by 1.5's rules the wheels would turn about the wrong axis."""
     gazebo = json.loads((shared / "peers/gazebo_rp2w_info.json").read_text())
     (model,) = rp2w.world.models
@@ -50,7 +50,7 @@ def test_its_joints_are_where_gazebo_has_them(rp2w: Loaded, shared: Path) -> Non
         assert joint.axis.friction == theirs["friction"]
 
 
-def test_what_is_written_is_kept_for_physics_to_mend(rp2w: Loaded) -> None:
+def test_what_is_written_is_kept_for_physics_to_mend(rp2w: LoadedDescription) -> None:
     (model,) = rp2w.world.models
 
     assert model.link("chassis").inertial.moments == (1.0, 1.0, 1.0)

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from tests.description.plain import plain, unlike
 
-from trundle.description import Loaded, load, load_text, load_urdf, write_sdf, write_urdf, written_uri
+from trundle.description import LoadedDescription, load, load_text, load_urdf, write_sdf, write_urdf, written_uri
 from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
 from trundle.model import MeshFile, Model, flattened, model_from_joint
 from trundle.packages import Packages
@@ -35,7 +35,7 @@ def packages(shared: Path) -> Packages:
     return Packages({"HOME": "/nobody", "GAZEBO_MODEL_PATH": str(models)}, start=shared / "corpus")
 
 
-def through_sdf(loaded: Loaded, folder: Path, packages: Packages) -> set[str]:
+def through_sdf(loaded: LoadedDescription, folder: Path, packages: Packages) -> set[str]:
     """The fields in which a description differs from what is read of it as SDF."""
     is_world = loaded.kind == "world"
     report = Diagnostics()
@@ -47,7 +47,7 @@ def through_sdf(loaded: Loaded, folder: Path, packages: Packages) -> set[str]:
     return found - KNOWN.keys()
 
 
-def sdf_files(shared: Path, packages: Packages, step: int) -> Iterator[tuple[Path, Loaded]]:
+def sdf_files(shared: Path, packages: Packages, step: int) -> Iterator[tuple[Path, LoadedDescription]]:
     for row in json.loads((shared / "corpus/manifest.json").read_text())["sdf"][::step]:
         path = shared / "corpus" / row["file"]
         try:
@@ -56,7 +56,7 @@ def sdf_files(shared: Path, packages: Packages, step: int) -> Iterator[tuple[Pat
             continue
 
 
-def urdf_files(shared: Path, packages: Packages, step: int) -> Iterator[tuple[Path, Loaded]]:
+def urdf_files(shared: Path, packages: Packages, step: int) -> Iterator[tuple[Path, LoadedDescription]]:
     """Expanded, as the corpus has them, each once."""
     rows: dict[str, Any] = {
         row["sha"]: row for row in json.loads((shared / "corpus/manifest.json").read_text())["urdf"]
@@ -70,7 +70,7 @@ def urdf_files(shared: Path, packages: Packages, step: int) -> Iterator[tuple[Pa
             continue
 
 
-def same_through_sdf(files: Iterator[tuple[Path, Loaded]], packages: Packages) -> int:
+def same_through_sdf(files: Iterator[tuple[Path, LoadedDescription]], packages: Packages) -> int:
     differ = Counter[str]()
     count = 0
     for path, loaded in files:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.description import Loaded, expand_xacro, load
+from trundle.description import LoadedDescription, expand_xacro, load
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import Cylinder, MeshFile, Model
 from trundle.packages import Packages
@@ -15,7 +15,7 @@ TURNED = '<link name="a"/><link name="b"><pose>0 0 0 0 0 1.5707963267948966</pos
 HINGE = '<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz{}>1 0 0</xyz>{}</axis></joint>'
 
 
-def read(folder: Path, text: str, report: Diagnostics | None = None, *, name: str = "x.sdf") -> Loaded:
+def read(folder: Path, text: str, report: Diagnostics | None = None, *, name: str = "x.sdf") -> LoadedDescription:
     (folder / name).write_text(text)
     return load(str(folder / name), report or Diagnostics(), packages=Packages({}, start=folder))
 

@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 
 from trundle.description import load, load_text, write_sdf, written_uri
-from trundle.description.sdf.cluster import cluster_middles
+from trundle.description.sdf.kmeans import kmeans_centers
 from trundle.diagnostics import Diagnostics
 from trundle.model import Box, Cylinder, World
 from trundle.packages import Packages
-from trundle.render import scene_of
+from trundle.render import scene_from_world
 from trundle.spatial import Pose
 
 CAN = "<model name='can'><pose>7 7 7 0 0 0</pose><link name='l'/></model>"
@@ -74,7 +74,7 @@ def test_an_even_distribution_leaves_no_corner_empty() -> None:
 
     points = [(x / 20, y / 20, 0.0) for x in range(20) for y in range(20)]
 
-    middles = cluster_middles(points, 16, random.Random(0))
+    middles = kmeans_centers(points, 16, random.Random(0))
 
     gaps = [min(math.dist(a, b) for b in middles if b is not a) for a in middles]
     assert min(gaps) > 0.12
@@ -118,10 +118,10 @@ def test_a_saved_link_keeps_its_place_beside_where_it_was_written(tmp_path: Path
     world = read(tmp_path, SAVED.format("", ""), report)
 
     base, tip = world.models[0].links
-    assert base.start is None
+    assert base.initial_pose is None
     assert tip.model_from_link == Pose((0.0, 0.0, 1.0))
-    assert tip.start is not None
-    assert tip.start.position == pytest.approx((1, 0, 1))
+    assert tip.initial_pose is not None
+    assert tip.initial_pose.position == pytest.approx((1, 0, 1))
     told = [finding.what for finding in report.findings]
     assert "<velocity> in <link> is not heeded: everything starts at rest; it is ignored" in told
     again = load_text(
@@ -131,7 +131,7 @@ def test_a_saved_link_keeps_its_place_beside_where_it_was_written(tmp_path: Path
         packages=Packages({}, start=tmp_path),
         report=report,
     ).world
-    start = again.models[0].links[1].start
+    start = again.models[0].links[1].initial_pose
     assert start is not None
     assert start.position == pytest.approx((1, 0, 1))
 
@@ -141,7 +141,7 @@ def test_a_saved_link_that_no_joint_holds_is_where_it_was_saved(tmp_path: Path) 
     for body in (loose, SAVED.replace("<model name='arm'>", "<model name='arm'><static>1</static>", 1)):
         base, tip = read(tmp_path, body.format("", ""), Diagnostics()).models[0].links
 
-        assert (base.start, tip.start) == (None, None)
+        assert (base.initial_pose, tip.initial_pose) == (None, None)
         assert tip.model_from_link.position == pytest.approx((1, 0, 1))
 
 
@@ -235,13 +235,13 @@ def test_a_road_is_drawn_where_it_is_on_whatever_stands_still(tmp_path: Path) ->
     report = Diagnostics()
     world = read(tmp_path, f"<model name='car'><link name='l'/></model>{ground}{way}")
 
-    (shape,) = scene_of(world, report).shapes
+    (shape,) = scene_from_world(world, report).shapes
 
     assert shape.name == "way"
     model = world.models[shape.body]
     assert model.name == "g"
     assert (model.world_from_model @ shape.body_from_shape).as_list() == pytest.approx([0.0] * 6, abs=1e-12)
-    assert scene_of(world, report, collisions=True).shapes == ()
+    assert scene_from_world(world, report, collisions=True).shapes == ()
     assert report.findings == []
-    assert scene_of(read(tmp_path, way), report).shapes == ()
+    assert scene_from_world(read(tmp_path, way), report).shapes == ()
     assert "nothing in this world is static to lay it on; it is not drawn" in report.warnings[0]

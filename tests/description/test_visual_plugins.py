@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from trundle.description import Loaded, load_text, write_sdf, write_urdf, written_uri
+from trundle.description import LoadedDescription, load_text, write_sdf, write_urdf, written_uri
 from trundle.diagnostics import Diagnostics
 from trundle.model import Visual
 from trundle.packages import Packages
@@ -22,16 +22,16 @@ URDF = f"""<robot name="r"><link name="calf">{BODY}{SHAPE}</link><link name="foo
 <gazebo reference="foot"><visual><transparency>0.5</transparency></visual></gazebo></robot>"""
 
 
-def read(text: str, report: Diagnostics | None = None) -> Loaded:
+def read(text: str, report: Diagnostics | None = None) -> LoadedDescription:
     packages = Packages({"HOME": "/nobody"}, start=HERE)
     return load_text(text, name="<stdin>", folder=HERE, packages=packages, report=report or Diagnostics(strict=True))
 
 
-def visuals(loaded: Loaded) -> tuple[Visual, ...]:
+def visuals(loaded: LoadedDescription) -> tuple[Visual, ...]:
     return loaded.world.models[0].links[0].visuals
 
 
-def plugins(loaded: Loaded) -> dict[str, list[str]]:
+def plugins(loaded: LoadedDescription) -> dict[str, list[str]]:
     return {visual.name: [plugin.node.xml() for plugin in visual.plugins] for visual in visuals(loaded)}
 
 

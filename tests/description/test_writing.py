@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from trundle.bringup.check.json_output import described
-from trundle.description import Loaded, load_text, write_sdf, write_urdf, written_uri
+from trundle.description import LoadedDescription, load_text, write_sdf, write_urdf, written_uri
 from trundle.description.writing.tag import Tag
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import Joint, Link, Model, model_from_joint
@@ -21,11 +21,11 @@ HERE = Path(__file__).parent
 PACKAGES = Packages({"HOME": "/nobody"}, start=HERE)
 
 
-def read(text: str) -> Loaded:
+def read(text: str) -> LoadedDescription:
     return load_text(text, name="<stdin>", folder=HERE, packages=PACKAGES, report=Diagnostics())
 
 
-def sdf_of(loaded: Loaded, report: Diagnostics | None = None) -> str:
+def sdf_of(loaded: LoadedDescription, report: Diagnostics | None = None) -> str:
     is_world = loaded.kind == "world"
     return write_sdf(loaded.world, is_world=is_world, uri_of=written_uri, report=report or Diagnostics())
 
@@ -45,7 +45,7 @@ def same(a: Any, b: Any, key: str = "") -> bool:
     return bool(a == b)
 
 
-def comparable(loaded: Loaded) -> dict[str, object]:
+def comparable(loaded: LoadedDescription) -> dict[str, object]:
     return {k: v for k, v in described(loaded).items() if k not in ("sdf_version", "urdf")}
 
 
@@ -176,8 +176,8 @@ def com(model: Model, link: Link) -> Pose:
 def axis(model: Model, joint: Joint) -> tuple[float, ...]:
     assert joint.axis is not None
     root_from_model = model.links[0].model_from_link.inverse()
-    anchor = root_from_model.point(model_from_joint(model, joint).position)
-    return (*anchor, *root_from_model.direction(joint.axis.direction))
+    anchor = root_from_model.transform_point(model_from_joint(model, joint).position)
+    return (*anchor, *root_from_model.transform_vector(joint.axis.direction))
 
 
 def urdf_of(model: Model, report: Diagnostics | None = None) -> str:

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from tests.expressions.names import evaluate
 
-from trundle.expressions import ExpressionError, Function, function_of
+from trundle.expressions import ExpressionError, Function, wrap_function
 
 _NO_SUCH_NAME = "is not defined"
 _NO_ATTRIBUTE = "has no attribute"
@@ -163,7 +163,7 @@ class Plain:
 
 @pytest.mark.parametrize(("text", "words"), ATTACKS, ids=[text for text, _ in ATTACKS])
 def test_ways_out_are_refused(text: str, words: str | None) -> None:
-    names: dict[str, Any] = {"plain": Plain(), "error": ValueError("x"), "offered": function_of(len, "offered")}
+    names: dict[str, Any] = {"plain": Plain(), "error": ValueError("x"), "offered": wrap_function(len, "offered")}
     if words is None:
         assert isinstance(evaluate(text, **names), type)
         return
@@ -190,7 +190,7 @@ def test_a_kind_of_text_has_the_methods_of_text_alone() -> None:
 
 def test_what_the_program_offers_is_called_with_what_it_is_given() -> None:
     given: list[object] = []
-    offered = function_of(lambda *values, **named: given.append((values, named)), "offered")
+    offered = wrap_function(lambda *values, **named: given.append((values, named)), "offered")
 
     assert repr(offered) == "<function offered>"
     assert evaluate("offered(1, a=[2])", offered=offered) is None
@@ -202,7 +202,7 @@ def test_a_function_of_python_that_was_not_offered_is_not_called() -> None:
     with pytest.raises(TypeError, match="'builtin_function_or_method' object is not callable for an expression"):
         evaluate("function(1)", function=called.append)
     assert called == []
-    assert isinstance(function_of(len), Function)
+    assert isinstance(wrap_function(len), Function)
 
 
 @pytest.mark.parametrize("text", [r"'\ud800'", "'%c' % 55296", "'{:c}'.format(55296)", r"['a', '\udfff'][1]"])

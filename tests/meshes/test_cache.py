@@ -108,13 +108,13 @@ def test_a_cache_that_cannot_be_written_costs_nothing(
 def test_the_longest_unused_go_first(large: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     parts = load._read(large.read_bytes(), ".obj", large)
     size = len(cache._packed(parts))
-    monkeypatch.setattr(cache, "_MOST_BYTES", 8 * size)
+    monkeypatch.setattr(cache, "_MAX_BYTES", 8 * size)
     for number in range(12):
-        cache.keep(f"key{number:02}", parts)
+        cache.save_parts(f"key{number:02}", parts)
         os.utime(cache_folder / f"key{number:02}.npz", (number, number))
     assert sorted(path.stem for path in cache_folder.iterdir()) == [f"key{number:02}" for number in range(4, 12)]
-    assert cache.load_kept("key00") is None
-    assert cache.load_kept("key11") is not None
+    assert cache.load_parts("key00") is None
+    assert cache.load_parts("key11") is not None
     assert not list(cache_folder.glob("*.tmp"))
 
 
@@ -127,5 +127,5 @@ def test_what_is_interrupted_leaves_nothing_behind(
     parts = load._read(large.read_bytes(), ".obj", large)
     monkeypatch.setattr(cache.os, "replace", interrupt)
     with pytest.raises(KeyboardInterrupt):
-        cache.keep("key", parts)
+        cache.save_parts("key", parts)
     assert not list(cache_folder.iterdir())

@@ -213,7 +213,7 @@ def test_uv_are_kept_without_a_texture_as_the_description_may_bring_one(tmp_path
     mesh = load_mesh(collada(tmp_path / "car.dae"))
 
     assert mesh.uv is not None
-    red, _ = mesh.by_look()
+    red, _ = mesh.split_by_material()
     assert red.uv is not None
     assert red.uv == pytest.approx(red.vertices[red.faces][..., :2] - (2.0, 0.0))
 
@@ -229,14 +229,14 @@ def test_a_material_library_elsewhere_is_not_read(tmp_path: Path) -> None:
 def test_a_mesh_is_cut_into_one_mesh_per_look(tmp_path: Path) -> None:
     mesh = load_mesh(collada(tmp_path / "car.dae"))
 
-    red, blue = mesh.scaled((2.0, 1.0, 1.0)).by_look()
+    red, blue = mesh.scaled((2.0, 1.0, 1.0)).split_by_material()
 
     assert (red.rgba, blue.rgba) == ((1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.25))
     assert (len(red.vertices), len(red.faces)) == (4, 2)
     assert red.vertices[:, 0].max() == pytest.approx(6.0)
-    assert mesh.by_look() is mesh.by_look()
+    assert mesh.split_by_material() is mesh.split_by_material()
     same = load_mesh(collada(tmp_path / "car.dae", second="red"))
-    assert same.by_look() == (same,)
+    assert same.split_by_material() == (same,)
 
 
 def test_a_texture_inside_a_glb_comes_with_the_mesh(tmp_path: Path) -> None:
@@ -273,4 +273,4 @@ def test_a_glb_whose_image_cannot_be_decoded_names_it_and_keeps_its_shape(tmp_pa
 
     assert len(mesh.faces) == 12
     assert mesh.parts[0].texture is None
-    assert mesh.parts[0].lost_texture == "image inside, of material 'paint'"
+    assert mesh.parts[0].missing_texture == "image inside, of material 'paint'"

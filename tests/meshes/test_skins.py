@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from tests.skinned import bending_column
 
-from trundle.meshes import MeshError, Motion, Skin, load_motion, load_skin, matched
+from trundle.meshes import MeshError, Motion, Skin, load_motion, load_skin, match_bones
 
 HALF = math.sqrt(0.5)
 
@@ -94,7 +94,7 @@ def test_motion_capture_moves_a_skin(tmp_path: Path) -> None:
     skin, _ = read(tmp_path, bending_column())
     (tmp_path / "m.bvh").write_text(BVH)
     motion = load_motion(tmp_path / "m.bvh")
-    bones = matched(skin.bones, motion.bones)
+    bones = match_bones(skin.bones, motion.bones)
     assert bones is not None
 
     poses = {bones[number]: pose for number, pose in motion.poses(0.25, 1.0).items()}
@@ -108,12 +108,12 @@ def test_skeletons_fit_by_name_or_else_by_how_they_branch(tmp_path: Path) -> Non
     (tmp_path / "m.bvh").write_text(BVH.replace("root", "Hips").replace("tip", "Spine"))
     (tmp_path / "other.bvh").write_text(BVH.replace("JOINT tip {", "JOINT tip { OFFSET 0 0 1 JOINT more {", 1) + "}")
 
-    assert matched(skin.bones, load_motion(tmp_path / "m.bvh").bones) == {0: 1, 1: 2}
+    assert match_bones(skin.bones, load_motion(tmp_path / "m.bvh").bones) == {0: 1, 1: 2}
     with pytest.raises(MeshError):
         load_motion(tmp_path / "other.bvh")
     two = BVH.replace("End Site { OFFSET 0 0 1 }", "JOINT more { OFFSET 0 0 1 CHANNELS 0 }")
     (tmp_path / "other.bvh").write_text(two)
-    assert matched(skin.bones, load_motion(tmp_path / "other.bvh").bones) is None
+    assert match_bones(skin.bones, load_motion(tmp_path / "other.bvh").bones) is None
 
 
 @pytest.mark.parametrize(
@@ -158,7 +158,7 @@ def test_no_byte_of_a_skin_brings_anything_down(tmp_path: Path) -> None:
         except MeshError:
             continue
         read_well += 1
-        bones = matched(skin.bones, motion.bones) or {}
+        bones = match_bones(skin.bones, motion.bones) or {}
         with np.errstate(all="ignore"):
             skin.vertices({bones[n]: pose for n, pose in motion.poses(0.7, 1.0).items() if n in bones})
     assert read_well > 50

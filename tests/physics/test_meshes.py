@@ -11,11 +11,11 @@ import pytest
 from PIL import Image
 
 import trundle
-from trundle.meshes import triangles_of
+from trundle.meshes import triangulate
 from trundle.physics.convex import mesh_decomposition, pieces
 from trundle.physics.convex.hulls import hull_of
 from trundle.physics.convex.mesh_decomposition import convex_pieces
-from trundle.physics.convex.pieces import MOST_PIECES
+from trundle.physics.convex.pieces import MAX_PIECES
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist
 
@@ -110,7 +110,7 @@ def test_parts_of_a_mesh_are_shapes_of_their_own(load: Load) -> None:
 @pytest.fixture
 def cache(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    mesh_decomposition.forget()
+    mesh_decomposition.clear_cache()
     return tmp_path / "cache/trundle/meshes"
 
 
@@ -171,7 +171,7 @@ def test_what_moves_and_is_hollow_stands_on_its_corners_and_lets_through(load: L
 
 def test_pieces_are_the_same_every_time_and_kept(load: Load, cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def corners() -> bytes:
-        mesh_decomposition.forget()
+        mesh_decomposition.clear_cache()
         return load(gate(), "0 0 5", static=False).engine.compiled.model.mesh_vert.tobytes()
 
     first = corners()
@@ -207,13 +207,13 @@ def test_what_is_hardly_hollow_is_filled_aloud(load: Load, cache: Path) -> None:
 
 def test_a_mesh_of_too_many_pieces_is_filled() -> None:
     # Twice as many bent strips as there may be pieces.
-    count = 2 * MOST_PIECES
+    count = 2 * MAX_PIECES
     bent = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0]])
     vertices = np.concatenate([bent + np.array([3.0 * i, 0.0, 0.0]) for i in range(count)])
     faces = np.concatenate([np.array([[0, 1, 2], [0, 2, 3]]) + 4 * i for i in range(count)])
     pieces = convex_pieces(vertices, faces, fixed=False)
     assert len(pieces.corners) == 1
-    assert [misfit.is_filled for misfit in pieces.misfits] == [True]
+    assert [misfit.is_filled for misfit in pieces.errors] == [True]
 
 
 @pytest.mark.parametrize("faces", [[], [[0, 0, 0]], [[0, 1, 1]]])
@@ -233,7 +233,7 @@ def test_a_convex_mesh_stays_whole_whatever_its_faces() -> None:
     caps = [[0, i + 1, i] for i in range(1, 23)] + [[24, 24 + i, 25 + i] for i in range(1, 23)]
     for fixed in (True, False):
         pieces = convex_pieces(vertices, np.array(sides + caps), fixed=fixed)
-        assert (len(pieces.corners), pieces.misfits) == (1, [])
+        assert (len(pieces.corners), pieces.errors) == (1, [])
 
 
 def test_a_ball_slides_off_the_tip_of_a_cone(load: Load) -> None:
@@ -335,14 +335,14 @@ def test_triangles_cover_a_star_with_two_holes_and_an_island() -> None:
     star = circle(0.0, 0.0, (3.0, 2.0), 14)
     holes = [circle(-0.9, 0.1, (0.6,), 9), circle(0.9, 0.0, (0.8,), 12)[::-1]]
     island = circle(0.9, 0.0, (0.3,), 6)
-    triangles = triangles_of([star, *holes, island])
+    triangles = triangulate([star, *holes, island])
     expected = covered(star) - covered(holes[0]) - covered(holes[1]) + covered(island)
     assert area([*triangles]) == pytest.approx(expected, rel=1e-9)
 
 
 @pytest.mark.parametrize("outline", [[(0.0, 0.0)], [(0.0, 0.0), (1.0, 0.0)], [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)]])
 def test_an_outline_without_area_is_nothing(outline: list[tuple[float, float]]) -> None:
-    assert triangles_of([outline]) == []
+    assert triangulate([outline]) == []
 
 
 def test_a_flat_piece_has_no_hull_and_nothing_is_printed(capfd: pytest.CaptureFixture[str]) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 import trundle
 from trundle.physics import Engine
-from trundle.physics.compile.law_tables import switch_off
+from trundle.physics.compile.law_tables import disable_laws
 from trundle.simulation import Simulation
 
 G = 9.8
@@ -64,7 +64,7 @@ def _state(engine: Engine) -> np.ndarray:
 def _truth(engine: Engine, *, steps: int) -> mujoco.MjData:
     """Where it is after so many steps, by Runge and Kutta's method with a tenth of the step."""
     model = copy.copy(engine.compiled.model)
-    switch_off(model)
+    disable_laws(model)
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_ACTUATION
     model.opt.timestep /= 10

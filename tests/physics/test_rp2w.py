@@ -41,7 +41,7 @@ def angle_between(a: Pose, b: Pose) -> float:
 
 def angle_between_axles(a: Pose, b: Pose, axle: Vector3) -> float:
     """What is left of it when a wheel's own roll is not counted [rad]."""
-    p, q = a.direction(axle), b.direction(axle)
+    p, q = a.transform_vector(axle), b.transform_vector(axle)
     return math.acos(min(1.0, sum(x * y for x, y in zip(p, q, strict=True))))
 
 

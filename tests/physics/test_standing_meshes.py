@@ -13,9 +13,9 @@ from trundle.diagnostics import Diagnostics
 from trundle.physics import compile_mjcf
 from trundle.physics.convex import mesh_decomposition, pieces
 from trundle.physics.convex.hulls import hull_of
-from trundle.physics.convex.mesh_decomposition import Decomposition, convex_pieces
+from trundle.physics.convex.mesh_decomposition import WorldDecomposition, convex_pieces
 from trundle.physics.convex.patches import convex_patches
-from trundle.render import scene_of
+from trundle.render import scene_from_world
 from trundle.simulation import Simulation
 from trundle.spatial import Twist
 
@@ -49,9 +49,9 @@ def surface_height(mesh: Mesh, places: NDArray[np.float64]) -> NDArray[np.float6
 
 @pytest.fixture(autouse=True)
 def _forget() -> Iterator[None]:
-    mesh_decomposition.forget()
+    mesh_decomposition.clear_cache()
     yield
-    mesh_decomposition.forget()
+    mesh_decomposition.clear_cache()
 
 
 def test_patches_are_the_surface_exactly() -> None:
@@ -137,7 +137,7 @@ def test_what_is_fast_and_small_does_not_go_through_a_slab(tmp_path: Path, radiu
 def test_a_track_is_as_large_in_mjcf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("trundle.physics.compile.convex_geoms._MANY", 400)
     sim = load(tmp_path, strip(2400))
-    text = compile_mjcf(sim.world, scene_of(sim.world, Diagnostics()), Diagnostics())
+    text = compile_mjcf(sim.world, scene_from_world(sim.world, Diagnostics()), Diagnostics())
     assert mujoco.MjModel.from_xml_string(text).ngeom == sim.engine.compiled.model.ngeom
 
 
@@ -153,18 +153,18 @@ def test_a_track_of_50_000_triangles_is_its_surface(tmp_path: Path) -> None:
 
 def test_what_stands_shares_the_slabs_of_a_world(monkeypatch: pytest.MonkeyPatch) -> None:
     # Two tracks of some 1300 slabs, and slabs for one.
-    monkeypatch.setattr(mesh_decomposition, "MOST_SLABS", 2000)
+    monkeypatch.setattr(mesh_decomposition, "MAX_SLABS", 2000)
     first, second = strip(2400), strip(2448)
-    world = Decomposition()
-    world.cut_ahead([(*first, True), (*second, True)])
+    world = WorldDecomposition()
+    world.decompose_all([(*first, True), (*second, True)])
     counts = [len(world.pieces_of(*mesh, fixed=True).pieces.corners) for mesh in (first, second)]
     assert counts[0] > 1000
     assert counts[1] == 1
-    assert [misfit.is_filled for misfit in world.pieces_of(*second, fixed=True).pieces.misfits] == [True]
+    assert [misfit.is_filled for misfit in world.pieces_of(*second, fixed=True).pieces.errors] == [True]
 
 
 def test_a_fine_thing_that_stands_and_is_near_its_hull_is_its_hull(monkeypatch: pytest.MonkeyPatch) -> None:
     points, faces = strip(480, noise=0.0)
     points[:, 2] /= 100
-    monkeypatch.setattr(pieces, "MOST_PIECES", 50)
+    monkeypatch.setattr(pieces, "MAX_PIECES", 50)
     assert len(convex_pieces(points, faces, fixed=True).corners) == 1

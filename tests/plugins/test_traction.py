@@ -36,7 +36,7 @@ def drive(sim: Simulation, wires: Wires, speed: float, yaw: float, *, seconds: f
     wires.tell("/m/cmd_vel", position={"x": speed}, orientation=turn)
     sim.run(seconds)
     link = sim["m"].link("base")
-    return link.pose.inverse().direction(link.twist.linear)[0], link.twist.angular[2]
+    return link.pose.inverse().transform_vector(link.twist.linear)[0], link.twist.angular[2]
 
 
 def test_a_tank_on_running_surfaces_drives_as_told(tmp_path: Path) -> None:
@@ -133,7 +133,7 @@ def test_an_axle_feels_the_force_at_which_its_tyre_slips(tmp_path: Path) -> None
     assert sim["m"].joint("l1").reaction.force[1] == pytest.approx(0.0, abs=1.0)
     sim.run(1.0)
     for name in NAMES:
-        sim["m"].link(name).set_grip(WheelGrip(axis=(0.0, 0.0, 1.0), slip=2e-3, slip_across=0.0))
+        sim["m"].link(name).set_surface_motion(WheelGrip(axis=(0.0, 0.0, 1.0), slip=2e-3, slip_across=0.0))
     sim["m"].link("base").apply_wrench(Wrench(force=(0.0, 20.0, 0.0)))
     sim.run(1.5)
     assert sim["m"].link("base").twist.linear[1] == pytest.approx(20.0 * 2e-3 / 4 * 20.0, rel=0.03)
@@ -148,13 +148,13 @@ def test_a_wheel_slips_across_by_the_other_compliance_and_not_while_it_stands(tm
     sim.run(1.5)
 
     sideways = 2.0 * 0.2 * 5.0 / 24.5
-    assert base.pose.inverse().direction(base.twist.linear)[1] == pytest.approx(sideways, rel=0.03)
+    assert base.pose.inverse().transform_vector(base.twist.linear)[1] == pytest.approx(sideways, rel=0.03)
     slip = wires.said["/m/wheel_slip/l1"][-1]
     assert (slip.y, slip.z) == pytest.approx((sideways, 2.0), rel=0.03)
     assert slip.x == pytest.approx(0.0, abs=0.01)
     wires.tell("/m/wheel_slip/lateral_compliance", data=0.0)
     sim.run(1.0)
-    assert base.pose.inverse().direction(base.twist.linear)[1] == pytest.approx(0.0, abs=2e-3)
+    assert base.pose.inverse().transform_vector(base.twist.linear)[1] == pytest.approx(0.0, abs=2e-3)
 
     for name in NAMES:
         sim["m"].joint(name).set_velocity(0.0, max_effort=100.0)

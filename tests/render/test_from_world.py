@@ -30,7 +30,7 @@ from trundle.model import (
     Visual,
     World,
 )
-from trundle.render import Intrinsics, Scene, scene_of
+from trundle.render import Intrinsics, Scene, scene_from_world
 from trundle.spatial import Pose
 
 AT = Source("w.sdf", 3)
@@ -48,7 +48,7 @@ def world(*visuals: Visual, lights: tuple[Light, ...] = ()) -> World:
 
 
 def drawn(*visuals: Visual) -> Scene:
-    return scene_of(world(*visuals), Diagnostics(strict=True))
+    return scene_from_world(world(*visuals), Diagnostics(strict=True))
 
 
 def test_the_front_door_exports_in_order() -> None:
@@ -61,7 +61,7 @@ def test_bodies_are_the_links_of_all_models_in_file_order() -> None:
         return Model(name=name, at=AT, links=tuple(Link(name=l_, at=AT, visuals=(visual(l_),)) for l_ in links))
 
     both = World(name="w", at=AT, models=(model("one", "b", "a"), model("two", "c")))
-    scene = scene_of(both, Diagnostics(strict=True))
+    scene = scene_from_world(both, Diagnostics(strict=True))
     assert scene.bodies == ("one::b", "one::a", "two::c")
     assert [(shape.name, shape.body) for shape in scene.shapes] == [("b", 0), ("a", 1), ("c", 2)]
 
@@ -81,7 +81,7 @@ def test_collision_shapes_can_be_drawn_instead() -> None:
     touched = Collision(name="c", geometry=Box((1.0, 1.0, 1.0)), at=AT, link_from_collision=Pose((0.0, 0.0, 1.0)))
     link = Link(name="l", at=AT, visuals=(visual(),), collisions=(touched,))
     made = World(name="w", at=AT, models=(Model(name="m", at=AT, links=(link,)),))
-    (shape,) = scene_of(made, Diagnostics(strict=True), collisions=True).shapes
+    (shape,) = scene_from_world(made, Diagnostics(strict=True), collisions=True).shapes
     assert (shape.name, shape.body_from_shape) == ("c", Pose((0.0, 0.0, 1.0)))
     assert shape.rgba[3] < 1.0
 
@@ -90,7 +90,7 @@ def test_a_directional_light_shines_along_its_own_direction_turned_by_its_pose()
     down = Light(
         name="sun", type="directional", at=AT, world_from_light=Pose.from_rpy(0, 0, 9, 3.141592653589793, 0, 0)
     )
-    scene = scene_of(world(lights=(down,)), Diagnostics(strict=True))
+    scene = scene_from_world(world(lights=(down,)), Diagnostics(strict=True))
     assert scene.lights[0].direction == pytest.approx((0.0, 0.0, 1.0))
 
 
@@ -109,20 +109,20 @@ def test_lights_shine_in_the_world_and_on_links() -> None:
     )
     carrier = Link(name="l", at=AT, visuals=(visual(),), lights=(replace(lamp, type="point"),))
     made = World(name="w", at=AT, models=(Model(name="m", at=AT, links=(carrier,)),), lights=(lamp,))
-    first, second = scene_of(made, Diagnostics(strict=True)).lights
+    first, second = scene_from_world(made, Diagnostics(strict=True)).lights
     assert (first.kind, first.body, first.position, first.diffuse) == ("spot", None, (1, 2, 3), (0.5, 0.25, 0.0, 1.0))
     assert (first.attenuation, first.range_m, first.outer_angle_rad) == ((1.0, 0.25, 0.0), 7.0, 0.6)
     assert first.casts_shadows
     assert (second.kind, second.body) == ("point", 0)
     dark = replace(made, scene=SceneSettings(shadows=False))
-    assert not scene_of(dark, Diagnostics()).lights[0].casts_shadows
+    assert not scene_from_world(dark, Diagnostics()).lights[0].casts_shadows
 
 
 def test_the_sky_is_the_worlds() -> None:
     sky = replace(world(), scene=SceneSettings(background=(0.1, 0.2, 0.3, 1.0)))
-    assert scene_of(sky, Diagnostics()).background == (0.1, 0.2, 0.3, 1.0)
-    assert scene_of(sky, Diagnostics()).sky is None
-    assert scene_of(replace(world(), scene=SceneSettings(sky=True)), Diagnostics()).sky is not None
+    assert scene_from_world(sky, Diagnostics()).background == (0.1, 0.2, 0.3, 1.0)
+    assert scene_from_world(sky, Diagnostics()).sky is None
+    assert scene_from_world(replace(world(), scene=SceneSettings(sky=True)), Diagnostics()).sky is not None
 
 
 def mesh_file(folder: Path) -> MeshFile:
@@ -161,7 +161,7 @@ def test_a_texture_that_is_not_there_is_named(tmp_path: Path) -> None:
     corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
     (tmp_path / "car.obj").write_text(f"mtllib car.mtl\n{corners}usemtl a\nf 1/1 2/2 3/3\n")
     report = Diagnostics()
-    scene_of(world(visual(geometry=MeshFile(path=tmp_path / "car.obj", uri="car.obj"))), report)
+    scene_from_world(world(visual(geometry=MeshFile(path=tmp_path / "car.obj", uri="car.obj"))), report)
     (said,) = report.findings
     assert str(said).endswith(
         "car.obj: info: its texture 'paint.png' is nowhere in the model's folder; a plain colour is drawn"
@@ -171,7 +171,7 @@ def test_a_texture_that_is_not_there_is_named(tmp_path: Path) -> None:
 def test_a_mesh_that_cannot_be_read_is_left_out_aloud(tmp_path: Path) -> None:
     report = Diagnostics()
     lost = MeshFile(path=tmp_path / "lost.dae", uri="model://m/lost.dae")
-    scene = scene_of(world(visual("gone", lost), visual("here")), report)
+    scene = scene_from_world(world(visual("gone", lost), visual("here")), report)
     assert [shape.name for shape in scene.shapes] == ["here"]
     (said,) = report.warnings
     assert said.startswith("w.sdf:3: warning: ")
@@ -182,7 +182,7 @@ def test_a_mesh_that_cannot_be_read_is_left_out_aloud(tmp_path: Path) -> None:
 def test_a_mesh_of_little_but_lines_is_named(tmp_path: Path) -> None:
     (tmp_path / "lines.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 3 + "f 1 2 4\n")
     report = Diagnostics()
-    scene = scene_of(world(visual(geometry=MeshFile(uri="lines.obj", path=tmp_path / "lines.obj"))), report)
+    scene = scene_from_world(world(visual(geometry=MeshFile(uri="lines.obj", path=tmp_path / "lines.obj"))), report)
 
     assert len(scene.shapes) == 1
     assert report.warnings == [
@@ -218,7 +218,7 @@ def test_terrain_is_painted_with_its_layers_by_height(tmp_path: Path) -> None:
     )
     ramp = Heightmap(path=tmp_path / "ramp.png", uri="ramp.png", size=(40.0, 40.0, 4.0), layers=layers)
     report = Diagnostics()
-    (shape,) = scene_of(world(replace(visual("hill", ramp), material=GREY)), report).shapes
+    (shape,) = scene_from_world(world(replace(visual("hill", ramp), material=GREY)), report).shapes
 
     assert isinstance(shape.texture, bytes)
     with Image.open(BytesIO(shape.texture)) as image:
@@ -235,7 +235,7 @@ def test_terrain_is_painted_with_its_layers_by_height(tmp_path: Path) -> None:
 def test_terrain_without_its_image_is_left_out_aloud(tmp_path: Path) -> None:
     report = Diagnostics()
     lost = Heightmap(path=tmp_path / "lost.png", uri="file://lost.png")
-    assert scene_of(world(visual("hill", lost)), report).shapes == ()
+    assert scene_from_world(world(visual("hill", lost)), report).shapes == ()
     (said,) = report.warnings
     assert said.startswith("w.sdf:3: warning: heightmap 'file://lost.png': ")
     assert said.endswith("; it is not drawn")

@@ -33,7 +33,7 @@ def world(folder: Path, eye: str, actor: str) -> Any:
 
 def seen(sim: Any, camera: Any) -> tuple[float, float]:
     """How high what the camera sees reaches at 6 m [m], and how near it is [m]."""
-    depth = camera.take(sim.snapshot()).depth
+    depth = camera.measure(sim.snapshot()).depth
     rows = np.flatnonzero(np.isfinite(depth).any(axis=1))
     focal = 60.5 / np.tan(0.6)
     return 1.0 + (60.5 - rows.min()) * 6.0 / focal, float(np.nanmin(depth))

@@ -56,7 +56,7 @@ def test_a_box_in_space_is_as_large_as_the_thing(tmp_path: Path) -> None:
     """A cylinder about a reaches √(1 − a²) r + |a| l / 2 along each axis of its link."""
     inside = "<box_type>3d</box_type>"
     (box,) = look(tmp_path, "cylinder", pose="0 0 0 0.7 0.5 0.3", type_="boundingbox", inside=inside).boxes
-    along = Pose.from_rpy(0.0, 0.0, 0.0, 0.7, 0.5, 0.3).direction((0.0, 0.0, 1.0))
+    along = Pose.from_rpy(0.0, 0.0, 0.0, 0.7, 0.5, 0.3).transform_vector((0.0, 0.0, 1.0))
 
     assert box.size == pytest.approx([2 * (0.3 * math.sqrt(1 - a * a) + 0.6 * abs(a)) for a in along], rel=2e-3)
     assert box.center == pytest.approx((4.0, 0.3, 0.2), abs=1e-9)

@@ -279,10 +279,10 @@ def test_a_bumper_carries_the_weight_of_what_rests_on_its_collisions(tmp_path: P
 
     reading = read(load(tmp_path, link, others=floor), 1.0)[-1]
 
-    assert {(touch.own, touch.other) for touch in reading.touches} == {("m::a::foot", "floor::l::c")}
-    assert {touch.time_ns for touch in reading.touches} == {reading.time_ns}
-    assert sum(touch.wrench.force[2] for touch in reading.touches) == pytest.approx(19.6, rel=5e-3)
-    assert all(touch.normal == pytest.approx((0, 0, 1), abs=1e-9) for touch in reading.touches)
+    assert {(touch.own, touch.other) for touch in reading.contacts} == {("m::a::foot", "floor::l::c")}
+    assert {touch.time_ns for touch in reading.contacts} == {reading.time_ns}
+    assert sum(touch.wrench.force[2] for touch in reading.contacts) == pytest.approx(19.6, rel=5e-3)
+    assert all(touch.normal == pytest.approx((0, 0, 1), abs=1e-9) for touch in reading.contacts)
 
 
 BALL = """<link name="a"><pose>0 0 0.3 0 0 0</pose>{body}<collision name="c"><geometry>
@@ -297,7 +297,7 @@ FLOOR = thing("floor", "0 0 -0.5 0 0 0", "<box><size>9 9 1</size></box>").replac
 
 def touched(readings: list[ContactReading]) -> list[int]:
     """The times of the steps with contacts, of all readings together."""
-    return [time_ns for reading in readings for time_ns in dict.fromkeys(touch.time_ns for touch in reading.touches)]
+    return [time_ns for reading in readings for time_ns in dict.fromkeys(touch.time_ns for touch in reading.contacts)]
 
 
 @pytest.mark.parametrize("rate", [1000, 30, 10])
@@ -309,7 +309,7 @@ def test_a_bumper_tells_of_every_step_since_it_last_told(tmp_path: Path, rate: i
     told = read(load(tmp_path, BALL.format(body=BODY, rate=rate), others=FLOOR), 2.0)
 
     assert touched(told) == [time_ns for time_ns in every if time_ns <= told[-1].time_ns]
-    assert all(0 <= r.time_ns - t.time_ns < 1e9 / rate for r in told for t in r.touches)
+    assert all(0 <= r.time_ns - t.time_ns < 1e9 / rate for r in told for t in r.contacts)
 
 
 def test_a_bumper_that_tells_seldom_keeps_the_last_hundred_steps(tmp_path: Path) -> None:
@@ -324,13 +324,13 @@ def test_a_bumper_that_nobody_listens_to_for_a_while_forgets(tmp_path: Path) -> 
     (bumper,) = mount_sensors(sim)
     readings: list[ContactReading] = []
     listens = True
-    bumper.listen(readings.append, wanted=lambda: listens)
+    bumper.listen(readings.append, enabled=lambda: listens)
     bumper.start(sim)
     sim.run(0.55)
-    assert len(bumper._specific_force) == 50
+    assert len(bumper._recorded) == 50
     listens = False
     sim.run(0.3)
-    assert len(bumper._specific_force) == 50
+    assert len(bumper._recorded) == 50
     listens = True
     sim.run(0.1)
 
@@ -368,7 +368,7 @@ def test_a_sensor_that_nobody_wants_measures_nothing(tmp_path: Path) -> None:
     sensors = mount_sensors(sim)
 
     assert [type(sensor) for sensor in sensors] == [RangeSensor, ImuSensor]
-    assert not any(sensor.wanted() for sensor in sensors)
+    assert not any(sensor.enabled() for sensor in sensors)
 
 
 def test_every_type_that_is_made_is_known_before_its_module_is_loaded() -> None:

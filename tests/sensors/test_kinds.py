@@ -1,8 +1,8 @@
 """The catalog of sensors is one."""
 
-from trundle.description.sdf.camera import SEEING
-from trundle.sensors import SIMULATED
+from trundle.description.sdf.camera import CAMERA_TYPES
+from trundle.sensors import SIMULATED_CAMERAS
 
 
 def test_every_camera_that_is_read_is_simulated() -> None:
-    assert SEEING <= SIMULATED
+    assert CAMERA_TYPES <= SIMULATED_CAMERAS

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 import trundle
 from trundle.render import NativeRenderer
-from trundle.sensors import SIMULATED, mount_cameras, mount_sensors
+from trundle.sensors import SIMULATED_CAMERAS, mount_cameras, mount_sensors
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
 
@@ -29,7 +29,7 @@ def world(tmp_path: Path, inside: str) -> tuple[Simulation, list[Any]]:
     return sim, mounted
 
 
-@pytest.mark.parametrize("type_", sorted(SIMULATED - set(UNHEARD)))
+@pytest.mark.parametrize("type_", sorted(SIMULATED_CAMERAS - set(UNHEARD)))
 def test_every_sensor_measures_on_and_ends_with_its_model(tmp_path: Path, type_: str) -> None:
     """One model before its own goes, another comes, then its own goes."""
     sim, (sensor,) = world(tmp_path, BOX.format("first", 9) + of_type(type_))
@@ -56,7 +56,7 @@ def test_a_camera_sees_what_came_and_from_its_own_link(tmp_path: Path) -> None:
     sim, (camera,) = world(tmp_path, BOX.format("far", 6) + eye)
 
     def depth() -> float:
-        return float(camera.take(sim.snapshot()).depth[4, 4])
+        return float(camera.measure(sim.snapshot()).depth[4, 4])
 
     assert depth() == pytest.approx(5.5, abs=1e-4)
     sim.spawn(replace(sim["far"].model, name="near", world_from_model=Pose((3.0, 0.0, 0.0))))

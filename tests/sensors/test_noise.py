@@ -18,7 +18,7 @@ def source(noise: Noise, seed: int = 1) -> NoiseSource:
 def test_a_bias_is_drawn_once_and_of_either_sign() -> None:
     """Half of many sources err to one side, half to the other, each by the same at every reading."""
     drawn = [source(Noise(bias_mean=5.0, bias_stddev=0.1), seed) for seed in range(200)]
-    first, later = ([each.disturb_one(0.0, time_ns) for each in drawn] for time_ns in (0, _STEP_NS))
+    first, later = ([each.apply_to_value(0.0, time_ns) for each in drawn] for time_ns in (0, _STEP_NS))
 
     assert first == later
     assert np.abs(first).mean() == pytest.approx(5.0, abs=0.05)
@@ -27,7 +27,7 @@ def test_a_bias_is_drawn_once_and_of_either_sign() -> None:
 
 
 def test_values_are_rounded_to_the_precision() -> None:
-    noisy = source(Noise(stddev=1.0, precision=0.25)).disturb(np.zeros(1000), 0)
+    noisy = source(Noise(stddev=1.0, precision=0.25)).apply(np.zeros(1000), 0)
 
     assert np.all(noisy % 0.25 == 0.0)
     assert len(np.unique(noisy)) > 10
@@ -39,7 +39,7 @@ def test_a_wandering_bias_forgets_itself_in_its_time_however_often_it_is_read(st
     """Ornstein and Uhlenbeck's: its variance is density² τ / 2, and after a time t, e^(−t/τ) of it is left."""
     density, tau = 2.0, 0.5
     wandering = source(Noise(wander_density=density, wander_time_s=tau))
-    values = np.array([wandering.disturb_one(0.0, i * step_ns) for i in range(20_000)])
+    values = np.array([wandering.apply_to_value(0.0, i * step_ns) for i in range(20_000)])
 
     assert values.std() == pytest.approx(density * math.sqrt(tau / 2.0), rel=0.1)
     left = np.corrcoef(values[:-1], values[1:])[0, 1]
@@ -48,6 +48,6 @@ def test_a_wandering_bias_forgets_itself_in_its_time_however_often_it_is_read(st
 
 def test_a_reset_of_time_leaves_a_bias_where_it_is() -> None:
     wandering = source(Noise(bias_mean=3.0, wander_density=1.0, wander_time_s=1.0))
-    before = [wandering.disturb_one(0.0, t) for t in (0, _STEP_NS)][-1]
+    before = [wandering.apply_to_value(0.0, t) for t in (0, _STEP_NS)][-1]
 
-    assert wandering.disturb_one(0.0, 0) == before
+    assert wandering.apply_to_value(0.0, 0) == before

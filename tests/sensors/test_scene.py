@@ -13,7 +13,7 @@ from trundle.description import load
 from trundle.diagnostics import Diagnostics
 from trundle.model import World
 from trundle.packages import Packages
-from trundle.render import Intrinsics, NativeRenderer, scene_of
+from trundle.render import Intrinsics, NativeRenderer, scene_from_world
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
 
@@ -33,7 +33,7 @@ def scene_world(shared: Path, tmp_path_factory: pytest.TempPathFactory) -> World
 @pytest.fixture(scope="module")
 def picture(scene_world: World) -> NDArray[np.int_]:
     """(240, 320, 3)"""
-    renderer = NativeRenderer(scene_of(scene_world, Diagnostics()))
+    renderer = NativeRenderer(scene_from_world(scene_world, Diagnostics()))
     renderer.update(Simulation(scene_world, Diagnostics()).snapshot().poses)
     seen = drawn(renderer, WORLD_FROM_CAMERA, Intrinsics(width_px=320, height_px=240, horizontal_fov_rad=1.047))
     return seen.rgb.astype(int)

@@ -10,7 +10,7 @@ import pytest
 
 import trundle
 from trundle.render import Intrinsics, Picture, Scene
-from trundle.sensors import SIMULATED, mount_cameras, mount_sensors
+from trundle.sensors import SIMULATED_CAMERAS, mount_cameras, mount_sensors
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
 
@@ -98,11 +98,11 @@ def test_readings_come_at_exact_multiples_of_the_period(load: Any, rate: float) 
     assert stamps == [-(-1000 * k // exact) * MS for k in range(1, int(20 * exact) + 1)]
 
 
-@pytest.mark.parametrize("type_", sorted(SIMULATED - set(UNHEARD)))
+@pytest.mark.parametrize("type_", sorted(SIMULATED_CAMERAS - set(UNHEARD)))
 def test_a_sensor_that_nobody_wants_measures_nothing_and_costs_no_stride(load: Any, type_: str) -> None:
     sim, (mounted,) = load(of_type(type_))
-    mounted.listen(lambda _: pytest.fail("nobody wanted it"), wanted=lambda: False)
-    mounted.take = lambda _: pytest.fail("nobody wanted it")
+    mounted.listen(lambda _: pytest.fail("nobody wanted it"), enabled=lambda: False)
+    mounted.measure = lambda _: pytest.fail("nobody wanted it")
     strides: list[int] = []
     step = sim.engine.step
     sim.engine.step = lambda count: (strides.append(count), step(count))
@@ -111,17 +111,17 @@ def test_a_sensor_that_nobody_wants_measures_nothing_and_costs_no_stride(load: A
     assert strides == [500]
 
 
-@pytest.mark.parametrize("type_", sorted(SIMULATED - set(UNHEARD)))
+@pytest.mark.parametrize("type_", sorted(SIMULATED_CAMERAS - set(UNHEARD)))
 def test_a_sensor_that_is_always_on_measures_for_nobody(load: Any, type_: str) -> None:
     sim, (mounted,) = load(of_type(type_, more="<always_on>1</always_on>"))
     taken: list[int] = []
-    take = mounted.take
+    take = mounted.measure
 
     def counted(snapshot: Any) -> Any:
         taken.append(snapshot.time_ns // MS)
         return take(snapshot)
 
-    mounted.take = counted
+    mounted.measure = counted
     sim.run(0.1)
 
     assert taken == [20, 40, 60, 80, 100]
@@ -157,7 +157,7 @@ def test_many_cameras_cost_each_its_own_picture_one_call_and_place_the_world_onc
         sim, cameras = load(robot(eyes))
         for camera in cameras[:looked_at]:
             camera.listen(lambda _: None)
-        renderer = cameras[0].scenery._renderer
+        renderer = cameras[0].scene._renderer
         sim.run(1.0)
         assert renderer.updates == renderer.calls == 10
         work[looked_at] = renderer.renders

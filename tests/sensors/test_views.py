@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from trundle.model import CameraOptics, Distortion, Lens, PixelIntrinsics
 from trundle.render import Intrinsics, Picture
-from trundle.sensors.lens import fits
-from trundle.sensors.pixel_formats import FORMATS, pixels_in
-from trundle.sensors.projection import CameraProjection, PinholeProjection, projection_of
-from trundle.sensors.undistort import distorted, undistorted
+from trundle.sensors.cameras.lens import fits
+from trundle.sensors.cameras.pixel_formats import FORMATS, pixels_in
+from trundle.sensors.cameras.projection import CameraProjection, PinholeProjection, projection_of
+from trundle.sensors.cameras.undistort import distorted, undistorted
 from trundle.spatial import Pose
 
 WIDTH, HEIGHT, FOV = 64, 48, 1.2
@@ -35,7 +35,7 @@ def seen_through(view: CameraProjection, mark: tuple[float, float, float]) -> ND
 def _spot(camera_from_face: Pose, size: Intrinsics, mark: tuple[float, float, float]) -> Picture:
     """Black but for a spot where a direction leads."""
     rgb = np.zeros((size.height_px, size.width_px, 3), dtype=np.uint8)
-    x, y, z = camera_from_face.inverse().direction(mark)
+    x, y, z = camera_from_face.inverse().transform_vector(mark)
     if x > 0.0:
         column, row = size.width_px / 2 - size.focal_px * y / x, size.height_px / 2 - size.focal_px * z / x
         half = max(1, size.width_px // 80)

@@ -245,5 +245,5 @@ def test_what_joined_a_deleted_model_goes_with_it(tmp_path: Path) -> None:
     sim.run(0.1)
 
     assert sim.joints == []
-    assert not tie.is_there
+    assert not tie.is_valid
     assert sim.report.warnings == []

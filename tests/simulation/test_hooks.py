@@ -128,7 +128,7 @@ def test_at_one_instant_who_looks_comes_before_who_acts_each_in_the_order_added(
 def test_who_shares_work_is_told_before_anybody_who_is_due_with_it_looks() -> None:
     @dataclass
     class Shares(Looks):
-        def before_look(self, snapshot: Snapshot) -> None:
+        def prepare(self, snapshot: Snapshot) -> None:
             self.track.calls.append((snapshot.time_ns, f"before {self.name}"))
 
     sim, track = empty_world(), Track()
@@ -197,7 +197,7 @@ def test_an_object_that_can_neither_act_nor_look_is_no_hook() -> None:
 
 def test_a_hook_nobody_wants_is_not_called_and_does_not_cut_the_stride() -> None:
     sim, track, listening = empty_world(), Track(), [False]
-    sim.add_hook(Both(track), period_ns=10 * MS, wanted=lambda: listening[0])
+    sim.add_hook(Both(track), period_ns=10 * MS, enabled=lambda: listening[0])
     strides: list[int] = []
     step = sim.engine.step
 

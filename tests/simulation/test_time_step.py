@@ -32,11 +32,11 @@ def with_steps_of(sim: Simulation, step_s: float) -> None:
 
 
 def test_a_timeline_knows_when_each_step_ends() -> None:
-    line = StepClock(1 * MS).with_steps_of(4 * MS, since=3)
+    line = StepClock(1 * MS).with_step(4 * MS, since=3)
 
     assert [line.time_ns(step) for step in (3, 4, 5)] == [3 * MS, 7 * MS, 11 * MS]
     assert [line.step_at(time_ns) for time_ns in (3 * MS, 3 * MS + 1, 7 * MS, 8 * MS)] == [3, 4, 4, 5]
-    assert line.with_steps_of(4 * MS, since=9) is line
+    assert line.with_step(4 * MS, since=9) is line
 
 
 def test_hooks_keep_their_rhythm_at_other_steps() -> None:

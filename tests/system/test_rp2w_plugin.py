@@ -88,7 +88,7 @@ def test_tilting_up_lifts_the_view() -> None:
 
     run.sim.run(4.0)
 
-    looks_along = run.robot.link("camera").pose.direction((1.0, 0.0, 0.0))
+    looks_along = run.robot.link("camera").pose.transform_vector((1.0, 0.0, 0.0))
     assert looks_along[2] > 0.4
 
 

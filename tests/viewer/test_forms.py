@@ -39,7 +39,7 @@ def test_a_plane_lies_across_its_normal() -> None:
     shape = Shape(name="wall", body=0, geometry=Plane((1.0, 0.0, 0.0), (2.0, 3.0)))
     instance = instance_of(shape)
 
-    assert instance.shape_from_form.direction((0.0, 0.0, 1.0)) == pytest.approx((1.0, 0.0, 0.0))
+    assert instance.shape_from_form.transform_vector((0.0, 0.0, 1.0)) == pytest.approx((1.0, 0.0, 0.0))
 
 
 def test_a_zero_thickness_box_is_still_drawn() -> None:

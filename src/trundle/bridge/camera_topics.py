@@ -75,7 +75,7 @@ class CameraTopics:
             topic = topic_called(camera.optics.trigger_topic) if camera.optics.trigger_topic else own
             trigger = camera.await_trigger()
             node.subscribe(topic, "std_msgs/Bool", lambda _: trigger(), queue_size=1)
-        camera.listen(self._publish, wanted=lambda: any(topic.has_subscribers for topic, _ in self._topics))
+        camera.listen(self._publish, enabled=lambda: any(topic.has_subscribers for topic, _ in self._topics))
 
     def _publish(self, reading: CameraReading) -> None:
         header = {"stamp": reading.time_ns, "frame_id": self.frame}

@@ -6,7 +6,7 @@ from trundle.simulation import Simulation, Snapshot
 from .step_publisher import StepPublisher
 
 _RATE_HZ = 100.0
-_MOST_HZ = 1e6
+_MAX_HZ = 1e6
 """From here on each step is late."""
 
 
@@ -28,7 +28,7 @@ class ClockTopic:
         if self._period_ns is None:
             StepPublisher(self._publisher, self.after_step).attach(simulation)
         else:
-            simulation.add_hook(self, period_ns=self._period_ns, wanted=lambda: self._publisher.has_subscribers)
+            simulation.add_hook(self, period_ns=self._period_ns, enabled=lambda: self._publisher.has_subscribers)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell the time."""
@@ -43,4 +43,4 @@ async def clock_rate_hz(node: Node) -> float | None:
     if isinstance(rate, bool) or not isinstance(rate, int | float):
         node.log_warn(f"pub_clock_frequency {rate!r} is no rate; /clock ticks at each step")
         return None
-    return float(rate) if 0.0 < rate <= _MOST_HZ else None
+    return float(rate) if 0.0 < rate <= _MAX_HZ else None

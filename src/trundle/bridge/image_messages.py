@@ -47,7 +47,7 @@ def _image(pixels: NDArray[np.generic], encoding: str) -> dict[str, object]:
 def cloud_maker(camera: CameraSensor) -> Callable[[CameraReading], dict[str, object]]:
     """What makes sensor_msgs/PointCloud2: a point for each pixel, in its colour, in the optical frame; one without
     depth is not a number."""
-    right, down = (np.ascontiguousarray(slopes, dtype=np.float32) for slopes in camera.view.slopes())
+    right, down = (np.ascontiguousarray(slopes, dtype=np.float32) for slopes in camera.projection.slopes())
     fields = [
         {"name": name, "offset": 4 * i, "datatype": _FLOAT32, "count": 1}
         for i, name in enumerate(("x", "y", "z", "rgb"))

@@ -39,7 +39,7 @@ class PressureTopic:
         """Advertise, and place the sensor's frame."""
         self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
         self._topic = node.advertise(topic_of(sensor, sensor.sensor.type), "sensor_msgs/FluidPressure", queue_size=10)
-        sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
+        sensor.listen(self._publish, enabled=lambda: self._topic.has_subscribers)
 
     def _publish(self, reading: PressureReading) -> None:
         header = {"stamp": reading.time_ns, "frame_id": self._frame}
@@ -55,7 +55,7 @@ class AltimeterTopics:
         self._height = node.advertise(topic_of(sensor, "altitude"), "geometry_msgs/Vector3Stamped", queue_size=10)
         speed = topic_of(sensor, "vertical_velocity", main="altitude")
         self._speed = node.advertise(speed, "geometry_msgs/Vector3Stamped", queue_size=10)
-        sensor.listen(self._publish, wanted=lambda: self._height.has_subscribers or self._speed.has_subscribers)
+        sensor.listen(self._publish, enabled=lambda: self._height.has_subscribers or self._speed.has_subscribers)
 
     def _publish(self, reading: AltimeterReading) -> None:
         header = {"stamp": reading.time_ns, "frame_id": WORLD_FRAME}
@@ -73,7 +73,7 @@ class MagnetometerTopic:
         """Advertise, and place the sensor's frame."""
         self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
         self._topic = node.advertise(topic_of(sensor, "magnetic_field"), "sensor_msgs/MagneticField", queue_size=10)
-        sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
+        sensor.listen(self._publish, enabled=lambda: self._topic.has_subscribers)
 
     def _publish(self, reading: MagnetometerReading) -> None:
         header = {"stamp": reading.time_ns, "frame_id": self._frame}
@@ -89,7 +89,7 @@ class SonarTopic:
         self._frame = place_sensor(sensor, sensor.link_from_beam, still, names)
         self._topic = node.advertise(topic_of(sensor, "range"), "sensor_msgs/Range", queue_size=5)
         self._sensor = sensor
-        sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
+        sensor.listen(self._publish, enabled=lambda: self._topic.has_subscribers)
 
     def _publish(self, reading: SonarReading) -> None:
         self._topic.publish(
@@ -113,7 +113,7 @@ class ModelsTopic:
         """Advertise, and place the sensor's frame."""
         self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
         self._topic = node.advertise(topic_of(sensor, "models"), "tf2_msgs/TFMessage", queue_size=5)
-        sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
+        sensor.listen(self._publish, enabled=lambda: self._topic.has_subscribers)
 
     def _publish(self, reading: LogicalCameraReading) -> None:
         transforms: list[dict[str, object]] = []
@@ -140,10 +140,10 @@ class RadioTopic:
         match sensor:
             case WirelessSensor():
                 topic = self._topic = node.advertise(topic_of(sensor, "nodes"), type_, queue_size=5)
-                sensor.listen(self._publish_nodes, wanted=lambda: topic.has_subscribers)
+                sensor.listen(self._publish_nodes, enabled=lambda: topic.has_subscribers)
             case RfidSensor():
                 topic = self._topic = node.advertise(topic_of(sensor, "tags"), type_, queue_size=5)
-                sensor.listen(self._publish_tags, wanted=lambda: topic.has_subscribers)
+                sensor.listen(self._publish_tags, enabled=lambda: topic.has_subscribers)
 
     def _publish_nodes(self, reading: WirelessReading) -> None:
         status = [
@@ -154,7 +154,7 @@ class RadioTopic:
                     {"key": "signal_level_dbm", "value": f"{heard.level_dbm:.3f}"},
                 ],
             }
-            for heard in reading.heard
+            for heard in reading.signals
         ]
         self._topic.publish({"header": {"stamp": reading.time_ns, "frame_id": self._frame}, "status": status})
 

@@ -11,7 +11,7 @@ def place_sensor(
     sensor: InstrumentSensor, link_from_sensor: Pose, still: StaticTransformBroadcaster, names: FrameNames
 ) -> str:
     """Put the sensor's own frame on its link; return its name."""
-    frame = names.sensor(sensor.model, sensor.place, sensor.sensor)
+    frame = names.sensor(sensor.model, sensor.parent_name, sensor.sensor)
     carrier = names.link(sensor.model, sensor.link.name)
     place, turn = link_from_sensor.position, link_from_sensor.quaternion
     still.send(Transform(parent=carrier, child=frame, translation=place, rotation=turn))
@@ -20,4 +20,4 @@ def place_sensor(
 
 def topic_of(sensor: InstrumentSensor, output: str, *, main: str | None = None) -> str:
     """The topic of one of its outputs; see `sensor_topic`."""
-    return sensor_topic(sensor.model, sensor.place, sensor.sensor, output, main=main or output)
+    return sensor_topic(sensor.model, sensor.parent_name, sensor.sensor, output, main=main or output)

@@ -85,7 +85,7 @@ def wrench_message(reading: ForceTorqueReading) -> dict[str, object]:
 def contacts_message(reading: ContactReading) -> dict[str, object]:
     """gazebo_msgs/ContactsState in the world frame; one state for each step and pair of collisions."""
     found: dict[tuple[int, str, str], list[ContactRecord]] = {}
-    for touch in reading.touches:
+    for touch in reading.contacts:
         found.setdefault((touch.time_ns, touch.own, touch.other), []).append(touch)
     states: list[dict[str, object]] = []
     for (time_ns, own, other), touches in found.items():

@@ -72,7 +72,7 @@ class ImuTopic:
         """Advertise, and place the sensor's frame."""
         self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
         self._imu = node.advertise(topic_of(sensor, "imu"), "sensor_msgs/Imu", queue_size=10)
-        sensor.listen(self._publish, wanted=lambda: self._imu.has_subscribers)
+        sensor.listen(self._publish, enabled=lambda: self._imu.has_subscribers)
 
     def _publish(self, reading: ImuReading) -> None:
         self._imu.publish({**imu_message(reading), "header": {"stamp": reading.time_ns, "frame_id": self._frame}})
@@ -87,10 +87,10 @@ class ScanTopic:
         self._period_s = min(1.0 / sensor.rate_hz, _LONGEST_S)
         if sensor.scan.vertical.values == 1:
             self._topic = node.advertise(topic_of(sensor, "scan"), "sensor_msgs/LaserScan", queue_size=5)
-            sensor.listen(self._publish_scan, wanted=lambda: self._topic.has_subscribers)
+            sensor.listen(self._publish_scan, enabled=lambda: self._topic.has_subscribers)
         else:
             self._topic = node.advertise(topic_of(sensor, "points"), "sensor_msgs/PointCloud2", queue_size=2)
-            sensor.listen(self._publish_points, wanted=lambda: self._topic.has_subscribers)
+            sensor.listen(self._publish_points, enabled=lambda: self._topic.has_subscribers)
 
     def _publish_scan(self, reading: RangeReading) -> None:
         header = {"stamp": reading.time_ns, "frame_id": self._frame}
@@ -108,7 +108,7 @@ class FixTopic:
         self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
         self._sensor = sensor
         self._fix = node.advertise(topic_of(sensor, "fix"), "sensor_msgs/NavSatFix", queue_size=5)
-        sensor.listen(self._publish, wanted=lambda: self._fix.has_subscribers)
+        sensor.listen(self._publish, enabled=lambda: self._fix.has_subscribers)
 
     def _publish(self, reading: GpsReading) -> None:
         header = {"stamp": reading.time_ns, "frame_id": self._frame}
@@ -129,7 +129,7 @@ class WrenchTopic:
             "parent": WORLD_FRAME if parent == "world" else names.link(sensor.model, parent),
         }.get(sensor.settings.frame, own)
         self._topic = node.advertise(topic_of(sensor, "wrench"), "geometry_msgs/WrenchStamped", queue_size=10)
-        sensor.listen(self._publish, wanted=lambda: self._topic.has_subscribers)
+        sensor.listen(self._publish, enabled=lambda: self._topic.has_subscribers)
 
     def _publish(self, reading: ForceTorqueReading) -> None:
         self._topic.publish({**wrench_message(reading), "header": {"stamp": reading.time_ns, "frame_id": self._frame}})
@@ -141,7 +141,7 @@ class ContactsTopic:
     def __init__(self, node: Node, sensor: ContactSensor) -> None:
         """Advertise."""
         self._contacts = node.advertise(topic_of(sensor, "contacts"), "gazebo_msgs/ContactsState", queue_size=5)
-        sensor.listen(self._publish, wanted=lambda: self._contacts.has_subscribers)
+        sensor.listen(self._publish, enabled=lambda: self._contacts.has_subscribers)
 
     def _publish(self, reading: ContactReading) -> None:
         header = {"stamp": reading.time_ns, "frame_id": WORLD_FRAME}

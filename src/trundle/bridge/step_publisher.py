@@ -25,8 +25,8 @@ class StepPublisher:
 
     def attach(self, simulation: Simulation) -> None:
         """Begin; what nobody listens to costs no stride."""
-        simulation.add_hook(_Tick(self._tell), period_ns=_SPARING_NS, wanted=self._is_sparing)
-        simulation.add_hook(_Tick(self._tell), wanted=lambda: self._topic.needs_every_message)
+        simulation.add_hook(_Tick(self._tell), period_ns=_SPARING_NS, enabled=self._is_sparing)
+        simulation.add_hook(_Tick(self._tell), enabled=lambda: self._topic.needs_every_message)
 
     def _is_sparing(self) -> bool:
         return self._topic.has_subscribers and not self._topic.needs_every_message

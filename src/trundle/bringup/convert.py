@@ -4,8 +4,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Literal, TypeAlias
 
-from trundle.atomic_write import write_whole
-from trundle.description import Loaded, UriOf, write_sdf, write_urdf, written_uri
+from trundle.atomic_write import write_atomically
+from trundle.description import LoadedDescription, UriOf, write_sdf, write_urdf, written_uri
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.meshes import Texture
 from trundle.model import flattened
@@ -49,21 +49,27 @@ def convert(
     copies = FileCopies(output, report)
     text = _written(loaded, to, copies.uri_of, copies.picture_of, report)
     copies.copy()
-    write_whole(output, text)
+    write_atomically(output, text)
     return text
 
 
 def _written(
-    loaded: Loaded, to: Format, uri_of: UriOf, picture_of: Callable[[Texture], str | None], report: Diagnostics
+    loaded: LoadedDescription,
+    to: Format,
+    uri_of: UriOf,
+    picture_of: Callable[[Texture], str | None],
+    report: Diagnostics,
 ) -> str:
     match to:
         case "sdf":
             return write_sdf(loaded.world, is_world=loaded.kind == "world", uri_of=uri_of, report=report)
         case "mjcf":
             from trundle.physics import compile_mjcf  # slow to load, and no other format needs them
-            from trundle.render import scene_of
+            from trundle.render import scene_from_world
 
-            return compile_mjcf(loaded.world, scene_of(flattened(loaded.world), report), report, picture_of=picture_of)
+            return compile_mjcf(
+                loaded.world, scene_from_world(flattened(loaded.world), report), report, picture_of=picture_of
+            )
         case "urdf" if loaded.urdf is not None:
             return loaded.urdf
         case "urdf":

@@ -10,7 +10,7 @@ from trundle.diagnostics import Diagnostics, Source, UsageError
 from trundle.files import read_text
 from trundle.meshes import MeshError, Texture, load_mesh, png_of
 
-_MOST_BYTES = 256 * 1024 * 1024
+_MAX_BYTES = 256 * 1024 * 1024
 _LIBRARY = re.compile(r"^\s*mtllib\s+(.+?)\s*$", re.MULTILINE)
 
 
@@ -83,7 +83,7 @@ def _companions(path: Path) -> list[Path]:
         return []
     found: list[Path] = []
     if path.suffix.lower() == ".obj":
-        libraries = _LIBRARY.findall(read_text(path, most=_MOST_BYTES))
+        libraries = _LIBRARY.findall(read_text(path, max_bytes=_MAX_BYTES))
         named = (Path(os.path.realpath(path.parent / name)) for name in libraries)
         found += [file for file in named if os.path.isfile(file)]
     try:

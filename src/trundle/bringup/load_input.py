@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from trundle.description import Loaded, load, load_text
+from trundle.description import LoadedDescription, load, load_text
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.files import is_stream, read_standard_input, read_stream
 from trundle.packages import Packages
@@ -47,7 +47,7 @@ def name_workspace(file: str, packages: Packages, say: Callable[[str], None]) ->
 
 def load_input(
     file: str, report: Diagnostics, *, packages: Packages, start: Path, piped: Piped | None = None
-) -> Loaded:
+) -> LoadedDescription:
     """Read a description.
 
     Args:

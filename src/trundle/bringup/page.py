@@ -87,7 +87,7 @@ class Page:
         self._numbers = {camera: number for number, camera in enumerate(cameras)}
         self._heard.update(new)
         for camera in new:
-            camera.listen(partial(self._show_picture, camera), wanted=partial(self._wants_picture, camera))
+            camera.listen(partial(self._show_picture, camera), enabled=partial(self._wants_picture, camera))
 
     def _wants_picture(self, camera: CameraSensor) -> bool:
         return camera in self._numbers and self._viewer.alive

@@ -9,12 +9,12 @@ from msgspec.structs import replace
 
 from trundle.bridge import WORLD_FRAME, link_frames
 from trundle.model import Joint, JointType
-from trundle.render import scene_of
+from trundle.render import scene_from_world
 from trundle.sensors import CameraSensor
 from trundle.simulation import Simulation
-from trundle.viewer import MOST_LINE_POINTS, CameraView, DrawnLine, FrameInfo, JointSlider, ViewerScene, ViewerState
+from trundle.viewer import MAX_LINE_POINTS, CameraView, DrawnLine, FrameInfo, JointSlider, ViewerScene, ViewerState
 
-_MOST_LINES = 200
+_MAX_LINES = 200
 _WIDEST = 2.8
 """[rad] The pyramid that stands for a fisheye, whose view has no straight edges."""
 _SLIDER_RANGE = math.pi
@@ -40,8 +40,8 @@ def lay_out(simulation: Simulation, cameras: list[CameraSensor], *, drive: bool)
     scene = ViewerScene(
         title=f"{world.name} · Trundle",
         # The page draws skins as they began: their bones stay in this process.
-        scene=replace(scene_of(world, simulation.report), skins=()),
-        collisions=scene_of(world, simulation.report, collisions=True),
+        scene=replace(scene_from_world(world, simulation.report), skins=()),
+        collisions=scene_from_world(world, simulation.report, collisions=True),
         frames=tuple(FrameInfo(f.frame, f.parent) for f in link_frames(world)),
         cameras=tuple(
             CameraView(
@@ -109,8 +109,8 @@ def _link_of_robot(simulation: Simulation) -> int | None:
 def drawn_lines(simulation: Simulation) -> tuple[DrawnLine, ...]:
     """What plugins have drawn; of too much, the first."""
     drawn: list[DrawnLine] = []
-    left = MOST_LINE_POINTS
-    for line in islice(simulation.lines.values(), _MOST_LINES):
+    left = MAX_LINE_POINTS
+    for line in islice(simulation.lines.values(), _MAX_LINES):
         points = np.array(line.points[-left:], dtype=np.float32).reshape(-1, 3)
         red, green, blue = (round(255 * value) for value in line.rgb)
         drawn.append(DrawnLine(points, (red, green, blue)))

@@ -137,7 +137,7 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diag
                 attach(sensor, node, tag, report)
                 attached += 1
             except TrundleError as error:
-                report.warn_of(error, tag.at, "the sensor has topics without", who=who)
+                report.warn_error(error, tag.at, "the sensor has topics without", who=who)
         if not attached:
             silent.append(sensor)
     return silent
@@ -158,7 +158,7 @@ def _loaded(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _
         return load()
     except TrundleError as error:
         who = "" if isinstance(error, DescriptionError) else f"plugin {tag.name!r}"
-        report.warn_of(error, tag.at, "the run goes on without it", who=who)
+        report.warn_error(error, tag.at, "the run goes on without it", who=who)
     except Exception as error:  # a user's code may raise anything
         report.warn(tag.at, f"plugin {tag.name!r}: {type(error).__name__}: {error}; the run goes on without it")
     return None
@@ -174,5 +174,5 @@ def _hook_in(simulation: Simulation, plugin: Hooks, model: ModelHandle | None) -
         if is_there():
             plugin.reset()
 
-    simulation.add_hook(plugin, period_ns=plugin.period_ns, wanted=lambda: is_there() and plugin.is_wanted())
+    simulation.add_hook(plugin, period_ns=plugin.period_ns, enabled=lambda: is_there() and plugin.is_wanted())
     simulation.on_reset(reset)

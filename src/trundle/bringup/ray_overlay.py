@@ -11,7 +11,7 @@ from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 from trundle.viewer import DrawnLine
 
-_MOST_RAYS = 90
+_MAX_RAYS = 90
 """Of one sensor: of more, every so many."""
 _RIM = 24
 _BLUE = (90, 150, 255)
@@ -50,13 +50,13 @@ class RayOverlay:
 
     def _listen_to_rays(self, sensor: RangeSensor) -> None:
         directions = directions_of(sensor.scan)
-        chosen = np.arange(0, len(directions), -(-len(directions) // _MOST_RAYS))
+        chosen = np.arange(0, len(directions), -(-len(directions) // _MAX_RAYS))
 
         def keep(reading: RangeReading) -> None:
             ranges = np.clip(reading.ranges.ravel()[chosen], sensor.scan.min_m, sensor.scan.max_m)
             self._ends[sensor] = directions[chosen] * ranges[:, None]
 
-        sensor.listen(keep, wanted=lambda: sensor in self._ends and self._shown())
+        sensor.listen(keep, enabled=lambda: sensor in self._ends and self._shown())
 
     def _listen_to_sonar(self, sensor: SonarSensor) -> None:
         half = min(sensor.fov_rad / 2.0, math.pi / 2.0)
@@ -65,7 +65,7 @@ class RayOverlay:
         directions = np.stack(rim, axis=1)
         sensor.listen(
             lambda reading: self._ends.update({sensor: directions * reading.range_m}),
-            wanted=lambda: sensor in self._ends and self._shown(),
+            enabled=lambda: sensor in self._ends and self._shown(),
         )
 
 
@@ -79,5 +79,5 @@ def _fan(world_from_rays: Pose, ends: NDArray[np.float64]) -> DrawnLine:
     """One strip that goes out along each ray and back."""
     strip = np.empty((2 * len(ends) + 1, 3), dtype=np.float32)
     strip[0::2] = world_from_rays.position
-    strip[1::2] = [world_from_rays.point((x, y, z)) for x, y, z in ends.tolist()]
+    strip[1::2] = [world_from_rays.transform_point((x, y, z)) for x, y, z in ends.tolist()]
     return DrawnLine(strip, _BLUE)

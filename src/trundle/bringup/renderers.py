@@ -8,11 +8,11 @@ from trundle.physics import EglRenderer
 from trundle.render import NativeRenderer, Renderer, Scene
 
 RendererName: TypeAlias = Literal["cpu", "egl"]
-_MOST_THREADS = 8
+_MAX_THREADS = 8
 
 
 def _native(scene: Scene) -> Renderer:
-    return NativeRenderer(scene, threads=min(os.cpu_count() or 1, _MOST_THREADS))
+    return NativeRenderer(scene, threads=min(os.cpu_count() or 1, _MAX_THREADS))
 
 
 RENDERERS: dict[RendererName, Callable[[Scene], Renderer]] = {"cpu": _native, "egl": EglRenderer}

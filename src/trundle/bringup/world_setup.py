@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from trundle.description import Loaded, load
+from trundle.description import LoadedDescription, load
 from trundle.diagnostics import Diagnostics
 from trundle.model import World, flattened
 from trundle.packages import Packages
@@ -48,7 +48,7 @@ def load_simulation(file: str, *, seed: int = 0) -> Simulation:
     return Simulation(stage.world, report, seed=seed)
 
 
-def _on_the_ground(loaded: Loaded, packages: Packages, report: Diagnostics) -> World:
+def _on_the_ground(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> World:
     ground = load("model://ground_plane", report, packages=packages).world.models
     sun = load("model://sun", report, packages=packages).world.lights
     world = loaded.world

@@ -45,10 +45,10 @@ def _check(args: argparse.Namespace) -> int:
     outcome = check(args.file, dict(os.environ), start=Path.cwd(), collisions=args.collisions)
     warned = any(finding.severity == "warning" for finding in outcome.report.findings)
     if args.graph is not None:
-        from trundle.atomic_write import write_whole
+        from trundle.atomic_write import write_atomically
         from trundle.drawing.tree import tree_svg
 
-        write_whole(args.graph, tree_svg(outcome.trees(), title=args.file))
+        write_atomically(args.graph, tree_svg(outcome.trees(), title=args.file))
     if args.json:
         import json
 

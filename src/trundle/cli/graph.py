@@ -4,9 +4,9 @@ import argparse
 import json
 from pathlib import Path
 
-from trundle.atomic_write import write_whole
+from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
-from trundle.drawing import graph_dot, graph_of, graph_svg
+from trundle.drawing import graph_dot, graph_svg, node_graph
 
 from .graph_command import master, original_errors
 
@@ -31,12 +31,12 @@ def main(args: argparse.Namespace) -> int:
         tables = {"publishers": publishers, "subscribers": subscribers, "services": services}
         print(json.dumps({name: dict(table) for name, table in tables.items()}))
         return 0
-    drawing = graph_of(dict(publishers), dict(subscribers), with_all=args.all)
+    drawing = node_graph(dict(publishers), dict(subscribers), with_all=args.all)
     if args.output is None:
         print(graph_dot(drawing), end="")
         return 0
     target = Path(args.output)
     if target.suffix not in (".svg", ".gv", ".dot"):
         raise UsageError(f"{target} ends in none of .svg, .gv, .dot")
-    write_whole(target, graph_svg(drawing) if target.suffix == ".svg" else graph_dot(drawing))
+    write_atomically(target, graph_svg(drawing) if target.suffix == ".svg" else graph_dot(drawing))
     return 0

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from trundle.atomic_write import write_whole
+from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 from trundle.files import read_input, read_standard_input
 from trundle.names import join_names
@@ -140,7 +140,7 @@ def _dump(args: argparse.Namespace) -> int:
     if not args.file:
         sys.stdout.write(text)
     else:
-        write_whole(Path(args.file), text)
+        write_atomically(Path(args.file), text)
     return 0
 
 

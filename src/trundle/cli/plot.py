@@ -7,7 +7,7 @@ import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from trundle.atomic_write import write_whole
+from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 from trundle.drawing import Curve, curves_svg, curves_text
 from trundle.ros import (
@@ -56,7 +56,7 @@ def main(args: argparse.Namespace) -> int:
     if target is None:
         print(_terminal(curves))
         return 0
-    write_whole(target, curves_svg(curves))
+    write_atomically(target, curves_svg(curves))
     return 0
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 from trundle.diagnostics import TrundleError, UsageError
-from trundle.packages import Packages, needs
+from trundle.packages import Packages, run_dependencies
 
 EXAMPLES = """
   trundle pack list
@@ -110,7 +110,7 @@ def _named(args: argparse.Namespace, packages: Packages) -> None:
 def _own_needs(name: str, known: Mapping[str, Path]) -> list[str]:
     """The packages among a package's needs; the rest is the system's business."""
     try:
-        return [each for each in needs(known[name]) if each in known]
+        return [each for each in run_dependencies(known[name]) if each in known]
     except TrundleError as error:
         print(f"WARNING: {error}", file=sys.stderr)
         return []

@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from trundle.atomic_write import write_whole
+from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 from trundle.drawing.tree import TreeNode, tree_svg, tree_text
 from trundle.ros import follow_time
@@ -43,7 +43,7 @@ def main(args: argparse.Namespace) -> int:
         print(tree_text(_roots(found, now_s)))
         return 0
     text = tree_svg(_roots(found, now_s), title="tf frames") if target.suffix == ".svg" else _graphviz(found, now_s)
-    write_whole(target, text)
+    write_atomically(target, text)
     print(f"{target} generated")
     return 0
 

@@ -32,7 +32,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _expand(args: argparse.Namespace) -> int:
-    from trundle.atomic_write import write_whole
+    from trundle.atomic_write import write_atomically
     from trundle.description import expand_xacro
     from trundle.diagnostics import Diagnostics, UsageError
     from trundle.files import is_stream, read_stream
@@ -54,5 +54,5 @@ def _expand(args: argparse.Namespace) -> int:
     if args.output is None:
         print(text, end="")
     else:
-        write_whole(args.output, text)
+        write_atomically(args.output, text)
     return 0

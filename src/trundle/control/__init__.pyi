@@ -1,6 +1,6 @@
 from .drive import DifferentialDrive as DifferentialDrive
 from .drive import WheelOdometry as WheelOdometry
-from .drive import approach as approach
+from .drive import step_towards as step_towards
 from .four_wheel import FourWheelSteering as FourWheelSteering
 from .four_wheel import Wheels as Wheels
 from .four_wheel import axle_angle as axle_angle

@@ -35,7 +35,7 @@ class WheelOdometry(Struct):
     yaw: float = 0.0
     """[rad], not wrapped."""
 
-    def roll(self, left: float, right: float) -> tuple[float, float]:
+    def update(self, left: float, right: float) -> tuple[float, float]:
         """Add what the wheels turned [rad], positive forwards; return distance [m] and turn [rad].
 
         The arc is taken along its chord's direction, which is exact for the turn and of third order for the place.
@@ -48,6 +48,6 @@ class WheelOdometry(Struct):
         return distance, turn
 
 
-def approach(value: float, target: float, most: float) -> float:
+def step_towards(value: float, target: float, most: float) -> float:
     """Move a value towards a target by no more than `most`."""
     return value + min(max(target - value, -most), most)

@@ -27,7 +27,7 @@ class FourWheelSteering(Struct, frozen=True, kw_only=True):
     base: float
     """Between the axles [m]."""
 
-    def by_twist(self, forward: float, turning: float) -> tuple[Wheels, Wheels]:
+    def command_for_twist(self, forward: float, turning: float) -> tuple[Wheels, Wheels]:
         """Wheel speeds [rad/s] and steering angles [rad] for both axles turned alike, the other way round.
 
         Args:
@@ -46,7 +46,7 @@ class FourWheelSteering(Struct, frozen=True, kw_only=True):
             left = right = math.copysign(math.pi / 2, turning)
         return (*speeds, *speeds), (left, right, -left, -right)
 
-    def by_angles(self, speed: float, front: float, rear: float) -> tuple[Wheels, Wheels]:
+    def command_for_angles(self, speed: float, front: float, rear: float) -> tuple[Wheels, Wheels]:
         """Wheel speeds [rad/s] and steering angles [rad] for the angles that the axles' middles are to have.
 
         Args:
@@ -70,7 +70,7 @@ class FourWheelSteering(Struct, frozen=True, kw_only=True):
         front_speeds, rear_speeds = (self._speeds(speed, turning, length * turning) for length in lengths)
         return front_speeds + rear_speeds, angles
 
-    def motion(self, speeds: Wheels, front: float, rear: float) -> tuple[float, float, float]:
+    def forward_kinematics(self, speeds: Wheels, front: float, rear: float) -> tuple[float, float, float]:
         """How fast the middle goes forwards and to the left [m/s], and turns to the left [rad/s].
 
         Args:

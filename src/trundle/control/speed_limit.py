@@ -18,7 +18,7 @@ class SpeedLimit(Struct, frozen=True, kw_only=True):
     max_jerk: float = math.inf
     """[m/s³ or rad/s³]"""
 
-    def limited(self, wanted: float, last: float, before_last: float, dt: float) -> float:
+    def limit(self, wanted: float, last: float, before_last: float, dt: float) -> float:
         """The speed nearest to the one wanted, dt [s] after the last and twice that after the one before."""
         if math.isfinite(self.max_jerk) or math.isfinite(self.min_jerk):
             change, before = wanted - last, last - before_last

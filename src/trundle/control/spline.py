@@ -28,7 +28,7 @@ class JointSpline:
         """When it arrives."""
         return self._times[-1]
 
-    def at(self, time_s: float) -> tuple[float, float, float]:
+    def sample(self, time_s: float) -> tuple[float, float, float]:
         """Position, velocity and acceleration."""
         number = bisect_right(self._times, time_s)
         if number == 0:
@@ -36,10 +36,10 @@ class JointSpline:
         if number == len(self._points):
             return self._points[-1].position, 0.0, 0.0
         before, after = self._points[number - 1], self._points[number]
-        return _between(before, after, time_s - before.time_s)
+        return _interpolate(before, after, time_s - before.time_s)
 
 
-def _between(a: JointPoint, b: JointPoint, t: float) -> tuple[float, float, float]:
+def _interpolate(a: JointPoint, b: JointPoint, t: float) -> tuple[float, float, float]:
     """Evaluate the polynomial of lowest degree that meets what both ends state."""
     span = b.time_s - a.time_s
     way = b.position - a.position

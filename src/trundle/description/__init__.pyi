@@ -1,4 +1,4 @@
-from .loaded import Loaded as Loaded
+from .loaded import LoadedDescription as LoadedDescription
 from .read import load as load
 from .read import load_text as load_text
 from .read import load_urdf as load_urdf
@@ -8,4 +8,4 @@ from .writing import UriOf as UriOf
 from .writing import write_sdf as write_sdf
 from .writing import write_urdf as write_urdf
 from .writing import written_uri as written_uri
-from .xacro import expand_xacro as expand_xacro
+from .xacro.expand import expand_xacro as expand_xacro

@@ -11,7 +11,7 @@ _AXES: tuple[Vector3, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _PLACES = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
-def turned(tensor: Tensor, turn: Quaternion) -> Tensor:
+def rotate_inertia(tensor: Tensor, turn: Quaternion) -> Tensor:
     """An inertia in other axes.
 
     Args:
@@ -29,7 +29,7 @@ def turned(tensor: Tensor, turn: Quaternion) -> Tensor:
     return a, b, c, d, e, f
 
 
-def sum_of(bodies: Sequence[tuple[float, Vector3, Tensor]]) -> tuple[float, Vector3, Tensor]:
+def sum_inertias(bodies: Sequence[tuple[float, Vector3, Tensor]]) -> tuple[float, Vector3, Tensor]:
     """Mass [kg], centre of mass [m] and inertia about it of several bodies as one.
 
     Args:

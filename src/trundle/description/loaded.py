@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from trundle.robot import Robot
 
 
-class Loaded(Struct, frozen=True, kw_only=True):
+class LoadedDescription(Struct, frozen=True, kw_only=True):
     """Only what the file names: no added ground or sun."""
 
     kind: Literal["world", "model", "urdf"]

@@ -10,7 +10,7 @@ from trundle.model import Model
 from trundle.packages import Packages, model_file, refuse_ros2, refuse_ros2_language, refuse_template
 from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
-from .loaded import Loaded
+from .loaded import LoadedDescription
 from .sdf import DEEPEST
 
 # Each reader is loaded by the files that want it.
@@ -18,7 +18,7 @@ _XACRO = "<xacro:"
 """What is not expanded yet; the name space alone stays in many files that are."""
 
 
-def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -> Loaded:
+def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -> LoadedDescription:
     """Read a description: SDF, URDF or xacro.
 
     Args:
@@ -51,7 +51,7 @@ def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -
     return load_sdf(root, path, packages, report, seed=seed)
 
 
-def _load_stream(path: Path, report: Diagnostics, *, packages: Packages, seed: int) -> Loaded:
+def _load_stream(path: Path, report: Diagnostics, *, packages: Packages, seed: int) -> LoadedDescription:
     name = "<stdin>" if path.name == "stdin" else "<pipe>"
     try:
         data = read_stream(path)
@@ -62,7 +62,7 @@ def _load_stream(path: Path, report: Diagnostics, *, packages: Packages, seed: i
 
 def load_text(
     text: str | bytes, *, name: str, folder: Path, packages: Packages, report: Diagnostics, seed: int = 0
-) -> Loaded:
+) -> LoadedDescription:
     """Read a description that is in no file: SDF, URDF or xacro.
 
     Args:
@@ -86,7 +86,7 @@ def load_text(
     return load_urdf(text, name, folder / name, packages, report)
 
 
-def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics, *, seed: int = 0) -> Loaded:
+def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics, *, seed: int = 0) -> LoadedDescription:
     """Read a parsed SDF file; `path` is where it is, `seed` of what it places at random.
 
     Raises:
@@ -124,10 +124,10 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics,
         seed=seed,
     )
     world, has_world = read_root(root, context)
-    return Loaded(kind="world" if has_world else "model", world=world)
+    return LoadedDescription(kind="world" if has_world else "model", world=world)
 
 
-def load_urdf(text: str, name: str, path: Path, packages: Packages, report: Diagnostics) -> Loaded:
+def load_urdf(text: str, name: str, path: Path, packages: Packages, report: Diagnostics) -> LoadedDescription:
     """Read an expanded URDF; `path` is the file it came from, `name` how messages call it.
 
     Raises:
@@ -140,11 +140,11 @@ def load_urdf(text: str, name: str, path: Path, packages: Packages, report: Diag
     root = parse_xml(text, name=name, report=report)
     robot = read_robot(root, report)
     world = lower_robot(robot, root, folder=path.parent, packages=packages, report=report)
-    return Loaded(kind="urdf", world=world, robot=robot, urdf=text)
+    return LoadedDescription(kind="urdf", world=world, robot=robot, urdf=text)
 
 
 def _expanded(path: Path, packages: Packages, report: Diagnostics, data: bytes | None = None) -> str:
-    from .xacro import expand_xacro
+    from .xacro.expand import expand_xacro
 
     return expand_xacro(path, {}, packages=packages, report=report, data=data)
 

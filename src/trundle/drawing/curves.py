@@ -44,7 +44,7 @@ def curves_svg(curves: Sequence[Curve]) -> str:
     for i, curve in enumerate(curves):
         colour = _COLOURS[i % len(_COLOURS)]
         for piece in _pieces(curve):
-            points = " ".join(f"{x(t):.1f},{y(value):.1f}" for t, value in _thinned(piece, times, right - _LEFT))
+            points = " ".join(f"{x(t):.1f},{y(value):.1f}" for t, value in _decimated(piece, times, right - _LEFT))
             lines.append(f'<polyline stroke="{colour}" points="{points}"/>')
         line = _HEIGHT + i * _LINE
         lines.append(f'<rect x="{left:g}" y="{line}" width="14" height="4" fill="{colour}"/>')
@@ -126,7 +126,7 @@ def _pieces(curve: Curve) -> list[list[tuple[float, float]]]:
     return [piece for piece in pieces if piece]
 
 
-def _thinned(
+def _decimated(
     points: Sequence[tuple[float, float]], times: tuple[float, float], width: int
 ) -> list[tuple[float, float]]:
     """Leave of the points above one pixel the first, the least, the greatest and the last."""

@@ -6,7 +6,7 @@ from html import escape
 from itertools import pairwise
 from typing import Literal, TypeAlias
 
-from .layers import Vertex, layers
+from .layered_layout import Vertex, layered_layout
 
 Item: TypeAlias = tuple[Literal["node", "topic"], str]
 _ROW, _SLOT, _GAP, _HEIGHT, _CHARACTER, _MARGIN = 40, 12, 80, 26, 7.2, 16
@@ -18,16 +18,16 @@ _QUIET = ("/rosout", "/rosout_agg", "/clock", "/diagnostics", "/statistics")
 
 
 @dataclass(frozen=True, slots=True)
-class Drawing:
+class NodeGraph:
     """Nodes, topics and the arrows between them."""
 
     items: list[Item]
     edges: list[tuple[Item, Item]]
 
 
-def graph_of(
+def node_graph(
     publishers: Mapping[str, Sequence[str]], subscribers: Mapping[str, Sequence[str]], *, with_all: bool
-) -> Drawing:
+) -> NodeGraph:
     """Who publishes what to whom.
 
     Args:
@@ -45,14 +45,14 @@ def graph_of(
         edges.extend((item, _node(name)) for name in subscribers.get(topic, []))
     everybody = {node for table in (publishers, subscribers) for nodes in table.values() for node in nodes}
     items: list[Item] = [_node(name) for name in sorted(everybody) if name != "/rosout" or with_all]
-    return Drawing([*items, *(("topic", topic) for topic in topics)], edges)
+    return NodeGraph([*items, *(("topic", topic) for topic in topics)], edges)
 
 
 def _node(name: str) -> Item:
     return "node", name
 
 
-def graph_dot(drawing: Drawing) -> str:
+def graph_dot(drawing: NodeGraph) -> str:
     """Write it in Graphviz' language: nodes round, topics square."""
     lines = ["digraph graphname {", "  rankdir=LR;"]
     for kind, name in drawing.items:
@@ -61,18 +61,18 @@ def graph_dot(drawing: Drawing) -> str:
     return "\n".join([*lines, "}", ""])
 
 
-def graph_svg(drawing: Drawing) -> str:
+def graph_svg(drawing: NodeGraph) -> str:
     """Draw it: each item right of those that feed it, as far as loops allow."""
-    placed = layers(drawing.items, drawing.edges, box_gap=_ROW, slot_gap=_SLOT)
+    placed = layered_layout(drawing.items, drawing.edges, box_gap=_ROW, slot_gap=_SLOT)
     widths: dict[Vertex, float] = {item: len(item[1]) * _CHARACTER + 20 for item in drawing.items}
-    places: dict[Vertex, _Place] = {}
+    places: dict[Vertex, _Slot] = {}
     left = float(_MARGIN)
     for column in placed.columns:
         widest = max((widths.get(vertex, 0.0) for vertex in column), default=0.0)
         for vertex in column:
             width = widths.get(vertex, widest)
             middle = _MARGIN + _HEIGHT / 2 + placed.heights[vertex]
-            places[vertex] = _Place(left + (widest - width) / 2, middle, width, (left - _LEVEL, left + widest + _LEVEL))
+            places[vertex] = _Slot(left + (widest - width) / 2, middle, width, (left - _LEVEL, left + widest + _LEVEL))
         left += widest + _GAP
     height = max(placed.heights.values(), default=0.0) + _HEIGHT + 2 * _MARGIN
     return "\n".join(
@@ -93,7 +93,7 @@ def graph_svg(drawing: Drawing) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class _Place:
+class _Slot:
     """Of a box, or of the slot that an arrow has in a column it passes [px]."""
 
     left: float
@@ -103,7 +103,7 @@ class _Place:
     """Between which arrows run level."""
 
 
-def _arrow(route: Sequence[_Place]) -> str:
+def _arrow(route: Sequence[_Slot]) -> str:
     """Level through columns, bent between them; an arrow that closes a loop goes from right to left."""
     forwards = route[0].column <= route[-1].column
     start, end = route[0], route[-1]
@@ -119,7 +119,7 @@ def _arrow(route: Sequence[_Place]) -> str:
     return f'<path d="{path}H{end.left if forwards else end.left + end.width:.1f}" marker-end="url(#tip)"/>'
 
 
-def _box(item: Item, place: _Place) -> str:
+def _box(item: Item, place: _Slot) -> str:
     kind, name = item
     radius = _HEIGHT / 2 if kind == "node" else 3
     return (

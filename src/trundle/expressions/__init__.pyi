@@ -6,4 +6,4 @@ from .interpreter import Interpreter as Interpreter
 from .methods import is_method as is_method
 from .values import Caller as Caller
 from .values import Function as Function
-from .values import function_of as function_of
+from .values import wrap_function as wrap_function

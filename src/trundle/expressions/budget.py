@@ -3,15 +3,15 @@
 from collections.abc import Iterable, Iterator
 from typing import Any, cast
 
-MOST_ITEMS = 1_000_000
+MAX_ITEMS = 1_000_000
 """Characters or items of one value."""
-MOST_BITS = 100_000
+MAX_BITS = 100_000
 """Size of one integer."""
-_MOST_STEPS = 3_000_000
+_MAX_STEPS = 3_000_000
 """A step is one operation, some 0.2 µs; the PR2, the most of all published robots, takes 19,000."""
-_MOST_OCTETS = 96 * 1024 * 1024
+_MAX_OCTETS = 96 * 1024 * 1024
 """Size of all values that were ever made for one document; the PR2's are 160,000."""
-_MOST_DEPTH = 100
+_MAX_DEPTH = 100
 """Levels of iterators over iterators."""
 
 _GROUPS = (list, tuple, set, frozenset, type({}.keys()), type({}.values()), type({}.items()))
@@ -26,7 +26,7 @@ class ExpressionError(ValueError):
 class Budget:
     """The work and memory that one document may still use."""
 
-    def __init__(self, steps: int = _MOST_STEPS, octets: int = _MOST_OCTETS) -> None:
+    def __init__(self, steps: int = _MAX_STEPS, octets: int = _MAX_OCTETS) -> None:
         self._steps, self._octets = steps, octets
         self._most_steps, self._most_octets = steps, octets
         self.depth = 0
@@ -47,7 +47,7 @@ class Budget:
         if self._steps < 0:
             raise ExpressionError(f"the expressions of one file may take at most {self._most_steps} steps")
 
-    def hold(self, octets: int) -> None:
+    def allocate(self, octets: int) -> None:
         """Take memory; it is never given back, for a property may keep every value.
 
         Raises:
@@ -59,22 +59,22 @@ class Budget:
                 f"the expressions of one file may make at most {self._most_octets >> 20} MiB of values"
             )
 
-    def hold_generator(self) -> None:
+    def allocate_generator(self) -> None:
         """Take what an object that iterates takes."""
         self.spend(20)
-        self.hold(800)
+        self.allocate(800)
 
-    def iterate(self, items: Iterator[Any]) -> "LazyIterator":
+    def lazy(self, items: Iterator[Any]) -> "LazyIterator":
         """Make the value that a file gets for items which are made when they are asked for."""
-        self.hold_generator()
+        self.allocate_generator()
         return LazyIterator(self, items)
 
-    def hold_text(self, text: str) -> str:
+    def allocate_text(self, text: str) -> str:
         """Take the memory of a text, which was made already or is one of few."""
-        self.hold(50 + (len(text) if text.isascii() else 4 * len(text)))
+        self.allocate(50 + (len(text) if text.isascii() else 4 * len(text)))
         return text
 
-    def each(self, items: Iterable[Any], steps: int = 1) -> Iterator[Any]:
+    def iterate(self, items: Iterable[Any], steps: int = 1) -> Iterator[Any]:
         """Iterate; every item takes that many steps."""
         for item in items:
             self.spend(steps)
@@ -85,12 +85,12 @@ class Budget:
         found: list[Any] = []
         for item in items:
             self.spend(1)
-            self.hold(40)
+            self.allocate(40)
             found.append(item)
         bound_length(len(found))
         return found
 
-    def weigh(self, value: object) -> int:
+    def spend_traversal(self, value: object) -> int:
         """Spend what going through a value takes, shared parts as often as they occur; return its length as text.
 
         Raises:
@@ -103,28 +103,28 @@ class Budget:
                 size += len(each) + 2
             elif isinstance(each, dict):
                 size += 4 * len(each)
-                if size <= MOST_ITEMS:
+                if size <= MAX_ITEMS:
                     pending.extend(dict.keys(each))
                     pending.extend(dict.values(each))
             elif isinstance(each, _GROUPS):
                 size += 2 * len(each)
-                if size <= MOST_ITEMS:
+                if size <= MAX_ITEMS:
                     pending.extend(list.__iter__(each) if isinstance(each, list) else each)
             elif isinstance(each, slice):
                 size += 8
                 pending += [each.start, each.stop, each.step]
             else:
                 size += each.bit_length() // 3 + 1 if isinstance(each, int) else 1
-            if size > MOST_ITEMS:
-                raise ExpressionError(f"a value of more than {MOST_ITEMS} characters or items")
+            if size > MAX_ITEMS:
+                raise ExpressionError(f"a value of more than {MAX_ITEMS} characters or items")
             self.spend(1)
         self.spend(size >> 6)
         return size
 
-    def key(self, key: object, among: int) -> Any:
+    def spend_lookup(self, key: object, among: int) -> Any:
         """Spend what looking for a key takes in a dictionary or set of that many."""
         if isinstance(key, tuple | frozenset):
-            self.weigh(key)
+            self.spend_traversal(key)
             _bound_depth(cast("tuple[object, ...]", key))
             self.spend(among >> 4)  # nothing keeps their hashes from being all the same
         elif isinstance(key, int) and not -_SMALL < key < _SMALL:
@@ -147,7 +147,7 @@ class LazyIterator:
     def __next__(self) -> Any:
         self._budget.depth += 1
         try:
-            if self._budget.depth > _MOST_DEPTH:
+            if self._budget.depth > _MAX_DEPTH:
                 raise ExpressionError("an expression or a value nested too deeply")
             return next(self._items)
         finally:
@@ -156,7 +156,7 @@ class LazyIterator:
 
 def _bound_depth(key: Iterable[object]) -> None:
     """Refuse tuples in tuples beyond all sense; to hash them, Python calls itself without a bound."""
-    for _ in range(_MOST_DEPTH):
+    for _ in range(_MAX_DEPTH):
         key = [part for each in key if isinstance(each, tuple | frozenset) for part in cast("tuple[object, ...]", each)]
         if not key:
             return
@@ -165,11 +165,11 @@ def _bound_depth(key: Iterable[object]) -> None:
 
 def bound_length(length: float) -> None:
     """Refuse a text, list or range that long."""
-    if length > MOST_ITEMS:
-        raise ExpressionError(f"a text, list or range of more than {MOST_ITEMS} items")
+    if length > MAX_ITEMS:
+        raise ExpressionError(f"a text, list or range of more than {MAX_ITEMS} items")
 
 
 def bound_bits(bits: float) -> None:
     """Refuse an integer of that many bits."""
-    if bits > MOST_BITS:
-        raise ExpressionError(f"a number of more than {MOST_BITS} bits")
+    if bits > MAX_BITS:
+        raise ExpressionError(f"a number of more than {MAX_BITS} bits")

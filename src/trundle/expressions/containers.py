@@ -9,10 +9,10 @@ from .values import Caller
 def set_of(caller: Caller, items: Iterable[Any]) -> set[Any]:
     """Make a set."""
     found: set[Any] = set()
-    caller.budget.hold(200)
+    caller.budget.allocate(200)
     for item in items:
-        caller.budget.hold(60)
-        found.add(caller.budget.key(item, len(found)))
+        caller.budget.allocate(60)
+        found.add(caller.budget.spend_lookup(item, len(found)))
     return found
 
 
@@ -21,8 +21,8 @@ def mapping_of(caller: Caller, value: Any) -> dict[str, Any]:
     if not isinstance(value, dict):
         raise TypeError(f"argument after ** must be a mapping, not {type(value).__name__}")
     caller.budget.spend(len(value))
-    caller.budget.hold(100 * len(value))
-    return {caller.budget.key(key, 0): each for key, each in dict.items(value)}
+    caller.budget.allocate(100 * len(value))
+    return {caller.budget.spend_lookup(key, 0): each for key, each in dict.items(value)}
 
 
 def item_of(caller: Caller, owner: Any, index: Any) -> Any:
@@ -30,11 +30,11 @@ def item_of(caller: Caller, owner: Any, index: Any) -> Any:
     if not isinstance(owner, str | list | tuple | dict | range):
         raise TypeError(f"{type(owner).__name__!r} object is not subscriptable")
     if isinstance(owner, dict):
-        return owner[caller.budget.key(index, len(owner))]
+        return owner[caller.budget.spend_lookup(index, len(owner))]
     found = owner[index]
     if isinstance(index, slice) and isinstance(found, str):
-        caller.budget.hold_text(found)
+        caller.budget.allocate_text(found)
     elif isinstance(index, slice):
         caller.budget.spend(len(found) >> 5)
-        caller.budget.hold(60 if isinstance(found, range) else 60 + 8 * len(found))
+        caller.budget.allocate(60 if isinstance(found, range) else 60 + 8 * len(found))
     return found

@@ -13,7 +13,7 @@ Scopes = tuple[frozenset[str], ...]
 """Names of every frame, the innermost first."""
 
 
-class Running(Caller, Protocol):
+class Evaluator(Caller, Protocol):
     """An evaluation, as seen by its operations."""
 
     def look_up(self, name: str) -> Any:
@@ -25,14 +25,14 @@ class Running(Caller, Protocol):
         ...
 
 
-Code = Callable[[Running, Frame], Any]
-Assignment = Callable[[Running, dict[Any, Any], Any], None]
+Code = Callable[[Evaluator, Frame], Any]
+Assignment = Callable[[Evaluator, dict[Any, Any], Any], None]
 
 
-def local(name: str, depth: int) -> Code:
+def local_lookup(name: str, depth: int) -> Code:
     """Look a name up in a frame, so many frames out."""
 
-    def code(_running: Running, frame: Frame) -> Any:
+    def code(_running: Evaluator, frame: Frame) -> Any:
         for _ in range(depth):
             frame = frame[None] if frame is not None else None
         if frame is None or name not in frame:
@@ -61,7 +61,7 @@ def assignment(target: ast.expr) -> Assignment:
     if isinstance(target, ast.Name):
         name = target.id
 
-        def set_one(_running: Running, frame: dict[Any, Any], item: Any) -> None:
+        def set_one(_running: Evaluator, frame: dict[Any, Any], item: Any) -> None:
             frame[name] = item
 
         return set_one
@@ -70,7 +70,7 @@ def assignment(target: ast.expr) -> Assignment:
     stars = [index for index, each in enumerate(target.elts) if isinstance(each, ast.Starred)]
     parts = [assignment(each.value if isinstance(each, ast.Starred) else each) for each in target.elts]
 
-    def set_several(running: Running, frame: dict[Any, Any], item: Any) -> None:
+    def set_several(running: Evaluator, frame: dict[Any, Any], item: Any) -> None:
         values = running.budget.collect(item)
         if stars and len(values) >= len(parts) - 1:
             after = len(values) - (len(parts) - 1 - stars[0])
@@ -99,7 +99,7 @@ class Lambda(Callee):
         defaults: Mapping[str, Any],
         body: Code,
         cost: int,
-        running: Running,
+        running: Evaluator,
         around: Frame,
     ) -> None:
         self._signature, self._defaults, self._body, self._cost = signature, defaults, body, cost

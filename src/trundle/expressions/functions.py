@@ -8,25 +8,25 @@ from functools import reduce
 from typing import Any
 
 from .budget import Budget, bound_bits, bound_length
-from .formats import repr_of, text_of
-from .operators import BINARY, held, spend_product
+from .formatting import repr_of, text_of
+from .operators import BINARY, allocate_integer, spend_product
 from .values import Caller, Guarded
 
-_MOST_DIGITS = 100
+_MAX_DIGITS = 100
 """That an integer is rounded by."""
 
 
-def _natural(function: Callable[..., Any]) -> Guarded:
+def _linear_time(function: Callable[..., Any]) -> Guarded:
     """Call a function that does no more than its values are long, after it went through what iterates."""
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
-        given = [each if each.__class__ is float else _plain(caller.budget, each) for each in values]
-        return held(caller.budget, function(*given, **named))
+        given = [each if each.__class__ is float else _iterable(caller.budget, each) for each in values]
+        return allocate_integer(caller.budget, function(*given, **named))
 
     return call
 
 
-def _plain(budget: Budget, value: Any) -> Any:
+def _iterable(budget: Budget, value: Any) -> Any:
     """A value that goes through no code of the file when it is iterated."""
     match value:
         case str():
@@ -34,13 +34,13 @@ def _plain(budget: Budget, value: Any) -> Any:
         case int():
             spend_product(budget, value, value)
         case list() | tuple() | set() | frozenset() | dict() | range() | Iterator():
-            return [_plain(budget, each) for each in budget.collect(value)]
+            return [_iterable(budget, each) for each in budget.collect(value)]
         case _:
             pass
     return value
 
 
-def _at_once(function: Callable[..., Any]) -> Guarded:
+def _constant_time(function: Callable[..., Any]) -> Guarded:
     """Call a function that takes the same time for every value."""
     return lambda _caller, values, named: function(*values, **named)
 
@@ -52,7 +52,7 @@ def _converted(kind: type) -> Guarded:
         for each in values:
             if isinstance(each, str):
                 caller.budget.spend(len(each) >> 2)
-        return held(caller.budget, kind(*values, **named))
+        return allocate_integer(caller.budget, kind(*values, **named))
 
     return call
 
@@ -89,9 +89,9 @@ def _set(kind: type) -> Guarded:
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         found: set[Any] = set()
         for item in caller.budget.collect(_only(values, named, kind.__name__, 1)[0]) if values else ():
-            found.add(caller.budget.key(item, len(found)))
-            caller.budget.hold(60)
-        caller.budget.hold(200)
+            found.add(caller.budget.spend_lookup(item, len(found)))
+            caller.budget.allocate(60)
+        caller.budget.allocate(200)
         return found if kind is set else frozenset(found)
 
     return call
@@ -106,9 +106,9 @@ def dictionary(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) 
         pairs = dict.items(given) if isinstance(given, dict) else caller.budget.collect(given)  # type: ignore[reportUnknownArgumentType]
     for pair in (*pairs, *named.items()):
         key, value = caller.budget.collect(pair)
-        found[caller.budget.key(key, len(found))] = value
-        caller.budget.hold(100)
-    caller.budget.hold(64)
+        found[caller.budget.spend_lookup(key, len(found))] = value
+        caller.budget.allocate(100)
+    caller.budget.allocate(64)
     return found
 
 
@@ -120,7 +120,7 @@ def _kind(_caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> t
 def _is_kind(function: Callable[[Any, Any], bool]) -> Guarded:
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> bool:
         value, kinds = _only(values, named, function.__name__, 2)
-        caller.budget.weigh(kinds)
+        caller.budget.spend_traversal(kinds)
         return function(value, kinds)
 
     return call
@@ -128,7 +128,7 @@ def _is_kind(function: Callable[[Any, Any], bool]) -> Guarded:
 
 def _hash(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> int:
     (value,) = _only(values, named, "hash", 1)
-    return hash(caller.budget.key(value, 0))
+    return hash(caller.budget.spend_lookup(value, 0))
 
 
 def _range(_caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> range:
@@ -142,15 +142,15 @@ def _map(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Ite
         raise TypeError("map() must have at least two arguments.")
     function, *sequences = values
     turns = zip(*map(iter, sequences), strict=False)
-    return caller.budget.iterate(
+    return caller.budget.lazy(
         caller.call(function, items, {}) for items in _turns(caller.budget, turns, len(sequences))
     )
 
 
 def _filter(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Iterator[Any]:
     function, items = _only(values, named, "filter", 2)
-    turns = caller.budget.each(iter(items))
-    return caller.budget.iterate(
+    turns = caller.budget.iterate(iter(items))
+    return caller.budget.lazy(
         item for item in turns if (item if function is None else caller.call(function, [item], {}))
     )
 
@@ -159,7 +159,7 @@ def _iterating(function: Callable[..., Iterable[Any]]) -> Guarded:
     """Call a function that gives the items of others one by one."""
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Iterator[Any]:
-        return caller.budget.iterate(_turns(caller.budget, function(*values, **named), len(values) + 1))
+        return caller.budget.lazy(_turns(caller.budget, function(*values, **named), len(values) + 1))
 
     return call
 
@@ -168,7 +168,7 @@ def _turns(budget: Budget, items: Iterable[Any], width: int) -> Iterator[Any]:
     """Iterate over tuples of that many values."""
     for item in items:
         budget.spend(width)
-        budget.hold(40 + 8 * width)
+        budget.allocate(40 + 8 * width)
         yield item
 
 
@@ -184,8 +184,8 @@ def sort(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> lis
 
 
 def _spend_comparisons(budget: Budget, keys: list[Any]) -> None:
-    size = budget.weigh(keys)
-    budget.hold(size)
+    size = budget.spend_traversal(keys)
+    budget.allocate(size)
     budget.spend((size >> 4) * len(keys).bit_length())
 
 
@@ -205,7 +205,7 @@ def _extreme(function: Callable[..., Any]) -> Guarded:
         if not found or (rest and len(values) > 1):
             return function(*([found] if len(values) == 1 else values), **rest)
         keys = found if key is None else [caller.call(key, [item], {}) for item in found]
-        caller.budget.weigh(keys)
+        caller.budget.spend_traversal(keys)
         return found[function(range(len(found)), key=keys.__getitem__)]
 
     return call
@@ -219,9 +219,9 @@ def _sum(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any
     if isinstance(start, str):
         raise TypeError("sum() can't sum strings [use ''.join(seq) instead]")
     found = caller.budget.collect(items)
-    caller.budget.weigh(found)
+    caller.budget.spend_traversal(found)
     if all(isinstance(each, float | int) for each in found) and isinstance(start, int | float):
-        return held(caller.budget, sum(found, start))  # in one go: newer Pythons add floats more exactly
+        return allocate_integer(caller.budget, sum(found, start))  # in one go: newer Pythons add floats more exactly
     return reduce(lambda a, b: _add(caller.budget, a, b), found, start)
 
 
@@ -230,34 +230,34 @@ _add, _multiply = BINARY[ast.Add], BINARY[ast.Mult]
 
 def _round(_caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
     digits = values[1] if len(values) > 1 else named.get("ndigits")
-    if isinstance(digits, int) and abs(digits) > _MOST_DIGITS:
-        raise ValueError(f"it rounds to at most {_MOST_DIGITS} digits")
+    if isinstance(digits, int) and abs(digits) > _MAX_DIGITS:
+        raise ValueError(f"it rounds to at most {_MAX_DIGITS} digits")
     return round(*values, **named)
 
 
 def _truth(function: Callable[[Iterable[Any]], bool]) -> Guarded:
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> bool:
         (items,) = _only(values, named, function.__name__, 1)
-        return function(caller.budget.each(items))
+        return function(caller.budget.iterate(items))
 
     return call
 
 
-def _of_small(function: Callable[..., int]) -> Guarded:
+def _of_small_integers(function: Callable[..., int]) -> Guarded:
     """Call a function whose result has some sixteen bits for each of its number."""
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> int:
         bits = max((abs(each) * 16 for each in values if isinstance(each, int)), default=0)
         bound_bits(bits)
         caller.budget.spend(bits * bits >> 18)
-        return held(caller.budget, function(*values, **named))
+        return allocate_integer(caller.budget, function(*values, **named))
 
     return call
 
 
 def _common_multiple(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> int:
     bound_bits(sum(each.bit_length() for each in values if isinstance(each, int)))
-    return _natural(math.lcm)(caller, values, named)
+    return _linear_time(math.lcm)(caller, values, named)
 
 
 def _product(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
@@ -271,12 +271,12 @@ MATH_NAMES: Mapping[str, Any] = {name: value for name, value in vars(math).items
 """Names that `from math import *` gives."""
 
 GUARDED: Mapping[Callable[..., Any], Guarded] = {
-    **{function: _natural(function) for function in MATH_NAMES.values() if callable(function)},
-    **{function: _of_small(function) for function in (math.factorial, math.comb, math.perm)},
+    **{function: _linear_time(function) for function in MATH_NAMES.values() if callable(function)},
+    **{function: _of_small_integers(function) for function in (math.factorial, math.comb, math.perm)},
     math.lcm: _common_multiple,
     math.prod: _product,
-    **{function: _natural(function) for function in (abs, divmod)},
-    **{function: _at_once(function) for function in (bool, len, ord, slice)},
+    **{function: _linear_time(function) for function in (abs, divmod)},
+    **{function: _constant_time(function) for function in (bool, len, ord, slice)},
     **{kind: _converted(kind) for kind in (int, float, complex)},
     **{kind: _sequence(kind) for kind in (list, tuple)},
     **{kind: _set(kind) for kind in (set, frozenset)},

@@ -68,7 +68,7 @@ class Interpreter:
             self.budget.spend(compiled.cost)
             value = compiled.code(Evaluation(self, names), None)
             if value.__class__ not in _SHORT:
-                self.budget.weigh(value)
+                self.budget.spend_traversal(value)
             elif value.__class__ is str and not value.isascii():
                 value.encode()
             return value
@@ -84,7 +84,7 @@ class Interpreter:
         if hidden:
             raise ExpressionError(f"Use of invalid name(s): {', '.join(hidden)}")
         compiled = self._compiled[text] = _Compiled(code, cost)
-        self.budget.hold(_OCTETS_PER_NODE * cost)
+        self.budget.allocate(_OCTETS_PER_NODE * cost)
         self.budget.spend(_OCTETS_PER_NODE // 10 * cost)
         return compiled
 
@@ -116,7 +116,7 @@ class Evaluation:
             AttributeError: there is none that an expression may use.
         """
         self.budget.spend(_STEPS_PER_CALL)
-        self.budget.hold(_OCTETS_PER_CALL)
+        self.budget.allocate(_OCTETS_PER_CALL)
         dotted = self._interpreter.dotted
         found = NotImplemented if dotted is None else dotted(owner, name)
         return attribute(owner, name) if found is NotImplemented else found
@@ -128,7 +128,7 @@ class Evaluation:
             TypeError: it is nothing that an expression may call.
         """
         self.budget.spend(_STEPS_PER_CALL)
-        self.budget.hold(_OCTETS_PER_CALL)
+        self.budget.allocate(_OCTETS_PER_CALL)
         if isinstance(callee, Callee):
             return callee.call(self, values, named)
         guarded = GUARDED.get(callee) if callable(callee) and type(callee).__hash__ is not None else None

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .budget import bound_length
-from .formats import format_text
+from .formatting import format_text
 from .functions import sort
 from .values import Callee, Caller, Function
 
@@ -65,7 +65,7 @@ def is_method(kind: type, name: str) -> bool:
     return name in _METHODS_OF.get(kind, ())
 
 
-def _as_it_is(name: str, *, product: bool = False, cost_of_keys: bool = False, deep: bool = False) -> _Guarded:
+def _linear_size(name: str, *, product: bool = False, cost_of_keys: bool = False, deep: bool = False) -> _Guarded:
     """Call Python's own method, whose result is no longer than what it is given, or no more than three times.
 
     Args:
@@ -85,16 +85,16 @@ def _as_it_is(name: str, *, product: bool = False, cost_of_keys: bool = False, d
         elif hasattr(type(owner), "__len__"):
             budget.spend(1 + (len(owner) >> 5))
         if cost_of_keys and values:
-            budget.key(values[0], len(owner))
+            budget.spend_lookup(values[0], len(owner))
         if deep:
-            budget.weigh(owner)
-            budget.weigh(values)
+            budget.spend_traversal(owner)
+            budget.spend_traversal(values)
         found = getattr(owner, name)(*values, **named)
         if isinstance(found, str):
-            budget.hold_text(found)
+            budget.allocate_text(found)
         elif isinstance(found, list | tuple | dict | set | frozenset):
             budget.spend(len(found))
-            budget.hold(sum(50 + len(each) if isinstance(each, str) else 50 for each in found))
+            budget.allocate(sum(50 + len(each) if isinstance(each, str) else 50 for each in found))
         return found
 
     return call
@@ -104,7 +104,7 @@ def _padded(name: str) -> _Guarded:
     def call(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
         width = max((each for each in (*values, *named.values()) if isinstance(each, int)), default=8)
         bound_length(width * (owner.count("\t") if name == "expandtabs" else 1))
-        return caller.budget.hold_text(getattr(owner, name)(*values, **named))
+        return caller.budget.allocate_text(getattr(owner, name)(*values, **named))
 
     return call
 
@@ -115,7 +115,7 @@ def _replace(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[s
         caller.budget.spend(len(owner) + len(old) >> 4)
         count = owner.count(old) if old else len(owner) + 1
         bound_length(len(owner) + count * max(len(new) - len(old), 0))
-    return caller.budget.hold_text(owner.replace(*values, **named))
+    return caller.budget.allocate_text(owner.replace(*values, **named))
 
 
 def _join(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
@@ -123,7 +123,7 @@ def _join(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str,
         raise TypeError(f"str.join() takes exactly one argument ({len(values) + len(named)} given)")
     items = caller.budget.collect(values[0])
     bound_length(sum(len(each) + len(owner) for each in items if isinstance(each, str)))
-    return caller.budget.hold_text(owner.join(items))
+    return caller.budget.allocate_text(owner.join(items))
 
 
 def _translate(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
@@ -133,7 +133,7 @@ def _translate(caller: Caller, owner: str, values: Sequence[Any], named: Mapping
     plain: dict[Any, Any] = dict(table)
     caller.budget.spend(len(owner) + len(plain))
     bound_length(len(owner) * max((len(each) for each in plain.values() if isinstance(each, str)), default=1))
-    return caller.budget.hold_text(owner.translate(plain))
+    return caller.budget.allocate_text(owner.translate(plain))
 
 
 def _format(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
@@ -157,12 +157,12 @@ def _growing(name: str) -> _Guarded:
         if not isinstance(owner, list):
             keys = [key for each in given for key in each] if many else given[:1]
             for key in keys:
-                budget.key(
+                budget.spend_lookup(
                     key[0] if many and isinstance(key, list | tuple) and isinstance(owner, dict) else key, len(owner)
                 )
         bound_length(len(owner) + length)
         budget.spend(len(owner) >> 8)
-        budget.hold(100 * length)
+        budget.allocate(100 * length)
         return getattr(owner, name)(*given, **named)
 
     return call
@@ -182,7 +182,7 @@ def _combined(name: str) -> _Guarded:
     def call(caller: Caller, owner: Any, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         given: list[set[Any]] = [_set_of(caller, each) for each in values]
         caller.budget.spend(len(owner))
-        caller.budget.hold(60 * len(owner))
+        caller.budget.allocate(60 * len(owner))
         return getattr(owner, name)(*given, **named)
 
     return call
@@ -191,8 +191,8 @@ def _combined(name: str) -> _Guarded:
 def _set_of(caller: Caller, items: Iterable[Any]) -> set[Any]:
     found: set[Any] = set()
     for item in caller.budget.collect(items):
-        found.add(caller.budget.key(item, len(found)))
-    caller.budget.hold(60 * len(found))
+        found.add(caller.budget.spend_lookup(item, len(found)))
+    caller.budget.allocate(60 * len(found))
     return found
 
 
@@ -200,22 +200,24 @@ def _named(names: str, make: Callable[[str], _Guarded]) -> dict[str, _Guarded]:
     return {name: make(name) for name in names.split()}
 
 
-_LENGTH = _named("__len__", _as_it_is)
+_LENGTH = _named("__len__", _linear_size)
 """Asked for before xacro 1.13.13 refused all such names: xArm's description has robot_sn.__len__()."""
 _SET = {
     **_LENGTH,
     **_named("difference intersection isdisjoint issubset issuperset symmetric_difference union", _combined),
-    "copy": _as_it_is("copy"),
+    "copy": _linear_size("copy"),
 }
 _METHODS_OF: dict[type, dict[str, _Guarded]] = {
     str: {
         **_LENGTH,
-        **_named("capitalize casefold count endswith find index isalnum isalpha isascii isdecimal isdigit", _as_it_is),
-        **_named("isidentifier islower isnumeric isprintable isspace istitle isupper lower partition", _as_it_is),
-        **_named("removeprefix removesuffix split splitlines startswith swapcase title upper", _as_it_is),
+        **_named(
+            "capitalize casefold count endswith find index isalnum isalpha isascii isdecimal isdigit", _linear_size
+        ),
+        **_named("isidentifier islower isnumeric isprintable isspace istitle isupper lower partition", _linear_size),
+        **_named("removeprefix removesuffix split splitlines startswith swapcase title upper", _linear_size),
         **_named(
             "lstrip rfind rindex rpartition rsplit rstrip strip",  # Python looks from behind without a table
-            lambda name: _as_it_is(name, product=True),
+            lambda name: _linear_size(name, product=True),
         ),
         **_named("center expandtabs ljust rjust zfill", _padded),
         "format": _format,
@@ -226,29 +228,29 @@ _METHODS_OF: dict[type, dict[str, _Guarded]] = {
     },
     list: {
         **_LENGTH,
-        **_named("count index remove", lambda name: _as_it_is(name, deep=True)),
-        **_named("clear copy pop reverse", _as_it_is),
+        **_named("count index remove", lambda name: _linear_size(name, deep=True)),
+        **_named("clear copy pop reverse", _linear_size),
         **_named("append extend insert", _growing),
         "sort": _sort,
     },
-    tuple: {**_LENGTH, **_named("count index", lambda name: _as_it_is(name, deep=True))},
+    tuple: {**_LENGTH, **_named("count index", lambda name: _linear_size(name, deep=True))},
     dict: {
         **_LENGTH,
-        **_named("clear copy items keys popitem values", _as_it_is),
-        **_named("get pop", lambda name: _as_it_is(name, cost_of_keys=True)),
+        **_named("clear copy items keys popitem values", _linear_size),
+        **_named("get pop", lambda name: _linear_size(name, cost_of_keys=True)),
         **_named("setdefault update", _growing),
     },
     set: {
         **_SET,
-        **_named("clear pop", _as_it_is),
-        **_named("discard remove", lambda name: _as_it_is(name, cost_of_keys=True)),
+        **_named("clear pop", _linear_size),
+        **_named("discard remove", lambda name: _linear_size(name, cost_of_keys=True)),
         **_named("add update", _growing),
     },
     frozenset: _SET,
-    range: {**_LENGTH, **_named("count index", _as_it_is)},
-    int: _named("as_integer_ratio bit_length conjugate is_integer", _as_it_is),
-    float: _named("as_integer_ratio conjugate hex is_integer", _as_it_is),
-    complex: _named("conjugate", _as_it_is),
+    range: {**_LENGTH, **_named("count index", _linear_size)},
+    int: _named("as_integer_ratio bit_length conjugate is_integer", _linear_size),
+    float: _named("as_integer_ratio conjugate hex is_integer", _linear_size),
+    complex: _named("conjugate", _linear_size),
 }
 _DATA_OF: dict[type, frozenset[str]] = {
     range: frozenset({"start", "stop", "step"}),

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any, cast
 
 from .budget import Budget, bound_bits, bound_length
-from .formats import percent_text
+from .formatting import percent_text
 
 Operation = Callable[[Budget, Any, Any], Any]
 
@@ -20,12 +20,12 @@ def is_short(number: int) -> bool:
     return -_MACHINE_WORD < number < _MACHINE_WORD
 
 
-def held(budget: Budget, value: Any) -> Any:
+def allocate_integer(budget: Budget, value: Any) -> Any:
     """Take the memory of an integer; refuse one that is too long."""
     if isinstance(value, int) and not is_short(value):
         bits = value.bit_length()
         bound_bits(bits)
-        budget.hold(bits >> 3)
+        budget.allocate(bits >> 3)
         budget.spend(bits >> 10)
     return value
 
@@ -34,7 +34,7 @@ def _add(budget: Budget, left: Any, right: Any) -> Any:
     if isinstance(left, _SEQUENCES) and isinstance(right, _SEQUENCES):
         wider = right if isinstance(left, str) and left.isascii() else left
         _hold_sequence(budget, wider, len(left) + len(right))
-    return held(budget, left + right)
+    return allocate_integer(budget, left + right)
 
 
 def _multiply(budget: Budget, left: Any, right: Any) -> Any:
@@ -51,7 +51,7 @@ def _hold_sequence(budget: Budget, example: Any, length: int) -> None:
     """Take the memory of a text, list or tuple of that length, of the kind of the example."""
     bound_length(length)
     octets = (1 if example.isascii() else 4) if isinstance(example, str) else 8
-    budget.hold(56 + octets * length)
+    budget.allocate(56 + octets * length)
     budget.spend(length >> 5)
 
 
@@ -59,7 +59,7 @@ def spend_product(budget: Budget, left: int, right: int) -> None:
     """Spend what multiplying or dividing two integers takes."""
     if not (is_short(left) and is_short(right)):
         budget.spend(left.bit_length() * right.bit_length() >> 16)
-        budget.hold((left.bit_length() + right.bit_length()) >> 3)
+        budget.allocate((left.bit_length() + right.bit_length()) >> 3)
 
 
 def _power(budget: Budget, base: Any, exponent: Any) -> Any:
@@ -67,14 +67,14 @@ def _power(budget: Budget, base: Any, exponent: Any) -> Any:
         bits = base.bit_length() * abs(exponent)
         bound_bits(bits)
         budget.spend(bits * bits >> 16)
-        budget.hold(bits >> 3)
+        budget.allocate(bits >> 3)
     return base**exponent
 
 
 def _shift(budget: Budget, left: Any, right: Any) -> Any:
     if isinstance(left, int) and isinstance(right, int):
         bound_bits(left.bit_length() + right)
-        budget.hold(max(right, 0) >> 3)
+        budget.allocate(max(right, 0) >> 3)
     return left << right
 
 
@@ -98,11 +98,11 @@ def _merging(function: Callable[[Any, Any], Any]) -> Operation:
         for each in (left, right):
             if isinstance(each, dict | set | frozenset):
                 budget.spend(len(each))
-                budget.hold(100 * len(each))
+                budget.allocate(100 * len(each))
         value = function(left, right)
         if isinstance(value, dict | set | frozenset):
             bound_length(len(value))
-        return held(budget, value)
+        return allocate_integer(budget, value)
 
     return merge
 
@@ -116,13 +116,13 @@ BINARY: dict[type[ast.operator], Operation] = {
     ast.Mod: _modulo,
     ast.Pow: _power,
     ast.LShift: _shift,
-    ast.RShift: lambda budget, a, b: held(budget, a >> b),
+    ast.RShift: lambda budget, a, b: allocate_integer(budget, a >> b),
     ast.BitAnd: _merging(operator.and_),
     ast.BitOr: _merging(operator.or_),
     ast.BitXor: _merging(operator.xor),
 }
 """All but the product of matrices."""
-OF_FRACTIONS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
+FLOAT_OPERATORS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
     ast.Mult: operator.mul,
@@ -132,9 +132,9 @@ OF_FRACTIONS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
 
 UNARY: dict[type[ast.unaryop], Callable[[Budget, Any], Any]] = {
     ast.Not: lambda _, a: not a,
-    ast.USub: lambda budget, a: held(budget, -a),
-    ast.UAdd: lambda budget, a: held(budget, +a),
-    ast.Invert: lambda budget, a: held(budget, ~a),
+    ast.USub: lambda budget, a: allocate_integer(budget, -a),
+    ast.UAdd: lambda budget, a: allocate_integer(budget, +a),
+    ast.Invert: lambda budget, a: allocate_integer(budget, ~a),
 }
 
 
@@ -150,8 +150,8 @@ def spend_comparison(budget: Budget, left: Any, right: Any) -> None:
     """Spend what comparing two values takes."""
     if isinstance(left, _CONTAINERS):
         if isinstance(right, _CONTAINERS):
-            budget.weigh(left)
-            budget.weigh(right)
+            budget.spend_traversal(left)
+            budget.spend_traversal(right)
     elif isinstance(left, str):
         budget.spend(len(left) >> 6)
 
@@ -161,12 +161,12 @@ def contains(budget: Budget, item: Any, among: Any) -> bool:
     if isinstance(among, str):
         budget.spend(len(among) >> 4)
     elif isinstance(among, dict | set | frozenset):
-        budget.key(item, len(cast("set[object]", among)))
+        budget.spend_lookup(item, len(cast("set[object]", among)))
     elif isinstance(among, list | tuple):
         spend_comparison(budget, item, among)
-        budget.weigh(cast(object, among))
+        budget.spend_traversal(cast(object, among))
     elif not isinstance(among, range) or not isinstance(item, int):
-        return any(item is each or equal(budget, each, item) for each in budget.each(among, 3))
+        return any(item is each or equal(budget, each, item) for each in budget.iterate(among, 3))
     return operator.contains(among, item)
 
 

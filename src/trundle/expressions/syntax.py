@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, TypeVar
 
 from .budget import ExpressionError, bound_bits, bound_length
+from .comprehensions import Comprehension, Loop
 from .containers import item_of, mapping_of, set_of
-from .formats import converted, formatted
-from .frames import Code, Frame, Lambda, Running, Scopes, assignment, local, targets
-from .loops import Loop, Turns
-from .operators import BINARY, COMPARISONS, OF_FRACTIONS, UNARY
+from .formatting import converted, formatted
+from .frames import Code, Evaluator, Frame, Lambda, Scopes, assignment, local_lookup, targets
+from .operators import BINARY, COMPARISONS, FLOAT_OPERATORS, UNARY
 
 _Part = TypeVar("_Part")
 
@@ -80,7 +80,7 @@ class _Compiler(ast.NodeVisitor):
         name = self._visible(node.id)
         for depth, names in enumerate(self._scopes):
             if name in names:
-                return local(name, depth)
+                return local_lookup(name, depth)
         return lambda running, _frame: running.look_up(name)
 
     def visit_UnaryOp(self, node: ast.UnaryOp) -> Code:
@@ -89,13 +89,13 @@ class _Compiler(ast.NodeVisitor):
 
     def visit_BinOp(self, node: ast.BinOp) -> Code:
         left, right = self.visit(node.left), self.visit(node.right)
-        operation, of_fractions = BINARY.get(type(node.op)), OF_FRACTIONS.get(type(node.op))
+        operation, of_fractions = BINARY.get(type(node.op)), FLOAT_OPERATORS.get(type(node.op))
         if operation is None:
             raise ExpressionError("products of matrices are not allowed in an expression")
         if of_fractions is None:
             return lambda running, frame: operation(running.budget, left(running, frame), right(running, frame))
 
-        def code(running: Running, frame: Frame) -> Any:
+        def code(running: Evaluator, frame: Frame) -> Any:
             a, b = left(running, frame), right(running, frame)
             if a.__class__ is float or b.__class__ is float:
                 return of_fractions(a, b)
@@ -106,7 +106,7 @@ class _Compiler(ast.NodeVisitor):
     def visit_BoolOp(self, node: ast.BoolOp) -> Code:
         conjunction, values = isinstance(node.op, ast.And), self._all(node.values)
 
-        def code(running: Running, frame: Frame) -> Any:
+        def code(running: Evaluator, frame: Frame) -> Any:
             value: Any = conjunction
             for item in values:
                 value = item(running, frame)
@@ -120,7 +120,7 @@ class _Compiler(ast.NodeVisitor):
         first = self.visit(node.left)
         rest = [(COMPARISONS[type(op)], self.visit(item)) for op, item in zip(node.ops, node.comparators, strict=True)]
 
-        def code(running: Running, frame: Frame) -> Any:
+        def code(running: Evaluator, frame: Frame) -> Any:
             left, result = first(running, frame), True
             for comparison, item in rest:
                 right = item(running, frame)
@@ -148,7 +148,7 @@ class _Compiler(ast.NodeVisitor):
         parts = [self._optional(part) for part in (node.lower, node.upper, node.step)]
         return lambda running, frame: slice(*(part(running, frame) for part in parts))
 
-    def _items(self, nodes: Sequence[ast.expr]) -> Callable[[Running, Frame], list[Any]]:
+    def _items(self, nodes: Sequence[ast.expr]) -> Callable[[Evaluator, Frame], list[Any]]:
         """Compile the items of a list or the values of a call, some of which may be `*several`."""
         if not any(isinstance(node, ast.Starred) for node in nodes):
             codes = self._all(nodes)
@@ -158,7 +158,7 @@ class _Compiler(ast.NodeVisitor):
             for node in nodes
         ]
 
-        def code(running: Running, frame: Frame) -> list[Any]:
+        def code(running: Evaluator, frame: Frame) -> list[Any]:
             found: list[Any] = []
             for several, part in parts:
                 value = part(running, frame)
@@ -180,9 +180,9 @@ class _Compiler(ast.NodeVisitor):
     def _display(self, nodes: Sequence[ast.expr], kind: type) -> Code:
         items = self._items(nodes)
 
-        def code(running: Running, frame: Frame) -> Any:
+        def code(running: Evaluator, frame: Frame) -> Any:
             found = items(running, frame)
-            running.budget.hold(60 + 8 * len(found))
+            running.budget.allocate(60 + 8 * len(found))
             return found if kind is list else tuple(found) if kind is tuple else set_of(running, found)
 
         return code
@@ -193,12 +193,12 @@ class _Compiler(ast.NodeVisitor):
             for key, value in zip(node.keys, node.values, strict=True)
         ]
 
-        def code(running: Running, frame: Frame) -> dict[Any, Any]:
+        def code(running: Evaluator, frame: Frame) -> dict[Any, Any]:
             found: dict[Any, Any] = {}
-            running.budget.hold(64 + 100 * len(pairs))
+            running.budget.allocate(64 + 100 * len(pairs))
             for single, key, value in pairs:
                 if single:
-                    found[running.budget.key(key(running, frame), len(found))] = value(running, frame)
+                    found[running.budget.spend_lookup(key(running, frame), len(found))] = value(running, frame)
                 else:
                     found.update(mapping_of(running, value(running, frame)))
                     bound_length(len(found))
@@ -212,7 +212,7 @@ class _Compiler(ast.NodeVisitor):
             return lambda running, frame: running.call(callee(running, frame), values(running, frame), {})
         words = [(word.arg, self.visit(word.value)) for word in node.keywords]
 
-        def code(running: Running, frame: Frame) -> Any:
+        def code(running: Evaluator, frame: Frame) -> Any:
             function, given, named = callee(running, frame), values(running, frame), dict[str, Any]()
             for name, word in words:
                 more = {name: word(running, frame)} if name else mapping_of(running, word(running, frame))
@@ -230,43 +230,43 @@ class _Compiler(ast.NodeVisitor):
         defaults = {each.arg: self.visit(value) for each, value in _defaults(arguments)}
         body, cost = self._within(names, lambda: self.visit(node.body))
 
-        def code(running: Running, frame: Frame) -> Lambda:
+        def code(running: Evaluator, frame: Frame) -> Lambda:
             values = {name: default(running, frame) for name, default in defaults.items()}
-            running.budget.hold(200 + 100 * len(values))
+            running.budget.allocate(200 + 100 * len(values))
             return Lambda(arguments, values, body, cost, running, frame)
 
         return code
 
     def visit_ListComp(self, node: ast.ListComp) -> Code:
-        turns = self._turns([node.elt], node.generators)
-        return lambda running, frame: [value for (value,) in turns.begin(running, frame)]
+        turns = self._comprehension([node.elt], node.generators)
+        return lambda running, frame: [value for (value,) in turns.evaluate(running, frame)]
 
     def visit_SetComp(self, node: ast.SetComp) -> Code:
-        turns = self._turns([node.elt], node.generators)
-        return lambda running, frame: set_of(running, (value for (value,) in turns.begin(running, frame)))
+        turns = self._comprehension([node.elt], node.generators)
+        return lambda running, frame: set_of(running, (value for (value,) in turns.evaluate(running, frame)))
 
     def visit_GeneratorExp(self, node: ast.GeneratorExp) -> Code:
-        turns = self._turns([node.elt], node.generators)
+        turns = self._comprehension([node.elt], node.generators)
 
-        def code(running: Running, frame: Frame) -> Iterator[Any]:
-            each = turns.begin(running, frame)
-            return running.budget.iterate(value for (value,) in each)
+        def code(running: Evaluator, frame: Frame) -> Iterator[Any]:
+            each = turns.evaluate(running, frame)
+            return running.budget.lazy(value for (value,) in each)
 
         return code
 
     def visit_DictComp(self, node: ast.DictComp) -> Code:
-        turns = self._turns([node.key, node.value], node.generators)
+        turns = self._comprehension([node.key, node.value], node.generators)
 
-        def code(running: Running, frame: Frame) -> dict[Any, Any]:
+        def code(running: Evaluator, frame: Frame) -> dict[Any, Any]:
             found: dict[Any, Any] = {}
-            for key, value in turns.begin(running, frame):
-                running.budget.hold(100)
-                found[running.budget.key(key, len(found))] = value
+            for key, value in turns.evaluate(running, frame):
+                running.budget.allocate(100)
+                found[running.budget.spend_lookup(key, len(found))] = value
             return found
 
         return code
 
-    def _turns(self, elements: list[ast.expr], generators: list[ast.comprehension]) -> Turns:
+    def _comprehension(self, elements: list[ast.expr], generators: list[ast.comprehension]) -> Comprehension:
         if any(each.is_async for each in generators):
             raise ExpressionError("'async' is not allowed in an expression")
         names = {name for each in generators for name in targets(each.target)}
@@ -280,15 +280,15 @@ class _Compiler(ast.NodeVisitor):
             return loops, self._all(elements)
 
         (loops, codes), cost = self._within(names, compile_parts)
-        return Turns(loops, codes, cost)
+        return Comprehension(loops, codes, cost)
 
     def visit_JoinedStr(self, node: ast.JoinedStr) -> Code:
         parts = self._all(node.values)
 
-        def code(running: Running, frame: Frame) -> str:
+        def code(running: Evaluator, frame: Frame) -> str:
             texts = [part(running, frame) for part in parts]
             bound_length(sum(map(len, texts)))
-            return running.budget.hold_text("".join(texts))
+            return running.budget.allocate_text("".join(texts))
 
         return code
 
@@ -296,7 +296,7 @@ class _Compiler(ast.NodeVisitor):
         value, spec = self.visit(node.value), self._optional(node.format_spec)
         conversion = None if node.conversion < 0 else chr(node.conversion)
 
-        def code(running: Running, frame: Frame) -> str:
+        def code(running: Evaluator, frame: Frame) -> str:
             shown = converted(running.budget, value(running, frame), conversion)
             return formatted(running.budget, shown, spec(running, frame) or "")
 

@@ -52,15 +52,15 @@ class Function(Callee):
         return f"<function {self.name}>"
 
 
-def function_of(function: Callable[..., Any], name: str | None = None) -> Function:
+def wrap_function(function: Callable[..., Any], name: str | None = None) -> Function:
     """Offer a function of Python that does no more work than its values are long."""
 
     def body(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         caller.budget.spend(10)
-        caller.budget.weigh([*values, *named.values()])
+        caller.budget.spend_traversal([*values, *named.values()])
         found = function(*values, **named)
         if isinstance(found, list | tuple | dict):
-            caller.budget.hold(60 * caller.budget.weigh(found))
+            caller.budget.allocate(60 * caller.budget.spend_traversal(found))
         return found
 
     return Function(name or function.__name__, body)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from trundle.diagnostics import DescriptionError, Source
-from trundle.packages import published_at
+from trundle.packages import repository_hint
 
 from .packages import PackageFinder
 from .plan import LaunchNode
@@ -33,7 +33,7 @@ class MissingPackages:
         """The error that names them all, the first in full."""
         others = sorted(self._places.items(), key=lambda item: (item[1][0].file, item[1][0].line or 0))
         more = [
-            DescriptionError(at, f"no package {name!r}{what_for}{published_at(name)}")
+            DescriptionError(at, f"no package {name!r}{what_for}{repository_hint(name)}")
             for name, (at, what_for) in others
             if f"no package {name!r}" not in first.what
         ]

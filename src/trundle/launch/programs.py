@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import IO
 
-_MOST_BYTES = 64 * 1024 * 1024
+_MAX_BYTES = 64 * 1024 * 1024
 """The largest robot descriptions are a few MB."""
 _CHUNK_BYTES = 65536
 _QUIET_S = 5.0
@@ -55,7 +55,7 @@ def run_command(argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: fl
                 reader.join(_LAST_S)
     output, errors = (bytes(reader.data) for reader in readers)
     if any(reader.is_full for reader in readers):
-        raise ValueError(f"command {argv[0]!r} wrote more than {_MOST_BYTES // 2**20} MiB")
+        raise ValueError(f"command {argv[0]!r} wrote more than {_MAX_BYTES // 2**20} MiB")
     if is_late:
         raise ValueError(f"command {argv[0]!r} gave no answer within {timeout_s:g} s")
     if process.returncode != 0:
@@ -85,7 +85,7 @@ class _Reader(threading.Thread):
         with contextlib.suppress(ValueError):  # given up and closed
             while chunk := os.read(self._stream.fileno(), _CHUNK_BYTES):
                 self.data += chunk
-                if len(self.data) > _MOST_BYTES:
+                if len(self.data) > _MAX_BYTES:
                     self.is_full = True
                     self._when_full()
                     return

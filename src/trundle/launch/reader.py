@@ -25,7 +25,7 @@ from .substitution import Substitution
 
 _MAX_INCLUDE_DEPTH = 64
 """A file that includes itself ends here; no honest launch nests a tenth as deep."""
-_MOST_TOLD = 8
+_MAX_TOLD = 8
 """How many files an error names that one included the other."""
 
 
@@ -269,7 +269,7 @@ class _Reader:
             self._launch(read_launch_file(Path(file), self._report), passed, depth=depth + 1)
         except DescriptionError as error:
             way = f"; included at {node.at}"
-            if depth >= _MOST_TOLD or error.what.endswith(way):
+            if depth >= _MAX_TOLD or error.what.endswith(way):
                 raise
             raise type(error)(error.at, error.what + way) from None
         if unused := sorted(given - passed.declared):

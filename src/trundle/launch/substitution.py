@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from trundle.diagnostics import DescriptionError, Source
-from trundle.expressions import MATH_NAMES, PYTHON_NAMES, ExpressionError, Interpreter, function_of
+from trundle.expressions import MATH_NAMES, PYTHON_NAMES, ExpressionError, Interpreter, wrap_function
 
 from .command_line import nearest
 from .missing import MissingPackageError, MissingPackages
@@ -143,7 +143,7 @@ class Substitution:
         def dirname() -> str:
             return _folder(scope)
 
-        functions = {f.__name__: function_of(f) for f in (arg, env, optenv, find, anon, dirname)}
+        functions = {f.__name__: wrap_function(f) for f in (arg, env, optenv, find, anon, dirname)}
         try:
             if "__" in text:  # roslaunch's own rule, and its own words
                 raise ExpressionError("may not contain double underscores")

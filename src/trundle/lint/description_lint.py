@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Iterator
 
-from trundle.description import Loaded
+from trundle.description import LoadedDescription
 from trundle.diagnostics import Diagnostics, Source
 from trundle.model import (
     Box,
@@ -32,7 +32,7 @@ _PASSIVE = frozenset({JointType.FIXED, JointType.BALL})
 _TRANSMISSION = re.compile(r"<transmission\b.*?</transmission>", re.DOTALL)
 
 
-def lint_description(loaded: Loaded, report: Diagnostics) -> None:
+def lint_description(loaded: LoadedDescription, report: Diagnostics) -> None:
     """Report on every model: inertias of no body, bodies in one another, idle joints, names that ROS cannot have."""
     driven = " ".join(_TRANSMISSION.findall(loaded.urdf or ""))
     models = flattened(loaded.world).models
@@ -41,12 +41,12 @@ def lint_description(loaded: Loaded, report: Diagnostics) -> None:
         if model.static:
             continue
         for link in model.links:
-            _doubt_inertia(link, report)
-        _doubt_joints(model, driven, report)
-        _doubt_names(model, report)
+            _lint_inertia(link, report)
+        _lint_joints(model, driven, report)
+        _lint_names(model, report)
 
 
-def _doubt_inertia(link: Link, report: Diagnostics) -> None:
+def _lint_inertia(link: Link, report: Diagnostics) -> None:
     inertial = link.inertial
     reach = _reach(link)
     if reach is None or not inertial.mass > 0.0:
@@ -93,7 +93,7 @@ def _shape_reach(geometry: Geometry, pose: Pose, inertial: Inertial) -> float | 
     return half + math.dist(pose.position, inertial.link_from_com.position)
 
 
-def _doubt_joints(model: Model, driven: str, report: Diagnostics) -> None:
+def _lint_joints(model: Model, driven: str, report: Diagnostics) -> None:
     told = driven + " ".join(plugin.node.xml() for plugin in model.plugins)
     idle = [
         joint.name
@@ -107,7 +107,7 @@ def _doubt_joints(model: Model, driven: str, report: Diagnostics) -> None:
         report.info(model.at, f"model {model.name!r}: no plugin or transmission here names {names}; they move freely")
 
 
-def _doubt_names(model: Model, report: Diagnostics) -> None:
+def _lint_names(model: Model, report: Diagnostics) -> None:
     for name, at in _names(model):
         if not is_legal_base_name(name.replace("::", "_")):
             report.info(at, f"{name!r} is no name ROS can have; on the graph and in tf it is {ros_name(name)!r}")

@@ -3,7 +3,7 @@
 from trundle.model import MeshFile, World, flattened
 
 
-def why_empty(world: World) -> str:
+def empty_reason(world: World) -> str:
     """One sentence where visuals are written and none can be drawn, as their meshes are missing; else nothing.
 
     Args:

@@ -7,7 +7,7 @@ from trundle.diagnostics import Diagnostics
 from trundle.model import Box, Capsule, Collision, Cylinder, Ellipsoid, Model, Sphere
 from trundle.spatial import Pose, Vector3
 
-_MOST_BODIES = 1000
+_MAX_BODIES = 1000
 """That are held against one another; of a larger world the first are."""
 
 
@@ -18,9 +18,9 @@ def report_overlaps(models: tuple[Model, ...], report: Diagnostics) -> None:
         models: without nested ones.
         report: takes a note for each pair.
     """
-    still = [(model, list(_solids(model))) for model in models if model.static][:_MOST_BODIES]
+    still = [(model, list(_solids(model))) for model in models if model.static][:_MAX_BODIES]
     for (first, solids), (second, others) in combinations(still, 2):
-        if any(_holds_middle(one, other) or _holds_middle(other, one) for one in solids for other in others):
+        if any(_contains_center(one, other) or _contains_center(other, one) for one in solids for other in others):
             what = f"model {second.name!r} stands in model {first.name!r}, and neither can move; is one misplaced?"
             report.info(second.at, what)
 
@@ -49,13 +49,13 @@ def _half_lengths(collision: Collision) -> Vector3 | None:
             return None
 
 
-def _holds_middle(solid: tuple[Pose, Vector3], other: tuple[Pose, Vector3]) -> bool:
+def _contains_center(solid: tuple[Pose, Vector3], other: tuple[Pose, Vector3]) -> bool:
     (pose, half), (world_from_other, _) = solid, other
-    if not _near(pose.position, world_from_other.position, sum(half)):
+    if not _within_distance(pose.position, world_from_other.position, sum(half)):
         return False
-    middle = pose.inverse().point(world_from_other.position)
+    middle = pose.inverse().transform_point(world_from_other.position)
     return all(abs(at) < most for at, most in zip(middle, half, strict=True))
 
 
-def _near(a: Vector3, b: Vector3, distance: float) -> bool:
+def _within_distance(a: Vector3, b: Vector3, distance: float) -> bool:
     return abs(a[0] - b[0]) < distance and abs(a[1] - b[1]) < distance and abs(a[2] - b[2]) < distance

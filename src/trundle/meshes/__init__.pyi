@@ -1,5 +1,5 @@
-from .cache import keep as keep
-from .cache import load_kept as load_kept
+from .cache import load_parts as load_parts
+from .cache import save_parts as save_parts
 from .heightmap_image import read_heights as read_heights
 from .load import load_mesh as load_mesh
 from .mesh import Mesh as Mesh
@@ -10,7 +10,7 @@ from .raw import RawPart as RawPart
 from .road_strip import strip_mesh as strip_mesh
 from .skeleton import Motion as Motion
 from .skeleton import Skin as Skin
-from .skeleton import matched as matched
+from .skeleton import match_bones as match_bones
 from .skeleton import root_of as root_of
 from .skins import load_motion as load_motion
 from .skins import load_skin as load_skin
@@ -21,4 +21,4 @@ from .texture import image_file as image_file
 from .texture import mean_colour as mean_colour
 from .texture import png_of as png_of
 from .texture import why_undecoded as why_undecoded
-from .triangulation import triangles_of as triangles_of
+from .triangulation import triangulate as triangulate

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .mesh import MeshError
-from .skeleton import Bone, Motion, track_of
+from .skeleton import Bone, Motion, track_from_poses
 
 _Array = NDArray[np.float64]
-_MOST_BONES, _MOST_FRAMES = 1000, 100_000
+_MAX_BONES, _MAX_FRAMES = 1000, 100_000
 _AXES = "XYZ"
 
 
@@ -32,7 +32,7 @@ def read_bvh(text: str) -> Motion:
     except ValueError as error:
         raise MeshError(str(error)) from None
     width = sum(map(len, channels))
-    count = min(count, len(numbers) // max(width, 1), _MOST_FRAMES)
+    count = min(count, len(numbers) // max(width, 1), _MAX_FRAMES)
     are_finite = all(np.isfinite(values).all() for values in (step_s, numbers, *(bone.rest for bone in bones)))
     if not (count > 0 and width > 0 and step_s > 0.0 and are_finite):
         raise MeshError("holds no motion")
@@ -41,7 +41,7 @@ def read_bvh(text: str) -> Motion:
     )
     times = np.arange(count, dtype=np.float64) * np.float64(step_s)
     poses = (_poses(*each) for each in zip(bones, channels, frames, strict=True))
-    return Motion(bones, {number: track_of(times, pose) for number, pose in enumerate(poses)})
+    return Motion(bones, {number: track_from_poses(times, pose) for number, pose in enumerate(poses)})
 
 
 def _hierarchy(words: Iterator[str]) -> tuple[tuple[Bone, ...], list[list[str]]]:
@@ -53,8 +53,8 @@ def _hierarchy(words: Iterator[str]) -> tuple[tuple[Bone, ...], list[list[str]]]
     while (word := next(words)) != "MOTION":
         match word:
             case "ROOT" | "JOINT":
-                if len(bones) >= _MOST_BONES:
-                    raise MeshError(f"more than {_MOST_BONES} joints")
+                if len(bones) >= _MAX_BONES:
+                    raise MeshError(f"more than {_MAX_BONES} joints")
                 name = next(words)
                 bones.append(Bone(name=name, id=name, parent=above[-1] if above else -1, is_joint=True, rest=np.eye(4)))
                 channels.append([])

@@ -16,13 +16,13 @@ from typing import Any
 import numpy as np
 from msgspec.structs import asdict
 
-from trundle.ownership import home_folder, is_ours
+from trundle.ownership import home_folder, is_owned_by_user
 
 from .raw import RawPart
 
 VERSION = 4
 """Part of every key; raised where a reader gives something else for the same bytes."""
-_MOST_BYTES = 512 * 1024 * 1024
+_MAX_BYTES = 512 * 1024 * 1024
 
 
 def folder() -> Path:
@@ -31,10 +31,10 @@ def folder() -> Path:
     return Path(root) / "trundle" / "meshes"
 
 
-def load_kept(key: str) -> list[RawPart] | None:
+def load_parts(key: str) -> list[RawPart] | None:
     """What was kept under a key; None where nothing was, or it is damaged."""
     path = folder() / f"{key}.npz"
-    if not is_ours(path.parent):  # what another user put there would be taken for the mesh
+    if not is_owned_by_user(path.parent):  # what another user put there would be taken for the mesh
         return None
     try:
         data = path.read_bytes()
@@ -49,14 +49,14 @@ def load_kept(key: str) -> list[RawPart] | None:
     return parts
 
 
-def keep(key: str, parts: Sequence[RawPart]) -> None:
+def save_parts(key: str, parts: Sequence[RawPart]) -> None:
     """Keep parts under a key, and let go of what was not used for longest."""
     packed = _packed(parts)
-    if len(packed) > _MOST_BYTES // 8:
+    if len(packed) > _MAX_BYTES // 8:
         return
     try:
         folder().mkdir(mode=0o700, parents=True, exist_ok=True)
-        if not is_ours(folder()):
+        if not is_owned_by_user(folder()):
             return
         _write(folder() / f"{key}.npz", packed)
         _trim()
@@ -119,7 +119,7 @@ def _trim() -> None:
     files = sorted((path.stat().st_mtime, path.stat().st_size, path) for path in folder().iterdir())
     total = sum(size for _, size, _ in files)
     for _, size, path in files:
-        if total <= _MOST_BYTES:
+        if total <= _MAX_BYTES:
             return
         path.unlink(missing_ok=True)
         total -= size

@@ -9,7 +9,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from .mesh import MeshError
-from .raw import MOST_TRIANGLES, RawPart, at_corners
+from .raw import MAX_TRIANGLES, RawPart, at_corners
 from .texture import as_png
 
 _JSON = b"JSON"
@@ -38,8 +38,8 @@ def read_glb(data: bytes) -> list[RawPart]:
         vertices = np.asarray(geometry.vertices, dtype=np.float64) @ transform[:3, :3].T + transform[:3, 3]
         faces = np.asarray(geometry.faces, dtype=np.int64)
         triangles += len(faces)
-        if triangles > MOST_TRIANGLES:
-            raise MeshError(f"more than {MOST_TRIANGLES} triangles")
+        if triangles > MAX_TRIANGLES:
+            raise MeshError(f"more than {MAX_TRIANGLES} triangles")
         faces = faces[:, ::-1] if np.linalg.det(transform[:3, :3]) < 0 else faces
         normals = None
         if "vertex_normals" in geometry._cache:  # else trimesh would make some up, and glTF wants flat faces then

@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 from .mesh import MeshError
 from .texture import image_file, why_undecoded
 
-_MOST_PIXELS = 4096
+_MAX_PIXELS = 4096
 """Of each side of an image."""
-MOST_SAMPLES = 1025
+MAX_SAMPLES = 1025
 """Of each side of the terrain; more is thinned out."""
 
 
-def read_heights(path: Path, *, sampling: int = 1, most: int = MOST_SAMPLES) -> NDArray[np.float32]:
+def read_heights(path: Path, *, sampling: int = 1, most: int = MAX_SAMPLES) -> NDArray[np.float32]:
     """Read an image as (rows, columns) from black, 0, to white, 1; the upper edge first.
 
     Args:
@@ -29,8 +29,8 @@ def read_heights(path: Path, *, sampling: int = 1, most: int = MOST_SAMPLES) -> 
 
     try:
         with Image.open(image_file(path)) as image:
-            if max(image.size) > _MOST_PIXELS or min(image.size) < 2:
-                raise MeshError(f"{image.size[0]} by {image.size[1]} pixels; 2 to {_MOST_PIXELS} can be used")
+            if max(image.size) > _MAX_PIXELS or min(image.size) < 2:
+                raise MeshError(f"{image.size[0]} by {image.size[1]} pixels; 2 to {_MAX_PIXELS} can be used")
             deep = image.mode in ("I", "F") or image.mode.startswith("I;")
             grey = image if deep else image.convert("L")
             columns, rows = (min((n - 1) * max(sampling, 1) + 1, most) for n in image.size)

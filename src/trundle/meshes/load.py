@@ -15,10 +15,10 @@ from trundle.files import read_file
 
 from . import cache
 from .mesh import Mesh, MeshError, MeshPart, Rgba
-from .raw import MOST_TRIANGLES, RawPart
+from .raw import MAX_TRIANGLES, RawPart
 from .texture import find_texture, mean_colour
 
-MOST_BYTES = 256 * 1024 * 1024
+MAX_BYTES = 256 * 1024 * 1024
 _SLOW = frozenset({".dae", ".glb", ".obj"})
 """Formats that are worth keeping once read; STL is as fast as the cache."""
 _FORMATS = _SLOW | {".stl"}
@@ -77,16 +77,16 @@ def _load(path: Path, suffix: str, submesh: str | None, center: bool, state: tup
 
 
 def _parts(path: Path, suffix: str) -> list[RawPart]:
-    data = read_file(path, most=MOST_BYTES)
+    data = read_file(path, max_bytes=MAX_BYTES)
     if suffix not in _SLOW or len(data) < _WORTH_KEEPING:
         return _read(data, suffix, path)
     key = hashlib.sha256(f"{cache.VERSION} {suffix} ".encode() + data)
     for name in _LIBRARY.findall(data) if suffix == ".obj" else []:
-        key.update(_beside(path, name.decode("utf-8", "replace")) or b"")
-    kept = cache.load_kept(key.hexdigest())
+        key.update(_read_sibling(path, name.decode("utf-8", "replace")) or b"")
+    kept = cache.load_parts(key.hexdigest())
     if kept is None:
         kept = _read(data, suffix, path)
-        cache.keep(key.hexdigest(), kept)
+        cache.save_parts(key.hexdigest(), kept)
     return kept
 
 
@@ -99,23 +99,23 @@ def _read(data: bytes, suffix: str, path: Path) -> list[RawPart]:
         case ".obj":
             from .obj import read_obj
 
-            return read_obj(data, lambda name: _beside(path, name))
+            return read_obj(data, lambda name: _read_sibling(path, name))
         case ".glb":
             from .glb import read_glb
 
             return read_glb(data)
         case _:
-            from .collada_file import read_collada
+            from .collada.scene import read_collada
 
             return read_collada(data)
 
 
-def _beside(path: Path, name: str) -> bytes | None:
+def _read_sibling(path: Path, name: str) -> bytes | None:
     """A file in the mesh's folder or below; None where there is none, or it lies elsewhere or is too large."""
     file = path.parent / name.replace("\\", "/")
     try:
         inside = Path(os.path.realpath(file)).is_relative_to(os.path.realpath(path.parent))
-        return read_file(file, most=MOST_BYTES) if inside else None
+        return read_file(file, max_bytes=MAX_BYTES) if inside else None
     except (OSError, ValueError):
         return None
 
@@ -129,8 +129,8 @@ def joined(parts: Sequence[RawPart], path: Path, center: bool) -> Mesh:
     parts = [part for part in parts if len(part.faces)]
     if not parts:
         raise MeshError("no triangles")
-    if sum(len(part.faces) for part in parts) > MOST_TRIANGLES:
-        raise MeshError(f"more than {MOST_TRIANGLES} triangles")
+    if sum(len(part.faces) for part in parts) > MAX_TRIANGLES:
+        raise MeshError(f"more than {MAX_TRIANGLES} triangles")
     vertices = np.concatenate([part.vertices for part in parts])
     first_vertex = np.cumsum([0, *(len(part.vertices) for part in parts)])
     faces = np.concatenate([part.faces + first for part, first in zip(parts, first_vertex, strict=False)])
@@ -167,7 +167,7 @@ def _described(parts: Sequence[RawPart], path: Path) -> tuple[MeshPart, ...]:
                 rgba=rgba,
                 texture=texture,
                 tint=part.tint,
-                lost_texture=part.texture if texture is None and isinstance(part.texture, str) else None,
+                missing_texture=part.texture if texture is None and isinstance(part.texture, str) else None,
             )
         )
         first_face += len(part.faces)

@@ -33,7 +33,7 @@ class MeshPart(Struct, frozen=True, kw_only=True):
     """An image, laid out by the mesh's `uv`."""
     tint: Rgba = (1.0, 1.0, 1.0, 1.0)
     """What the image's colours are multiplied by."""
-    lost_texture: str | None = None
+    missing_texture: str | None = None
     """What the file names and is not there."""
 
 
@@ -56,7 +56,7 @@ class Mesh(Struct, frozen=True, eq=False):
     """(M, 3, 3) which way the surface faces at each corner of each face, of any length, for light that runs smoothly
     over edges; zeros, or None, where faces are flat."""
 
-    def faces_without_area(self) -> int:
+    def degenerate_face_count(self) -> int:
         """How many faces have corners on one line, or one place."""
         a, b, c = (self.vertices[self.faces[:, corner]] for corner in range(3))
         with np.errstate(over="ignore", invalid="ignore"):
@@ -86,9 +86,9 @@ class Mesh(Struct, frozen=True, eq=False):
         normals = (in_face @ _axes(vertices[self.faces])).astype(np.float32)
         return replace(self, vertices=vertices, normals=normals)
 
-    def by_look(self) -> tuple["Mesh", ...]:
+    def split_by_material(self) -> tuple["Mesh", ...]:
         """The mesh cut into meshes of one colour and one texture each, which its first part has."""
-        return _by_look(self)
+        return _split_by_material(self)
 
 
 def _axes(corners: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -100,14 +100,14 @@ def _axes(corners: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 @lru_cache(maxsize=256)  # a robot's four wheels are to stay instances of one mesh
-def _by_look(mesh: Mesh) -> tuple[Mesh, ...]:
+def _split_by_material(mesh: Mesh) -> tuple[Mesh, ...]:
     looks: dict[tuple[Rgba | None, Texture | None, Rgba], list[MeshPart]] = {}
     for part in mesh.parts:
         looks.setdefault((part.rgba, part.texture, part.tint), []).append(part)
-    return tuple(_cut_out(mesh, parts) for parts in looks.values()) if len(looks) > 1 else (mesh,)
+    return tuple(_submesh(mesh, parts) for parts in looks.values()) if len(looks) > 1 else (mesh,)
 
 
-def _cut_out(mesh: Mesh, parts: list[MeshPart]) -> Mesh:
+def _submesh(mesh: Mesh, parts: list[MeshPart]) -> Mesh:
     rows = np.concatenate([np.arange(part.first_face, part.first_face + part.face_count) for part in parts])
     faces = mesh.faces[rows]
     used, renumbered = np.unique(faces, return_inverse=True)

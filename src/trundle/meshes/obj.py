@@ -6,9 +6,9 @@ import numpy as np
 from msgspec import Struct, field
 
 from .mesh import Rgba
-from .raw import RawPart, at_corners, fans, used_vertices
+from .raw import RawPart, at_corners, triangle_fans, used_vertices
 
-ReadBeside = Callable[[str], bytes | None]
+ReadSibling = Callable[[str], bytes | None]
 """A file beside the mesh, by its relative path; None where there is none."""
 
 
@@ -21,7 +21,7 @@ class _Group(Struct):
     counts: list[int] = field(default_factory=list[int])
 
 
-class _Look(Struct):
+class _Material(Struct):
     """A material of a library."""
 
     diffuse: tuple[float, float, float] | None = None
@@ -33,7 +33,7 @@ class _Look(Struct):
         return (*(self.diffuse or (r, g, b)), self.opacity)
 
 
-def read_obj(data: bytes, beside: ReadBeside) -> list[RawPart]:
+def read_obj(data: bytes, beside: ReadSibling) -> list[RawPart]:
     """Read an OBJ; lines and points are no triangles and are passed over.
 
     Raises:
@@ -42,7 +42,7 @@ def read_obj(data: bytes, beside: ReadBeside) -> list[RawPart]:
     vertices: list[list[float]] = []
     places: list[list[float]] = []
     normals: list[list[float]] = []
-    looks: dict[str, _Look] = {}
+    looks: dict[str, _Material] = {}
     groups: dict[tuple[str, str], _Group] = {}
     name, material = "", ""
     for line in data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ").decode("utf-8", "replace").splitlines():
@@ -90,11 +90,11 @@ def _index(text: str, count: int) -> int:
 
 
 def _part(
-    group: _Group, points: np.ndarray, uv: np.ndarray, normals: np.ndarray, name: str, look: _Look | None
+    group: _Group, points: np.ndarray, uv: np.ndarray, normals: np.ndarray, name: str, look: _Material | None
 ) -> RawPart:
     corners = np.array(group.corners, dtype=np.int64)
     uv_corners = np.array(group.uv_corners, dtype=np.int64)
-    triangles = fans(corners, np.array(group.counts, dtype=np.int64))
+    triangles = triangle_fans(corners, np.array(group.counts, dtype=np.int64))
     vertices, faces = used_vertices(points, corners[triangles])
     own_uv = at_corners(uv, uv_corners[triangles], 2)
     return RawPart(
@@ -109,17 +109,17 @@ def _part(
     )
 
 
-def read_mtl(data: bytes) -> dict[str, _Look]:
+def read_mtl(data: bytes) -> dict[str, _Material]:
     """The materials of a library: diffuse colour, opacity and diffuse map."""
-    looks: dict[str, _Look] = {}
-    look = _Look()
+    looks: dict[str, _Material] = {}
+    look = _Material()
     for line in data.decode("utf-8", "replace").splitlines():
         words = line.split()
         if len(words) < 2:
             continue
         keyword = words[0].lower()
         if keyword == "newmtl":
-            look = looks.setdefault(" ".join(words[1:]), _Look())
+            look = looks.setdefault(" ".join(words[1:]), _Material())
         elif keyword == "kd" and len(words) >= 4:
             r, g, b = (_fraction(word) for word in words[1:4])
             look.diffuse = (r, g, b)

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from .mesh import Rgba
 
-MOST_TRIANGLES = 20_000_000
+MAX_TRIANGLES = 20_000_000
 """More than any robot; a file can ask for more by naming one part over and over."""
 
 
@@ -70,7 +70,7 @@ def at_corners(values: NDArray[np.float64], faces: NDArray[np.int64], size: int)
     return values[faces][..., :size].astype(np.float32)
 
 
-def fans(indices: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:
+def triangle_fans(indices: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:
     """The corners of polygons, one after another, as fans of triangles: (M, 3) positions in `indices`.
 
     Raises:

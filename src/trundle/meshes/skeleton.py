@@ -32,14 +32,14 @@ class Track:
 
     times: _Array
     """(T,) [s], rising."""
-    places: _Array
+    positions: _Array
     """(T, 3) [m]"""
     rotations: _Array
     """(T, 4) Unit quaternions wxyz, each in the half of its predecessor."""
     scales: _Array
     """(T, 3) along the bone's axes."""
 
-    def at(self, time_s: float, scale: float) -> _Array:
+    def pose_at(self, time_s: float, scale: float) -> _Array:
         """(4, 4) at a time, between two of them as far as it has gone; places are multiplied by `scale`."""
         after = int(np.clip(np.searchsorted(self.times, time_s, side="right"), 1, max(len(self.times) - 1, 1)))
         before, after = after - 1, min(after, len(self.times) - 1)
@@ -50,8 +50,8 @@ class Track:
             return values[before] + u * (values[after] - values[before])
 
         pose = np.eye(4)
-        pose[:3, :3] = _matrix(_between(self.rotations[before], self.rotations[after], u)) * mixed(self.scales)
-        pose[:3, 3] = mixed(self.places) * scale
+        pose[:3, :3] = _matrix(_slerp(self.rotations[before], self.rotations[after], u)) * mixed(self.scales)
+        pose[:3, 3] = mixed(self.positions) * scale
         return pose
 
 
@@ -71,7 +71,7 @@ class Motion:
     def time_at(self, distance: float, scale: float) -> float:
         """When the root has come so far along x [m], time and again from its first round's start to its end."""
         track = self.tracks.get(root_of(self.bones))
-        way = None if track is None else np.maximum.accumulate(track.places[:, 0]) * scale
+        way = None if track is None else np.maximum.accumulate(track.positions[:, 0]) * scale
         if track is None or way is None or not way[-1] > 0.0:
             return 0.0
         return float(np.interp(max(distance % float(way[-1]), float(way[0])), way, track.times))
@@ -79,7 +79,7 @@ class Motion:
     def poses(self, time_s: float, scale: float) -> dict[int, _Array]:
         """parent_from_bone (4, 4) of each bone that moves; places are multiplied by `scale`."""
         time_s = time_s % self.length_s if self.length_s > 0.0 else 0.0
-        return {number: track.at(time_s, scale) for number, track in self.tracks.items()}
+        return {number: track.pose_at(time_s, scale) for number, track in self.tracks.items()}
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -119,7 +119,7 @@ def root_of(bones: tuple[Bone, ...]) -> int:
     return next((number for number, bone in enumerate(bones) if bone.is_joint), 0)
 
 
-def matched(skin: tuple[Bone, ...], motion: tuple[Bone, ...]) -> dict[int, int] | None:
+def match_bones(skin: tuple[Bone, ...], motion: tuple[Bone, ...]) -> dict[int, int] | None:
     """The bone of a skin for each bone of a motion: by name, else by their order where they branch alike.
 
     None: the skeletons do not fit.
@@ -134,7 +134,7 @@ def matched(skin: tuple[Bone, ...], motion: tuple[Bone, ...]) -> dict[int, int] 
     return dict(zip(moving, still, strict=True))
 
 
-def track_of(times: _Array, poses: _Array) -> Track:
+def track_from_poses(times: _Array, poses: _Array) -> Track:
     """A track through parent_from_bone (T, 4, 4), which may stretch but not shear."""
     stretches = np.maximum(np.linalg.norm(poses[:, :3, :3], axis=1), _SMALL)
     turns = np.array([_quaternion(pose[:3, :3] / stretch) for pose, stretch in zip(poses, stretches, strict=True)])
@@ -148,7 +148,7 @@ def _branches(bones: tuple[Bone, ...], joints: list[int]) -> list[int]:
     return [sum(bones[each].parent == number for each in joints) for number in joints]
 
 
-def _between(a: _Array, b: _Array, u: float) -> _Array:
+def _slerp(a: _Array, b: _Array, u: float) -> _Array:
     angle = float(np.arccos(np.clip(a @ b, -1.0, 1.0)))
     if angle < 1e-6:
         return a

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from trundle.files import read_file
 
 from .bvh import read_bvh
-from .collada_bones import metres_of, read_bones, read_motion
-from .collada_file import read_collada, read_tree
-from .load import MOST_BYTES, faults_of, joined
+from .collada.bones import metres_of, read_bones, read_motion
+from .collada.scene import read_collada, read_tree
+from .load import MAX_BYTES, faults_of, joined
 from .mesh import MeshError
 from .skeleton import Motion, Skin
 
@@ -40,7 +40,7 @@ def load_motion(path: Path) -> Motion:
 @lru_cache(maxsize=32)
 def _load_skin(path: Path, state: tuple[int, int]) -> Skin:
     del state
-    data = read_file(path, most=MOST_BYTES)
+    data = read_file(path, max_bytes=MAX_BYTES)
     root = read_tree(data)
     metres = metres_of(root)
     bones = read_bones(root, metres)
@@ -73,7 +73,7 @@ def _load_skin(path: Path, state: tuple[int, int]) -> Skin:
 @lru_cache(maxsize=32)
 def _load_motion(path: Path, state: tuple[int, int]) -> Motion:
     del state
-    data = read_file(path, most=MOST_BYTES)
+    data = read_file(path, max_bytes=MAX_BYTES)
     if path.suffix.lower() == ".bvh":
         return read_bvh(data.decode(errors="replace"))
     root = read_tree(data)

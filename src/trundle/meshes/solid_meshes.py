@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .mesh import Mesh
-from .triangulation import Point, triangles_of
+from .triangulation import Point, triangulate
 
 _SIDES = 48
 
@@ -29,7 +29,7 @@ def cone_mesh(radius: float, length: float) -> Mesh:
 def prism_mesh(outlines: Sequence[Sequence[Point]], height: float) -> Mesh:
     """Outlines in the x-y plane drawn up to a height [m]; no faces where nothing is inside."""
     corners: list[tuple[float, float, float]] = []
-    plan = triangles_of(outlines)
+    plan = triangulate(outlines)
     for a, b, c in plan:
         corners += [(*a, height), (*b, height), (*c, height), (*c, 0.0), (*b, 0.0), (*a, 0.0)]
     # Walls are where an edge belongs to one triangle only: its other side has none that runs the other way.

@@ -13,8 +13,8 @@ from .mesh import Rgba, Texture
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-_MOST_BYTES = 256 * 1024 * 1024
-_MOST_PIXELS = 64 * 1024 * 1024
+_MAX_BYTES = 256 * 1024 * 1024
+_MAX_PIXELS = 64 * 1024 * 1024
 _BOX = 4
 """Pillow's number for the filter that takes the mean."""
 
@@ -40,7 +40,7 @@ def image_file(texture: Texture) -> io.BytesIO:
     Raises:
         OSError: it is no regular file, too large, or cannot be read.
     """
-    return io.BytesIO(texture if isinstance(texture, bytes) else read_file(texture, most=_MOST_BYTES))
+    return io.BytesIO(texture if isinstance(texture, bytes) else read_file(texture, max_bytes=_MAX_BYTES))
 
 
 def why_undecoded(error: Exception) -> str:
@@ -96,5 +96,5 @@ def as_png(image: "Image") -> bytes | None:
 
 
 def _check_size(image: "Image") -> None:
-    if image.width * image.height > _MOST_PIXELS:
+    if image.width * image.height > _MAX_PIXELS:
         raise ValueError("too large")

@@ -7,7 +7,7 @@ Point: TypeAlias = tuple[float, float]
 Triangle: TypeAlias = tuple[Point, Point, Point]
 
 
-def triangles_of(outlines: Sequence[Sequence[Point]]) -> list[Triangle]:
+def triangulate(outlines: Sequence[Sequence[Point]]) -> list[Triangle]:
     """Cut the area within an odd number of outlines into triangles; what crosses itself comes out as far as it can."""
     rings = [_cleaned(outline) for outline in outlines]
     rings = [ring for ring in rings if len(ring) >= 3 and _area(ring) != 0.0]
@@ -21,7 +21,7 @@ def triangles_of(outlines: Sequence[Sequence[Point]]) -> list[Triangle]:
             for hole, below in zip(rings, depth, strict=True)
             if below == level + 1 and hole is not ring and _is_inside(hole[0], ring)
         ]
-        triangles += _ears(_bridged(ring, holes))
+        triangles += _clip_ears(_bridged(ring, holes))
     return triangles
 
 
@@ -64,34 +64,39 @@ def _is_cut(a: Point, b: Point, rings: Sequence[Sequence[Point]]) -> bool:
         for c, d in zip(ring, [*ring[1:], ring[0]], strict=True):
             if a in (c, d) or b in (c, d):
                 continue
-            if _turn(a, b, c) * _turn(a, b, d) <= 0 and _turn(c, d, a) * _turn(c, d, b) <= 0:
+            if (
+                _orientation(a, b, c) * _orientation(a, b, d) <= 0
+                and _orientation(c, d, a) * _orientation(c, d, b) <= 0
+            ):
                 return True
     return False
 
 
-def _turn(a: Point, b: Point, c: Point) -> float:
+def _orientation(a: Point, b: Point, c: Point) -> float:
     """Positive where a, b, c turn left."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-def _ears(ring: list[Point]) -> list[Triangle]:
+def _clip_ears(ring: list[Point]) -> list[Triangle]:
     left = list(ring)
     triangles: list[Triangle] = []
     while len(left) > 3:
         for i in range(len(left)):
             a, b, c = left[i - 1], left[i], left[(i + 1) % len(left)]
-            if _turn(a, b, c) > 0 and not any(_holds(a, b, c, p) for p in left if p not in (a, b, c)):
+            if _orientation(a, b, c) > 0 and not any(_contains(a, b, c, p) for p in left if p not in (a, b, c)):
                 triangles.append((a, b, c))
                 del left[i]
                 break
         else:
             # Nothing sticks out: corners in a line, or lines that cross.
-            flat = min(range(len(left)), key=lambda i: abs(_turn(left[i - 1], left[i], left[(i + 1) % len(left)])))
+            flat = min(
+                range(len(left)), key=lambda i: abs(_orientation(left[i - 1], left[i], left[(i + 1) % len(left)]))
+            )
             del left[flat]
-    if _turn(left[0], left[1], left[2]) > 0:
+    if _orientation(left[0], left[1], left[2]) > 0:
         triangles.append((left[0], left[1], left[2]))
     return triangles
 
 
-def _holds(a: Point, b: Point, c: Point, p: Point) -> bool:
-    return _turn(a, b, p) >= 0 and _turn(b, c, p) >= 0 and _turn(c, a, p) >= 0
+def _contains(a: Point, b: Point, c: Point, p: Point) -> bool:
+    return _orientation(a, b, p) >= 0 and _orientation(b, c, p) >= 0 and _orientation(c, a, p) >= 0

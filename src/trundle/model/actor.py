@@ -61,7 +61,7 @@ class AnimationState(Struct, frozen=True, kw_only=True):
     """Its name; what no animation bears stands for the first."""
     time_s: float = 0.0
     """Since the animation began."""
-    way_m: float | None = None
+    distance_m: float | None = None
     """What has been covered of the way; None: the actor stands, and the animation itself carries it along."""
     placed: bool = True
     """Whether the animation places and turns the root bone, too; else the actor's own pose does."""

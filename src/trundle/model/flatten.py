@@ -35,7 +35,7 @@ def _moved_link(link: Link, inner: Model, *, outer: Model) -> Link:
         link,
         name=f"{inner.name}::{link.name}",
         model_from_link=inner.world_from_model @ link.model_from_link,
-        start=None if link.start is None else inner.world_from_model @ link.start,
+        initial_pose=None if link.initial_pose is None else inner.world_from_model @ link.initial_pose,
         self_collide=inner.self_collide if link.self_collide is None else link.self_collide,
         enable_wind=inner.enable_wind if link.enable_wind is None else link.enable_wind,
         fixed=link.fixed or (inner.static and not outer.static),
@@ -64,6 +64,6 @@ def _turned(axis: JointAxis | None, outer_from_inner: Pose, name: str) -> JointA
     mimic = axis.mimic
     return replace(
         axis,
-        direction=outer_from_inner.direction(axis.direction),
+        direction=outer_from_inner.transform_vector(axis.direction),
         mimic=None if mimic is None else replace(mimic, joint=f"{name}::{mimic.joint}"),
     )

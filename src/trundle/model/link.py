@@ -61,7 +61,7 @@ class Link(Struct, frozen=True, kw_only=True):
     at: Source
     model_from_link: Pose = Pose()
     """At rest, as written."""
-    start: Pose | None = None
+    initial_pose: Pose | None = None
     """Where a saved state of the world has it, in the model frame; None: as written."""
     inertial: Inertial = Inertial()
     visuals: tuple[Visual, ...] = ()

@@ -62,7 +62,7 @@ class Sensor(Struct, frozen=True, kw_only=True):
     """Set for gps and navsat sensors."""
     force_torque: "ForceTorque | None" = None
     """Set for force_torque sensors, which sit on joints."""
-    touching: tuple[str, ...] | None = None
+    contact_collisions: tuple[str, ...] | None = None
     """Set for contact sensors: the collisions of the link that feel; none named stands for all."""
     instrument: "Instrument | None" = None
     """Set for sensors of other types that have settings."""

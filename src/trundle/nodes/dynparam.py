@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import yaml
 
-from trundle.atomic_write import write_whole
+from trundle.atomic_write import write_atomically
 from trundle.files import read_input
 from trundle.ros import Node, Options, ServiceError, find_reconfigurable, read_options, set_options
 from trundle.yaml_loader import BoundedLoader, load_yaml
@@ -52,7 +52,7 @@ async def _get(node: Node, args: argparse.Namespace) -> None:
 
 
 async def _dump(node: Node, args: argparse.Namespace) -> None:
-    write_whole(Path(args.file), yaml.safe_dump(await _values(node, args)))
+    write_atomically(Path(args.file), yaml.safe_dump(await _values(node, args)))
 
 
 async def _set(node: Node, args: argparse.Namespace) -> None:

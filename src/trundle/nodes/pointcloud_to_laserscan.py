@@ -153,5 +153,7 @@ def points_of(cloud: Message) -> NDArray[np.float64]:
 
 
 def _moved(points: NDArray[np.float64], target_from_cloud: Pose) -> NDArray[np.float64]:
-    axes = np.array([target_from_cloud.direction(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))])
+    axes = np.array(
+        [target_from_cloud.transform_vector(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
+    )
     return points @ axes + np.array(target_from_cloud.position)

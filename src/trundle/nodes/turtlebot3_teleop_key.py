@@ -2,7 +2,7 @@
 
 import os
 
-from trundle.control import approach
+from trundle.control import step_towards
 from trundle.ros import Node, NodeParams
 
 from .host import NodeHost
@@ -63,7 +63,7 @@ class Turtlebot3TeleopKey:
                         print(f"currently:\tlinear velocity {linear:.2f}\t angular velocity {angular:.2f} ")
                     elif key in (" ", "s"):
                         wanted = told = (0.0, 0.0)
-                    told = (approach(told[0], wanted[0], 0.005), approach(told[1], wanted[1], 0.05))
+                    told = (step_towards(told[0], wanted[0], 0.005), step_towards(told[1], wanted[1], 0.05))
                     commands.publish({"linear": {"x": told[0]}, "angular": {"z": told[1]}})
             finally:
                 commands.publish({})

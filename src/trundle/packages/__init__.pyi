@@ -1,13 +1,13 @@
 from .cmake import CMakeProgram as CMakeProgram
 from .cmake import cmake_programs as cmake_programs
+from .dependencies import run_dependencies as run_dependencies
 from .gazebo_paths import is_stand_in as is_stand_in
-from .manifest import needs as needs
 from .model_config import model_file as model_file
 from .model_config import refuse_template as refuse_template
 from .packages import ALLOW_OUTSIDE as ALLOW_OUTSIDE
 from .packages import LENIENT as LENIENT
 from .packages import Packages as Packages
-from .repositories import published_at as published_at
+from .repositories import repository_hint as repository_hint
 from .ros2 import refuse_ros2 as refuse_ros2
 from .ros2 import refuse_ros2_language as refuse_ros2_language
 from .rule_exports import exported_rules as exported_rules

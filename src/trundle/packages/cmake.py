@@ -13,9 +13,9 @@ _VARIABLE = re.compile(r"\$\{(\w+)\}")
 _ADDS = re.compile(r"(\w+_)?add_executable")
 """rosbuild, catkin_simple and CUDA have commands of their own for it."""
 _NO_SOURCES = frozenset({"EXCLUDE_FROM_ALL", "MACOSX_BUNDLE", "WIN32"})
-_MOST_FOLDERS = 20
+_MAX_FOLDERS = 20
 """A CMakeLists.txt may add itself."""
-_MOST_CHARACTERS, _LONGEST = 1_000_000, 1000
+_MAX_CHARACTERS, _LONGEST = 1_000_000, 1000
 """Length of the variables' values, together and each: a few lines of `set(A ${A}${A})` make any length."""
 
 
@@ -48,7 +48,7 @@ class _Reader:
         """Target → what its file is called instead."""
         self._variables: dict[str, list[str]] = {"PROJECT_NAME": [package], "CMAKE_PROJECT_NAME": [package]}
         self._folders = 0
-        self._budget = _MOST_CHARACTERS
+        self._budget = _MAX_CHARACTERS
 
     def read(self, folder: Path) -> None:
         """Read a folder's CMakeLists.txt; one that is not there says nothing."""
@@ -72,7 +72,7 @@ class _Reader:
                 self._variables[name] = values
             case "file", ["GLOB" | "GLOB_RECURSE", name, *patterns]:
                 self._variables[name] = patterns
-            case "add_subdirectory", [inside, *_] if self._folders < _MOST_FOLDERS:
+            case "add_subdirectory", [inside, *_] if self._folders < _MAX_FOLDERS:
                 self.read(file.parent / inside)
             case "set_target_properties", [target, *properties] if "OUTPUT_NAME" in properties[:-1]:
                 self.output_names[target] = properties[properties.index("OUTPUT_NAME") + 1]

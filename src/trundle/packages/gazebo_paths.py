@@ -11,7 +11,7 @@ from trundle.files import read_file
 
 from .package_cache import PackageCache
 from .ros_packages import RosPackages
-from .workspace import distinct_folders, nearby
+from .workspace import ancestor_folders, distinct_folders
 
 SHIPPED = Path(__file__).parent
 """Has `models`, `stand_ins` and `worlds` of our own, laid out as /usr/share/gazebo is."""
@@ -72,7 +72,7 @@ class GazeboPaths:
         if not name or name in (".", ".."):
             return None
         along = (folder / name for folder in self.model_folders)
-        near = (folder / sub / name for folder in nearby(self._start) for sub in (".", "models"))
+        near = (folder / sub / name for folder in ancestor_folders(self._start) for sub in (".", "models"))
         stand_in = SHIPPED / "stand_ins" / name
         candidates = (*along, *(each for each in near if os.path.isfile(each / "model.config")), stand_in)
         return next((each for each in candidates if os.path.isdir(each) and each not in self._cache.wide), None)
@@ -84,7 +84,7 @@ class GazeboPaths:
         tries = (folder / suffix / name for folder in self.resource_folders for suffix in _SUFFIXES)
         return next((path for path in tries if os.path.exists(path)), None)
 
-    def find_fetched(self, url: str) -> Path | None:
+    def find_downloaded(self, url: str) -> Path | None:
         """The folder that `gz fuel download` or `ign fuel download` made of a model's or world's URL."""
         try:
             parts = urlsplit(url)

@@ -15,11 +15,11 @@ class PackageCache:
 
     def __init__(self, environment: Mapping[str, str]) -> None:
         self.wide = WideFolders(environment)
-        self.walks: dict[tuple[Path, int | None], list[Folder]] = {}
+        self.crawls: dict[tuple[Path, int | None], list[Folder]] = {}
         """By where a walk starts and the most folders it looks at."""
         self.installed: list[tuple[Path, str]] | None = None
         """The system's packages; None: not looked for yet."""
-        self.passed_over: dict[Path, str] = {}
+        self.skipped: dict[Path, str] = {}
         """Folders that could not be looked into, and why."""
         self.exports: dict[Path, list[dict[str, str]]] = {}
         """Package folder → the attributes of each <gazebo_ros> that it exports."""

@@ -12,7 +12,7 @@ from trundle.files import is_stream
 from .confinement import Confinement
 from .gazebo_paths import SHIPPED, GazeboPaths, is_stand_in
 from .package_cache import PackageCache
-from .repositories import published_at
+from .repositories import repository_hint
 from .ros_packages import RosPackages
 from .stock import DESCRIPTIONS, STOCK
 from .workspace import own_confinement
@@ -24,7 +24,7 @@ LENIENT = "TRUNDLE_LENIENT"
 
 _LONGEST = 200
 """Characters of a name or URI in a sentence."""
-_MOST_NAMED = 3
+_MAX_NAMED = 3
 
 
 class Packages:
@@ -62,13 +62,15 @@ class Packages:
         found = self._ros.find(name) or DESCRIPTIONS.get(name)
         return found or (SHIPPED / "ros" / name if name in STOCK else None)
 
-    def stand_in_of(self, path: Path) -> str | None:
+    def stand_in_package(self, path: Path) -> str | None:
         """The package that a file of ours stands in for, or would if it were there; None: it is no file of ours."""
         return next((name for name, folder in DESCRIPTIONS.items() if path.is_relative_to(folder)), None)
 
     def is_absent(self, file: Path) -> bool:
         """Whether a file is not there because its package is not: what stands in for that has no such file."""
-        is_ours = self.stand_in_of(file) is not None or any(file.is_relative_to(SHIPPED / "ros" / n) for n in STOCK)
+        is_ours = self.stand_in_package(file) is not None or any(
+            file.is_relative_to(SHIPPED / "ros" / n) for n in STOCK
+        )
         return is_ours and not os.path.exists(file)
 
     @property
@@ -80,10 +82,10 @@ class Packages:
         """The workspace around the start that a package's folder is in, where ROS_PACKAGE_PATH does not name it."""
         return self._ros.workspace_of(package)
 
-    def passed_over(self) -> Mapping[Path, str]:
+    def skipped_folders(self) -> Mapping[Path, str]:
         """Folders that no package was looked for in, and why."""
         self._ros.all()
-        return self._cache.passed_over
+        return self._cache.skipped
 
     def ros_packages(self) -> Mapping[str, Path]:
         """Every ROS package there is, by name."""
@@ -93,12 +95,12 @@ class Packages:
         """One sentence for a package that is not there."""
         looked = ", ".join(str(folder) for folder in self._ros.searched())
         where = f"looked below {looked}" if looked else "ROS_PACKAGE_PATH is not set"
-        passed_over = [f"{folder} ({why})" for folder, why in self._cache.passed_over.items()]
+        passed_over = [f"{folder} ({why})" for folder, why in self._cache.skipped.items()]
         if passed_over:
-            rest = f" and {len(passed_over) - _MOST_NAMED} more" if len(passed_over) > _MOST_NAMED else ""
-            where += f", but not in {', '.join(passed_over[:_MOST_NAMED])}{rest}"
+            rest = f" and {len(passed_over) - _MAX_NAMED} more" if len(passed_over) > _MAX_NAMED else ""
+            where += f", but not in {', '.join(passed_over[:_MAX_NAMED])}{rest}"
         where += "; put the folder that holds it on ROS_PACKAGE_PATH"
-        return f"no package {_shown(name)!r}; {where}{published_at(name)}"
+        return f"no package {_shown(name)!r}; {where}{repository_hint(name)}"
 
     def find_model(self, name: str) -> Path:
         """The folder of `model://name`.
@@ -195,7 +197,7 @@ class Packages:
             scheme, rest = "file", uri
         match scheme:
             case "http" | "https":
-                return self._fetched(uri, at)
+                return self._downloaded(uri, at)
             case "package" | "model":
                 return self._in_package_or_model(scheme, rest, uri, at)
             case "file" if rest.startswith("/"):
@@ -218,8 +220,8 @@ class Packages:
         looked = self.why_not_found(name) if scheme == "package" else no_model
         raise DescriptionError(at, f"{_shown(uri)}: {looked}")
 
-    def _fetched(self, url: str, at: Source) -> tuple[Path, Path]:
-        folder = self._gazebo.find_fetched(url)
+    def _downloaded(self, url: str, at: Source) -> tuple[Path, Path]:
+        folder = self._gazebo.find_downloaded(url)
         if folder is not None:
             return folder, folder
         local = unquote(url.rstrip("/").rpartition("/")[2]).lower().replace(" ", "_")

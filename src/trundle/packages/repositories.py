@@ -47,7 +47,7 @@ _REPOSITORIES = {
 """On GitHub: owner/name → packages."""
 
 
-def published_at(package: str) -> str:
+def repository_hint(package: str) -> str:
     """Continue a sentence about a package that is not there: '; it is published at …', or nothing."""
     for repository, packages in _REPOSITORIES.items():
         if package in packages.split():

@@ -8,13 +8,13 @@ from pathlib import Path
 
 from trundle.files import read_text
 
+from .crawl import MANIFESTS, Crawl
 from .package_cache import Folder, PackageCache
-from .walk import MANIFESTS, Walk
 from .workspace import PARTS, distinct_folders, own_package, workspaces
 
-_MOST_GUESSED = 5000
+_MAX_GUESSED = 5000
 """Folders looked at where nobody said that packages are: a home folder has more than one wants to wait for."""
-_MOST_RIGHT_BELOW = 500
+_MAX_RIGHT_BELOW = 500
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _NAME = re.compile(r"<name>\s*([\w.-]+)\s*</name>")
 SHIPPED = Path(__file__).parent / "ros"
@@ -58,7 +58,7 @@ class RosPackages:
             for root in self.roots:
                 self._crawl(root)
             for root in self._guessed:
-                self._crawl(root, most=_MOST_GUESSED)
+                self._crawl(root, most=_MAX_GUESSED)
             self._crawl(SHIPPED)
             if os.path.isdir(_CHECKOUT_EXAMPLES / "smartcar"):
                 self._crawl(_CHECKOUT_EXAMPLES)
@@ -86,27 +86,27 @@ class RosPackages:
 
         None of them is listed in `all`: only who asks for one by its name means it.
         """
-        walk = Walk(self._start, most=_MOST_RIGHT_BELOW, deepest=1)
+        walk = Crawl(self._start, max_folders=_MAX_RIGHT_BELOW, deepest=1)
         found = [(folder, name) for folder, name in self._packages_below(walk) if name is not None]
         return {folder.name: folder for folder, _ in found} | {name: folder for folder, name in found}
 
     def _crawl(self, root: Path, *, most: int | None = None) -> None:
         assert self._by_name is not None
-        walks = self._cache.walks
+        walks = self._cache.crawls
         if (root, most) not in walks:
-            walks[root, most] = list(self._packages_below(Walk(root, most=most)))
+            walks[root, most] = list(self._packages_below(Crawl(root, max_folders=most)))
         for folder, name in walks[root, most]:
             if name is not None:
                 self._by_name.setdefault(name, folder)
             self._folders.setdefault(folder.name, folder)
 
-    def _packages_below(self, walk: Walk) -> Iterator[Folder]:
+    def _packages_below(self, walk: Crawl) -> Iterator[Folder]:
         for folder, names in walk:
             has_manifest = not names.isdisjoint(MANIFESTS)
             if (has_manifest or not names.isdisjoint(PARTS)) and folder not in self._cache.wide:
                 yield folder, _package_name(folder) if has_manifest else None
         if walk.most is None:  # a folder to hold packages, by what the user says
-            self._cache.passed_over.update(walk.passed_over)
+            self._cache.skipped.update(walk.skipped)
 
 
 def _real(folder: Path) -> Path:

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from .confinement import Confinement, WideFolders
-from .walk import MANIFESTS, Walk
+from .crawl import MANIFESTS, Crawl
 
 PARTS = frozenset({"launch", "urdf", "xacro", "meshes", "models", "worlds", "msg"})
 """A published tutorial often has no package.xml: a folder with one of these in it is a package too."""
@@ -15,12 +15,12 @@ _SPACES = {"src": ("src", "devel/share", "install"), "devel": ("devel/share", "s
 """The folders of a catkin or colcon workspace, by the one that the file is in."""
 _DEEPEST = 3
 """Below the `src` of a workspace, a package in a group in a repository."""
-_MOST_LOOKED_AT = 500
+_MAX_LOOKED_AT = 500
 
 
 def own_package(start: Path, wide: WideFolders) -> Path | None:
     """The innermost package or model folder that a file or folder is in; of one without a manifest too."""
-    for folder in _above(start):
+    for folder in _with_parents(start):
         if any(os.path.exists(folder / name) for name in (*MANIFESTS, "model.config", *PARTS)) and folder not in wide:
             return folder
     return None
@@ -31,7 +31,7 @@ def own_confinement(start: Path, wide: WideFolders) -> Confinement:
 
     Without a manifest or model.config that is its own folder, and those such as `meshes` of the package as published.
     """
-    folders = list(_above(start)) or [start.parent]
+    folders = list(_with_parents(start)) or [start.parent]
     for folder in folders:
         if any(os.path.isfile(folder / name) for name in (*MANIFESTS, "model.config")) and folder not in wide:
             return Confinement([folder], wide=wide)
@@ -42,7 +42,7 @@ def own_confinement(start: Path, wide: WideFolders) -> Confinement:
 
 def workspaces(start: Path) -> Iterator[Path]:
     """The package folders of the workspace that a file or folder is in, those of its own kind first."""
-    for folder in _above(start):
+    for folder in _with_parents(start):
         if _has_manifest(folder):
             continue  # its `src` holds programs
         if folder.name in _SPACES and not _has_manifest(folder.parent):
@@ -60,7 +60,7 @@ def _has_manifest(folder: Path) -> bool:
 
 
 def _holds_packages(folder: Path) -> bool:
-    walk = Walk(folder, most=_MOST_LOOKED_AT, deepest=_DEEPEST)
+    walk = Crawl(folder, max_folders=_MAX_LOOKED_AT, deepest=_DEEPEST)
     return any(not names.isdisjoint(MANIFESTS) for _, names in walk)
 
 
@@ -90,12 +90,12 @@ def program_folders(package: str, folder: Path, environment: Mapping[str, str]) 
     return [home for home in dict.fromkeys(homes) if os.path.isdir(home)]
 
 
-def nearby(start: Path, *, levels: int = 4) -> list[Path]:
+def ancestor_folders(start: Path, *, levels: int = 4) -> list[Path]:
     """The folder of a file and those above it, as far as its neighbours may reasonably lie."""
-    return list(_above(start))[:levels]
+    return list(_with_parents(start))[:levels]
 
 
-def _above(start: Path) -> Iterator[Path]:
+def _with_parents(start: Path) -> Iterator[Path]:
     """A folder, or a file's, and every folder above but the root of the disk."""
     folder = start if os.path.isdir(start) else start.parent
     return (each for each in (folder, *folder.parents) if each.parent != each)

@@ -1,7 +1,7 @@
 from .compile.compiled_world import CompiledWorld as CompiledWorld
 from .compile.compiler import compile_world as compile_world
 from .compile.mjcf import compile_mjcf as compile_mjcf
-from .compile.wheels import name_wheels as name_wheels
+from .compile.wheels import report_wheels as report_wheels
 from .egl_renderer import EglRenderer as EglRenderer
 from .step.contact import Contact as Contact
 from .step.engine import Engine as Engine

@@ -11,7 +11,7 @@ from trundle.diagnostics import UsageError
 from trundle.meshes import Mesh
 from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
 from trundle.render import Intrinsics, Picture, Scene, SceneLight, Shape, size_of
-from trundle.spatial import Pose, upright
+from trundle.spatial import Pose, rotation_from_z
 
 _NOWHERE = (0.0, 0.0, -1e6)
 """Where a body without a pose is put [m]."""
@@ -39,7 +39,7 @@ class EglRenderer:
         """
         self._context = _make_context()
         self._background = np.array([round(255 * share) for share in scene.background[:3]], dtype=np.uint8)
-        self._model = model_of(scene)
+        self._model = model_from_scene(scene)
         self._data = mujoco.MjData(self._model)
         names = [self._model.geom(i).name for i in range(self._model.ngeom)]
         self._shape_of_geom = np.array([*(int(name[1:]) for name in names), -1], dtype=np.int32)
@@ -63,7 +63,7 @@ class EglRenderer:
         mujoco.mj_camlight(self._model, self._data)
 
     def set_vertices(self, shape: int, vertices: NDArray[np.float32]) -> None:
-        """See `Renderer.reshape`; the light falls on it as it did before."""
+        """See `Renderer.set_vertices`; the light falls on it as it did before."""
         mesh = int(self._model.geom(f"s{shape}").dataid[0])
         first, count = int(self._model.mesh_vertadr[mesh]), int(self._model.mesh_vertnum[mesh])
         turn = np.empty(9)
@@ -92,8 +92,8 @@ class EglRenderer:
         near = intrinsics.near_m
         for camera in self._drawn.camera:
             camera.pos = world_from_camera.position
-            camera.forward = world_from_camera.direction((1.0, 0.0, 0.0))
-            camera.up = world_from_camera.direction((0.0, 0.0, 1.0))
+            camera.forward = world_from_camera.transform_vector((1.0, 0.0, 0.0))
+            camera.up = world_from_camera.transform_vector((0.0, 0.0, 1.0))
             camera.frustum_center, camera.frustum_width = 0.0, near * width / 2.0 / intrinsics.focal_px
             camera.frustum_top = near * height / 2.0 / intrinsics.focal_px
             camera.frustum_bottom = -camera.frustum_top
@@ -132,7 +132,7 @@ class EglRenderer:
         return np.ascontiguousarray(geoms[words][::-1])
 
 
-def model_of(scene: Scene) -> mujoco.MjModel:
+def model_from_scene(scene: Scene) -> mujoco.MjModel:
     """A scene as a model that is only looked at: each body, `b0` and so on, is where its pose puts it."""
     spec = mujoco.MjSpec()
     spec.visual.quality.offsamples = 0
@@ -199,7 +199,7 @@ def _add_shape(spec: mujoco.MjSpec, body: mujoco.MjsBody, shape: Shape, name: st
             kind, size = kinds.mjGEOM_ELLIPSOID, radii
         case Plane(normal, (width, height)):
             kind, size = kinds.mjGEOM_PLANE, (width / 2, height / 2, 1.0)
-            pose = pose @ Pose(quaternion=upright(normal))
+            pose = pose @ Pose(quaternion=rotation_from_z(normal))
         case Mesh(vertices, faces):
             kind = kinds.mjGEOM_MESH
             mesh = meshes.get(id(shape.geometry), "")

@@ -12,26 +12,26 @@ from trundle.meshes import Mesh, MeshError, load_mesh
 from trundle.model import Collision, MeshFile
 
 from .compile.convex_geoms import add_hull, add_hulls
-from .compile.kinematic_tree import Tree
+from .compile.kinematic_tree import KinematicTree
 from .compile.shapes import CollidesWith, thick_pieces
 from .convex.hulls import hull_of
-from .convex.mesh_decomposition import FULL, CutMesh, Decomposition, MeshRequest
-from .convex.pieces import split
+from .convex.mesh_decomposition import FULL, DecomposedMesh, MeshRequest, WorldDecomposition
+from .convex.pieces import split_mesh
 
 
-def cut_meshes(tree: Tree) -> Decomposition:
+def cut_meshes(tree: KinematicTree) -> WorldDecomposition:
     """Cut the meshes of collisions, in file order; what cannot be read is named where it is added."""
 
     def requests() -> Iterator[MeshRequest]:
-        for place in tree.places.values():
+        for place in tree.links.values():
             for collision in place.link.collisions:
                 with suppress(MeshError):
                     mesh = _mesh_of(collision)
                     if mesh is not None:
                         yield (*_arrays(mesh), place.name in tree.immobile)
 
-    decomposition = Decomposition()
-    decomposition.cut_ahead(requests())
+    decomposition = WorldDecomposition()
+    decomposition.decompose_all(requests())
     return decomposition
 
 
@@ -43,7 +43,7 @@ def add_mesh(
     report: Diagnostics,
     *,
     fixed: bool,
-    decomposition: Decomposition | None,
+    decomposition: WorldDecomposition | None,
 ) -> list[tuple[mujoco.MjsGeom, CollidesWith]]:
     """Add the mesh of a collision to a body; see `add_shape`, whose arguments these are."""
     try:
@@ -54,7 +54,7 @@ def add_mesh(
     if mesh is None:
         return []
     if decomposition is None:
-        if not fixed and split(*_arrays(mesh), fixed=False).hollow:
+        if not fixed and split_mesh(*_arrays(mesh), fixed=False).concave:
             what = f"a mesh of {len(mesh.faces)} triangles that is not convex; how physics cuts it was not"
             report.info(collision.at, f"collision {collision.name!r}: {what} looked at (check --collisions)")
         (corners,) = thick_pieces([mesh.vertices.astype(float)], collision, report)
@@ -86,17 +86,17 @@ def _add_pieces(
     return [(hull, CollidesWith.PLANES), *((geom, CollidesWith.STANDING | CollidesWith.MOVING) for geom in geoms)]
 
 
-def _report_cut(cut: CutMesh, mesh: Mesh, collision: Collision, report: Diagnostics) -> None:
+def _report_cut(cut: DecomposedMesh, mesh: Mesh, collision: Collision, report: Diagnostics) -> None:
     """Say what stands for a hollow mesh, and how well."""
-    misfits = cut.pieces.misfits
+    misfits = cut.pieces.errors
     if not misfits:
         return
-    worst = max(misfits, key=lambda misfit: misfit.away)
+    worst = max(misfits, key=lambda misfit: misfit.distance)
     is_filled = any(misfit.is_filled for misfit in misfits)
     how = "fills it" if is_filled else f"takes it for {len(cut.pieces.corners)} convex pieces"
-    times = "" if worst.times is None else f"{round(worst.times, 2):g} times its volume, "
+    times = "" if worst.volume_ratio is None else f"{round(worst.volume_ratio, 2):g} times its volume, "
     what = f"a hollow mesh of {len(mesh.faces)} triangles; physics {how}"
-    said = f"collision {collision.name!r}: {what}: {times}a surface up to {worst.away:.2g} m away"
+    said = f"collision {collision.name!r}: {what}: {times}a surface up to {worst.distance:.2g} m away"
     if cut.is_failed:
         report.warn(collision.at, f"{said}; it could not be cut into convex pieces")
     elif cut.is_coarse:

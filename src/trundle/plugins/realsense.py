@@ -79,7 +79,7 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
         images.publish(reading, lambda: _as_bytes(image(reading)))
         infos.publish(reading, lambda: calibration)
 
-    sensor.listen(publish, wanted=lambda: any(outlet.wanted() for outlet in outlets))
+    sensor.listen(publish, enabled=lambda: any(outlet.wanted() for outlet in outlets))
     if stream == "depth" and tag.node.flag("pointCloud", default=False, report=report):
         _publish_points(sensor, node, tag, report, frame)
 
@@ -108,7 +108,7 @@ def _publish_points(sensor: CameraSensor, node: Node, tag: PluginTag, report: Di
     def publish(reading: CameraReading) -> None:
         points.publish(reading, lambda: cloud(cut(reading)))
 
-    sensor.listen(publish, wanted=points.wanted)
+    sensor.listen(publish, enabled=points.wanted)
 
 
 def _depth_maker(tag: PluginTag, report: Diagnostics) -> Callable[[CameraReading], dict[str, object]]:

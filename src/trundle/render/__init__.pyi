@@ -1,6 +1,6 @@
 from .bounds import corners_of as corners_of
 from .bounds import outline_of as outline_of
-from .from_world import scene_of as scene_of
+from .from_world import scene_from_world as scene_from_world
 from .native import NativeRenderer as NativeRenderer
 from .pixels import add_colour_noise as add_colour_noise
 from .pixels import add_depth_noise as add_depth_noise
@@ -15,5 +15,5 @@ from .scene import SceneLight as SceneLight
 from .scene import SceneSkin as SceneSkin
 from .scene import Shape as Shape
 from .scene import ShapeGeometry as ShapeGeometry
-from .skinned_actors import move_skins as move_skins
 from .skinned_actors import unsupported_reason as unsupported_reason
+from .skinned_actors import update_skins as update_skins

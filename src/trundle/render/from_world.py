@@ -27,13 +27,13 @@ from .scene import Scene, SceneLight, SceneSkin, Shape, ShapeGeometry
 
 _COLLISION: Rgba = (1.0, 0.55, 0.1, 0.45)
 _SKY: tuple[Rgba, Rgba] = ((0.86, 0.91, 0.96, 1.0), (0.30, 0.52, 0.82, 1.0))
-_MOST_CORNERS = 1000
+_MAX_CORNERS = 1000
 """Of a polyline: cutting it up takes time by their cube."""
 _BARELY_THERE = 0.02
 """Opacity below which a visual is not drawn at all."""
 
 
-def scene_of(world: World, report: Diagnostics, *, collisions: bool = False, mask: int = EVERY_BIT) -> Scene:
+def scene_from_world(world: World, report: Diagnostics, *, collisions: bool = False, mask: int = EVERY_BIT) -> Scene:
     """Make a scene whose bodies are the links of all models, in file order: that of `Snapshot.poses`.
 
     Args:
@@ -54,9 +54,9 @@ def scene_of(world: World, report: Diagnostics, *, collisions: bool = False, mas
             actor = actors.get(link.name)
             moving = None
             if actor is not None and actor.name == model.name:
-                from .skinned_actors import skin_shapes  # these read COLLADA's bones, which most worlds have none of
+                from .skinned_actors import skinned_shapes  # these read COLLADA's bones, which most worlds have none of
 
-                moving = skin_shapes(actor, len(bodies), len(shapes))
+                moving = skinned_shapes(actor, len(bodies), len(shapes))
             if moving is None:
                 shapes += _shapes(items, len(bodies), report)
             else:
@@ -88,7 +88,7 @@ def _light(light: Light, body: int | None, world: World) -> SceneLight:
         kind=light.type,
         body=body,
         position=light.world_from_light.position,
-        direction=light.world_from_light.direction(light.direction),
+        direction=light.world_from_light.transform_vector(light.direction),
         diffuse=dimmed(light.diffuse),
         specular=dimmed(light.specular),
         attenuation=(1.0, 0.0, 0.0) if light.type == "directional" else (light.constant, light.linear, light.quadratic),
@@ -115,13 +115,13 @@ def _shapes(items: tuple[Visual, ...] | tuple[Collision, ...], body: int, report
                 laser_retro=item.laser_retro,
             )
             continue
-        for shape in _painted(geometry, item, body):
+        for shape in _textured_shapes(geometry, item, body):
             r, g, b, a = shape.rgba
             if (opacity := a * (1.0 - item.transparency)) > _BARELY_THERE:
                 yield replace(shape, rgba=(r, g, b, opacity))
 
 
-def _painted(geometry: ShapeGeometry, visual: Visual, body: int) -> Iterator[Shape]:
+def _textured_shapes(geometry: ShapeGeometry, visual: Visual, body: int) -> Iterator[Shape]:
     """A shape as its material says; a mesh that the description does not paint comes in the colours of its file."""
     material = visual.material
     shape = Shape(
@@ -141,7 +141,7 @@ def _painted(geometry: ShapeGeometry, visual: Visual, body: int) -> Iterator[Sha
     if not (isinstance(geometry, Mesh) and material is GREY):
         yield shape
         return
-    for piece in geometry.by_look():
+    for piece in geometry.split_by_material():
         texture = piece.parts[0].texture if piece.parts and piece.uv is not None else None
         rgba = piece.parts[0].tint if texture is not None else piece.rgba
         yield replace(
@@ -152,8 +152,8 @@ def _painted(geometry: ShapeGeometry, visual: Visual, body: int) -> Iterator[Sha
 def _prism(
     outlines: tuple[tuple[tuple[float, float], ...], ...], height: float, at: Source, report: Diagnostics
 ) -> Mesh | None:
-    if sum(map(len, outlines)) > _MOST_CORNERS:
-        report.warn(at, f"a polyline of more than {_MOST_CORNERS} corners; it is not drawn")
+    if sum(map(len, outlines)) > _MAX_CORNERS:
+        report.warn(at, f"a polyline of more than {_MAX_CORNERS} corners; it is not drawn")
         return None
     prism = prism_mesh(outlines, height)
     if len(prism.faces) == 0:
@@ -185,12 +185,12 @@ def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeome
     except MeshError as error:
         report.warn(at, f"{error}; the shape is left out")
         return None
-    empty = mesh.faces_without_area()
+    empty = mesh.degenerate_face_count()
     if 2 * empty > len(mesh.faces):
         report.warn(
             at, f"{path.name}: {empty} of its {len(mesh.faces)} triangles have no area; only the others are drawn"
         )
-    for name in sorted({part.lost_texture for part in mesh.parts if part.lost_texture is not None}):
+    for name in sorted({part.missing_texture for part in mesh.parts if part.missing_texture is not None}):
         report.info(
             Source(str(path)), f"its texture {name!r} is nowhere in the model's folder; a plain colour is drawn"
         )

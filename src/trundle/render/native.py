@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from trundle.built import refuse_stale
 from trundle.meshes import Mesh, Texture
 from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, Plane, Sphere
-from trundle.spatial import Pose, upright
+from trundle.spatial import Pose, rotation_from_z
 
 from . import _native
 from .renderer import Intrinsics, Picture, size_of
@@ -38,7 +38,7 @@ Key = TypeVar("Key")
 Item = TypeVar("Item")
 
 
-class _Numbered(Generic[Key, Item]):
+class _Registry(Generic[Key, Item]):
     """Things that several shapes share, each made once."""
 
     def __init__(self) -> None:
@@ -62,8 +62,8 @@ class NativeRenderer:
             scene: what there is to see.
             threads: that share the rows of all pictures of a call, at most 64; they are the same with any number.
         """
-        meshes = _Numbered[int, _native.Mesh]()
-        textures = _Numbered[Texture, _native.Texture]()
+        meshes = _Registry[int, _native.Mesh]()
+        textures = _Registry[Texture, _native.Texture]()
 
         def look(shape: Shape) -> _native.Look:
             image = None if shape.texture is None else load_texture(shape.texture)
@@ -89,7 +89,7 @@ class NativeRenderer:
 
         shapes = [native(shape) for shape in scene.shapes]
         self._meshes = {
-            number: (meshes.number(id(shape.geometry), _never), shape.geometry)
+            number: (meshes.number(id(shape.geometry), _no_mesh), shape.geometry)
             for number, shape in enumerate(scene.shapes)
             if isinstance(shape.geometry, Mesh)
         }
@@ -113,7 +113,7 @@ class NativeRenderer:
         self._renderer.update(np.ascontiguousarray(poses, dtype=np.float64))
 
     def set_vertices(self, shape: int, vertices: NDArray[np.float32]) -> None:
-        """See `Renderer.reshape`."""
+        """See `Renderer.set_vertices`."""
         number, mesh = self._meshes[shape]
         self._renderer.reshape(number, _native_mesh(mesh.with_vertices(vertices)))
 
@@ -166,7 +166,7 @@ class NativeRenderer:
         return ranges, shapes
 
 
-def _never() -> _native.Mesh:
+def _no_mesh() -> _native.Mesh:
     raise AssertionError("every mesh of the scene has its number")
 
 
@@ -211,18 +211,18 @@ def _native_shape(shape: Shape, mesh: int, look: _native.Look) -> _native.Shape:
     size = (0.0, 0.0, 0.0)
     match shape.geometry:
         case Box((x, y, z)):
-            kind, size = _native.Kind.BOX, (_thick(x) / 2, _thick(y) / 2, _thick(z) / 2)
+            kind, size = _native.Kind.BOX, (_at_least_thin(x) / 2, _at_least_thin(y) / 2, _at_least_thin(z) / 2)
         case Cylinder(radius, length):
-            kind, size = _native.Kind.CYLINDER, (_thick(radius), _thick(length) / 2, 0.0)
+            kind, size = _native.Kind.CYLINDER, (_at_least_thin(radius), _at_least_thin(length) / 2, 0.0)
         case Capsule(radius, length):
-            kind, size = _native.Kind.CAPSULE, (_thick(radius), _thick(length) / 2, 0.0)
+            kind, size = _native.Kind.CAPSULE, (_at_least_thin(radius), _at_least_thin(length) / 2, 0.0)
         case Sphere(radius):
-            kind, size = _native.Kind.SPHERE, (_thick(radius), 0.0, 0.0)
+            kind, size = _native.Kind.SPHERE, (_at_least_thin(radius), 0.0, 0.0)
         case Ellipsoid((x, y, z)):
-            kind, size = _native.Kind.ELLIPSOID, (_thick(x), _thick(y), _thick(z))
+            kind, size = _native.Kind.ELLIPSOID, (_at_least_thin(x), _at_least_thin(y), _at_least_thin(z))
         case Plane(normal, (width, height)):
             kind, size = _native.Kind.PLANE, (width / 2, height / 2, 0.0)
-            pose = pose @ Pose(quaternion=upright(normal))
+            pose = pose @ Pose(quaternion=rotation_from_z(normal))
         case Mesh():
             kind = _native.Kind.MESH
     return _native.Shape(
@@ -236,5 +236,5 @@ def _native_shape(shape: Shape, mesh: int, look: _native.Look) -> _native.Shape:
     )
 
 
-def _thick(length: float) -> float:
+def _at_least_thin(length: float) -> float:
     return max(length, _THINNEST)

@@ -6,7 +6,7 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from trundle.meshes import MeshError, Motion, Skin, load_motion, load_skin, matched, root_of
+from trundle.meshes import MeshError, Motion, Skin, load_motion, load_skin, match_bones, root_of
 from trundle.model import Actor, Animation, AnimationState
 
 from .renderer import Renderer
@@ -20,14 +20,14 @@ def unsupported_reason(actor: Actor) -> str | None:
     try:
         skin = load_skin(actor.skin.path)
         for animation in actor.animations:
-            if animation.path is not None and matched(skin.bones, load_motion(animation.path).bones) is None:
+            if animation.path is not None and match_bones(skin.bones, load_motion(animation.path).bones) is None:
                 return f"animation {animation.name!r} is of another skeleton"
     except MeshError as error:
         return str(error)
     return None
 
 
-def skin_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], SceneSkin] | None:
+def skinned_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], SceneSkin] | None:
     """The shapes of an actor's skin as it begins, and how they go on; None where its bones do not move.
 
     Args:
@@ -44,7 +44,7 @@ def skin_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], Scene
     start = mesh.with_vertices(puppet.vertices(AnimationState()))
     shapes: list[Shape] = []
     rows: list[NDArray[np.intp]] = []
-    for piece, same in zip(start.by_look(), numbered.by_look(), strict=True):
+    for piece, same in zip(start.split_by_material(), numbered.split_by_material(), strict=True):
         texture = piece.parts[0].texture if piece.parts and piece.uv is not None else None
         rgba = piece.parts[0].tint if texture is not None else piece.rgba
         shape = Shape(name=f"{actor.name}_skin", body=body, geometry=piece, texture=texture)
@@ -53,10 +53,10 @@ def skin_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], Scene
     return shapes, SceneSkin(actor=actor.name, first=first, rows=tuple(rows), vertices=puppet.vertices)
 
 
-def move_skins(renderer: Renderer, scene: Scene, moment_of: Callable[[str], AnimationState]) -> None:
+def update_skins(renderer: Renderer, scene: Scene, animation_state: Callable[[str], AnimationState]) -> None:
     """Have the skins of a scene drawn as they are at their actors' moments."""
     for skin in scene.skins:
-        vertices = skin.vertices(moment_of(skin.actor))
+        vertices = skin.vertices(animation_state(skin.actor))
         for number, rows in enumerate(skin.rows):
             renderer.set_vertices(skin.first + number, vertices[rows])
 
@@ -74,28 +74,28 @@ class SkinnedActor:
             if animation.path is None:
                 continue
             motion = load_motion(animation.path)
-            bones = matched(skin.bones, motion.bones)
+            bones = match_bones(skin.bones, motion.bones)
             if bones is not None:
                 self._animations[animation.name] = (animation, motion, bones)
 
-    def vertices(self, moment: AnimationState) -> NDArray[np.float32]:
+    def vertices(self, state: AnimationState) -> NDArray[np.float32]:
         """(N, 3) where the skin's vertices are, in the actor's frame [m].
 
         As in Gazebo: the root bone of an actor on its way stays over the way, and with <interpolate_x> the animation
         goes on with what has been covered.
         """
-        chosen = self._animations.get(moment.animation) or next(iter(self._animations.values()), None)
+        chosen = self._animations.get(state.animation) or next(iter(self._animations.values()), None)
         if chosen is None:
             return self.skin.vertices({}) * np.float32(self._scale)
         animation, motion, bones = chosen
         scale = animation.scale / (self._scale or 1.0)
-        time_s = moment.time_s
-        if animation.interpolate_x and moment.way_m and motion.length_s > 0.0:
-            time_s = motion.time_at(moment.way_m, animation.scale)
+        time_s = state.time_s
+        if animation.interpolate_x and state.distance_m and motion.length_s > 0.0:
+            time_s = motion.time_at(state.distance_m, animation.scale)
         poses = {bones[number]: pose for number, pose in motion.poses(time_s, scale).items() if number in bones}
         if self._root in poses:
-            if not moment.placed:
+            if not state.placed:
                 poses[self._root] = np.eye(4)
-            elif moment.way_m is not None:
+            elif state.distance_m is not None:
                 poses[self._root][0, 3] = 0.0
         return self.skin.vertices(poses) * np.float32(self._scale)

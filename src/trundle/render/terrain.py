@@ -13,7 +13,7 @@ from trundle.spatial import Vector3
 
 from .textures import load_texture
 
-_MOST_SAMPLES = 257
+_MAX_SAMPLES = 257
 """Of each side, as terrain is drawn."""
 _SIDE_PX = 1024
 """Of the image that lies once over all of it."""
@@ -23,7 +23,7 @@ def painted_terrain(terrain: Heightmap, at: Source, report: Diagnostics) -> Mesh
     """Terrain with its layers as one image; None, and said so, where it cannot be drawn."""
     assert terrain.path is not None
     try:
-        heights = read_heights(terrain.path, most=_MOST_SAMPLES)
+        heights = read_heights(terrain.path, most=_MAX_SAMPLES)
     except MeshError as error:
         report.warn(at, f"heightmap {terrain.uri!r}: {error}; it is not drawn")
         return None

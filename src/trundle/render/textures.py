@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from trundle.meshes import Texture, image_file
 
-_MOST_PIXELS = 64 * 1024 * 1024
+_MAX_PIXELS = 64 * 1024 * 1024
 _LARGEST = 4096
 """Of each side; a larger image is reduced."""
 
@@ -19,7 +19,7 @@ def load_texture(texture: Texture) -> NDArray[np.uint8] | None:
 
     try:
         with Image.open(image_file(texture)) as image:
-            if image.width * image.height > _MOST_PIXELS:
+            if image.width * image.height > _MAX_PIXELS:
                 return None
             if max(image.size) > _LARGEST:
                 image.thumbnail((_LARGEST, _LARGEST))

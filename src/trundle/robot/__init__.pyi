@@ -2,7 +2,6 @@ from .kinematics import parent_from_child as parent_from_child
 from .kinematics import root_from_links as root_from_links
 from .read import read_robot as read_robot
 from .robot import JointLimit as JointLimit
-from .robot import Mimic as Mimic
 from .robot import Robot as Robot
 from .robot import RobotBox as RobotBox
 from .robot import RobotCylinder as RobotCylinder
@@ -12,5 +11,6 @@ from .robot import RobotJoint as RobotJoint
 from .robot import RobotJointType as RobotJointType
 from .robot import RobotLink as RobotLink
 from .robot import RobotMesh as RobotMesh
+from .robot import RobotMimic as RobotMimic
 from .robot import RobotShape as RobotShape
 from .robot import RobotSphere as RobotSphere

@@ -5,7 +5,7 @@ from typing import cast
 from trundle.diagnostics import Diagnostics
 from trundle.xmlnode import XmlNode
 
-from .materials import Look, Materials
+from .materials import Materials, RobotMaterial
 from .robot import RobotBox, RobotCylinder, RobotGeometry, RobotInertial, RobotLink, RobotMesh, RobotShape, RobotSphere
 from .values import read_number, read_origin, read_vector
 
@@ -67,7 +67,7 @@ def _read_shape(node: XmlNode, materials: Materials | None, report: Diagnostics)
     if geometry is None:
         return None
     material = node.find("material")
-    look = Look() if material is None or materials is None else materials.look(material)
+    look = RobotMaterial() if material is None or materials is None else materials.find(material)
     shape = RobotShape(
         name=node.attribute("name") or "",
         geometry=geometry,

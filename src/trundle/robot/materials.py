@@ -11,7 +11,7 @@ from .robot import Rgba
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class RobotMaterial:
     """What a material says."""
 
     rgba: Rgba | None = None
@@ -26,32 +26,32 @@ class Materials:
     def __init__(self, nodes: Iterable[XmlNode], report: Diagnostics) -> None:
         """Read those of the robot."""
         self._report = report
-        self._looks: dict[str, Look] = {}
+        self._materials: dict[str, RobotMaterial] = {}
         for node in nodes:
             name = node.attribute("name")
             if name is None:
                 report.warn(node.at, "<material> without a name can be used nowhere; it is left out")
                 node.mark_all_read()
                 continue
-            if name in self._looks:
+            if name in self._materials:
                 raise DescriptionError(node.at, f"a second material {name!r}")
-            self._looks[name] = self._read(node)
+            self._materials[name] = self._read(node)
 
-    def look(self, node: XmlNode) -> Look:
+    def find(self, node: XmlNode) -> RobotMaterial:
         """How a visual with this <material> looks."""
         name, look = node.attribute("name") or "", self._read(node)
-        if look == Look():
-            if name not in self._looks:
+        if look == RobotMaterial():
+            if name not in self._materials:
                 self._report.warn(node.at, f"no material {name!r}; it has no colour")
-            return self._looks.get(name, look)
+            return self._materials.get(name, look)
         if name:
-            self._looks[name] = look
+            self._materials[name] = look
         return look
 
-    def _read(self, node: XmlNode) -> Look:
+    def _read(self, node: XmlNode) -> RobotMaterial:
         texture, colour = node.find("texture"), node.find("color")
         image = "" if texture is None else texture.attribute("filename") or ""
-        return Look(None if colour is None else self._colour(colour), image)
+        return RobotMaterial(None if colour is None else self._colour(colour), image)
 
     def _colour(self, node: XmlNode) -> Rgba | None:
         text = node.attribute("rgba")

@@ -8,7 +8,7 @@ from trundle.xmlnode import XmlNode
 
 from .link import read_link
 from .materials import Materials
-from .robot import JointLimit, Mimic, Robot, RobotJoint, RobotJointType, RobotLink
+from .robot import JointLimit, Robot, RobotJoint, RobotJointType, RobotLink, RobotMimic
 from .values import read_optional, read_origin, read_vector
 
 _TYPES: tuple[str, ...] = get_args(RobotJointType)
@@ -166,14 +166,14 @@ def _read_limit(node: XmlNode, name: str, type_: str, report: Diagnostics) -> Jo
     )
 
 
-def _read_mimic(node: XmlNode, name: str, report: Diagnostics) -> Mimic | None:
+def _read_mimic(node: XmlNode, name: str, report: Diagnostics) -> RobotMimic | None:
     mimic = node.find("mimic")
     if mimic is None:
         return None
     leader = mimic.attribute("joint")
     if not leader:
         raise DescriptionError(mimic.at, f"joint {name!r}: <mimic> names no joint")
-    return Mimic(
+    return RobotMimic(
         joint=leader,
         multiplier=read_optional(mimic, "multiplier", 1.0, report),
         offset=read_optional(mimic, "offset", 0.0, report),

@@ -84,7 +84,7 @@ class RobotLink:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Mimic:
+class RobotMimic:
     """This joint follows another: multiplier · leader + offset."""
 
     joint: str
@@ -118,7 +118,7 @@ class RobotJoint:
     limit: JointLimit | None = None
     damping: float = 0.0
     friction: float = 0.0
-    mimic: Mimic | None = None
+    mimic: RobotMimic | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

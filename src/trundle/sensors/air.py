@@ -35,21 +35,21 @@ class PressureReading(Struct, frozen=True, kw_only=True):
     """[Pa²]"""
 
 
-class _InAir(LiveSensor[PressureReading]):
+class _PressureSensor(LiveSensor[PressureReading]):
     """Reads a pressure, with noise."""
 
-    def __init__(self, spot: SensorMount, *, air: Atmosphere) -> None:
+    def __init__(self, mount: SensorMount, *, air: Atmosphere) -> None:
         """Mount it; see `LiveSensor`.
 
         Args:
-            spot: where it is.
+            mount: where it is.
             air: of the world.
         """
-        super().__init__(spot)
-        assert isinstance(spot.sensor.instrument, AirPressure | AirSpeed), f"{spot.sensor.name!r} reads no pressure"
+        super().__init__(mount)
+        assert isinstance(mount.sensor.instrument, AirPressure | AirSpeed), f"{mount.sensor.name!r} reads no pressure"
         self.air = air
-        self._variance = spot.sensor.instrument.pressure.stddev**2
-        self._noise = NoiseSource(spot.sensor.instrument.pressure, spot.random)
+        self._variance = mount.sensor.instrument.pressure.stddev**2
+        self._noise = NoiseSource(mount.sensor.instrument.pressure, mount.random)
 
     def pressure(self, snapshot: Snapshot) -> float:
         """What there is at this instant [Pa]."""
@@ -57,11 +57,11 @@ class _InAir(LiveSensor[PressureReading]):
 
     def measure(self, snapshot: Snapshot) -> PressureReading:
         """The pressure at this instant."""
-        pressure = self._noise.disturb_one(self.pressure(snapshot), snapshot.time_ns)
+        pressure = self._noise.apply_to_value(self.pressure(snapshot), snapshot.time_ns)
         return PressureReading(time_ns=snapshot.time_ns, pressure=pressure, variance=self._variance)
 
 
-class AirPressureSensor(_InAir):
+class AirPressureSensor(_PressureSensor):
     """A barometer in air that thins with height."""
 
     def pressure(self, snapshot: Snapshot) -> float:
@@ -72,7 +72,7 @@ class AirPressureSensor(_InAir):
         return pressure_at(self.air, _geopotential(height))
 
 
-class AirSpeedSensor(_InAir):
+class AirSpeedSensor(_PressureSensor):
     """A Pitot tube along +x: ρ v² / 2 of the air that comes from ahead."""
 
     wind: Vector3 = (0.0, 0.0, 0.0)
@@ -82,7 +82,7 @@ class AirSpeedSensor(_InAir):
         """What moving adds at this instant [Pa]."""
         world_from_sensor = self.world_from_sensor(snapshot)
         vx, vy, vz = (own - air for own, air in zip(self.velocity(snapshot), self.wind, strict=True))
-        ahead, _, _ = Pose(quaternion=world_from_sensor.quaternion).inverse().direction((vx, vy, vz))
+        ahead, _, _ = Pose(quaternion=world_from_sensor.quaternion).inverse().transform_vector((vx, vy, vz))
         return 0.5 * density_at(self.air, world_from_sensor.position[2]) * ahead * abs(ahead)
 
 

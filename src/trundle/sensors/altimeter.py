@@ -22,25 +22,25 @@ class AltimeterReading(Struct, frozen=True, kw_only=True):
 class AltimeterSensor(LiveSensor[AltimeterReading]):
     """Tells height and vertical speed of its point of the link."""
 
-    def __init__(self, spot: SensorMount, *, start_height: float) -> None:
+    def __init__(self, mount: SensorMount, *, start_height: float) -> None:
         """Mount it; see `LiveSensor`.
 
         Args:
-            spot: where it is.
+            mount: where it is.
             start_height: where it was when its model came [m].
         """
-        super().__init__(spot)
-        assert isinstance(spot.sensor.instrument, Altimeter), f"{spot.sensor.name!r} is no altimeter"
+        super().__init__(mount)
+        assert isinstance(mount.sensor.instrument, Altimeter), f"{mount.sensor.name!r} is no altimeter"
         self._start = start_height
-        self._height = NoiseSource(spot.sensor.instrument.position, spot.random)
-        self._speed = NoiseSource(spot.sensor.instrument.velocity, spot.random)
+        self._height = NoiseSource(mount.sensor.instrument.position, mount.random)
+        self._speed = NoiseSource(mount.sensor.instrument.velocity, mount.random)
 
     def measure(self, snapshot: Snapshot) -> AltimeterReading:
         """How high it is at this instant."""
         return AltimeterReading(
             time_ns=snapshot.time_ns,
-            height=self._height.disturb_one(
+            height=self._height.apply_to_value(
                 self.world_from_sensor(snapshot).position[2] - self._start, snapshot.time_ns
             ),
-            velocity=self._speed.disturb_one(self.velocity(snapshot)[2], snapshot.time_ns),
+            velocity=self._speed.apply_to_value(self.velocity(snapshot)[2], snapshot.time_ns),
         )

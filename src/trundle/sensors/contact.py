@@ -11,7 +11,7 @@ from trundle.spatial import Pose, Vector3, Wrench
 
 from .live_sensor import LiveSensor, SensorMount
 
-MOST_STEPS = 100
+MAX_STEPS = 100
 """That one reading tells of, the last ones: Gazebo keeps no more either."""
 
 
@@ -38,7 +38,7 @@ class ContactReading(Struct, frozen=True, kw_only=True):
     """What touched in the steps since the reading before, step by step."""
 
     time_ns: int
-    touches: tuple[ContactRecord, ...]
+    contacts: tuple[ContactRecord, ...]
     world_from_link: Pose = Pose()
     """Of the sensor's link."""
 
@@ -46,47 +46,47 @@ class ContactReading(Struct, frozen=True, kw_only=True):
 class ContactSensor(LiveSensor[ContactReading]):
     """Feels at every step what touches some of its link's collisions, or all of them."""
 
-    def __init__(self, spot: SensorMount, *, contacts: Callable[[frozenset[str]], list[Contact]]) -> None:
+    def __init__(self, mount: SensorMount, *, contacts: Callable[[frozenset[str]], list[Contact]]) -> None:
         """Mount a contact sensor; see `LiveSensor`.
 
         Args:
-            spot: where it is.
+            mount: where it is.
             contacts: what touched collisions of these names in the last step.
         """
-        super().__init__(spot)
-        names = spot.sensor.touching or tuple(collision.name for collision in spot.link.collisions)
-        self._own = frozenset(f"{spot.model.name}::{spot.link.name}::{name}" for name in names)
+        super().__init__(mount)
+        names = mount.sensor.contact_collisions or tuple(collision.name for collision in mount.link.collisions)
+        self._own = frozenset(f"{mount.model.name}::{mount.link.name}::{name}" for name in names)
         self._contacts = contacts
-        self._skin = _ContactBuffer(self._feel)
-        self._felt: deque[tuple[ContactRecord, ...]] = deque(maxlen=MOST_STEPS)
+        self._buffer = _ContactBuffer(self._record)
+        self._recorded: deque[tuple[ContactRecord, ...]] = deque(maxlen=MAX_STEPS)
 
     def start(self, simulation: Simulation) -> None:
         """Be called by a simulation: at every step to feel, and then at the sensor's rate to tell."""
-        simulation.add_hook(self._skin, wanted=self.wanted)
+        simulation.add_hook(self._buffer, enabled=self.enabled)
         super().start(simulation)
 
     def stop(self, simulation: Simulation) -> None:
         """Be called no more."""
-        simulation.remove_hook(self._skin)
+        simulation.remove_hook(self._buffer)
         super().stop(simulation)
 
     def measure(self, snapshot: Snapshot) -> ContactReading:
         """What touched within the last period; what was felt before, nobody wanted to know then."""
         now_ns, period_ns = snapshot.time_ns, max(self.period_ns, 1)
-        felt = [touch for step in self._felt for touch in step]
-        self._felt.clear()
+        felt = [touch for step in self._recorded for touch in step]
+        self._recorded.clear()
         return ContactReading(
             time_ns=now_ns,
-            touches=tuple(touch for touch in felt if 0 <= now_ns - touch.time_ns < period_ns),
+            contacts=tuple(touch for touch in felt if 0 <= now_ns - touch.time_ns < period_ns),
             world_from_link=self.world_from_link(snapshot),
         )
 
-    def _feel(self, snapshot: Snapshot) -> None:
-        touches = tuple(self._told(contact, snapshot.time_ns) for contact in self._contacts(self._own))
+    def _record(self, snapshot: Snapshot) -> None:
+        touches = tuple(self._contact_record(contact, snapshot.time_ns) for contact in self._contacts(self._own))
         if touches:
-            self._felt.append(touches)
+            self._recorded.append(touches)
 
-    def _told(self, contact: Contact, time_ns: int) -> ContactRecord:
+    def _contact_record(self, contact: Contact, time_ns: int) -> ContactRecord:
         """As the sensor's own link has it."""
         first, second = contact.collisions
         own, other, sign = (second, first, 1.0) if second in self._own else (first, second, -1.0)

@@ -9,7 +9,7 @@ from trundle.simulation import LinkHandle, Snapshot
 from trundle.spatial import Pose, Vector3, Wrench
 
 from .live_sensor import LiveSensor, SensorMount
-from .noise import NoiseSource, disturbed
+from .noise import NoiseSource, apply_noise
 
 
 class ForceTorqueReading(Struct, frozen=True, kw_only=True):
@@ -24,25 +24,25 @@ class ForceTorqueSensor(LiveSensor[ForceTorqueReading]):
     """Tells what parent and child of a joint do to one another."""
 
     def __init__(
-        self, spot: SensorMount, *, joint: Joint, parent: LinkHandle | None, reaction: Callable[[], Wrench]
+        self, mount: SensorMount, *, joint: Joint, parent: LinkHandle | None, reaction: Callable[[], Wrench]
     ) -> None:
         """Mount it; see `LiveSensor`.
 
         Args:
-            spot: where it is.
+            mount: where it is.
             joint: that it sits on.
             parent: the joint's; None: the world.
             reaction: what the parent does to the child, at the joint, world axes.
         """
-        super().__init__(spot)
-        self.settings = spot.sensor.force_torque or ForceTorque()
+        super().__init__(mount)
+        self.settings = mount.sensor.force_torque or ForceTorque()
         self.joint = joint
         self.place = joint.name
-        self.link_from_sensor = joint.child_from_joint @ spot.sensor.link_from_sensor
+        self.link_from_sensor = joint.child_from_joint @ mount.sensor.link_from_sensor
         self._parent = parent
         self._reaction = reaction
-        self._forces = [NoiseSource(each, spot.random) for each in self.settings.force]
-        self._torques = [NoiseSource(each, spot.random) for each in self.settings.torque]
+        self._forces = [NoiseSource(each, mount.random) for each in self.settings.force]
+        self._torques = [NoiseSource(each, mount.random) for each in self.settings.torque]
 
     def measure(self, snapshot: Snapshot) -> ForceTorqueReading:
         """What goes through the joint now."""
@@ -51,12 +51,12 @@ class ForceTorqueSensor(LiveSensor[ForceTorqueReading]):
         axes = Pose(quaternion=self._world_from_axes(snapshot).quaternion).inverse()
 
         def told(vector: Vector3) -> Vector3:
-            x, y, z = axes.direction(vector)
+            x, y, z = axes.transform_vector(vector)
             return (sign * x, sign * y, sign * z)
 
         now = snapshot.time_ns
-        force = disturbed(told(on_child.force), self._forces, now)
-        torque = disturbed(told(on_child.torque), self._torques, now)
+        force = apply_noise(told(on_child.force), self._forces, now)
+        torque = apply_noise(told(on_child.torque), self._torques, now)
         return ForceTorqueReading(time_ns=now, wrench=Wrench(force, torque))
 
     def _world_from_axes(self, snapshot: Snapshot) -> Pose:

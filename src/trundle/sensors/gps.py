@@ -9,9 +9,9 @@ from trundle.simulation import Snapshot
 from trundle.spatial import Vector3
 
 from .live_sensor import LiveSensor, SensorMount
-from .noise import NoiseSource, disturbed
+from .noise import NoiseSource, apply_noise
 
-FASTEST_HZ = 10.0
+DEFAULT_RATE_HZ = 10.0
 """Of a receiver whose update_rate is 0."""
 _FARTHEST = 1e15
 """[m] Nobody asks for the latitude of what is farther away."""
@@ -35,24 +35,26 @@ class GpsReading(Struct, frozen=True, kw_only=True):
 class GpsSensor(LiveSensor[GpsReading]):
     """Knows where its point of the link is on Earth, by the world's spherical coordinates."""
 
-    def __init__(self, spot: SensorMount, *, origin: SphericalCoordinates) -> None:
+    def __init__(self, mount: SensorMount, *, origin: SphericalCoordinates) -> None:
         """Mount a receiver; see `LiveSensor`.
 
         Args:
-            spot: where it is.
+            mount: where it is.
             origin: where the world's origin is.
         """
-        super().__init__(spot, fastest_hz=FASTEST_HZ)
-        noise = spot.sensor.gps or GpsNoise()
+        super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
+        noise = mount.sensor.gps or GpsNoise()
         self.variances = (_variance(noise.horizontal), _variance(noise.vertical))
         """Horizontal and vertical [m²]."""
         self._origin = origin
-        self._noise = [NoiseSource(each, spot.random) for each in (noise.horizontal, noise.horizontal, noise.vertical)]
+        self._noise = [NoiseSource(each, mount.random) for each in (noise.horizontal, noise.horizontal, noise.vertical)]
 
     def measure(self, snapshot: Snapshot) -> GpsReading:
         """A fix at this instant."""
-        place = self.world_from_link(snapshot).point(self.sensor.link_from_sensor.position)
-        x, y, z = (min(max(value, -_FARTHEST), _FARTHEST) for value in disturbed(place, self._noise, snapshot.time_ns))
+        place = self.world_from_link(snapshot).transform_point(self.sensor.link_from_sensor.position)
+        x, y, z = (
+            min(max(value, -_FARTHEST), _FARTHEST) for value in apply_noise(place, self._noise, snapshot.time_ns)
+        )
         latitude, longitude, altitude = geodetic(self._origin, (x, y, z))
         return GpsReading(time_ns=snapshot.time_ns, latitude_deg=latitude, longitude_deg=longitude, altitude=altitude)
 

@@ -7,7 +7,7 @@ from trundle.simulation import Snapshot
 from trundle.spatial import Pose, Quaternion, Vector3, cross
 
 from .live_sensor import NS, LiveSensor, SensorMount
-from .noise import NoiseSource, disturbed
+from .noise import NoiseSource, apply_noise
 
 
 class ImuReading(Struct, frozen=True, kw_only=True):
@@ -29,22 +29,22 @@ class ImuSensor(LiveSensor[ImuReading]):
     as in Gazebo; the pull inwards is that of the instant, which a mean would turn with the link.
     """
 
-    def __init__(self, spot: SensorMount, *, gravity: Vector3, reference_from_world: Pose) -> None:
+    def __init__(self, mount: SensorMount, *, gravity: Vector3, reference_from_world: Pose) -> None:
         """Mount an imu; see `LiveSensor`.
 
         Args:
-            spot: where it is.
+            mount: where it is.
             gravity: of the world [m/s²].
             reference_from_world: turns orientations into the frame that they are told in.
         """
-        super().__init__(spot)
-        noise = spot.sensor.imu or ImuNoise()
+        super().__init__(mount)
+        noise = mount.sensor.imu or ImuNoise()
         self._gravity = gravity
         self._reference_from_world = reference_from_world
-        self._rates = [NoiseSource(each, spot.random) for each in noise.angular_velocity]
-        self._accelerations = [NoiseSource(each, spot.random) for each in noise.linear_acceleration]
-        self._link_from_com = spot.link.inertial.link_from_com.position
-        self._before: tuple[int, Vector3, Vector3] | None = None
+        self._rates = [NoiseSource(each, mount.random) for each in noise.angular_velocity]
+        self._accelerations = [NoiseSource(each, mount.random) for each in noise.linear_acceleration]
+        self._link_from_com = mount.link.inertial.link_from_com.position
+        self._last_velocity: tuple[int, Vector3, Vector3] | None = None
         """When it last read; the centre of mass' velocity and the rate of turning at that instant, world axes."""
 
     def measure(self, snapshot: Snapshot) -> ImuReading:
@@ -57,24 +57,26 @@ class ImuSensor(LiveSensor[ImuReading]):
         return ImuReading(
             time_ns=snapshot.time_ns,
             orientation=(self._reference_from_world @ world_from_sensor).quaternion,
-            angular_velocity=disturbed(sensor_from_world.direction(turning), self._rates, snapshot.time_ns),
-            linear_acceleration=disturbed(sensor_from_world.direction(felt), self._accelerations, snapshot.time_ns),
+            angular_velocity=apply_noise(sensor_from_world.transform_vector(turning), self._rates, snapshot.time_ns),
+            linear_acceleration=apply_noise(
+                sensor_from_world.transform_vector(felt), self._accelerations, snapshot.time_ns
+            ),
         )
 
     def _specific_force(self, snapshot: Snapshot, velocity: Vector3, turning: Vector3) -> Vector3:
         """Acceleration less gravity, world axes; velocity is that of the link's origin."""
         world_from_link = self.world_from_link(snapshot)
-        com = world_from_link.direction(self._link_from_com)
+        com = world_from_link.transform_vector(self._link_from_com)
         speed = _sum(velocity, cross(turning, com))
-        before, self._before = self._before, (snapshot.time_ns, speed, turning)
+        before, self._last_velocity = self._last_velocity, (snapshot.time_ns, speed, turning)
         gx, gy, gz = self._gravity
         if before is None or snapshot.time_ns <= before[0]:
             return (-gx, -gy, -gz)
         elapsed = (snapshot.time_ns - before[0]) / NS
-        arm = _less(world_from_link.direction(self.sensor.link_from_sensor.position), com)
-        hastening = _less(turning, before[2], elapsed)
+        arm = _difference(world_from_link.transform_vector(self.sensor.link_from_sensor.position), com)
+        hastening = _difference(turning, before[2], elapsed)
         inwards = cross(turning, cross(turning, arm))
-        return _less(_sum(_less(speed, before[1], elapsed), cross(hastening, arm), inwards), self._gravity)
+        return _difference(_sum(_difference(speed, before[1], elapsed), cross(hastening, arm), inwards), self._gravity)
 
 
 def _sum(*vectors: Vector3) -> Vector3:
@@ -82,7 +84,7 @@ def _sum(*vectors: Vector3) -> Vector3:
     return (x, y, z)
 
 
-def _less(one: Vector3, other: Vector3, scale: float = 1.0) -> Vector3:
+def _difference(one: Vector3, other: Vector3, scale: float = 1.0) -> Vector3:
     """Their difference, divided by a scale."""
     x, y, z = ((a - b) / scale for a, b in zip(one, other, strict=True))
     return (x, y, z)

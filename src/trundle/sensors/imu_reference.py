@@ -34,7 +34,7 @@ def reference_from_world(
             parent = Pose() if reference.gravity_parent_frame == "world" else start
             x, y, z = normalized(gravity) or (0.0, 0.0, -1.0)
             along = (x, y, z) if reference.localization == "GRAV_DOWN" else (-x, -y, -z)
-            return Pose(quaternion=_with_z(along, parent.direction(reference.gravity_x))).inverse()
+            return Pose(quaternion=_with_z(along, parent.transform_vector(reference.gravity_x))).inverse()
         case _:
             parent = Pose() if reference.parent_frame == "world" else start
             return (parent @ Pose(quaternion=quaternion_from_rpy(*reference.custom_rpy))).inverse()

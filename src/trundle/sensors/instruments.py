@@ -14,22 +14,22 @@ if TYPE_CHECKING:
 
 
 def mount_sensors(
-    simulation: Simulation, *, model: str | None = None, around: "RayScene | None" = None
+    simulation: Simulation, *, model: str | None = None, ray_scene: "RayScene | None" = None
 ) -> "list[InstrumentSensor]":
     """Every sensor that needs no picture, in file order; each has random numbers of its own.
 
     Args:
         simulation: with its sensors; its seed is that of the noise.
         model: of this one alone.
-        around: what sensors that are there already share.
+        ray_scene: what sensors that are there already share.
     """
-    if not any(map(_has_some, simulation.world.models)):
+    if not any(map(_has_instruments, simulation.world.models)):
         return []
     from .mount_instruments import mount_instruments
 
-    return mount_instruments(simulation, model=model, around=around)
+    return mount_instruments(simulation, model=model, ray_scene=ray_scene)
 
 
-def _has_some(model: Model) -> bool:
+def _has_instruments(model: Model) -> bool:
     on_links = (sensor.type in MEASURING for link in model.links for sensor in link.sensors)
     return any(on_links) or any(joint.sensors for joint in model.joints)

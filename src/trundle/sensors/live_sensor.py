@@ -21,7 +21,7 @@ Reading = TypeVar("Reading")
 
 class _Listener(Struct, Generic[Reading]):
     call: Callable[[Reading], None]
-    wanted: Callable[[], bool]
+    enabled: Callable[[], bool]
 
 
 def _period_ns(rate_hz: float) -> Fraction:
@@ -46,7 +46,7 @@ class SensorMount(Struct, frozen=True, eq=False, dict=True):
         """Random numbers of its own; NumPy's are loaded for the first sensor that wants some."""
         return np.random.default_rng(self.seed)
 
-    def start(self) -> Pose:
+    def initial_pose(self) -> Pose:
         """Where the sensor was when its model came."""
         return self.model.world_from_model @ self.link.model_from_link @ self.sensor.link_from_sensor
 
@@ -54,24 +54,24 @@ class SensorMount(Struct, frozen=True, eq=False, dict=True):
 class LiveSensor(Generic[Reading]):
     """A hook that measures when it is due and somebody wants it; one that nobody wants costs nothing."""
 
-    def __init__(self, spot: SensorMount, *, fastest_hz: float | None = None) -> None:
+    def __init__(self, mount: SensorMount, *, default_rate_hz: float | None = None) -> None:
         """Mount a sensor.
 
         Args:
-            spot: where it is.
-            fastest_hz: where update_rate is 0; None: at every step.
+            mount: where it is.
+            default_rate_hz: where update_rate is 0; None: at every step.
         """
-        self.model = spot.model
-        self.link = spot.link
-        self.sensor = spot.sensor
-        self._index = spot.link_index
+        self.model = mount.model
+        self.link = mount.link
+        self.sensor = mount.sensor
+        self._index = mount.link_index
         self._handle: LinkHandle | None = None
-        self.place = spot.link.name
+        self.parent_name = mount.link.name
         """What its topics are called after: its link, or the joint it sits on."""
-        rate = spot.sensor.update_rate_hz or fastest_hz
+        rate = mount.sensor.update_rate_hz or default_rate_hz
         self.period_ns = 0 if rate is None else _period_ns(rate)
         self._simulation: Simulation | None = None
-        self.readings = 0
+        self.reading_count = 0
         """Taken so far."""
         self._listeners: list[_Listener[Reading]] = []
 
@@ -83,7 +83,7 @@ class LiveSensor(Generic[Reading]):
     def start(self, simulation: Simulation) -> None:
         """Be called by a simulation, at its rate."""
         self._simulation = simulation
-        simulation.add_hook(self, period_ns=self.period_ns, wanted=self.wanted)
+        simulation.add_hook(self, period_ns=self.period_ns, enabled=self.enabled)
 
     def stop(self, simulation: Simulation) -> None:
         """Be called no more."""
@@ -100,7 +100,7 @@ class LiveSensor(Generic[Reading]):
         """As in the file."""
         return self.sensor.name
 
-    def follow(self, handle: LinkHandle) -> None:
+    def attach_to(self, handle: LinkHandle) -> None:
         """Ride on a link wherever it is among the others, as models come and go; without it nothing is measured."""
         self._handle = handle
 
@@ -110,27 +110,27 @@ class LiveSensor(Generic[Reading]):
         return self._index if self._handle is None else self._handle.index
 
     @property
-    def _is_there(self) -> bool:
+    def _link_exists(self) -> bool:
         try:
             return self.link_index >= 0
         except UsageError:
             return False
 
-    def listen(self, call: Callable[[Reading], None], *, wanted: Callable[[], bool] = lambda: True) -> None:
+    def listen(self, call: Callable[[Reading], None], *, enabled: Callable[[], bool] = lambda: True) -> None:
         """Have a function called with each reading; while nobody wants one, none is taken."""
-        self._listeners.append(_Listener(call, wanted))
+        self._listeners.append(_Listener(call, enabled))
 
-    def wanted(self) -> bool:
+    def enabled(self) -> bool:
         """Whether the sensor is always on, or anybody wants its readings."""
-        asked = self.sensor.always_on or any(listener.wanted() for listener in self._listeners)
-        return asked and self._is_there
+        asked = self.sensor.always_on or any(listener.enabled() for listener in self._listeners)
+        return asked and self._link_exists
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Measure, and tell those who want to know."""
         reading = self.measure(snapshot)
-        self.readings += 1
+        self.reading_count += 1
         for listener in self._listeners:
-            if listener.wanted():
+            if listener.enabled():
                 listener.call(reading)
 
     def measure(self, snapshot: Snapshot) -> Reading:
@@ -148,6 +148,6 @@ class LiveSensor(Generic[Reading]):
     def velocity(self, snapshot: Snapshot) -> Vector3:
         """Of the sensor's own point of the link, world axes [m/s]."""
         vx, vy, vz, wx, wy, wz = snapshot.twists[self.link_index].tolist()
-        arm = self.world_from_link(snapshot).direction(self.sensor.link_from_sensor.position)
+        arm = self.world_from_link(snapshot).transform_vector(self.sensor.link_from_sensor.position)
         sx, sy, sz = cross((wx, wy, wz), arm)
         return (vx + sx, vy + sy, vz + sz)

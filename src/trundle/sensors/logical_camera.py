@@ -12,14 +12,14 @@ from trundle.simulation import Snapshot
 from trundle.spatial import Pose
 
 from .live_sensor import LiveSensor, SensorMount
-from .pose_arrays import moved, pose_of
+from .pose_arrays import pose_of, transform_points
 
-FASTEST_HZ = 30.0
+DEFAULT_RATE_HZ = 30.0
 """Of a camera whose update_rate is 0."""
 _Points = NDArray[np.float64]
 
 
-class Body(Struct, frozen=True, eq=False, kw_only=True):
+class ModelShapes(Struct, frozen=True, eq=False, kw_only=True):
     """A model that can be seen."""
 
     name: str
@@ -50,17 +50,17 @@ class LogicalCameraSensor(LiveSensor[LogicalCameraReading]):
     As in Gazebo a model that others hide is in view, too, and so is the ground: an endless plane is the box below it.
     """
 
-    def __init__(self, spot: SensorMount, *, bodies: Callable[[], Sequence[Body]]) -> None:
+    def __init__(self, mount: SensorMount, *, bodies: Callable[[], Sequence[ModelShapes]]) -> None:
         """Mount it; see `LiveSensor`.
 
         Args:
-            spot: where it is.
+            mount: where it is.
             bodies: there are.
         """
-        super().__init__(spot, fastest_hz=FASTEST_HZ)
-        assert isinstance(spot.sensor.instrument, LogicalCamera), f"{spot.sensor.name!r} is no logical camera"
+        super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
+        assert isinstance(mount.sensor.instrument, LogicalCamera), f"{mount.sensor.name!r} is no logical camera"
         self._bodies = bodies
-        self._planes = _planes(spot.sensor.instrument)
+        self._planes = _frustum_planes(mount.sensor.instrument)
 
     def measure(self, snapshot: Snapshot) -> LogicalCameraReading:
         """What is in view at this instant."""
@@ -69,20 +69,22 @@ class LogicalCameraSensor(LiveSensor[LogicalCameraReading]):
         for body in self._bodies():
             if body.name == self.model.name or not body.corners:
                 continue
-            points = np.concatenate([moved(pose_of(snapshot.poses[i]), at) for i, at in body.corners.items()])
-            if not self._holds(moved(camera_from_world, _box(points))):
+            points = np.concatenate(
+                [transform_points(pose_of(snapshot.poses[i]), at) for i, at in body.corners.items()]
+            )
+            if not self._intersects(transform_points(camera_from_world, _box(points))):
                 continue
             pose = camera_from_world @ pose_of(snapshot.poses[body.base_index]) @ body.base_from_model
             seen.append(SeenModel(name=body.name, camera_from_model=pose))
         return LogicalCameraReading(time_ns=snapshot.time_ns, models=tuple(seen))
 
-    def _holds(self, corners: _Points) -> bool:
+    def _intersects(self, corners: _Points) -> bool:
         """Whether no side of the pyramid has all corners of a box outside."""
         outside = corners @ self._planes[:, :3].T < self._planes[:, 3]
         return not outside.all(axis=0).any()
 
 
-def _planes(settings: LogicalCamera) -> _Points:
+def _frustum_planes(settings: LogicalCamera) -> _Points:
     """(6, 4) n x, n y, n z and the least n · p of points inside: near and far, then left, right, top and bottom."""
     across = settings.horizontal_fov_rad / 2
     along = math.atan(math.tan(across) / settings.aspect_ratio)

@@ -7,7 +7,7 @@ from trundle.simulation import Snapshot
 from trundle.spatial import Pose, Vector3
 
 from .live_sensor import LiveSensor, SensorMount
-from .noise import NoiseSource, disturbed
+from .noise import NoiseSource, apply_noise
 
 
 class MagnetometerReading(Struct, frozen=True, kw_only=True):
@@ -21,20 +21,20 @@ class MagnetometerReading(Struct, frozen=True, kw_only=True):
 class MagnetometerSensor(LiveSensor[MagnetometerReading]):
     """Turns the world's one magnetic field into its own axes."""
 
-    def __init__(self, spot: SensorMount, *, world_field: Vector3) -> None:
+    def __init__(self, mount: SensorMount, *, world_field: Vector3) -> None:
         """Mount it; see `LiveSensor`.
 
         Args:
-            spot: where it is.
+            mount: where it is.
             world_field: the same everywhere [T].
         """
-        super().__init__(spot)
-        assert isinstance(spot.sensor.instrument, Magnetometer), f"{spot.sensor.name!r} is no magnetometer"
+        super().__init__(mount)
+        assert isinstance(mount.sensor.instrument, Magnetometer), f"{mount.sensor.name!r} is no magnetometer"
         self._field = world_field
-        self._noise = [NoiseSource(each, spot.random) for each in spot.sensor.instrument.field]
+        self._noise = [NoiseSource(each, mount.random) for each in mount.sensor.instrument.field]
 
     def measure(self, snapshot: Snapshot) -> MagnetometerReading:
         """The field at this instant."""
         world_from_sensor = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
-        own = Pose(quaternion=world_from_sensor.quaternion).inverse().direction(self._field)
-        return MagnetometerReading(time_ns=snapshot.time_ns, field=disturbed(own, self._noise, snapshot.time_ns))
+        own = Pose(quaternion=world_from_sensor.quaternion).inverse().transform_vector(self._field)
+        return MagnetometerReading(time_ns=snapshot.time_ns, field=apply_noise(own, self._noise, snapshot.time_ns))

@@ -41,12 +41,12 @@ InstrumentSensor: TypeAlias = (
 )
 
 
-class _Site(Struct, frozen=True, eq=False):
+class _MountContext(Struct, frozen=True, eq=False):
     """Where a sensor is to be mounted, and what is around it."""
 
     simulation: Simulation
-    around: RayScene
-    spot: SensorMount
+    ray_scene: RayScene
+    mount: SensorMount
 
     @property
     def world(self) -> World:
@@ -54,10 +54,12 @@ class _Site(Struct, frozen=True, eq=False):
         return self.simulation.world
 
 
-def mount_instruments(simulation: Simulation, *, model: str | None, around: RayScene | None) -> list[InstrumentSensor]:
+def mount_instruments(
+    simulation: Simulation, *, model: str | None, ray_scene: RayScene | None
+) -> list[InstrumentSensor]:
     """As `mount_sensors`, whose arguments these are."""
     mounted: list[InstrumentSensor] = []
-    around = around or RayScene(simulation)
+    ray_scene = ray_scene or RayScene(simulation)
     index = number = 0
     for owner in simulation.world.models:
         wanted = model in (None, owner.name)
@@ -69,9 +71,9 @@ def mount_instruments(simulation: Simulation, *, model: str | None, around: RayS
                     what = f"sensor {sensor.name!r}: force_torque sensors measure joints; on a link it tells nothing"
                     simulation.report.warn(sensor.at, what)
                 if make is not None and wanted:
-                    spot = SensorMount(owner, link, sensor, index, (simulation.seed, number))
-                    made = make(_Site(simulation, around, spot))
-                    made.follow(simulation[owner.name].link(link.name))
+                    mount = SensorMount(owner, link, sensor, index, (simulation.seed, number))
+                    made = make(_MountContext(simulation, ray_scene, mount))
+                    made.attach_to(simulation[owner.name].link(link.name))
                     mounted.append(made)
             index += 1
         if wanted:
@@ -99,70 +101,70 @@ def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[Inst
                 parent=robot.link(joint.parent) if joint.parent in indices else None,
                 reaction=lambda handle=handle: handle.reaction,
             )
-            made.follow(robot.link(joint.child))
+            made.attach_to(robot.link(joint.child))
             mounted.append(made)
     return mounted
 
 
-def _air_speed(at: _Site) -> AirSpeedSensor:
-    made = AirSpeedSensor(at.spot, air=at.world.atmosphere)
+def _air_speed(at: _MountContext) -> AirSpeedSensor:
+    made = AirSpeedSensor(at.mount, air=at.world.atmosphere)
     made.wind = at.world.wind
     return made
 
 
-def _imu(at: _Site) -> ImuSensor:
-    settings = at.spot.sensor.imu
+def _imu(at: _MountContext) -> ImuSensor:
+    settings = at.mount.sensor.imu
     told_from_world = reference_from_world(
         None if settings is None else settings.reference,
-        at_start=at.spot.start(),
+        at_start=at.mount.initial_pose(),
         gravity=at.world.physics.gravity,
         heading_rad=math.radians(at.world.spherical_coordinates.heading_deg),
     )
-    return ImuSensor(at.spot, gravity=at.world.physics.gravity, reference_from_world=told_from_world)
+    return ImuSensor(at.mount, gravity=at.world.physics.gravity, reference_from_world=told_from_world)
 
 
-def _range(at: _Site) -> RangeSensor:
-    sensor = at.spot.sensor
+def _range(at: _MountContext) -> RangeSensor:
+    sensor = at.mount.sensor
     scan = sensor.scan or RangeScan()
-    lit = at.around.visual_rays(scan.min_m, scan.visibility_mask)
-    rays = lit if sensor.type.startswith("gpu_") else at.around.rays
-    return RangeSensor(at.spot, rays=rays)
+    lit = at.ray_scene.visual_rays(scan.min_m, scan.visibility_mask)
+    rays = lit if sensor.type.startswith("gpu_") else at.ray_scene.rays
+    return RangeSensor(at.mount, rays=rays)
 
 
-def _wireless_receiver(at: _Site) -> WirelessSensor:
-    around = at.around
-    return WirelessSensor(at.spot, transmitters=lambda: around.beacons("wireless_transmitter"), rays=around.rays)
+def _wireless_receiver(at: _MountContext) -> WirelessSensor:
+    around = at.ray_scene
+    return WirelessSensor(at.mount, transmitters=lambda: around.transmitters("wireless_transmitter"), rays=around.rays)
 
 
-def _contact(at: _Site) -> ContactSensor:
-    sensor, link = at.spot.sensor, at.spot.link
+def _contact(at: _MountContext) -> ContactSensor:
+    sensor, link = at.mount.sensor, at.mount.link
     there = [collision.name for collision in link.collisions]
-    for name in sensor.touching or ():
+    for name in sensor.contact_collisions or ():
         if name not in there:
             what = f"no collision {name!r} on link {link.name!r}; collisions here: {', '.join(there) or 'none'}"
             at.simulation.report.warn(sensor.at, f"sensor {sensor.name!r}: {what}")
-    return ContactSensor(at.spot, contacts=at.simulation.contacts)
+    return ContactSensor(at.mount, contacts=at.simulation.contacts)
 
 
-def _gps(at: _Site) -> GpsSensor:
-    return GpsSensor(at.spot, origin=at.world.spherical_coordinates)
+def _gps(at: _MountContext) -> GpsSensor:
+    return GpsSensor(at.mount, origin=at.world.spherical_coordinates)
 
 
-MAKERS: Mapping[str, Callable[[_Site], InstrumentSensor]] = {
-    "air_pressure": lambda at: AirPressureSensor(at.spot, air=at.world.atmosphere),
+MAKERS: Mapping[str, Callable[[_MountContext], InstrumentSensor]] = {
+    "air_pressure": lambda at: AirPressureSensor(at.mount, air=at.world.atmosphere),
     "air_speed": _air_speed,
-    "altimeter": lambda at: AltimeterSensor(at.spot, start_height=at.spot.start().position[2]),
+    "altimeter": lambda at: AltimeterSensor(at.mount, start_height=at.mount.initial_pose().position[2]),
     "contact": _contact,
     "gps": _gps,
     "gpu_lidar": _range,
     "gpu_ray": _range,
     "imu": _imu,
     "lidar": _range,
-    "logical_camera": lambda at: LogicalCameraSensor(at.spot, bodies=lambda: at.around.bodies),
-    "magnetometer": lambda at: MagnetometerSensor(at.spot, world_field=at.world.magnetic_field),
+    "logical_camera": lambda at: LogicalCameraSensor(at.mount, bodies=lambda: at.ray_scene.models),
+    "magnetometer": lambda at: MagnetometerSensor(at.mount, world_field=at.world.magnetic_field),
     "navsat": _gps,
     "ray": _range,
-    "rfid": lambda at: RfidSensor(at.spot, tags=lambda: at.around.beacons("rfidtag")),
-    "sonar": lambda at: SonarSensor(at.spot, rays=at.around.rays_excluding(at.spot.model, at.spot.link)),
+    "rfid": lambda at: RfidSensor(at.mount, tags=lambda: at.ray_scene.transmitters("rfidtag")),
+    "sonar": lambda at: SonarSensor(at.mount, rays=at.ray_scene.rays_excluding(at.mount.model, at.mount.link)),
     "wireless_receiver": _wireless_receiver,
 }

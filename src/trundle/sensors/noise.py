@@ -21,14 +21,14 @@ class NoiseSource:
         self._random = random
         sign = 1.0 if random.random() < 0.5 else -1.0
         self._bias = sign * random.normal(noise.bias_mean, noise.bias_stddev)
-        self._then_ns: int | None = None
+        self._last_ns: int | None = None
         self.is_silent = noise == Noise()
 
-    def disturb_one(self, value: float, time_ns: int = 0) -> float:
+    def apply_to_value(self, value: float, time_ns: int = 0) -> float:
         """A value with noise on it; when matters to a bias that wanders."""
-        return float(self.disturb(np.array([value]), time_ns)[0])
+        return float(self.apply(np.array([value]), time_ns)[0])
 
-    def disturb(self, values: _Values, time_ns: int) -> _Values:
+    def apply(self, values: _Values, time_ns: int) -> _Values:
         """The values of an instant with noise on each."""
         noise = self._noise
         if self.is_silent:
@@ -40,7 +40,7 @@ class NoiseSource:
     def _wander(self, time_ns: int) -> None:
         """Let the bias go on, exactly for however long it was, as Gazebo does."""
         density, tau = self._noise.wander_density, self._noise.wander_time_s
-        then, self._then_ns = self._then_ns, time_ns
+        then, self._last_ns = self._last_ns, time_ns
         if not (density and tau) or then is None or time_ns <= then:
             return
         elapsed = (time_ns - then) / _NS
@@ -48,7 +48,7 @@ class NoiseSource:
         self._bias = math.exp(-elapsed / tau) * self._bias + self._random.normal(0.0, spread)
 
 
-def disturbed(values: Vector3, sources: Sequence[NoiseSource], time_ns: int) -> Vector3:
+def apply_noise(values: Vector3, sources: Sequence[NoiseSource], time_ns: int) -> Vector3:
     """Three numbers of an instant with the noise of each."""
-    x, y, z = (source.disturb_one(value, time_ns) for value, source in zip(values, sources, strict=True))
+    x, y, z = (source.apply_to_value(value, time_ns) for value, source in zip(values, sources, strict=True))
     return (x, y, z)

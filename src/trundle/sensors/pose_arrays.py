@@ -15,11 +15,11 @@ def pose_of(row: _Array) -> Pose:
     return Pose((x, y, z), (qw, qx, qy, qz))
 
 
-def turned(a_from_b: Pose, directions: _Array) -> _Array:
+def rotate_vectors(a_from_b: Pose, directions: _Array) -> _Array:
     """(…, 3) directions of frame b in frame a."""
-    return directions @ np.array([a_from_b.direction(axis) for axis in _AXES])
+    return directions @ np.array([a_from_b.transform_vector(axis) for axis in _AXES])
 
 
-def moved(a_from_b: Pose, points: _Array) -> _Array:
+def transform_points(a_from_b: Pose, points: _Array) -> _Array:
     """(…, 3) points of frame b in frame a."""
-    return turned(a_from_b, points) + np.array(a_from_b.position)
+    return rotate_vectors(a_from_b, points) + np.array(a_from_b.position)

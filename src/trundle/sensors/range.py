@@ -9,10 +9,10 @@ from trundle.simulation import Snapshot
 
 from .live_sensor import LiveSensor, SensorMount
 from .noise import NoiseSource
-from .pose_arrays import turned
+from .pose_arrays import rotate_vectors
 from .rays import Rays
 
-FASTEST_HZ = 40.0
+DEFAULT_RATE_HZ = 40.0
 """Of a sensor whose update_rate is 0."""
 
 
@@ -30,32 +30,32 @@ class RangeReading(Struct, frozen=True, eq=False, kw_only=True):
 class RangeSensor(LiveSensor[RangeReading]):
     """Casts a fan of rays: against the collision shapes of other links, or on Gazebo's GPU against all visuals."""
 
-    def __init__(self, spot: SensorMount, *, rays: Rays) -> None:
+    def __init__(self, mount: SensorMount, *, rays: Rays) -> None:
         """Mount a ray sensor; see `LiveSensor`.
 
         Args:
-            spot: where it is.
+            mount: where it is.
             rays: asks the engine.
         """
-        super().__init__(spot, fastest_hz=FASTEST_HZ)
-        assert spot.sensor.scan is not None, f"{spot.sensor.name!r} has no scan"
-        self.scan = spot.sensor.scan
+        super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
+        assert mount.sensor.scan is not None, f"{mount.sensor.name!r} has no scan"
+        self.scan = mount.sensor.scan
         self._rays = rays
-        self._noise = NoiseSource(spot.sensor.scan.noise, spot.random)
-        self._directions = directions_of(spot.sensor.scan)
+        self._noise = NoiseSource(mount.sensor.scan.noise, mount.random)
+        self._directions = directions_of(mount.sensor.scan)
 
     def measure(self, snapshot: Snapshot) -> RangeReading:
         """Look round from where the sensor is now."""
         scan = self.scan
         pose = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
-        met = self._rays(pose.position, turned(pose, self._directions), scan.max_m, self.link_index)
+        met = self._rays(pose.position, rotate_vectors(pose, self._directions), scan.max_m, self.link_index)
         found, retros = met.distances, met.retros
         far, near = found >= scan.max_m, found <= scan.min_m
         found[far], found[near] = np.inf, -np.inf
         retros[far | near] = 0.0
         if not self._noise.is_silent:
             seen = np.isfinite(found)
-            found[seen] = np.clip(self._noise.disturb(found[seen], snapshot.time_ns), scan.min_m, scan.max_m)
+            found[seen] = np.clip(self._noise.apply(found[seen], snapshot.time_ns), scan.min_m, scan.max_m)
         shape = (scan.vertical.values, scan.horizontal.values)
         return RangeReading(
             time_ns=snapshot.time_ns, scan=scan, ranges=found.reshape(shape), intensities=retros.reshape(shape)

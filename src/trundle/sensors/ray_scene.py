@@ -5,12 +5,12 @@ from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import EVERY_BIT, Joint, Link, Model, Plane, Transceiver, World
-from trundle.render import corners_of, scene_of
+from trundle.render import corners_of, scene_from_world
 from trundle.simulation import Simulation
-from trundle.spatial import Pose, Vector3, upright
+from trundle.spatial import Pose, Vector3, rotation_from_z
 
-from .logical_camera import Body
-from .pose_arrays import moved
+from .logical_camera import ModelShapes
+from .pose_arrays import transform_points
 from .rays import RayCaster, RayHits, Rays
 from .wireless import Transmitter
 
@@ -25,16 +25,16 @@ class RayScene:
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
-        self._touched: RayCaster | None = None
-        self._lit: dict[int, RayCaster] = {}
+        self._collision_caster: RayCaster | None = None
+        self._visual_casters: dict[int, RayCaster] = {}
         """By the mask of what is seen."""
-        self._bodies: list[Body] | None = None
-        self._bodies_of: World | None = None
+        self._models: list[ModelShapes] | None = None
+        self._models_world: World | None = None
 
     def rays(self, origin: Vector3, directions: _Array, reach: float, exclude: int) -> RayHits:
         """Against collision shapes; see `Rays`."""
-        self._touched = self._seen_anew(self._touched, collisions=True)
-        return self._touched.cast(origin, directions, reach, exclude)
+        self._collision_caster = self._updated_caster(self._collision_caster, collisions=True)
+        return self._collision_caster.cast(origin, directions, reach, exclude)
 
     def rays_excluding(self, model: Model, link: Link) -> Rays:
         """Against the collision shapes of what this link may touch, as Gazebo's sonar is a shape of its link: of its
@@ -49,10 +49,10 @@ class RayScene:
 
         def cast(origin: Vector3, directions: _Array, reach: float, exclude: int) -> RayHits:
             del exclude
-            self._touched = self._seen_anew(self._touched, collisions=True)
+            self._collision_caster = self._updated_caster(self._collision_caster, collisions=True)
             own = self._simulation[model.name]
             hidden = [own.link(name).index for name in names]
-            return self._touched.cast_past(origin, directions, reach, hidden)
+            return self._collision_caster.cast_through(origin, directions, reach, hidden)
 
         return cast
 
@@ -64,12 +64,14 @@ class RayScene:
 
         def cast(origin: Vector3, directions: _Array, reach: float, exclude: int) -> RayHits:
             del exclude
-            self._lit[mask] = self._seen_anew(self._lit.get(mask), collisions=False, mask=mask)
-            return self._lit[mask].cast_beyond(origin, directions, reach, nearest)
+            self._visual_casters[mask] = self._updated_caster(
+                self._visual_casters.get(mask), collisions=False, mask=mask
+            )
+            return self._visual_casters[mask].cast_from_distance(origin, directions, reach, nearest)
 
         return cast
 
-    def _seen_anew(self, caster: RayCaster | None, *, collisions: bool, mask: int = EVERY_BIT) -> RayCaster:
+    def _updated_caster(self, caster: RayCaster | None, *, collisions: bool, mask: int = EVERY_BIT) -> RayCaster:
         """A caster with everything where it is now; another one after models came, went or were edited."""
         simulation = self._simulation
         if caster is None or caster.world is not simulation.world:
@@ -77,7 +79,7 @@ class RayScene:
         caster.update(simulation.engine.reader.link_poses(), simulation.animation_state)
         return caster
 
-    def beacons(self, type_: str) -> list[Transmitter]:
+    def transmitters(self, type_: str) -> list[Transmitter]:
         """Every sensor of a type that others look for."""
         found: list[Transmitter] = []
         index = 0
@@ -91,7 +93,7 @@ class RayScene:
                             Transmitter(
                                 name=name,
                                 link_index=index,
-                                link_from_beacon=sensor.link_from_sensor,
+                                link_from_transmitter=sensor.link_from_sensor,
                                 settings=settings,
                             )
                         )
@@ -99,12 +101,12 @@ class RayScene:
         return found
 
     @property
-    def bodies(self) -> list[Body]:
+    def models(self) -> list[ModelShapes]:
         """Every model, with the corners of its collision shapes."""
         world = self._simulation.world
-        if self._bodies is None or self._bodies_of is not world:
-            self._bodies, self._bodies_of = _bodies(world), world
-        return self._bodies
+        if self._models is None or self._models_world is not world:
+            self._models, self._models_world = _model_shapes(world), world
+        return self._models
 
 
 def _ends(joint: Joint, link: str) -> tuple[str, str]:
@@ -112,17 +114,17 @@ def _ends(joint: Joint, link: str) -> tuple[str, str]:
     return (joint.parent, joint.child) if link in (joint.parent, joint.child) else (link, link)
 
 
-def _bodies(world: World) -> list[Body]:
+def _model_shapes(world: World) -> list[ModelShapes]:
     corners: dict[int, list[_Array]] = {}
-    for shape in scene_of(world, Diagnostics(), collisions=True).shapes:
+    for shape in scene_from_world(world, Diagnostics(), collisions=True).shapes:
         place = shape.body_from_shape
         if isinstance(shape.geometry, Plane):
-            place, box = place @ Pose(quaternion=upright(shape.geometry.normal)), _HALF_SPACE
+            place, box = place @ Pose(quaternion=rotation_from_z(shape.geometry.normal)), _HALF_SPACE
         else:
             box = corners_of(shape.geometry)
         if box:
-            corners.setdefault(shape.body, []).append(moved(place, np.array(box)))
-    bodies: list[Body] = []
+            corners.setdefault(shape.body, []).append(transform_points(place, np.array(box)))
+    bodies: list[ModelShapes] = []
     first = 0
     for model in world.models:
         span = range(first, first + len(model.links))
@@ -131,7 +133,7 @@ def _bodies(world: World) -> list[Body]:
             continue
         base, base_from_model = _base(model)
         own = {index: np.concatenate(corners[index]) for index in span if index in corners}
-        bodies.append(Body(name=model.name, base_index=span[base], base_from_model=base_from_model, corners=own))
+        bodies.append(ModelShapes(name=model.name, base_index=span[base], base_from_model=base_from_model, corners=own))
     return bodies
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import EVERY_BIT, AnimationState, Plane, World
-from trundle.render import NativeRenderer, Scene, move_skins, scene_of
+from trundle.render import NativeRenderer, Scene, scene_from_world, update_skins
 from trundle.spatial import Pose, Vector3
 
 _Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ class RayHits(Struct, frozen=True, eq=False):
     """(rays,) [m]; inf where there is nothing."""
     retros: _Array
     """(rays,) The laser_retro of what is there; 0 where there is nothing."""
-    bodies: NDArray[np.intp]
+    links: NDArray[np.intp]
     """(rays,) The link that it is on; −1 where there is nothing."""
 
 
@@ -47,26 +47,26 @@ class RayCaster:
     def __init__(self, world: World, *, collisions: bool, mask: int = EVERY_BIT) -> None:
         """Make a scene of them; what it leaves out has been said by who drew or compiled it."""
         self.world = world
-        scene = scene_of(world, Diagnostics(), collisions=collisions, mask=mask)
-        scene = _endless(scene) if collisions else scene
+        scene = scene_from_world(world, Diagnostics(), collisions=collisions, mask=mask)
+        scene = _with_infinite_planes(scene) if collisions else scene
         self._scene, self._renderer = scene, NativeRenderer(scene)
         self._retros = np.array([*(shape.laser_retro for shape in scene.shapes), 0.0])
         self._poses: _Array = np.zeros((0, 7))
         self._bodies = np.array([*(shape.body for shape in scene.shapes), -1], dtype=np.intp)
 
-    def update(self, poses: _Array, moment_of: Callable[[str], AnimationState]) -> None:
+    def update(self, poses: _Array, animation_state: Callable[[str], AnimationState]) -> None:
         """Move the links, (links, 7) x y z qw qx qy qz in the world, and the skins of actors."""
         if poses is not self._poses:  # those that were asked for again at one instant are the same array
             self._poses = poses
             self._renderer.update(poses)
-        move_skins(self._renderer, self._scene, moment_of)
+        update_skins(self._renderer, self._scene, animation_state)
 
     def cast(self, origin: Vector3, directions: _Array, reach: float, exclude: int | None) -> RayHits:
         """See `Rays`."""
         distances, shapes = self._renderer.cast(Pose(origin), directions, reach_m=reach, exclude=exclude)
         return RayHits(distances, self._retros[shapes], self._bodies[shapes])
 
-    def cast_past(self, origin: Vector3, directions: _Array, reach: float, hidden: Sequence[int]) -> RayHits:
+    def cast_through(self, origin: Vector3, directions: _Array, reach: float, hidden: Sequence[int]) -> RayHits:
         """Cast rays that look through some links wherever they are."""
         poses = self._poses.copy()
         poses[hidden, :3] = _AWAY
@@ -75,7 +75,7 @@ class RayCaster:
         self._renderer.update(self._poses)
         return found
 
-    def cast_beyond(self, origin: Vector3, directions: _Array, reach: float, nearest: float) -> RayHits:
+    def cast_from_distance(self, origin: Vector3, directions: _Array, reach: float, nearest: float) -> RayHits:
         """Cast rays that look through a link where it is nearer than this [m], as a GPU's begin at its near clip."""
         found = self.cast(origin, directions, reach, None)
         poses = self._poses.copy()
@@ -83,16 +83,16 @@ class RayCaster:
             near = np.flatnonzero(found.distances < nearest)
             if not len(near):
                 break
-            poses[found.bodies[near], :3] = _AWAY
+            poses[found.links[near], :3] = _AWAY
             self._renderer.update(poses)
             behind = self.cast(origin, directions[near], reach, None)
             found.distances[near], found.retros[near] = behind.distances, behind.retros
-            found.bodies[near] = behind.bodies
+            found.links[near] = behind.links
         self._renderer.update(self._poses)
         return found
 
 
-def _endless(scene: Scene) -> Scene:
+def _with_infinite_planes(scene: Scene) -> Scene:
     """The scene with planes that have no rim."""
     shapes = tuple(
         replace(shape, geometry=replace(shape.geometry, size=(_ENDLESS, _ENDLESS)))

@@ -11,10 +11,10 @@ from trundle.simulation import Snapshot
 from trundle.spatial import Pose, quaternion_from_rpy
 
 from .live_sensor import LiveSensor, SensorMount
-from .pose_arrays import turned
+from .pose_arrays import rotate_vectors
 from .rays import Rays
 
-FASTEST_HZ = 40.0
+DEFAULT_RATE_HZ = 40.0
 """Of a sonar whose update_rate is 0."""
 _RINGS = 8
 _ALL_ROUND = math.pi
@@ -31,20 +31,22 @@ class SonarReading(Struct, frozen=True, kw_only=True):
 class SonarSensor(LiveSensor[SonarReading]):
     """Looks through a cone by 217 rays; Gazebo lays a cone of triangles over the shapes, with the same answer."""
 
-    def __init__(self, spot: SensorMount, *, rays: Rays) -> None:
+    def __init__(self, mount: SensorMount, *, rays: Rays) -> None:
         """Mount a sonar; see `LiveSensor`.
 
         Args:
-            spot: where it is.
+            mount: where it is.
             rays: asks the engine.
         """
-        super().__init__(spot, fastest_hz=FASTEST_HZ)
-        assert isinstance(spot.sensor.instrument, Sonar), f"{spot.sensor.name!r} is no sonar"
-        self.settings = spot.sensor.instrument
+        super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
+        assert isinstance(mount.sensor.instrument, Sonar), f"{mount.sensor.name!r} is no sonar"
+        self.settings = mount.sensor.instrument
         is_cone = self.settings.geometry == "cone"
         half = math.atan2(self.settings.radius, self.settings.max_m) if is_cone else _ALL_ROUND
         self.fov_rad = 2.0 * half
-        self.link_from_beam = spot.sensor.link_from_sensor @ Pose(quaternion=quaternion_from_rpy(0.0, math.pi / 2, 0.0))
+        self.link_from_beam = mount.sensor.link_from_sensor @ Pose(
+            quaternion=quaternion_from_rpy(0.0, math.pi / 2, 0.0)
+        )
         """Whose x axis is the sonar's: −z of the sensor's own frame."""
         self._directions = _cone(half)
         self._reach = self.settings.max_m / self._directions[:, 0] if is_cone else np.inf
@@ -55,7 +57,7 @@ class SonarSensor(LiveSensor[SonarReading]):
     def measure(self, snapshot: Snapshot) -> SonarReading:
         """Listen at this instant."""
         beam = self.world_from_link(snapshot) @ self.link_from_beam
-        directions = turned(beam, self._directions)
+        directions = rotate_vectors(beam, self._directions)
         found = self._rays(beam.position, directions, self._farthest, self.link_index).distances
         nearest = float(np.min(np.where(found <= self._reach, found, np.inf)))
         low, high = self.settings.min_m, self.settings.max_m

@@ -13,7 +13,7 @@ from trundle.spatial import Pose, Vector3, normalized
 from .live_sensor import LiveSensor, SensorMount
 from .rays import Rays
 
-FASTEST_HZ = 10.0
+DEFAULT_RATE_HZ = 10.0
 """Of a receiver whose update_rate is 0."""
 _LIGHT = 299_792_458.0
 """[m/s]"""
@@ -32,13 +32,13 @@ class Transmitter(Struct, frozen=True, kw_only=True):
 
     name: str
     link_index: int
-    link_from_beacon: Pose
+    link_from_transmitter: Pose
     settings: Transceiver
 
-    def place(self, snapshot: Snapshot) -> Vector3:
+    def position(self, snapshot: Snapshot) -> Vector3:
         """Where it is in the world [m]."""
         x, y, z, qw, qx, qy, qz = snapshot.poses[self.link_index].tolist()
-        return Pose((x, y, z), (qw, qx, qy, qz)).point(self.link_from_beacon.position)
+        return Pose((x, y, z), (qw, qx, qy, qz)).transform_point(self.link_from_transmitter.position)
 
 
 class ReceivedSignal(Struct, frozen=True, kw_only=True):
@@ -54,26 +54,26 @@ class WirelessReading(Struct, frozen=True, kw_only=True):
     """Who is heard."""
 
     time_ns: int
-    heard: tuple[ReceivedSignal, ...]
+    signals: tuple[ReceivedSignal, ...]
 
 
 class WirelessSensor(LiveSensor[WirelessReading]):
     """Hears transmitters by Gazebo's Hata-Okumura model: things between attenuate."""
 
-    def __init__(self, spot: SensorMount, *, transmitters: Callable[[], Sequence[Transmitter]], rays: Rays) -> None:
+    def __init__(self, mount: SensorMount, *, transmitters: Callable[[], Sequence[Transmitter]], rays: Rays) -> None:
         """Mount a receiver; see `LiveSensor`.
 
         Args:
-            spot: where it is.
+            mount: where it is.
             transmitters: there are.
             rays: asks the engine what is between.
         """
-        super().__init__(spot, fastest_hz=FASTEST_HZ)
-        assert isinstance(spot.sensor.instrument, Transceiver), f"{spot.sensor.name!r} is no receiver"
-        self._settings = spot.sensor.instrument
+        super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
+        assert isinstance(mount.sensor.instrument, Transceiver), f"{mount.sensor.name!r} is no receiver"
+        self._settings = mount.sensor.instrument
         self._transmitters = transmitters
         self._rays = rays
-        self._random = spot.random
+        self._random = mount.random
 
     def measure(self, snapshot: Snapshot) -> WirelessReading:
         """Who is heard at this instant."""
@@ -86,18 +86,18 @@ class WirelessSensor(LiveSensor[WirelessReading]):
             level = self._level(transmitter, snapshot)
             if level >= own.sensitivity_dbm:
                 heard.append(ReceivedSignal(name=sent.essid, frequency_mhz=sent.frequency_mhz, level_dbm=level))
-        return WirelessReading(time_ns=snapshot.time_ns, heard=tuple(heard))
+        return WirelessReading(time_ns=snapshot.time_ns, signals=tuple(heard))
 
     def _level(self, transmitter: Transmitter, snapshot: Snapshot) -> float:
-        here, there = self.world_from_sensor(snapshot).position, transmitter.place(snapshot)
+        here, there = self.world_from_sensor(snapshot).position, transmitter.position(snapshot)
         sent = transmitter.settings
-        exponent = _THROUGH_THINGS if self._is_hidden(here, there, transmitter.link_index) else _THROUGH_AIR
+        exponent = _THROUGH_THINGS if self._is_obstructed(here, there, transmitter.link_index) else _THROUGH_AIR
         lost = abs(float(self._random.normal(0.0, _SHADOWING)))
         wave = 20.0 * math.log10(_LIGHT / (sent.frequency_mhz * 1e6) / (4.0 * math.pi))
         far = 10.0 * exponent * math.log10(max(_NEAREST, math.dist(here, there)))
         return sent.power_dbm + sent.gain_dbi + self._settings.gain_dbi - lost + wave - far
 
-    def _is_hidden(self, here: Vector3, there: Vector3, other: int) -> bool:
+    def _is_obstructed(self, here: Vector3, there: Vector3, other: int) -> bool:
         """Whether a thing is between that belongs to neither link: rays from both ends stop before they meet."""
         across = normalized((there[0] - here[0], there[1] - here[1], there[2] - here[2]))
         if across is None:
@@ -119,18 +119,18 @@ class RfidReading(Struct, frozen=True, kw_only=True):
 class RfidSensor(LiveSensor[RfidReading]):
     """Tells the tags within five metres, whatever is between, as Gazebo does."""
 
-    def __init__(self, spot: SensorMount, *, tags: Callable[[], Sequence[Transmitter]]) -> None:
+    def __init__(self, mount: SensorMount, *, tags: Callable[[], Sequence[Transmitter]]) -> None:
         """Mount a reader; see `LiveSensor`.
 
         Args:
-            spot: where it is.
+            mount: where it is.
             tags: there are.
         """
-        super().__init__(spot, fastest_hz=FASTEST_HZ)
+        super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
         self._tags = tags
 
     def measure(self, snapshot: Snapshot) -> RfidReading:
         """Which tags are near at this instant."""
         here = self.world_from_sensor(snapshot).position
-        near = [tag.name for tag in self._tags() if math.dist(here, tag.place(snapshot)) <= _TAG_REACH]
+        near = [tag.name for tag in self._tags() if math.dist(here, tag.position(snapshot)) <= _TAG_REACH]
         return RfidReading(time_ns=snapshot.time_ns, tags=tuple(near))

@@ -1,4 +1,4 @@
-from .actors import ActorWalk as ActorWalk
+from .actors import ActorPlayer as ActorPlayer
 from .actors import with_actors as with_actors
 from .debug_line import DebugLine as DebugLine
 from .handle import expect_finite as expect_finite

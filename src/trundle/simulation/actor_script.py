@@ -7,7 +7,7 @@ from itertools import accumulate, pairwise
 from trundle.model import Actor, AnimationState, Trajectory
 from trundle.spatial import Pose, Quaternion, Twist, Vector3, normalized, quaternion_product
 
-_PIECES, _MOST_PIECES = 32, 100_000
+_PIECES, _MAX_PIECES = 32, 100_000
 """From one waypoint to the next, and in all: a way's length is that of so many straight pieces."""
 
 
@@ -18,37 +18,37 @@ class ActorScript:
         self._delay = max(actor.delay_start_s, 0.0)
         self._loop = actor.loop
         self._first = actor.trajectories[0].type if actor.trajectories else ""
-        self._ways: list[tuple[float, _WaypointPath]] = []
+        self._paths: list[tuple[float, _WaypointPath]] = []
         """The time each begins [s], and what it is."""
         self.length_s = 0.0
         for trajectory in actor.trajectories:
             if trajectory.waypoints:
-                self._ways.append((self.length_s, _WaypointPath(trajectory)))
+                self._paths.append((self.length_s, _WaypointPath(trajectory)))
                 self.length_s += max(trajectory.waypoints[-1].time_s, 0.0)
 
     def __bool__(self) -> bool:
         """Whether there is anywhere to go."""
-        return bool(self._ways)
+        return bool(self._paths)
 
     def pose_at(self, time_s: float) -> Pose:
         """World pose at a time since the actor began; it waits before each round where it goes round."""
-        since, way = self._on_way(time_s)
+        since, way = self._path_at(time_s)
         return way.pose_at(since)
 
     def animation_state_at(self, time_s: float) -> AnimationState:
         """What the bones are at; without waypoints the first animation goes on and on."""
-        if not self._ways:
+        if not self._paths:
             return AnimationState(animation=self._first, time_s=max(time_s - self._delay, 0.0))
-        since, way = self._on_way(time_s)
-        return AnimationState(animation=way.type, time_s=since, way_m=way.covered(since))
+        since, way = self._path_at(time_s)
+        return AnimationState(animation=way.type, time_s=since, distance_m=way.distance_at(since))
 
-    def _on_way(self, time_s: float) -> "tuple[float, _WaypointPath]":
+    def _path_at(self, time_s: float) -> "tuple[float, _WaypointPath]":
         """Which way it is on at a time, and for how long [s]."""
         round_s = self._delay + self.length_s
         if self._loop and round_s > 0.0:
             time_s = math.fmod(time_s, round_s)
         since = min(max(time_s - self._delay, 0.0), self.length_s)
-        begins, way = self._ways[max(bisect_right([start for start, _ in self._ways], since) - 1, 0)]
+        begins, way = self._paths[max(bisect_right([start for start, _ in self._paths], since) - 1, 0)]
         return since - begins, way
 
     def twist_at(self, time_s: float, dt: float) -> Twist:
@@ -73,41 +73,41 @@ class _WaypointPath:
     def __init__(self, trajectory: Trajectory) -> None:
         points = trajectory.waypoints
         self.type = trajectory.type
-        self._covered: list[float] | None = None
+        self._distances: list[float] | None = None
         self._times = [point.time_s for point in points]
-        self._turns = [point.pose.quaternion for point in points]
-        self._places = [point.pose.position for point in points]
-        self._slopes = _slopes(self._places, (1.0 - trajectory.tension) / 2)
+        self._orientations = [point.pose.quaternion for point in points]
+        self._positions = [point.pose.position for point in points]
+        self._slopes = _slopes(self._positions, (1.0 - trajectory.tension) / 2)
 
     def pose_at(self, time_s: float) -> Pose:
         """Before the first waypoint it waits there, after the last one it stays there."""
         i = bisect_right(self._times, time_s) - 1
         if i < 0:
-            return Pose(self._places[0], self._turns[0])
+            return Pose(self._positions[0], self._orientations[0])
         if i >= len(self._times) - 1:
-            return Pose(self._places[-1], self._turns[-1])
+            return Pose(self._positions[-1], self._orientations[-1])
         u = (time_s - self._times[i]) / (self._times[i + 1] - self._times[i])
         a, b = u * u * (3 - 2 * u), u * (1 - u) ** 2
         c = u * u * (u - 1)
 
         def along(axis: int) -> float:
-            start, end = self._places[i][axis], self._places[i + 1][axis]
+            start, end = self._positions[i][axis], self._positions[i + 1][axis]
             return start + a * (end - start) + b * self._slopes[i][axis] + c * self._slopes[i + 1][axis]
 
-        return Pose((along(0), along(1), along(2)), _between(self._turns[i], self._turns[i + 1], u))
+        return Pose((along(0), along(1), along(2)), _slerp(self._orientations[i], self._orientations[i + 1], u))
 
-    def covered(self, time_s: float) -> float:
+    def distance_at(self, time_s: float) -> float:
         """The length of the way up to a time [m], from straight pieces."""
         first, last = self._times[0], self._times[-1]
         if not first < time_s or not first < last:
             return 0.0
-        count = min(_PIECES * (len(self._times) - 1), _MOST_PIECES)
-        if self._covered is None:
+        count = min(_PIECES * (len(self._times) - 1), _MAX_PIECES)
+        if self._distances is None:
             places = [self.pose_at(first + (last - first) * i / count).position for i in range(count + 1)]
-            self._covered = [0.0, *accumulate(math.dist(a, b) for a, b in pairwise(places))]
+            self._distances = [0.0, *accumulate(math.dist(a, b) for a, b in pairwise(places))]
         at = min((time_s - first) / (last - first), 1.0) * count
         i = min(int(at), count - 1)
-        return self._covered[i] + (at - i) * (self._covered[i + 1] - self._covered[i])
+        return self._distances[i] + (at - i) * (self._distances[i + 1] - self._distances[i])
 
 
 def _slopes(places: list[Vector3], share: float) -> list[Vector3]:
@@ -124,7 +124,7 @@ def _slopes(places: list[Vector3], share: float) -> list[Vector3]:
     return [slope(i) for i in range(len(places))]
 
 
-def _between(a: Quaternion, b: Quaternion, u: float) -> Quaternion:
+def _slerp(a: Quaternion, b: Quaternion, u: float) -> Quaternion:
     """The turn a share of the way from one to another, the short way round."""
     cosine = sum(p * q for p, q in zip(a, b, strict=True))
     if cosine < 0.0:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:  # a world without actors starts without their modules
 
 _PERSON: Vector3 = (0.3, 0.5, 1.8)
 """[m] Of a skin that cannot be read."""
-_WANDERING = "libActorPlugin.so"
+_ACTOR_PLUGIN = "libActorPlugin.so"
 """It has skins lie on their backs, whose own up is y, with the hips at 1.2138 m, and takes no notice of scripts."""
 _HIPS = 1.2138
 _WALKING = "walking"
@@ -35,7 +35,7 @@ def with_actors(world: World, report: Diagnostics) -> World:
     return replace(world, models=(*world.models, *(model for model in added if model.links)))
 
 
-class ActorWalk:
+class ActorPlayer:
     """A hook that keeps an actor where its script says; between two calls it glides."""
 
     period_ns = 20_000_000
@@ -60,10 +60,10 @@ class ActorWalk:
         from trundle.model import AnimationState
 
         if self.taken_over:
-            return AnimationState(animation=_WALKING, time_s=self.animation_s, way_m=0.0, placed=False)
+            return AnimationState(animation=_WALKING, time_s=self.animation_s, distance_m=0.0, placed=False)
         return self._script.animation_state_at(time_ns / 1e9 if self._starts else 0.0)
 
-    def wanted(self, models: Sequence[ModelHandle]) -> bool:
+    def enabled(self, models: Sequence[ModelHandle]) -> bool:
         """Whether the actor is there, and on its way."""
         return self.is_on and any(model is self._handle for model in models)
 
@@ -81,7 +81,7 @@ def _model(actor: "Actor", report: Diagnostics) -> Model:
     if actor.skin is not None:
         links.insert(0, _body(actor, actor.skin, report))
     script = ActorScript(actor)
-    begins = bool(script) and actor.auto_start and not _wanders(actor)
+    begins = bool(script) and actor.auto_start and not _has_actor_plugin(actor)
     return Model(
         name=actor.name,
         at=actor.at,
@@ -96,7 +96,7 @@ def _model(actor: "Actor", report: Diagnostics) -> Model:
 def _body(actor: "Actor", skin: "Skin", report: Diagnostics) -> Link:
     width, depth, height = _size(skin)
     place = Pose((0.0, 0.0, height / 2))
-    if _wanders(actor):
+    if _has_actor_plugin(actor):
         place = Pose.from_rpy(0.0, height / 2 - _HIPS, 0.0, -1.5707963)
     name = f"{actor.name}_pose"
     box = Visual(name=name, at=actor.at, geometry=Box((width, depth, height)), link_from_visual=place)
@@ -110,8 +110,8 @@ def _body(actor: "Actor", skin: "Skin", report: Diagnostics) -> Link:
     return Link(name=name, at=actor.at, kinematic=True, gravity=False, visuals=(box,))
 
 
-def _wanders(actor: "Actor") -> bool:
-    return any(tag.filename.endswith(_WANDERING) for tag in actor.plugins)
+def _has_actor_plugin(actor: "Actor") -> bool:
+    return any(tag.filename.endswith(_ACTOR_PLUGIN) for tag in actor.plugins)
 
 
 def _size(skin: "Skin") -> Vector3:

@@ -36,7 +36,7 @@ class Handle:
         return self._index
 
     @property
-    def is_there(self) -> bool:
+    def is_valid(self) -> bool:
         """Whether its model is, still."""
         return self._index is not None
 

@@ -16,7 +16,7 @@ from trundle.spatial import Pose, Twist, Vector3, Wrench, cross
 
 from .handle import Handle, expect_finite
 from .joint_handle import JointHandle
-from .world_edits import placed
+from .world_edits import with_model_at
 
 if TYPE_CHECKING:
     from trundle.physics import LinkGrip
@@ -75,8 +75,8 @@ class LinkHandle(Handle):
             wrench: replaces whatever was applied to this link before.
             duration_s: simulation time; None: until something else is applied.
         """
-        until = self._simulation.step_after(duration_s)
-        self._simulation.pushes.hold_wrench(self.index, wrench, until=until)
+        until = self._simulation.expiry_step(duration_s)
+        self._simulation.loads.set_wrench(self.index, wrench, until=until)
 
     def add_wrench(self, wrench: Wrench, *, at: Vector3 | None = None) -> None:
         """Add to what pushes the link, up to the next hook: what wind, water and air do, called at every step.
@@ -90,15 +90,15 @@ class LinkHandle(Handle):
             arm = (at[0] - com.position[0], at[1] - com.position[1], at[2] - com.position[2])
             turning = cross(arm, wrench.force)
             wrench = wrench + Wrench(torque=turning)
-        self._simulation.pushes.add_wrench(self.index, wrench)
+        self._simulation.loads.add_wrench(self.index, wrench)
 
-    def set_grip(self, grip: "LinkGrip | None") -> None:
+    def set_surface_motion(self, motion: "LinkGrip | None") -> None:
         """Have the link's surface move and slip where it touches, from now on.
 
         Args:
-            grip: None: contacts are ordinary ones again.
+            motion: None: contacts are ordinary ones again.
         """
-        self._simulation.pushes.set_grip(self.index, grip)
+        self._simulation.loads.set_surface_motion(self.index, motion)
 
 
 _Named = TypeVar("_Named", LinkHandle, JointHandle)
@@ -161,7 +161,7 @@ class ModelHandle:
         free = [link for link in self.links if self._simulation.engine.is_free(link.index)]
         if not free:
             simulation = self._simulation
-            simulation.edit(placed(simulation.world, self.name, moved @ self.model.world_from_model))
+            simulation.edit(with_model_at(simulation.world, self.name, moved @ self.model.world_from_model))
         for link, there in [(link, moved @ link.pose) for link in free]:
             link.set_pose(there)
 
@@ -205,7 +205,7 @@ class ModelHandle:
         Raises:
             UsageError: with the names there are.
         """
-        return _named(name, self.links, f"model {self.name!r} has no link")
+        return _find_by_name(name, self.links, f"model {self.name!r} has no link")
 
     def joint(self, name: str) -> JointHandle:
         """The joint of that name.
@@ -213,14 +213,14 @@ class ModelHandle:
         Raises:
             UsageError: with the names there are.
         """
-        return _named(name, self.joints, f"model {self.name!r} has no joint")
+        return _find_by_name(name, self.joints, f"model {self.name!r} has no joint")
 
     def apply_wrench(self, wrench: Wrench, *, duration_s: float | None = None) -> None:
         """Push and twist the model's canonical link at its centre of mass, in world axes."""
         self.base.apply_wrench(wrench, duration_s=duration_s)
 
 
-def _named(name: str, there: Iterable[_Named], none: str) -> _Named:
+def _find_by_name(name: str, there: Iterable[_Named], none: str) -> _Named:
     for one in there:
         if one.name == name:
             return one

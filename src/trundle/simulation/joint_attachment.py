@@ -7,12 +7,12 @@ from trundle.model import Joint, JointAxis, JointType, World
 from trundle.spatial import Pose
 
 from .handles import LinkHandle, ModelHandle
-from .world_edits import placed
+from .world_edits import with_model_at
 
 WORLD = "world"
 
 
-def attached(world: World, models: list[ModelHandle], joint: Joint) -> World:
+def with_joint(world: World, models: list[ModelHandle], joint: Joint) -> World:
     """The world with a joint between models that is at zero as everything is now.
 
     A fixed one says itself where it holds the child; of another, the child's model is put so that it is at zero.
@@ -39,7 +39,7 @@ def attached(world: World, models: list[ModelHandle], joint: Joint) -> World:
 
     joint = replace(joint, axis=_turned(joint.axis, seen_from), axis2=_turned(joint.axis2, seen_from))
     # A parent in the same model stands where its child does: the two are at zero together or not at all.
-    put = world if parent is not None and parent[0] is child[0] else placed(world, child[0].name, moved)
+    put = world if parent is not None and parent[0] is child[0] else with_model_at(world, child[0].name, moved)
     return replace(put, joints=(*world.joints, joint))
 
 
@@ -58,4 +58,4 @@ def _at_zero(model: ModelHandle, link: LinkHandle) -> Pose:
 
 
 def _turned(axis: JointAxis | None, by: Pose) -> JointAxis | None:
-    return None if axis is None else replace(axis, direction=by.direction(axis.direction))
+    return None if axis is None else replace(axis, direction=by.transform_vector(axis.direction))

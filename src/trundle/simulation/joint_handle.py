@@ -80,12 +80,12 @@ class JointHandle(Handle):
             UsageError: the joint closes a loop of links.
         """
         engine = self._simulation.engine
-        link, anchor, sign = engine.compiled.joint_hangs[self.index]
+        link, anchor, sign = engine.compiled.joint_anchors[self.index]
         if link < 0:
             name = engine.compiled.joint_names[self.index]
             raise UsageError(f"joint {name!r} closes a loop of links, or holds none; its reaction is not known")
         _, _, _, qw, qx, qy, qz = engine.reader.link_poses()[link].tolist()
-        arm = Pose(quaternion=(qw, qx, qy, qz)).direction(anchor)
+        arm = Pose(quaternion=(qw, qx, qy, qz)).transform_vector(anchor)
         fx, fy, fz, tx, ty, tz = (sign * each for each in engine.reactions()[link].tolist())
         mx, my, mz = cross(arm, (fx, fy, fz))
         return Wrench((fx, fy, fz), (tx - mx, ty - my, tz - mz))
@@ -99,24 +99,24 @@ class JointHandle(Handle):
             duration_s: simulation time; None: until told otherwise.
         """
         self._simulation.engine.motors.set_effort(self._axis(axis), effort)
-        self._simulation.pushes.hold_effort(self, axis, until=self._simulation.step_after(duration_s))
+        self._simulation.loads.set_effort_expiry(self, axis, until=self._simulation.expiry_step(duration_s))
 
     def set_velocity(self, velocity: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
         """Keep this speed [rad/s or m/s] with at most so much effort, as Gazebo's SetVelocity with fmax."""
-        self._simulation.pushes.hold_effort(self, axis, until=None)
+        self._simulation.loads.set_effort_expiry(self, axis, until=None)
         self._simulation.engine.motors.set_velocity(self._driven(axis), velocity, max_effort)
 
     def drive_kinematically(self, velocity: float, *, axis: int = 0) -> None:
         """Move the child's side at this speed [rad/s or m/s], at once; the parent's side feels its weight alone."""
-        self._simulation.pushes.hold_effort(self, axis, until=None)
+        self._simulation.loads.set_effort_expiry(self, axis, until=None)
         engine = self._simulation.engine
         engine.motors.drive_kinematically(self._driven(axis), velocity)
-        engine.reader.changed()
+        engine.reader.invalidate()
 
     def hold(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
         """Go to a position [rad or m] and stay, with at most so much effort; limits are respected."""
         driven = self._driven(axis)
-        self._simulation.pushes.hold_effort(self, axis, until=None)
+        self._simulation.loads.set_effort_expiry(self, axis, until=None)
         self._simulation.engine.motors.hold(driven, self._within_limits(position, driven), max_effort)
 
     def set_position(self, position: float, *, axis: int = 0) -> None:

@@ -12,6 +12,6 @@ class SavedSimulation(Struct, frozen=True):
     """A state to go back to."""
 
     steps: int
-    timeline: StepClock
+    clock: StepClock
     engine: EngineState
-    ends: Expiries
+    expiries: Expiries

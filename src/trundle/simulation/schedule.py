@@ -14,15 +14,15 @@ if TYPE_CHECKING:
 class Schedule:
     """Hooks in the order in which they came."""
 
-    def __init__(self, timeline: StepClock) -> None:
-        self._timeline = timeline
+    def __init__(self, clock: StepClock) -> None:
+        self._clock = clock
         self._hooks: list[ScheduledHook] = []
 
     def add(
-        self, hook: BeforeStep | AfterStep, period_ns: Period, *, now_ns: int, wanted: Callable[[], bool] | None
+        self, hook: BeforeStep | AfterStep, period_ns: Period, *, now_ns: int, enabled: Callable[[], bool] | None
     ) -> None:
         """Have a hook called from now [ns] on; see `Simulation.add_hook`."""
-        self._hooks.append(ScheduledHook(hook, period_ns, self._timeline, now_ns=now_ns, wanted=wanted))
+        self._hooks.append(ScheduledHook(hook, period_ns, self._clock, now_ns=now_ns, enabled=enabled))
 
     def retime(self, hook: object, period_ns: Period, *, now_ns: int) -> None:
         """Call a hook from now [ns] on at another period [ns]; it keeps its turn among the others."""
@@ -34,11 +34,11 @@ class Schedule:
         """Call a hook no more."""
         self._hooks = [scheduled for scheduled in self._hooks if scheduled.hook is not hook]
 
-    def follow(self, timeline: StepClock) -> None:
+    def set_clock(self, clock: StepClock) -> None:
         """Keep every rhythm at other steps."""
-        self._timeline = timeline
+        self._clock = clock
         for hook in self._hooks:
-            hook.follow(timeline)
+            hook.set_clock(clock)
 
     def restart(self, step: int) -> None:
         """Count time anew from a step that is a reset's or a restored state's."""
@@ -47,25 +47,25 @@ class Schedule:
 
     def enabled(self, step: int) -> list[ScheduledHook]:
         """Those that want to be called in the stride that begins with this step."""
-        return [hook for hook in self._hooks if hook.enabled(step)]
+        return [hook for hook in self._hooks if hook.update_enabled(step)]
 
 
 def run_before(hooks: list[ScheduledHook], sim: "Simulation") -> None:
     """Have those that are due at this step act on the world."""
     for hook in hooks:
-        if hook.before is not None and hook.before_alarm.due(sim.steps):
+        if hook.before is not None and hook.before_timer.due(sim.steps):
             hook.before(sim)
 
 
 def run_after(hooks: list[ScheduledHook], step: int, snapshot: Callable[[], Snapshot]) -> None:
     """Have those that are due at a step see the world; the snapshot is taken if there are any."""
-    due = [hook for hook in hooks if hook.after is not None and hook.after_alarm.due(step)]
+    due = [hook for hook in hooks if hook.after is not None and hook.after_timer.due(step)]
     if not due:
         return
     seen = snapshot()
     for hook in due:
-        if hook.before_look is not None:
-            hook.before_look(seen)
+        if hook.prepare is not None:
+            hook.prepare(seen)
     for hook in due:
         if hook.after is not None:
             hook.after(seen)

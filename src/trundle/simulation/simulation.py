@@ -15,23 +15,31 @@ from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, Model, World
 from trundle.physics import Contact, Engine, compile_world
 
-from .actors import ActorWalk, with_actors
+from .actors import ActorPlayer, with_actors
 from .applied_loads import AppliedLoads
 from .debug_line import DebugLine
 from .handles import ModelHandle, handles_of, world_joints_of
 from .hooks import AfterStep, BeforeStep
-from .joint_attachment import attached
+from .joint_attachment import with_joint
 from .joint_handle import JointHandle
 from .saved_state import SavedSimulation
 from .schedule import Schedule, run_after, run_before
 from .snapshot import Snapshot
-from .step_clock import NS, Period, StepClock, step_ns_of
-from .world_edits import carried_over, free_name, refuse_others, refuse_taken, renamed, without_joint, without_model
+from .step_clock import NS, Period, StepClock, world_step_ns
+from .world_edits import (
+    check_name_is_free,
+    check_same_structure,
+    transferred_engine,
+    unique_name,
+    with_model_renamed,
+    without_joint,
+    without_model,
+)
 
 if TYPE_CHECKING:
     from trundle.model import AnimationState
 
-_LONGEST = 1000
+_MAX_STRIDE = 1000
 """Steps in one stride: what blows up is undone to its beginning."""
 Command: TypeAlias = Callable[["Simulation"], None]
 
@@ -52,9 +60,9 @@ class Simulation:
         self.engine = Engine(compile_world(with_actors(world, report), report))
         self.world = self.engine.compiled.world
         """Without nested models: their links and joints are the outer model's, called `inner::name`."""
-        self.pushes = AppliedLoads(self.engine)
+        self.loads = AppliedLoads(self.engine)
         """What handles have pushed."""
-        self._timeline = StepClock(step_ns_of(world))
+        self._clock = StepClock(world_step_ns(world))
         self.steps = 0
         self._before_resets = (0, 0)
         """Time [ns] and steps that resets and restored states have taken back."""
@@ -66,23 +74,23 @@ class Simulation:
         self.lines_are_shown = False
         """Whether a viewer shows them; a plugin whose lines cost much draws none until then."""
         self._commands: deque[Command] = deque()
-        self._schedule = Schedule(self._timeline)
+        self._schedule = Schedule(self._clock)
         self._on_change: list[Callable[[], None]] = []
         self.actors = {
-            actor.name: ActorWalk(actor, self[actor.name])
+            actor.name: ActorPlayer(actor, self[actor.name])
             for actor in world.actors
             if any(model.name == actor.name for model in self.models)
         }
         """What moves them; each is a model as well."""
         for walk in self.actors.values():
-            wanted = partial(walk.wanted, self.models)
-            self.add_hook(walk, period_ns=walk.period_ns, wanted=wanted)
+            wanted = partial(walk.enabled, self.models)
+            self.add_hook(walk, period_ns=walk.period_ns, enabled=wanted)
         self._on_reset: list[Callable[[], None]] = []
 
     @property
     def time_ns(self) -> int:
         """Simulation time [ns]."""
-        return self._timeline.time_ns(self.steps)
+        return self._clock.time_ns(self.steps)
 
     @property
     def simulated_ns(self) -> int:
@@ -97,7 +105,7 @@ class Simulation:
     @property
     def step_ns(self) -> int:
         """How long the next step is [ns]; `edit` may change it."""
-        return self._timeline.step_ns
+        return self._clock.step_ns
 
     def __getitem__(self, name: str) -> ModelHandle:
         """The model of that name.
@@ -154,26 +162,26 @@ class Simulation:
         self._drain()
         hooks = self._schedule.enabled(self.steps)
         run_before(hooks, self)
-        target = self._timeline.step_at(self.time_ns + most_ns)
-        stop = min([target, self.steps + _LONGEST, *[hook.next_step for hook in hooks], *self.pushes.next_ends()])
+        target = self._clock.step_at(self.time_ns + most_ns)
+        stop = min([target, self.steps + _MAX_STRIDE, *[hook.next_step for hook in hooks], *self.loads.expiry_steps()])
         simulated_ns = (stop - self.steps) * self.step_ns
         self.engine.step(stop - self.steps)
         self.steps = stop
-        self.pushes.end(self.steps)
+        self.loads.expire(self.steps)
         run_after(hooks, self.steps, self.snapshot)
         return simulated_ns
 
     def add_hook(
-        self, hook: BeforeStep | AfterStep, *, period_ns: Period = 0, wanted: Callable[[], bool] | None = None
+        self, hook: BeforeStep | AfterStep, *, period_ns: Period = 0, enabled: Callable[[], bool] | None = None
     ) -> None:
         """Have a hook called as time passes.
 
         Args:
             hook: an object with before_step(simulation), after_step(snapshot) or both.
             period_ns: how often [ns]; 0: at every step, which costs Python at every step.
-            wanted: asked before each stride; while it says no, the hook costs no stride.
+            enabled: asked before each stride; while it says no, the hook costs no stride.
         """
-        self._schedule.add(hook, period_ns, now_ns=self.time_ns, wanted=wanted)
+        self._schedule.add(hook, period_ns, now_ns=self.time_ns, enabled=enabled)
 
     def retime_hook(self, hook: object, period_ns: Period) -> None:
         """Call a hook from now on at another period [ns]; it keeps its turn among the others."""
@@ -190,7 +198,7 @@ class Simulation:
         compiled = self.engine.compiled
         return Snapshot(
             time_ns=self.time_ns,
-            instant=self.engine.instant(),
+            instant=self.engine.snapshot(),
             first_axes=compiled.first_axes,
             joint_axes=compiled.joint_axes,
         )
@@ -201,15 +209,15 @@ class Simulation:
 
     def save(self) -> SavedSimulation:
         """Keep the state, to go back to it exactly."""
-        return SavedSimulation(self.steps, self._timeline, self.engine.save(), self.pushes.ends.copy())
+        return SavedSimulation(self.steps, self._clock, self.engine.save(), self.loads.expiries.copy())
 
     def restore(self, saved: SavedSimulation) -> None:
         """Go back to a saved state; hooks are due as if time had just got there."""
         simulated_ns, simulated_steps = self.simulated_ns, self.simulated_steps
         self.steps = saved.steps
         self.engine.restore(saved.engine)
-        self.pushes.restore(saved.ends)
-        self._follow(saved.timeline)
+        self.loads.restore(saved.expiries)
+        self._set_clock(saved.clock)
         self._before_resets = (simulated_ns - self.time_ns, simulated_steps - self.steps)
         self._schedule.restart(self.steps)
 
@@ -223,12 +231,12 @@ class Simulation:
         steps = self.steps
         if poses:
             self.engine.reset()
-            self.pushes.clear()
+            self.loads.clear()
         if time:
             self._before_resets = (self.simulated_ns, self.simulated_steps)
             self.steps = 0
-            self.pushes.shift(-steps)
-            self._follow(StepClock(self.step_ns))
+            self.loads.shift(-steps)
+            self._set_clock(StepClock(self.step_ns))
             self._schedule.restart(0)
         self.engine.set_time(self.time_ns / NS)
         if poses:
@@ -253,9 +261,9 @@ class Simulation:
             DescriptionError: the engine cannot simulate it; nothing has changed.
         """
         if allow_renaming:
-            model = replace(model, name=free_name(self.world, model.name))
-        refuse_taken(self.world, model.name)
-        self._go_on_with(replace(self.world, models=(*self.world.models, model)))
+            model = replace(model, name=unique_name(self.world, model.name))
+        check_name_is_free(self.world, model.name)
+        self._replace_world(replace(self.world, models=(*self.world.models, model)))
         return self.models[-1]
 
     def delete(self, name: str) -> None:
@@ -265,7 +273,7 @@ class Simulation:
             UsageError: with the names there are.
         """
         gone = self[name]
-        self._go_on_with(without_model(self.world, name))
+        self._replace_world(without_model(self.world, name))
         gone.rebind(None, None)
         self.lines = {key: line for key, line in self.lines.items() if not key.startswith(f"{name}::")}
 
@@ -278,8 +286,8 @@ class Simulation:
         handle = self[name]
         if new == name:
             return
-        refuse_taken(self.world, new)
-        self._go_on_with(renamed(self.world, name, new), was={new: handle})
+        check_name_is_free(self.world, new)
+        self._replace_world(with_model_renamed(self.world, name, new), was={new: handle})
         self.lines = {key.replace(f"{name}::", f"{new}::", 1): line for key, line in self.lines.items()}
 
     def attach(self, joint: Joint) -> JointHandle:
@@ -292,7 +300,7 @@ class Simulation:
             UsageError: there is no such link, or such a joint already.
             DescriptionError: the engine cannot simulate it; nothing has changed.
         """
-        self._go_on_with(attached(self.world, self.models, joint))
+        self._replace_world(with_joint(self.world, self.models, joint))
         return self.joints[-1]
 
     def detach(self, name: str) -> None:
@@ -301,7 +309,7 @@ class Simulation:
         Raises:
             UsageError: with the names there are.
         """
-        self._go_on_with(without_joint(self.world, name))
+        self._replace_world(without_joint(self.world, name))
 
     def edit(self, world: World) -> None:
         """Go on with another time step, gravity, masses, surfaces or limits; all keep their state, to the bit.
@@ -313,14 +321,14 @@ class Simulation:
             UsageError: what there is, is different.
             DescriptionError: the engine cannot simulate it; nothing has changed.
         """
-        refuse_others(self.world, world)
-        self._go_on_with(world)
+        check_same_structure(self.world, world)
+        self._replace_world(world)
 
     def on_change(self, call: Callable[[], None]) -> None:
         """Have a function called after models came, went or were edited: indices may be others."""
         self._on_change.append(call)
 
-    def _go_on_with(self, world: World, *, was: Mapping[str, ModelHandle] | None = None) -> None:
+    def _replace_world(self, world: World, *, was: Mapping[str, ModelHandle] | None = None) -> None:
         """Compile a changed world and carry everything over.
 
         Args:
@@ -328,20 +336,22 @@ class Simulation:
             was: models that had another name, by the new one.
         """
         was = was or {}
-        self.engine, links = carried_over(self.engine, world, self.report, {old.name: new for new, old in was.items()})
+        self.engine, links = transferred_engine(
+            self.engine, world, self.report, {old.name: new for new, old in was.items()}
+        )
         self.world = self.engine.compiled.world
         self.models[:] = handles_of(self, self.world, {handle.name: handle for handle in self.models} | dict(was))
         self.joints[:] = world_joints_of(self, self.world, {handle.name: handle for handle in self.joints})
-        self.pushes.carry_over(links, self.engine)
-        timeline = self._timeline.with_steps_of(step_ns_of(world), since=self.steps)
-        self.pushes.retime(self._timeline, timeline)
-        self._follow(timeline)
+        self.loads.transfer_to(links, self.engine)
+        clock = self._clock.with_step(world_step_ns(world), since=self.steps)
+        self.loads.retime(self._clock, clock)
+        self._set_clock(clock)
         for call in self._on_change:
             call()
 
-    def _follow(self, timeline: StepClock) -> None:
-        self._timeline = timeline
-        self._schedule.follow(timeline)
+    def _set_clock(self, clock: StepClock) -> None:
+        self._clock = clock
+        self._schedule.set_clock(clock)
 
     # -- commands
 
@@ -353,6 +363,6 @@ class Simulation:
         for _ in range(len(self._commands)):
             self._commands.popleft()(self)
 
-    def step_after(self, duration_s: float | None) -> int | None:
+    def expiry_step(self, duration_s: float | None) -> int | None:
         """The step at which what begins now and lasts so long is over; None: it lasts."""
         return None if duration_s is None else self.steps + max(1, round(duration_s * NS / self.step_ns))

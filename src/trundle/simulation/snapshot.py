@@ -28,39 +28,39 @@ class Snapshot:
             joint_axes: of each joint, all.
         """
         self.time_ns = time_ns
-        self.instant = instant
+        self.engine = instant
         self._axes = first_axes
         self._joint_axes = joint_axes
 
     @property
     def poses(self) -> _Array:
         """(links, 7) link frames in the world: x y z [m], qw qx qy qz."""
-        return self.instant.poses
+        return self.engine.poses
 
     @property
     def twists(self) -> _Array:
         """(links, 6) velocity of the link frame's origin [m/s], angular velocity [rad/s]; world axes."""
-        return self.instant.twists
+        return self.engine.twists
 
     @property
     def joint_positions(self) -> _Array:
         """(joints,) [rad or m]; 0 for joints without freedom."""
-        return self._of_joints(self.instant.axis_positions)
+        return self._of_joints(self.engine.axis_positions)
 
     @property
     def joint_velocities(self) -> _Array:
         """(joints,) [rad/s or m/s]"""
-        return self._of_joints(self.instant.axis_velocities)
+        return self._of_joints(self.engine.axis_velocities)
 
     @property
     def joint_efforts(self) -> _Array:
         """(joints,) what drives them [N·m or N]"""
-        return self._of_joints(self.instant.axis_efforts)
+        return self._of_joints(self.engine.axis_efforts)
 
     def axes_of(self, joint: int) -> tuple[list[float], list[float], list[float]]:
         """Position, velocity and effort of each axis of a joint."""
         axes = slice(self._joint_axes[joint].start, self._joint_axes[joint].stop)
-        held = self.instant
+        held = self.engine
         return (
             held.axis_positions[axes].tolist(),
             held.axis_velocities[axes].tolist(),

@@ -12,7 +12,7 @@ Period: TypeAlias = int | Fraction
 """[ns]"""
 
 
-def step_ns_of(world: World) -> int:
+def world_step_ns(world: World) -> int:
     """How long a step is that a world asks for [ns]."""
     return round(world.physics.max_step_size_s * NS)
 
@@ -32,6 +32,6 @@ class StepClock(Struct, frozen=True):
         """The first step that reaches a time."""
         return self.first_step - ((self.first_ns - time_ns) // self.step_ns)
 
-    def with_steps_of(self, step_ns: int, *, since: int) -> "StepClock":
+    def with_step(self, step_ns: int, *, since: int) -> "StepClock":
         """One that is as this up to a step, and has others from there on; this one where they are no others."""
         return self if step_ns == self.step_ns else StepClock(step_ns, since, self.time_ns(since))

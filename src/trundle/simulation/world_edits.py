@@ -11,14 +11,14 @@ from trundle.physics import Engine, compile_world
 from trundle.spatial import Pose, Twist
 
 
-def free_name(world: World, name: str) -> str:
+def unique_name(world: World, name: str) -> str:
     """The name, or where there is a model of that name with _0 added, else _1, …, as Gazebo does."""
     taken = {model.name for model in world.models}
     numbered = (f"{name}_{number}" for number in count())
     return name if name not in taken else next(each for each in numbered if each not in taken)
 
 
-def refuse_taken(world: World, name: str) -> None:
+def check_name_is_free(world: World, name: str) -> None:
     """Make sure that a model can be called so.
 
     Raises:
@@ -28,17 +28,17 @@ def refuse_taken(world: World, name: str) -> None:
         raise UsageError(f"there is a model {name!r} already" if name else "a model needs a name")
 
 
-def refuse_others(world: World, edited: World) -> None:
+def check_same_structure(world: World, edited: World) -> None:
     """Make sure that a world can go on as an edited one.
 
     Raises:
         UsageError: what there is, is different.
     """
-    if _names_of(edited) != _names_of(world):
+    if _structure(edited) != _structure(world):
         raise UsageError("an edited world has other models, links or joints; spawn and delete change those")
 
 
-def _names_of(world: World) -> list[tuple[str, list[str], list[str]]]:
+def _structure(world: World) -> list[tuple[str, list[str], list[str]]]:
     return [(m.name, [link.name for link in m.links], [joint.name for joint in m.joints]) for m in world.models]
 
 
@@ -68,11 +68,11 @@ def without_joint(world: World, name: str) -> World:
     return replace(world, joints=tuple(joint for joint in world.joints if joint.name != name))
 
 
-def renamed(world: World, name: str, new: str) -> World:
+def with_model_renamed(world: World, name: str, new: str) -> World:
     """The world with a model of another name, and the joints between models that know it."""
 
     def linked(joint: Joint) -> Joint:
-        parent, child = renamed_in((joint.parent, joint.child), {name: new})
+        parent, child = current_names((joint.parent, joint.child), {name: new})
         return replace(joint, parent=parent, child=child)
 
     return replace(
@@ -82,7 +82,7 @@ def renamed(world: World, name: str, new: str) -> World:
     )
 
 
-def placed(world: World, name: str, world_from_model: Pose) -> World:
+def with_model_at(world: World, name: str, world_from_model: Pose) -> World:
     """The world with a model elsewhere."""
     return replace(
         world,
@@ -92,13 +92,13 @@ def placed(world: World, name: str, world_from_model: Pose) -> World:
     )
 
 
-def renamed_in(names: Iterable[str], models: Mapping[str, str]) -> list[str]:
+def current_names(names: Iterable[str], models: Mapping[str, str]) -> list[str]:
     """`model::name` of each, with models called as they are now."""
     parts = [name.partition("::") for name in names]
     return [f"{models.get(model, model)}{colons}{rest}" for model, colons, rest in parts]
 
 
-def carried_over(
+def transferred_engine(
     old: Engine, world: World, report: Diagnostics, models: Mapping[str, str]
 ) -> tuple[Engine, dict[int, int]]:
     """An engine of a changed world in the state of the old one, and where each link went that is still there.
@@ -113,15 +113,15 @@ def carried_over(
         DescriptionError: the engine cannot simulate it.
     """
     engine = Engine(compile_world(world, report))
-    engine.take_over(old, renamed=models)
+    engine.transfer_from(old, renamed=models)
     there = {name: i for i, name in enumerate(engine.compiled.link_names)}
-    before = enumerate(renamed_in(old.compiled.link_names, models))
+    before = enumerate(current_names(old.compiled.link_names, models))
     links = {i: there[name] for i, name in before if name in there}
-    _keep_free(old, engine, links)
+    _keep_free_links(old, engine, links)
     return engine, links
 
 
-def _keep_free(old: Engine, engine: Engine, links: Mapping[int, int]) -> None:
+def _keep_free_links(old: Engine, engine: Engine, links: Mapping[int, int]) -> None:
     """Have links that hung from something and are free now stay where they are, as fast as they were.
 
     Args:

@@ -6,7 +6,7 @@ while True:
     for request in viewer.requests(): …
 """
 
-from .content import MOST_LINE_POINTS, CameraView, DrawnLine, FrameInfo, JointSlider, ViewerScene, ViewerState
+from .content import MAX_LINE_POINTS, CameraView, DrawnLine, FrameInfo, JointSlider, ViewerScene, ViewerState
 from .errors import ViewerError
 from .graph_page import GraphPage
 from .requests import Drive, MoveJoystick, Pause, Play, Request, Reset, SetFixedFrame, SetJoint, SetSpeed, Step
@@ -16,7 +16,7 @@ from .viewer import Viewer
 
 __all__ = [
     "DEFAULT_CONFIG",
-    "MOST_LINE_POINTS",
+    "MAX_LINE_POINTS",
     "CameraView",
     "DrawnLine",
     "Drive",

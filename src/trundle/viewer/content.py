@@ -109,7 +109,7 @@ class DrawnLine:
     """0 to 255."""
 
 
-MOST_LINE_POINTS = 20_000
+MAX_LINE_POINTS = 20_000
 """Of all lines of a state."""
 
 
@@ -127,6 +127,6 @@ class ViewerState:
     real_time_factor: float | None = None
     paused: bool = False
     lines: tuple[DrawnLine, ...] = ()
-    """At most `MOST_LINE_POINTS` in all."""
+    """At most `MAX_LINE_POINTS` in all."""
     status: tuple[str, ...] = ()
     """Lines for the panel, warnings among them."""

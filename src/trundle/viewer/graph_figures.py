@@ -4,7 +4,7 @@ import asyncio
 import contextlib
 
 from trundle.diagnostics import TrundleError
-from trundle.drawing import Drawing, curves_svg, graph_of, graph_svg
+from trundle.drawing import NodeGraph, curves_svg, graph_svg, node_graph
 from trundle.ros import Field, Node, TopicSeries, curves_of, follow_series, split_topic, spread_fields
 
 _PERIOD_S = 1.0
@@ -25,7 +25,7 @@ class GraphFigures:
         self._task: asyncio.Task[None] | None = None
         self.drawings: dict[str, str] = {}
         """The newest, by title."""
-        self._drawn: Drawing | None = None
+        self._drawn: NodeGraph | None = None
         self._picture = ""
 
     @property
@@ -50,7 +50,7 @@ class GraphFigures:
             with contextlib.suppress(TrundleError):  # a master that is gone may come back
                 if self._shows_graph:
                     publishers, subscribers, _ = await self._node.ask("getSystemState")
-                    drawing = graph_of(dict(publishers), dict(subscribers), with_all=False)
+                    drawing = node_graph(dict(publishers), dict(subscribers), with_all=False)
                     if drawing != self._drawn:  # of a large graph it takes a while
                         self._drawn, self._picture = drawing, await asyncio.to_thread(graph_svg, drawing)
                     self.drawings[GRAPH] = self._picture

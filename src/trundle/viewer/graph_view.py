@@ -16,7 +16,7 @@ from .content import CameraView, FrameInfo, JointSlider, OptionGroup, ViewerScen
 from .poses import Array
 from .rviz import RvizConfig
 
-_MOST_COMPLAINTS = 3
+_MAX_COMPLAINTS = 3
 """So many missing transforms are named; the rest are counted."""
 
 
@@ -116,9 +116,9 @@ def graph_state(
         status.append(f"Fixed Frame [{tree.fixed_frame}] does not exist")
     else:
         lost = [link for link in robot.bodies if link not in known]
-        status += [f"No transform from [{link}] to [{tree.fixed_frame}]" for link in lost[:_MOST_COMPLAINTS]]
-        if len(lost) > _MOST_COMPLAINTS:
-            status.append(f"… and {len(lost) - _MOST_COMPLAINTS} more links without a transform")
+        status += [f"No transform from [{link}] to [{tree.fixed_frame}]" for link in lost[:_MAX_COMPLAINTS]]
+        if len(lost) > _MAX_COMPLAINTS:
+            status.append(f"… and {len(lost) - _MAX_COMPLAINTS} more links without a transform")
     return ViewerState(
         time_ns=time_ns,
         body_poses=_rows(known, robot.bodies),

@@ -13,7 +13,7 @@ from .poses import Array, composed, known, rows_of
 
 _CAMERA_FROM_OPTICAL = Pose(quaternion=(0.5, -0.5, 0.5, -0.5))
 """A frustum looks along its +z with y down, a robot's camera along +x with z up."""
-_MOST_NAMES = 100
+_MAX_NAMES = 100
 """Above this many frames their names would only hide each other."""
 _PATH_STEP_M = 0.1
 _PATH_ARROWS = 500
@@ -60,7 +60,7 @@ class Frames:
         )
         self._labels = [
             self._server.scene.add_label(f"{self._folder}/names/{i}", name, visible=False, font_screen_scale=0.9)
-            for i, name in enumerate(self._names[:_MOST_NAMES])
+            for i, name in enumerate(self._names[:_MAX_NAMES])
         ]
 
     def update(self, poses: Array, *, axes: bool, names: bool) -> None:

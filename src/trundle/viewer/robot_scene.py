@@ -34,7 +34,9 @@ def robot_scene(robot: Robot, packages: Packages, report: Diagnostics, *, collis
                     body_from_shape=shape.link_from_shape,
                     rgba=look or (piece.rgba if isinstance(piece, Mesh) else None) or _UNPAINTED,
                 )
-                for piece in (geometry.by_look() if isinstance(geometry, Mesh) and look is None else (geometry,))
+                for piece in (
+                    geometry.split_by_material() if isinstance(geometry, Mesh) and look is None else (geometry,)
+                )
             )
     return Scene(bodies=tuple(link.name for link in links), shapes=tuple(shapes))
 
@@ -46,7 +48,7 @@ def _seen_from_afar(shape: RobotShape, packages: Packages, report: Diagnostics) 
     try:
         image = packages.resolve(shape.texture, beside=Path(shape.at.file).parent, at=shape.at)
     except TrundleError as error:
-        report.warn_of(error, shape.at, "the texture is left out")
+        report.warn_error(error, shape.at, "the texture is left out")
         return None
     return mean_colour(image)
 
@@ -63,6 +65,6 @@ def _geometry(shape: RobotShape, packages: Packages, report: Diagnostics) -> Sha
             try:
                 mesh = load_mesh(packages.resolve(uri, beside=Path(shape.at.file).parent, at=shape.at))
             except TrundleError as error:
-                report.warn_of(error, shape.at, "this shape is not drawn")
+                report.warn_error(error, shape.at, "this shape is not drawn")
                 return None
             return mesh.scaled(scale)

@@ -15,16 +15,16 @@ from numpy.typing import NDArray
 from trundle.diagnostics import UsageError
 from trundle.page_address import NONE_ALLOWED, AllowedNames, PageAddress
 
-from .content import MOST_LINE_POINTS, ViewerScene, ViewerState
+from .content import MAX_LINE_POINTS, ViewerScene, ViewerState
 from .errors import ViewerError
 from .mailbox import Mailbox
 from .requests import Request
-from .wire import MOST_FIGURE_BYTES, THUMBNAIL_HEIGHT_PX, THUMBNAIL_WIDTH_PX, Refused, Served, Show
+from .wire import MAX_FIGURE_BYTES, THUMBNAIL_HEIGHT_PX, THUMBNAIL_WIDTH_PX, Refused, Served, Show
 
 _START_TIMEOUT_S = 60.0
 _STOP_TIMEOUT_S = 1.5
 _STATUS_BYTES = 16_384
-_LINES_BYTES = 2 * 3 * 4 * MOST_LINE_POINTS
+_LINES_BYTES = 2 * 3 * 4 * MAX_LINE_POINTS
 _IMAGE_HEADER_BYTES = 8
 
 
@@ -119,7 +119,7 @@ class Viewer:
     def figure(self, index: int, svg: str) -> bool:
         """Hand over a figure's newest drawing; False: it is too large."""
         drawing = svg.encode()
-        if len(drawing) > MOST_FIGURE_BYTES:
+        if len(drawing) > MAX_FIGURE_BYTES:
             return False
         self._figure_boxes[index].put(drawing)
         return True
@@ -130,7 +130,7 @@ class Viewer:
         state_box = Mailbox.create(8 * (7 * rows + len(scene.joints)) + _STATUS_BYTES + _LINES_BYTES)
         image_bytes = _IMAGE_HEADER_BYTES + 3 * THUMBNAIL_WIDTH_PX * THUMBNAIL_HEIGHT_PX
         image_boxes = [Mailbox.create(image_bytes) for _ in scene.cameras]
-        figure_boxes = [Mailbox.create(MOST_FIGURE_BYTES) for _ in scene.figures]
+        figure_boxes = [Mailbox.create(MAX_FIGURE_BYTES) for _ in scene.figures]
         self._forget_boxes()
         self._state_box, self._image_boxes, self._figure_boxes = state_box, image_boxes, figure_boxes
         if state is not None:

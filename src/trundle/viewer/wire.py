@@ -13,7 +13,7 @@ THUMBNAIL_HEIGHT_PX = 480
 """The largest image that reaches the page; larger ones are thinned to fit."""
 
 
-MOST_FIGURE_BYTES = 1_000_000
+MAX_FIGURE_BYTES = 1_000_000
 """Of one drawing."""
 
 

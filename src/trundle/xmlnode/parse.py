@@ -146,7 +146,7 @@ def read_xml(path: Path, *, report: Diagnostics | None = None, deepest: int = _D
         DescriptionError: as `parse_xml`, or the file cannot be read.
     """
     try:
-        data = read_file(path, most=_MAX_BYTES)
+        data = read_file(path, max_bytes=_MAX_BYTES)
     except FileNotFoundError:
         raise DescriptionError(Source(str(path)), "no such file") from None
     except OSError as error:

@@ -27,7 +27,7 @@ from trundle.model import (
     Surface,
     World,
 )
-from trundle.physics import CompiledWorld, compile_world, name_wheels
+from trundle.physics import CompiledWorld, compile_world, report_wheels
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Wrench
 
@@ -364,7 +364,7 @@ def test_the_wheels_that_are_named_are_those_that_roll_on_a_tread(
     car = model(link("base"), disc, joints=(hinge("base", "disc", JointAxis(direction=turns_about)),))
     world, report = World(name="w", at=AT, models=(car,)), Diagnostics()
 
-    name_wheels(world, report)
+    report_wheels(world, report)
 
     compiled = compile_world(world, Diagnostics()).model
     names = [compiled.geom(i).name for i in range(compiled.ngeom)]

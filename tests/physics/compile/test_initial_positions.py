@@ -99,7 +99,7 @@ def test_a_link_saved_where_no_joint_takes_it_is_named(tmp_path: Path) -> None:
 def test_a_world_that_was_never_saved_has_no_start_of_its_own(tmp_path: Path) -> None:
     sim = trundle.load(str(world(tmp_path, PARTS.format(outer="revolute", axes=AXIS, c_or_b="b", b_or_c="c"))))
 
-    assert compile_world(sim.world, sim.report).start is None
+    assert compile_world(sim.world, sim.report).initial_qpos is None
 
 
 @pytest.mark.parametrize("turned", [False, True])

@@ -80,7 +80,7 @@ def test_two_hinges_turn_one_after_the_other(load: Load, kind: str) -> None:
     j.set_position(0.3, axis=1)
     assert j.positions == pytest.approx((math.pi / 2, 0.3))
     # First the outer one about z, then the inner about what was y and is now −x.
-    assert sim["m"].link("a").pose.direction((0.0, 0.0, 1.0)) == pytest.approx(
+    assert sim["m"].link("a").pose.transform_vector((0.0, 0.0, 1.0)) == pytest.approx(
         (0.0, math.sin(0.3), math.cos(0.3)), abs=1e-9
     )
     j.set_effort(0.02, axis=1)
@@ -201,7 +201,9 @@ def test_a_planar_joint_slides_both_ways_and_turns_in_its_plane(tmp_path: Path) 
     assert x == pytest.approx(1.0, rel=2e-3)
     assert -y * math.cos(tilt) - z * math.sin(tilt) == pytest.approx(9.8 * math.sin(tilt) / 2, rel=2e-3)
     assert y * math.sin(tilt) == pytest.approx(z * math.cos(tilt), abs=1e-9)
-    assert sled.pose.direction((0.0, 0.0, 1.0)) == pytest.approx((0.0, -math.sin(tilt), math.cos(tilt)), abs=1e-9)
+    assert sled.pose.transform_vector((0.0, 0.0, 1.0)) == pytest.approx(
+        (0.0, -math.sin(tilt), math.cos(tilt)), abs=1e-9
+    )
     assert sled.twist.angular[2] == pytest.approx(3.0 * math.cos(tilt), rel=1e-6)
     assert len(sim["r"].joint("j").axes) == 3
 
@@ -236,8 +238,8 @@ def test_a_loop_of_links_stays_closed_and_swings_as_one(load: Load, reverse: boo
         if before < 0.0 <= left.position:
             crossings.append(sim.time_ns * 1e-9)
         before = left.position
-    end = sim["m"].link("bar").pose.point((2.0, 0.0, 0.0))
-    assert end == pytest.approx(sim["m"].link("right").pose.point((0.0, 0.0, -1.0)), abs=1e-3)
+    end = sim["m"].link("bar").pose.transform_point((2.0, 0.0, 0.0))
+    assert end == pytest.approx(sim["m"].link("right").pose.transform_point((0.0, 0.0, -1.0)), abs=1e-3)
     # Both rods turn, the bar only moves: I = 2 (0.01 + 0.25) + 2, weight times arm = (2 · 0.5 + 2) g.
     small = 2 * math.pi * math.sqrt((2 * 0.26 + 2.0) / (3.0 * G))
     assert (crossings[-1] - crossings[0]) / 3 == pytest.approx(small, rel=0.02)

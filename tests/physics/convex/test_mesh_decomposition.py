@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 
 from trundle.bringup.check.check import check
 from trundle.physics.convex import decomposition, jobs, mesh_decomposition, pieces
-from trundle.physics.convex.cache import find_pieces, keep_pieces
-from trundle.physics.convex.mesh_decomposition import Decomposition, convex_pieces
-from trundle.physics.convex.native_output import muted
-from trundle.physics.convex.pieces import Detail, HollowPart, cut_part, split
+from trundle.physics.convex.cache import load_pieces, save_pieces
+from trundle.physics.convex.mesh_decomposition import WorldDecomposition, convex_pieces
+from trundle.physics.convex.native_output import native_output_hidden
+from trundle.physics.convex.pieces import ConcavePart, Detail, decompose_part, split_mesh
 from trundle.physics.convex.progress import DecompositionProgress
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.intp]]
@@ -71,21 +71,21 @@ def world(folder: Path, meshes: list[str], *, static: bool = False) -> Path:
 @pytest.fixture(autouse=True)
 def cache(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Path]:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    mesh_decomposition.forget()
+    mesh_decomposition.clear_cache()
     yield tmp_path / "cache/trundle/meshes"
-    mesh_decomposition.forget()
+    mesh_decomposition.clear_cache()
 
 
 @pytest.fixture
-def cut(monkeypatch: pytest.MonkeyPatch) -> list[HollowPart]:
+def cut(monkeypatch: pytest.MonkeyPatch) -> list[ConcavePart]:
     """What is cut in this process, in order."""
-    seen: list[HollowPart] = []
+    seen: list[ConcavePart] = []
 
-    def counted(part: HollowPart) -> pieces.ConvexPieces:
+    def counted(part: ConcavePart) -> pieces.ConvexPieces:
         seen.append(part)
-        return cut_part(part)
+        return decompose_part(part)
 
-    monkeypatch.setattr(jobs, "cut_part", counted)
+    monkeypatch.setattr(jobs, "decompose_part", counted)
     return seen
 
 
@@ -93,15 +93,15 @@ def corners_of(decomposed: pieces.ConvexPieces) -> list[list[list[float]]]:
     return [corners.tolist() for corners in decomposed.corners]
 
 
-def test_a_process_of_its_own_cuts_the_same_pieces(monkeypatch: pytest.MonkeyPatch, cut: list[HollowPart]) -> None:
+def test_a_process_of_its_own_cuts_the_same_pieces(monkeypatch: pytest.MonkeyPatch, cut: list[ConcavePart]) -> None:
     meshes = [(*gate(high), False) for high in (1.5, 1.6)]
     here = [corners_of(convex_pieces(points, faces, fixed=fixed)) for points, faces, fixed in meshes]
     assert len(cut) == 2
     monkeypatch.setenv("XDG_CACHE_HOME", "/nowhere")
     monkeypatch.setattr(jobs, "SHORT_S", 0.0)
-    mesh_decomposition.forget()
-    world = Decomposition()
-    world.cut_ahead(meshes)
+    mesh_decomposition.clear_cache()
+    world = WorldDecomposition()
+    world.decompose_all(meshes)
     assert [corners_of(world.pieces_of(p, f, fixed=fixed).pieces) for p, f, fixed in meshes] == here
     assert len(cut) == 2
 
@@ -116,9 +116,9 @@ class _Deadly:
 def test_a_mesh_that_ends_its_process_stops_no_other(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(jobs, "SHORT_S", 0.0)
     monkeypatch.setattr(jobs, "_WORKER_S", 0.01)
-    _, good = split(*gate(), fixed=False).hollow[0]
-    bad = HollowPart(_Deadly(), good.faces, Detail.HULL)  # type: ignore[arg-type]
-    answers = {id(part): found for part, found in jobs.cut_parts([bad, good, bad])}
+    _, good = split_mesh(*gate(), fixed=False).concave[0]
+    bad = ConcavePart(_Deadly(), good.faces, Detail.HULL)  # type: ignore[arg-type]
+    answers = {id(part): found for part, found in jobs.decompose_parts([bad, good, bad])}
     assert answers[id(bad)] is None
     assert answers[id(good)] is not None
 
@@ -126,7 +126,7 @@ def test_a_mesh_that_ends_its_process_stops_no_other(monkeypatch: pytest.MonkeyP
 def test_a_mesh_that_cannot_be_cut_is_filled_aloud(
     tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(jobs, "cut_part", None)
+    monkeypatch.setattr(jobs, "decompose_part", None)
     outcome = check(str(world(tmp_path, [obj(gate())])), {}, start=tmp_path, collisions=True)
     (said,) = [warning for warning in outcome.report.warnings if "hollow" in warning]
     assert "physics fills it: 1.5 times its volume" in said
@@ -187,14 +187,14 @@ def test_an_interruption_leaves_no_process_behind_and_keeps_what_is_done(
     _wait_until(lambda: not any(map(_is_alive, workers)))
     kept = list(cache.glob("pieces-*.npz"))
     assert 1 < len(kept) < 40
-    assert all(find_pieces(path.stem.removeprefix("pieces-")) for path in kept)
+    assert all(load_pieces(path.stem.removeprefix("pieces-")) for path in kept)
 
 
-def test_equal_meshes_are_cut_once_wherever_they_are(cut: list[HollowPart]) -> None:
+def test_equal_meshes_are_cut_once_wherever_they_are(cut: list[ConcavePart]) -> None:
     points, faces = gate()
     both = np.concatenate([points, gate(at=5.0)[0]]), np.concatenate([faces, faces + len(points)])
-    world = Decomposition()
-    world.cut_ahead([(points, faces, False), (*both, False), (points / 2 * 2, faces, False)])
+    world = WorldDecomposition()
+    world.decompose_all([(points, faces, False), (*both, False), (points / 2 * 2, faces, False)])
     assert len(cut) == 1
     one, two = (world.pieces_of(*mesh, fixed=False).pieces for mesh in (gate(), both))
     assert len(two.corners) == 2 * len(one.corners)
@@ -206,25 +206,25 @@ def test_a_thin_shell_of_few_faces_is_a_slab_for_each(double: bool, monkeypatch:
     monkeypatch.setattr(decomposition, "_voxels", None)
     found = convex_pieces(*open_box(double=double), fixed=False)
     assert len(found.corners) == 5
-    (misfit,) = found.misfits
-    assert misfit.away <= 0.0051  # half a wall of 1 cm
+    (misfit,) = found.errors
+    assert misfit.distance <= 0.0051  # half a wall of 1 cm
     assert not misfit.is_filled
 
 
 @pytest.mark.parametrize("spoil", ["cut", "text", "other", "nan"])
-def test_a_kept_cut_that_makes_no_sense_is_made_again(spoil: str, cache: Path, cut: list[HollowPart]) -> None:
+def test_a_kept_cut_that_makes_no_sense_is_made_again(spoil: str, cache: Path, cut: list[ConcavePart]) -> None:
     first = corners_of(convex_pieces(*gate(), fixed=False))
     (kept,) = cache.glob("*.npz")
     if spoil == "other":
-        keep_pieces(kept.stem.removeprefix("pieces-"), pieces.ConvexPieces([], []))
+        save_pieces(kept.stem.removeprefix("pieces-"), pieces.ConvexPieces([], []))
     elif spoil == "nan":
-        keep_pieces(kept.stem.removeprefix("pieces-"), pieces.ConvexPieces([np.full((4, 3), np.nan)], []))
+        save_pieces(kept.stem.removeprefix("pieces-"), pieces.ConvexPieces([np.full((4, 3), np.nan)], []))
     else:
         kept.write_bytes({"cut": kept.read_bytes()[:200], "text": b"hello"}[spoil])
-    mesh_decomposition.forget()
+    mesh_decomposition.clear_cache()
     assert corners_of(convex_pieces(*gate(), fixed=False)) == first
     assert len(cut) == 2
-    mesh_decomposition.forget()
+    mesh_decomposition.clear_cache()
     convex_pieces(*gate(), fixed=False)
     assert len(cut) == 2
 
@@ -233,11 +233,11 @@ def test_what_takes_too_long_is_cut_coarsely_aloud_and_the_same_whatever_is_kept
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # Two meshes of half a second each, and time for one.
-    monkeypatch.setattr(mesh_decomposition, "MOST_SECONDS", 0.6)
+    monkeypatch.setattr(mesh_decomposition, "MAX_SECONDS", 0.6)
     file = world(tmp_path, [obj(gate(1.5)), obj(gate(1.6))])
 
     def said() -> list[str]:
-        mesh_decomposition.forget()
+        mesh_decomposition.clear_cache()
         outcome = check(str(file), {}, start=tmp_path, collisions=True)
         return [finding.what for finding in outcome.report.findings if "hollow mesh" in finding.what]
 
@@ -253,12 +253,12 @@ def test_what_takes_too_long_is_cut_coarsely_aloud_and_the_same_whatever_is_kept
 
 def test_the_estimate_of_time_goes_by_size_alone() -> None:
     points, faces = gate()
-    part = HollowPart(points, faces, Detail.FULL)
-    coarse = HollowPart(points, faces, Detail.COARSE)
-    assert HollowPart(points * 7, faces, Detail.FULL).seconds == part.seconds > coarse.seconds > 0
+    part = ConcavePart(points, faces, Detail.FULL)
+    coarse = ConcavePart(points, faces, Detail.COARSE)
+    assert ConcavePart(points * 7, faces, Detail.FULL).seconds == part.seconds > coarse.seconds > 0
 
 
-def test_check_cuts_nothing_unless_asked(tmp_path: Path, cut: list[HollowPart], cache: Path) -> None:
+def test_check_cuts_nothing_unless_asked(tmp_path: Path, cut: list[ConcavePart], cache: Path) -> None:
     file = world(tmp_path, [obj(gate())])
     outcome = check(str(file), {}, start=tmp_path)
     (said,) = [finding.what for finding in outcome.report.findings if "triangles" in finding.what]
@@ -325,7 +325,7 @@ def test_a_flat_mesh_is_convex_where_it_fills_the_polygon_around_it(
 ) -> None:
     corners = np.array([*SQUARE, (0.4, 0.4, 0)], dtype=float)
 
-    assert (split(corners, np.array(faces, dtype=np.intp), fixed=False).hollow == []) is is_convex
+    assert (split_mesh(corners, np.array(faces, dtype=np.intp), fixed=False).concave == []) is is_convex
 
 
 SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
@@ -364,9 +364,9 @@ def test_a_degenerate_mesh_has_a_sentence_of_ours(
 
 
 def test_words_of_others_come_through_where_the_engines_do_not(capfd: pytest.CaptureFixture[str]) -> None:
-    with muted():
+    with native_output_hidden():
         os.write(2, b"QH7089 qhull precision warning: The initial hull is narrow.\n")
-    with muted():
+    with native_output_hidden():
         os.write(1, b"a line\n")
         os.write(2, b"a warning\n")
     assert capfd.readouterr() == ("a line\n", "a warning\n")

@@ -68,7 +68,7 @@ def solid(corners: NDArray[np.float64]) -> Hull:
 @pytest.fixture(autouse=True)
 def _cut_anew(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    mesh_decomposition.forget()
+    mesh_decomposition.clear_cache()
 
 
 @pytest.mark.parametrize(
@@ -82,10 +82,10 @@ def _cut_anew(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 )
 def test_what_is_thin_and_hollow_is_a_few_walls(mesh: Mesh, most: int, away: float) -> None:
     found = convex_pieces(*mesh, fixed=False)
-    (misfit,) = found.misfits
+    (misfit,) = found.errors
     assert not misfit.is_filled
-    assert misfit.away < away
-    assert misfit.times is None or misfit.times == pytest.approx(1.0, abs=0.05)
+    assert misfit.distance < away
+    assert misfit.volume_ratio is None or misfit.volume_ratio == pytest.approx(1.0, abs=0.05)
     assert 1 < len(found.corners) <= most
     # Nothing sticks out of it: it stands as the mesh would.
     corners = np.concatenate(found.corners)
@@ -114,10 +114,10 @@ def test_a_flat_plate_with_a_notch_keeps_it(double: bool) -> None:
     if double:
         faces = np.concatenate([faces, faces[:, ::-1]])
     found = convex_pieces(corners, faces, fixed=False)
-    (misfit,) = found.misfits
-    assert misfit.away < 0.011
+    (misfit,) = found.errors
+    assert misfit.distance < 0.011
     notch = np.array([[1.5, 1.5, 0.0]])
-    assert all(solid(piece).heights(notch)[0] > 0.3 for piece in found.corners)
+    assert all(solid(piece).signed_distances(notch)[0] > 0.3 for piece in found.corners)
 
 
 @pytest.mark.parametrize(("mesh", "floor"), [(open_tray(2.0, 1.0, 0.2), 0.005), (thick_tray(2.0, 1.0, 0.2), 0.02)])

@@ -321,7 +321,7 @@ def test_a_blow_up_names_the_joint_and_what_is_touched() -> None:
     sim["wheel"].joint("hub").set_effort(1e10)
     with pytest.raises(SimulationUnstableError, match="'wheel::rim' ran away on joint 'wheel::hub'") as caught:
         sim.run(10.0)
-    assert caught.value.runaway.joint == "wheel::hub"
+    assert caught.value.divergence.joint == "wheel::hub"
     balls = yard()
     balls.run(0.1)
     balls["wild"].apply_wrench(Wrench(force=(1e12, 0.0, -1e12)))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import trundle
-from trundle.physics.step.sleeping import EVERY
+from trundle.physics.step.sleeping import DECISION_PERIOD
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, Twist, Wrench
 
@@ -142,7 +142,7 @@ def test_a_world_that_sleeps_as_a_whole_is_not_stepped_and_goes_on_to_the_bit(
     load: Load, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     sim = asleep(load, box("b", "0 0 0.1 0 0 0"), box("c", "0 0 0.3 0 0 0", extra=ARM))
-    saved, steps, whole = sim.save(), 3 * EVERY, mujoco.mj_step
+    saved, steps, whole = sim.save(), 3 * DECISION_PERIOD, mujoco.mj_step
     ends: list[bytes] = []
     for at_once in (steps, 1):
         taken: list[int] = []

@@ -31,13 +31,13 @@ def sim(tmp_path: Path) -> Simulation:
 
 def test_a_belt_carries_a_block_against_its_own_motion(sim: Simulation) -> None:
     """Friction of 0.8 brings it to 0.5 m/s in 62.5 ms; the block beside stays."""
-    sim["block"].link("l").set_grip(SurfaceMotion(along=X, speed=-0.5))
+    sim["block"].link("l").set_surface_motion(SurfaceMotion(direction=X, speed=-0.5))
     sim.run(1.0)
 
     assert sim["block"].link("l").twist.linear == pytest.approx((0.5, 0, 0), abs=1e-5)
     assert sim["block"].pose.position[0] == pytest.approx(0.5 - 0.5 * 0.0625 / 2, abs=0.004)
     assert sim["other"].link("l").twist.linear == pytest.approx((0, 0, 0), abs=1e-5)
-    sim["block"].link("l").set_grip(None)
+    sim["block"].link("l").set_surface_motion(None)
     sim.run(0.5)
     assert sim["block"].link("l").twist.linear == pytest.approx((0, 0, 0), abs=1e-5)
 
@@ -50,7 +50,7 @@ def test_of_two_belts_that_stand_only_the_one_that_runs_carries(tmp_path: Path) 
     models = models.replace(" 0 0.1 0 0 0<", " 0 0.2 0 0 0<")
     file.write_text(f'<sdf version="1.6"><world name="w"><gravity>0 0 -10</gravity>{models}</world></sdf>')
     sim = trundle.load(str(file))
-    sim["runs"].link("l").set_grip(SurfaceMotion(along=X, speed=0.5))
+    sim["runs"].link("l").set_surface_motion(SurfaceMotion(direction=X, speed=0.5))
     sim.run(1.0)
 
     assert sim["block"].link("l").twist.linear == pytest.approx((0.5, 0, 0), abs=1e-5)
@@ -64,12 +64,12 @@ def test_a_track_runs_its_robot_forwards_and_skids_about_the_point_it_turns_abou
     file.write_text(f'<sdf version="1.6"><world name="w"><gravity>0 0 -10</gravity>{FLOOR}{slippery}</world></sdf>')
     sim = trundle.load(str(file))
     link = sim["block"].link("l")
-    link.set_grip(TrackMotion(axis=Y, speed=0.5))
+    link.set_surface_motion(TrackMotion(axis=Y, speed=0.5))
     sim.run(1.0)
     assert link.twist.linear == pytest.approx((0.5, 0, 0), abs=1e-3)
 
     # From far along y, the belt's way is across x: friction along y, which the belt does not move along, holds on.
-    link.set_grip(TrackMotion(axis=Y, speed=0.5, centre=(link.pose.position[0], 500.0, 0.1)))
+    link.set_surface_motion(TrackMotion(axis=Y, speed=0.5, centre=(link.pose.position[0], 500.0, 0.1)))
     link.apply_wrench(Wrench(force=(0.0, 10.0, 0.0)))
     sim.run(0.5)
     assert link.twist.linear[1] > 1.0, "along the way to the point nothing holds"
@@ -82,8 +82,10 @@ def test_slip_grows_with_the_force_and_across_it_friction_holds(sim: Simulation,
     slip = 0.1
     link = sim["block"].link("l")
     sideways = along == Y
-    link.set_grip(
-        SurfaceMotion(along=Y, slip_across=slip) if sideways else SurfaceMotion(along=(1.0, 0.0, 0.4), slip=slip)
+    link.set_surface_motion(
+        SurfaceMotion(direction=Y, slip_across=slip)
+        if sideways
+        else SurfaceMotion(direction=(1.0, 0.0, 0.4), slip=slip)
     )
     sim.run(0.1)
     link.apply_wrench(Wrench(force=(5.0, 5.0, 0.0)))
@@ -96,7 +98,7 @@ def test_slip_grows_with_the_force_and_across_it_friction_holds(sim: Simulation,
 
 def test_beyond_friction_a_slipping_surface_slides(sim: Simulation) -> None:
     link = sim["block"].link("l")
-    link.set_grip(SurfaceMotion(along=X, slip=0.001))
+    link.set_surface_motion(SurfaceMotion(direction=X, slip=0.001))
     sim.run(0.1)
     link.apply_wrench(Wrench(force=(MU * MASS * 10 + 4.0, 0.0, 0.0)))
     sim.run(0.2)
@@ -108,7 +110,7 @@ def test_beyond_friction_a_slipping_surface_slides(sim: Simulation) -> None:
 
 def test_laws_outlive_what_comes_and_goes_and_saved_states_repeat(sim: Simulation) -> None:
     link = sim["block"].link("l")
-    link.set_grip(SurfaceMotion(along=X, speed=-0.5, slip=0.01))
+    link.set_surface_motion(SurfaceMotion(direction=X, speed=-0.5, slip=0.01))
     sim.delete("floor")
     sim.spawn(replace(sim["other"].model, name="third"))
     sim.delete("third")

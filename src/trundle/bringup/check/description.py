@@ -4,14 +4,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from trundle.description import Loaded
+from trundle.description import LoadedDescription
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.lint.description_lint import lint_description
-from trundle.lint.empty_scene import why_empty
+from trundle.lint.empty_scene import empty_reason
 from trundle.lint.physics_precheck import physics_accepts
 from trundle.model import World, flattened
 from trundle.packages import Packages
-from trundle.physics import name_wheels
+from trundle.physics import report_wheels
 
 from ..load_input import Piped, load_input
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 class DescriptionFindings:
     """What was read, and the same without nested models."""
 
-    loaded: Loaded
+    loaded: LoadedDescription
     flat: World
 
     def as_json(self) -> dict[str, object]:
@@ -47,7 +47,7 @@ class DescriptionFindings:
         what = {"world": "a world", "model": "a model", "urdf": "a URDF"}[self.loaded.kind]
         version = f" (SDF {self.flat.sdf_version})" if self.flat.sdf_version else ""
         counts = f"{len(models)} models, {links} links, {joints} joints, {sensors} sensors"
-        unseen = why_empty(self.flat)
+        unseen = empty_reason(self.flat)
         return f"{what}{version}: {counts}{f'; {unseen}' if unseen else ''}"
 
 
@@ -88,7 +88,7 @@ def _name_what_physics_does(flat: World, report: Diagnostics, *, collisions: boo
             from trundle.physics import compile_world  # slow to load, and most robots need none of its mending
 
             compile_world(flat, report, cut_meshes=collisions)
-        name_wheels(flat, report)
+        report_wheels(flat, report)
     except DescriptionError as error:
         report.error(error)
 
@@ -97,8 +97,8 @@ def _name_silent_sensors(flat: World, report: Diagnostics) -> None:
     sensors = [sensor for model in flat.models for link in model.links for sensor in link.sensors]
     if not sensors:
         return
-    from trundle.sensors import SIMULATED  # slow to load
+    from trundle.sensors import SIMULATED_CAMERAS  # slow to load
 
     for sensor in sensors:
-        if sensor.type not in SIMULATED:
+        if sensor.type not in SIMULATED_CAMERAS:
             report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")

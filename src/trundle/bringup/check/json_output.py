@@ -7,7 +7,7 @@ from the file, before physics mends anything.
 import math
 from collections.abc import Iterator
 
-from trundle.description import Loaded
+from trundle.description import LoadedDescription
 from trundle.model import Frame, Joint, JointAxis, JointType, Link, Mimic, Model, World, model_from_joint
 from trundle.robot import Robot, root_from_links
 
@@ -15,7 +15,7 @@ _WITHOUT_AXIS = frozenset({JointType.FIXED, JointType.BALL})
 _NO_AXIS: dict[str, object] = {"axis": None, "lower": None, "upper": None, "effort": None, "velocity": None}
 
 
-def described(loaded: Loaded) -> dict[str, object]:
+def described(loaded: LoadedDescription) -> dict[str, object]:
     """A world, a model or a URDF."""
     world = loaded.world
     result: dict[str, object] = {

@@ -1,12 +1,12 @@
 """The links of a description as trees, joined by its joints."""
 
-from trundle.description import Loaded
+from trundle.description import LoadedDescription
 from trundle.drawing.tree import TreeNode
 from trundle.model import Joint, Model, flattened
 from trundle.robot import Robot
 
 
-def kinematic_trees(loaded: Loaded) -> list[TreeNode]:
+def kinematic_trees(loaded: LoadedDescription) -> list[TreeNode]:
     """One tree for a URDF as written; for SDF one for each model, its free links below it."""
     if loaded.robot is not None:
         return [_robot_tree(loaded.robot)]

@@ -41,7 +41,7 @@ class GazeboSensors:
             self._robots[model] = robot
         beside = [sensor for sensor in self.all if isinstance(sensor, CameraSensor)]
         cameras = mount_cameras(simulation, RENDERERS[self._renderer], model=model, beside=beside)
-        sensors = mount_sensors(simulation, model=model, around=self._around)
+        sensors = mount_sensors(simulation, model=model, ray_scene=self._around)
         for sensor in (*cameras, *sensors):
             sensor.start(simulation)
         self.all += [*cameras, *sensors]

@@ -40,7 +40,7 @@ def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[st
     warn_of_network(options.host, show.line)
     if options.verbose:
         _tell_everything(read.plan, read.params, show.line)
-        for folder, why in read.packages.passed_over().items():
+        for folder, why in read.packages.skipped_folders().items():
             show.line(f"no package is looked for in {folder}: {why}")
     with stop_flag() as stop:
         if options.wait_for_master and not _wait_for_master(read.env, stop, show.line):

@@ -8,7 +8,7 @@ from pathlib import Path
 from tempfile import mkdtemp
 
 from trundle.diagnostics import UsageError
-from trundle.ownership import home_folder, is_ours
+from trundle.ownership import home_folder, is_owned_by_user
 from trundle.ros import PYTHON_LOG_BACKUPS, PYTHON_LOG_BYTES, LogFile, python_log_line
 
 
@@ -27,7 +27,7 @@ def log_folder(env: Mapping[str, str], run_id: str) -> Path:
     folder = parent / (run_id or "trundle")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        if not is_ours(folder):  # in a folder for all, as /tmp, another user may have been first
+        if not is_owned_by_user(folder):  # in a folder for all, as /tmp, another user may have been first
             folder = Path(mkdtemp(prefix=f"{folder.name}-", dir=parent))
         ros_home(env).mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -11,7 +11,7 @@ from trundle.ros import MasterProxy, RosError, host_and_port
 
 _ANSWER_S = 10.0
 """How long it may take to answer; roslaunch gives its children as long to register."""
-_MOST_NEWS = 1000
+_MAX_NEWS = 1000
 _LAST_NEWS_S = 2.0
 _INFO, _ERROR = 2, 8
 """Levels of rosgraph_msgs/Log."""
@@ -31,7 +31,7 @@ class Parent:
         self.uri = uri
         self.run_id = run_id
         self._name = name
-        self._news: Queue[tuple[str, str, object] | None] = Queue(_MOST_NEWS)
+        self._news: Queue[tuple[str, str, object] | None] = Queue(_MAX_NEWS)
         self._thread = threading.Thread(target=self._send, name="news for the parent", daemon=True)
 
     def register(self, ours: str, bind: str) -> None:

@@ -11,7 +11,7 @@ from trundle.spatial import Pose
 def lowest_of(geometry: ShapeGeometry, world_from_shape: Pose) -> float:
     """The height of a shape's lowest point [m]; of an endless plane, infinity."""
     # How much of each of the shape's axes points up or down.
-    x, y, z = world_from_shape.inverse().direction((0.0, 0.0, 1.0))
+    x, y, z = world_from_shape.inverse().transform_vector((0.0, 0.0, 1.0))
     match geometry:
         case Box(size):
             below = sum(side / 2 * abs(up) for side, up in zip(size, (x, y, z), strict=True))

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from trundle.diagnostics import Diagnostics, UsageError
-from trundle.lint.empty_scene import why_empty
+from trundle.lint.empty_scene import empty_reason
 from trundle.model import World
 from trundle.packages import Packages
-from trundle.render import Intrinsics, Picture, Scene, corners_of, move_skins, scene_of
+from trundle.render import Intrinsics, Picture, Scene, corners_of, scene_from_world, update_skins
 from trundle.sensors import CameraProjection, CameraSensor, PinholeProjection, mount_cameras
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
@@ -37,7 +37,7 @@ _STUDIO_LIGHT, _BACKDROP = (0.6, 0.6, 0.6, 1.0), (0.95, 0.95, 0.95, 1.0)
 """Brighter than worlds are: a camera of the file sees those as they are."""
 _SAMPLES = 2
 """Pictures are drawn twice as large and averaged: smooth edges."""
-_MOST_PX = 3840 * 2160
+_MAX_PX = 3840 * 2160
 _GOLDEN = 0.61803398875
 _COLOURS = [(0.0, 0.0, 0.0)] + [hsv_to_rgb(i * _GOLDEN % 1.0, 0.5 + i % 3 * 0.2, 1.0 - i % 2 * 0.3) for i in range(255)]
 _PALETTE = np.round(np.array(_COLOURS) * 255.0).astype(np.uint8)
@@ -81,10 +81,10 @@ class Studio:
         packages = Packages(environment, start=start)
         stage = load_world(file, packages, report)
         self._content = options.content
-        self.unseen = why_empty(stage.world)
+        self.unseen = empty_reason(stage.world)
         """Why the picture is empty, or not what would be simulated, if it is so."""
         self.simulation = Simulation(stage.world, report)
-        scene = scene_of(stage.world, report)
+        scene = scene_from_world(stage.world, report)
         self._written: NDArray[np.float64] = np.zeros((0, 7))
         """Poses of bodies that are drawn and not simulated."""
         robot = stage.robot if options.camera is None and not _is_seen(stage.world) else None
@@ -107,9 +107,9 @@ class Studio:
                 raise UsageError(f"camera {options.camera!r} looks through a lens; its picture has its own size, {own}")
             if options.size is not None:
                 self._lens = replace(self._lens, width_px=width, height_px=height)
-        if self._lens.width_px * self._lens.height_px > _MOST_PX:
+        if self._lens.width_px * self._lens.height_px > _MAX_PX:
             asked = f"{self._lens.width_px}x{self._lens.height_px}"
-            raise UsageError(f"a picture of {asked} is too large; it may have {_MOST_PX} pixels, as 3840x2160 has")
+            raise UsageError(f"a picture of {asked} is too large; it may have {_MAX_PX} pixels, as 3840x2160 has")
         if options.at_s > 0.0:
             self.simulation.run(options.at_s)
         added = [options.camera is None and model.added for model in stage.world.models for _ in model.links]
@@ -130,12 +130,12 @@ class Studio:
         """Draw what is there now; the view of everything may have gone around, counter-clockwise from above."""
         snapshot = self.simulation.snapshot()
         self._renderer.update(self._poses(snapshot))
-        move_skins(self._renderer, self._scene, self.simulation.animation_state)
+        update_skins(self._renderer, self._scene, self.simulation.animation_state)
         if self._sensor is not None:
             eye = self._sensor.world_from_camera(snapshot)
         else:
             eye = _good_side(self._cloud, self._lens, turned_rad)
-        bent = None if self._sensor is None or self._sensor.is_pinhole else self._sensor.view
+        bent = None if self._sensor is None or self._sensor.is_pinhole else self._sensor.projection
 
         def drawn(view: CameraProjection, *, depth: bool = False, segmentation: bool = False) -> Picture:
             views = [(eye @ face, lens) for face, lens in view.pinhole_views]
@@ -175,7 +175,7 @@ def _camera(name: str, cameras: list[CameraSensor]) -> CameraSensor:
 def _corners(scene: Scene, poses: NDArray[np.float64]) -> NDArray[np.float64]:
     """(N, 3) points that a view of everything but endless planes must hold [m]."""
     points = [
-        (pose_of(poses[shape.body]) @ shape.body_from_shape).point(corner)
+        (pose_of(poses[shape.body]) @ shape.body_from_shape).transform_point(corner)
         for shape in scene.shapes
         for corner in corners_of(shape.geometry)
     ]
@@ -190,7 +190,7 @@ def _good_side(cloud: NDArray[np.float64], lens: Intrinsics, turned_rad: float) 
         [math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)]
     )
     rotation = Pose.from_rpy(0.0, 0.0, 0.0, 0.0, elevation, azimuth + math.pi)
-    in_view = np.array([rotation.inverse().direction((x, y, z)) for x, y, z in (cloud - middle).tolist()])
+    in_view = np.array([rotation.inverse().transform_vector((x, y, z)) for x, y, z in (cloud - middle).tolist()])
     half_width = math.tan(lens.horizontal_fov_rad / 2)
     half_height = half_width * lens.height_px / lens.width_px
     needed = np.maximum(np.abs(in_view[:, 1]) / half_width, np.abs(in_view[:, 2]) / half_height) - in_view[:, 0]

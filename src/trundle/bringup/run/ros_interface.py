@@ -48,7 +48,7 @@ class RosInterface:
         ClockTopic(self.node).attach(simulation)
         still = StaticTransformBroadcaster(self.node)
         frames = SimulationFrames(self.node, still, stage.world, simulation.snapshot())
-        simulation.add_hook(frames, period_ns=frames.period_ns, wanted=frames.wanted)
+        simulation.add_hook(frames, period_ns=frames.period_ns, enabled=frames.wanted)
         report = simulation.report
         names = FrameNames.of(stage.world, stage.robot)
         camera_topics(self.node, still, attach_sensor_plugins(cameras, self.node, report), names)
@@ -56,7 +56,7 @@ class RosInterface:
         if stage.urdf is not None:
             loop.run(self.node.set_param("/robot_description", stage.urdf))
             states = JointStates(self.node, simulation.models[0])
-            simulation.add_hook(states, period_ns=states.period_ns, wanted=states.wanted)
+            simulation.add_hook(states, period_ns=states.period_ns, enabled=states.wanted)
         self._cmd_vel = None
 
     @classmethod

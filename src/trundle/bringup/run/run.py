@@ -33,7 +33,7 @@ if TYPE_CHECKING:  # a run without a page or a graph starts without their module
     from .ros_interface import RosInterface
 
 OnInstability: TypeAlias = Literal["pause", "reset", "exit"]
-_MOST_RESETS = 10
+_MAX_RESETS = 10
 """A world that blows up so often will do so again."""
 
 
@@ -136,7 +136,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             steps=simulation.simulated_steps,
             simulated_s=simulation.simulated_ns / NS,
             wall_s=wall_s,
-            images=sum(camera.images for camera in cameras),
+            images=sum(camera.image_count for camera in cameras),
             report=report,
             interrupted=stop.is_set(),
             recording_broke_off=recorder is not None and recorder.broke_off,
@@ -195,7 +195,7 @@ def _recover(
         case "pause":
             say(f"{error}; the simulation is paused where it last was sound, at {simulation.time_ns / NS:.3f} s")
             return True
-        case "reset" if times <= _MOST_RESETS:
+        case "reset" if times <= _MAX_RESETS:
             say(f"{error}; the simulation starts anew")
             simulation.reset()
             return False

@@ -83,7 +83,7 @@ def _read(file: Path, report: Diagnostics) -> tuple[Block, ...]:
 
 @lru_cache(maxsize=256)
 def _materials(file: Path, _changed_ns: int) -> tuple[Block, ...]:
-    top = parse_script(read_text(file, most=_LARGEST), name=str(file))
+    top = parse_script(read_text(file, max_bytes=_LARGEST), name=str(file))
     return tuple(block for block in top.blocks if block.header[0] == "material" and len(block.header) > 1)
 
 

@@ -7,10 +7,10 @@ from trundle.model import Actor, Animation, Joint, Skin, Trajectory, Waypoint
 from trundle.spatial import Pose
 from trundle.xmlnode import XmlNode
 
-from .context import Context, leave_out, read_pose
+from .context import Context, read_pose, warn_ignored
 from .frames import MODEL, FrameGraph
 from .link import read_link
-from .model import WrittenJoint
+from .model import JointElement
 from .sensor import read_plugin
 
 
@@ -26,7 +26,7 @@ def read_actor(node: XmlNode, context: Context) -> Actor:
     links = {child.required_attribute("name"): child for child in node.all("link")}
     for link, child in links.items():
         graph.add(link, read_pose(child, context), child.at)
-    leave_out(node, ("static",), "is nothing that an actor can be", context)
+    warn_ignored(node, ("static",), "is nothing that an actor can be", context)
     if node.attribute("static") is not None:
         report.info(node.at, f"attribute 'static' of actor {name!r} is ignored")
     script = node.find("script")
@@ -56,7 +56,7 @@ def read_actor(node: XmlNode, context: Context) -> Actor:
 
 
 def _joints(node: XmlNode, graph: FrameGraph, context: Context) -> tuple[Joint, ...]:
-    joints = [joint for child in node.all("joint") if (joint := WrittenJoint(child, graph, context)).is_sound]
+    joints = [joint for child in node.all("joint") if (joint := JointElement(child, graph, context)).is_sound]
     for joint in joints:
         joint.add_to(graph)
     return tuple(joint.read(graph, context) for joint in joints)

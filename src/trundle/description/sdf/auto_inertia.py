@@ -6,7 +6,7 @@ from trundle.model import Box, Capsule, Collision, Cone, Cylinder, Ellipsoid, Ge
 from trundle.spatial import Pose, Vector3
 from trundle.xmlnode import XmlNode
 
-from ..inertia_sum import sum_of, turned
+from ..inertia_sum import rotate_inertia, sum_inertias
 from .context import Context
 
 _WATER = 1000.0
@@ -36,9 +36,10 @@ def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inert
         report.warn(node.at, f"link {link.name!r}: nothing to weigh automatically; 1 kg and 1 kg·m² are used")
         return Inertial()
     tensors = [
-        (mass, pose.position, turned((*moments, 0.0, 0.0, 0.0), pose.quaternion)) for mass, pose, moments in bodies
+        (mass, pose.position, rotate_inertia((*moments, 0.0, 0.0, 0.0), pose.quaternion))
+        for mass, pose, moments in bodies
     ]
-    total, centre, tensor = sum_of(tensors)
+    total, centre, tensor = sum_inertias(tensors)
     mass = link.inertial.mass if inertial.find("mass") is not None else total
     ixx, iyy, izz, ixy, ixz, iyz = (value * mass / total for value in tensor)
     return Inertial(mass=mass, link_from_com=Pose(centre), moments=(ixx, iyy, izz), products=(ixy, ixz, iyz))

@@ -8,11 +8,11 @@ from msgspec.structs import replace
 from trundle.model import CameraOptics, Distortion, Lens, PixelIntrinsics, Projection
 from trundle.xmlnode import XmlNode
 
-from .context import Context, leave_out, read_bits, read_pose
+from .context import Context, read_bits, read_pose, warn_ignored
 from .noise import read_noise
 
 WIDE = frozenset({"wideanglecamera", "wide_angle_camera"})
-SEEING = WIDE | {
+CAMERA_TYPES = WIDE | {
     "camera",
     "multicamera",
     "depth",
@@ -28,12 +28,12 @@ SEEING = WIDE | {
 }
 """Sensor types with a <camera>."""
 _LARGEST_PX = 16384
-_MOST_PX = 1 << 25
+_MAX_PX = 1 << 25
 """Of a whole picture."""
 _NARROWEST, _WIDEST_PINHOLE = 1e-6, 3.1
 """[rad]"""
 _FARTHEST_M = 1e30
-_MOST_BENT = 1e6
+_MAX_BENT = 1e6
 _FOCAL_PX = (1e-3, 1e9)
 _BESIDE_PX = 1e6
 """How far from the picture its middle may be, and how much it may be sheared."""
@@ -87,8 +87,8 @@ def _read(node: XmlNode, type_: str, context: Context) -> CameraOptics:
         visibility_mask=read_bits(node, "visibility_mask", context),
         triggered=node.flag("triggered", default=False, report=report),
         trigger_topic=node.string("trigger_topic"),
-        info_topic=_said(node, "camera_info_topic"),
-        optical_frame=_said(node, "optical_frame_id"),
+        info_topic=_child_source(node, "camera_info_topic"),
+        optical_frame=_child_source(node, "optical_frame_id"),
         box_type=_box_type(node, context),
     )
     if depth_clip is not None:
@@ -99,17 +99,17 @@ def _read(node: XmlNode, type_: str, context: Context) -> CameraOptics:
         )
     node.attribute("name")
     if image is not None:
-        leave_out(image, ("anti_aliasing",), "is a wish to the renderer's quality, not to what is seen", context)
+        warn_ignored(image, ("anti_aliasing",), "is a wish to the renderer's quality, not to what is seen", context)
     if depth is not None:
-        leave_out(depth, ("output",), "is not heeded: distances and points both are told", context)
-    optics = _with_lens(_mended(optics, node, type_, context), node.find("lens"), type_, context)
+        warn_ignored(depth, ("output",), "is not heeded: distances and points both are told", context)
+    optics = _with_lens(_repaired(optics, node, type_, context), node.find("lens"), type_, context)
     for each in (node, image, clip, depth, depth_clip):
         if each is not None:
             each.report_unread(report)
     return optics
 
 
-def _said(node: XmlNode, tag: str) -> str:
+def _child_source(node: XmlNode, tag: str) -> str:
     word = node.string(tag)
     return "" if word == "__default__" else word
 
@@ -122,8 +122,8 @@ def _distortion(node: XmlNode | None, context: Context) -> Distortion:
     center = node.find("center")
     middle = None if center is None else center.as_numbers(2, report=report)
     node.report_unread(report)
-    if max(map(abs, (k1, k2, k3, p1, p2, *(middle or ())))) > _MOST_BENT:
-        report.warn(node.at, f"coefficients and a center of more than {_MOST_BENT:g} show nothing; none are used")
+    if max(map(abs, (k1, k2, k3, p1, p2, *(middle or ())))) > _MAX_BENT:
+        report.warn(node.at, f"coefficients and a center of more than {_MAX_BENT:g} show nothing; none are used")
         return Distortion()
     return Distortion(
         k1=k1, k2=k2, k3=k3, p1=p1, p2=p2, center=(0.5, 0.5) if middle is None else (middle[0], middle[1])
@@ -154,11 +154,11 @@ def _one_of(node: XmlNode, tag: str, words: tuple[str, ...], context: Context) -
     return word
 
 
-def _mended(optics: CameraOptics, node: XmlNode, type_: str, context: Context) -> CameraOptics:
+def _repaired(optics: CameraOptics, node: XmlNode, type_: str, context: Context) -> CameraOptics:
     """A camera that can make no picture becomes SDF's default one, aloud."""
     default, report = CameraOptics(), context.report
     width, height, fov = optics.width_px, optics.height_px, optics.horizontal_fov_rad
-    if not (0 < width <= _LARGEST_PX and 0 < height <= _LARGEST_PX and width * height <= _MOST_PX):
+    if not (0 < width <= _LARGEST_PX and 0 < height <= _LARGEST_PX and width * height <= _MAX_PX):
         size = f"{default.width_px} x {default.height_px}"
         report.warn(node.at, f"a camera of {width} x {height} pixels is not possible; {size} is used")
         optics = replace(optics, width_px=default.width_px, height_px=default.height_px)
@@ -183,10 +183,10 @@ def _with_lens(optics: CameraOptics, node: XmlNode | None, type_: str, context: 
     if node is None:
         return optics
     if type_ in WIDE:
-        leave_out(node, ("intrinsics",), "is nothing that a wide-angle camera has", context)
+        warn_ignored(node, ("intrinsics",), "is nothing that a wide-angle camera has", context)
     else:
         wide = ("type", "scale_to_hfov", "custom_function", "cutoff_angle", "env_texture_size")
-        leave_out(node, wide, "is for wide-angle cameras", context)
+        warn_ignored(node, wide, "is for wide-angle cameras", context)
         optics = replace(optics, intrinsics=_intrinsics(node.find("intrinsics"), context))
     optics = replace(optics, projection=_projection(node.find("projection"), context))
     node.report_unread(context.report)
@@ -207,7 +207,7 @@ def _lens(node: XmlNode | None, context: Context) -> Lens:
         )
         fun = custom.string("fun").lower() or "tan"
         custom.report_unread(report)
-        is_lens = all(1.0 / _MOST_BENT <= abs(each) <= _MOST_BENT for each in (c1, c2, f)) and abs(c3) <= _MOST_BENT
+        is_lens = all(1.0 / _MAX_BENT <= abs(each) <= _MAX_BENT for each in (c1, c2, f)) and abs(c3) <= _MAX_BENT
         if fun not in ("tan", "sin", "id") or not is_lens:
             what = "a lens needs fun tan, sin or id, and c1, c2 and f neither 0 nor huge"
             report.warn(custom.at, f"{what}; tan is used alone")

@@ -36,20 +36,20 @@ class Context(Struct, frozen=True, kw_only=True):
     """Reads a <robot> that an <include> leads to, in its file."""
     seed: int = 0
     """Of what is placed at random."""
-    left_out: set[tuple[str, str, str]] = field(default_factory=set[tuple[str, str, str]])
+    ignored: set[tuple[str, str, str]] = field(default_factory=set[tuple[str, str, str]])
     """File, element and child of what `leave_out` has named."""
 
-    def inside(self, file: Path, version: Version) -> "Context":
+    def for_include(self, file: Path, version: Version) -> "Context":
         """The context of a file that this one includes."""
         return replace(self, version=version, folder=file.parent, including=(*self.including, file))
 
 
-def leave_out(node: XmlNode, tags: Iterable[str], why: str, context: Context) -> None:
+def warn_ignored(node: XmlNode, tags: Iterable[str], why: str, context: Context) -> None:
     """Name children that mean nothing here, once in a file; `why` follows their names."""
     for tag in tags:
         child, key = node.find(tag), (node.at.file, node.tag, tag)
-        if child is not None and key not in context.left_out:
-            context.left_out.add(key)
+        if child is not None and key not in context.ignored:
+            context.ignored.add(key)
             context.report.info(child.at, f"<{tag}> in <{node.tag}> {why}; it is ignored")
 
 

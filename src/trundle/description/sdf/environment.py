@@ -7,7 +7,7 @@ from msgspec.structs import replace
 from trundle.model import Atmosphere, Fog, PhysicsSettings, Rgba, SceneSettings, SphericalCoordinates
 from trundle.xmlnode import XmlNode
 
-from .context import Context, leave_out
+from .context import Context, warn_ignored
 from .material import read_colour
 
 _COLDEST, _HOTTEST = 1.0, 1e6
@@ -41,7 +41,7 @@ def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
     rate_tag = "update_rate" if context.version < (1, 4) else "real_time_update_rate"
     rate = node.number(rate_tag, default=default.real_time_update_rate_hz, report=report)
     factor = node.number("real_time_factor", default=1.0, report=report)
-    leave_out(
+    warn_ignored(
         node,
         ("max_contacts", "ode", "bullet", "simbody", "dart"),
         "is for Gazebo's engines; the one here is MuJoCo, with settings of its own",
@@ -93,7 +93,7 @@ def _has_sky(scene: XmlNode, context: Context) -> bool:
     node = scene.find("sky")
     if node is None:
         return False
-    leave_out(node, ("time", "sunrise", "sunset", "clouds", "cubemap_uri"), "is not drawn", context)
+    warn_ignored(node, ("time", "sunrise", "sunset", "clouds", "cubemap_uri"), "is not drawn", context)
     node.report_unread(context.report)
     return True
 

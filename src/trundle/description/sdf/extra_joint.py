@@ -9,7 +9,7 @@ from trundle.xmlnode import XmlNode
 
 from .context import Context, RawPose
 from .frames import MODEL, FrameGraph
-from .model import WrittenJoint
+from .model import JointElement
 from .version import Version
 
 _RULES = Version((1, 6))
@@ -27,7 +27,7 @@ def read_extra_joint(node: XmlNode, model: Model, report: Diagnostics) -> Joint 
     graph = FrameGraph(MODEL, report, model.canonical_link)
     for link in model.links:
         graph.add(link.name, RawPose(link.model_from_link), link.at)
-    joint = WrittenJoint(node, graph, context)
+    joint = JointElement(node, graph, context)
     if not joint.is_sound:
         return None
     joint.add_to(graph)

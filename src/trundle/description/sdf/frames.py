@@ -53,7 +53,7 @@ class FrameGraph(Struct):
     """The link that what is attached to the model itself moves with, as far as that is known."""
     _entries: dict[str, _Entry] = field(default_factory=dict[str, _Entry])
     _scopes: dict[str, Scope] = field(default_factory=dict[str, Scope])
-    _found: dict[str, Pose] = field(default_factory=dict[str, Pose])
+    _resolved: dict[str, Pose] = field(default_factory=dict[str, Pose])
 
     def add(
         self, name: str, raw: RawPose, at: Source, *, default: str | None = None, attached_to: str | None = None
@@ -85,8 +85,8 @@ class FrameGraph(Struct):
         chain: list[str] = []
         base = Pose()
         while name != self.root:
-            if name in self._found:
-                base = self._found[name]
+            if name in self._resolved:
+                base = self._resolved[name]
                 break
             entry = self._entries.get(name)
             if entry is None:
@@ -96,19 +96,19 @@ class FrameGraph(Struct):
                     base = self.pose(model) @ self._scopes[model].poses[inner]
                 else:
                     last = self._entries[chain[-1]]
-                    self._cut(chain[-1], f"no frame {name!r}; frames here: {self.names()}", last)
+                    self._report_cycle(chain[-1], f"no frame {name!r}; frames here: {self.names()}", last)
                 break
             if name in chain:
-                self._cut(chain[0], f"it is placed relative to itself, by {' → '.join([*chain, name])}", entry)
+                self._report_cycle(chain[0], f"it is placed relative to itself, by {' → '.join([*chain, name])}", entry)
                 break
             chain.append(name)
             name = entry.raw.relative_to or entry.default
         for each in reversed(chain):
             base = base @ self._entries[each].raw.pose
-            self._found[each] = base
+            self._resolved[each] = base
         return base
 
-    def within(self, name: str, raw: RawPose, at: Source) -> Pose:
+    def pose_in(self, name: str, raw: RawPose, at: Source) -> Pose:
         """frame_from_thing of something mounted on a frame, whose pose may be seen from another."""
         if raw.relative_to is None:
             return raw.pose
@@ -164,5 +164,5 @@ class FrameGraph(Struct):
         link = self._scopes[model].links.get(inner)
         return None if link is None else f"{model}::{link}"
 
-    def _cut(self, name: str, why: str, entry: _Entry) -> None:
+    def _report_cycle(self, name: str, why: str, entry: _Entry) -> None:
         self.report.warn(entry.raw.at or entry.at, f"frame {name!r}: {why}; {self.root} is taken instead")

@@ -23,7 +23,7 @@ from trundle.packages import is_stand_in
 from trundle.spatial import normalized
 from trundle.xmlnode import XmlNode
 
-from .context import Context, leave_out
+from .context import Context, warn_ignored
 
 _UNSUPPORTED = ("image", "voxel_grid")
 
@@ -117,7 +117,7 @@ def _heightmap(shape: XmlNode, context: Context) -> Geometry:
     if not uri:
         report.warn(shape.at, "<heightmap> without <uri>; it has no shape")
         return Empty()
-    leave_out(shape, ("use_terrain_paging",), "is for terrain that does not fit in memory", context)
+    warn_ignored(shape, ("use_terrain_paging",), "is for terrain that does not fit in memory", context)
     return Heightmap(
         path=_path(uri, shape, context, "the terrain is left out"),
         uri=uri,

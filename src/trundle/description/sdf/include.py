@@ -20,7 +20,7 @@ from .unplaced_model import UnplacedModel
 from .version import read_version
 
 _DEEPEST_INCLUDE = 16
-_MOST_INCLUDES = 5_000
+_MAX_INCLUDES = 5_000
 """Files opened for one description; the published world of the most has 89."""
 ReadModel: TypeAlias = Callable[[XmlNode, Context], UnplacedModel]
 
@@ -31,8 +31,8 @@ def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | N
     Raises:
         DescriptionError: there is no end of them.
     """
-    if next(context.included) >= _MOST_INCLUDES:
-        raise DescriptionError(node.at, f"more than {_MOST_INCLUDES} <include> in all, models within models")
+    if next(context.included) >= _MAX_INCLUDES:
+        raise DescriptionError(node.at, f"more than {_MAX_INCLUDES} <include> in all, models within models")
     report = context.report
     uri = node.string("uri") or (node.attribute("filename") or "")
     if not uri:
@@ -44,7 +44,7 @@ def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | N
         return _root(file, node, context)
     except (DescriptionError, UsageError) as error:
         elsewhere = isinstance(error, DescriptionError) and error.at != node.at
-        report.warn_of(error, node.at, f"the <include>{f' on line {node.at.line}' if elsewhere else ''} is left out")
+        report.warn_error(error, node.at, f"the <include>{f' on line {node.at.line}' if elsewhere else ''} is left out")
         return None
 
 
@@ -58,7 +58,7 @@ def read_included_model(
         except DescriptionError as error:
             inner.report.warn(error.at, f"{error.what}; the <include> is left out")
             return None
-        return _overridden(_robot(robot, inner), node, context)
+        return _with_overrides(_robot(robot, inner), node, context)
     models = root.all("model")
     if not models:
         return None
@@ -66,10 +66,10 @@ def read_included_model(
         inner.report.warn(models[1].at, "a second <model> in the file; an <include> takes the first")
     apply_params(node, models[0], context.report)
     part = read_model(models[0], inner)
-    return _overridden(part, node, context)
+    return _with_overrides(part, node, context)
 
 
-def _overridden(part: UnplacedModel, node: XmlNode, context: Context) -> UnplacedModel:
+def _with_overrides(part: UnplacedModel, node: XmlNode, context: Context) -> UnplacedModel:
     name, static = node.string("name"), node.find("static")
     has_pose, placement = node.find("pose") is not None, node.string("placement_frame")
     model = replace(
@@ -90,12 +90,12 @@ def _root(file: Path, node: XmlNode, context: Context) -> tuple[XmlNode, Context
         raise DescriptionError(node.at, f"{file} includes itself")
     root = read_xml(file, report=context.report, deepest=DEEPEST)
     if root.tag == "robot":
-        return root, context.inside(file.resolve(), context.version)
+        return root, context.for_include(file.resolve(), context.version)
     if root.tag != "sdf":
         raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")
     version = read_version(root, context.report)
     name_missing_attributes(root, version, context.report)
-    return root, context.inside(file.resolve(), version)
+    return root, context.for_include(file.resolve(), version)
 
 
 def _robot(model: Model, context: Context) -> UnplacedModel:

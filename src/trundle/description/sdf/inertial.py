@@ -3,7 +3,7 @@
 from trundle.model import Inertial
 from trundle.xmlnode import XmlNode
 
-from .context import Context, leave_out, read_pose
+from .context import Context, read_pose, warn_ignored
 
 
 def read_inertial(link: XmlNode, name: str, context: Context) -> Inertial:
@@ -15,7 +15,7 @@ def read_inertial(link: XmlNode, name: str, context: Context) -> Inertial:
     mass = node.number("mass", default=1.0, report=report)
     inertia = node.find("inertia")
     pose = read_pose(node, context).pose  # seen from the link always, whatever the file says
-    leave_out(node, ("auto_inertia_params",), "is for calculators of one's own", context)
+    warn_ignored(node, ("auto_inertia_params",), "is for calculators of one's own", context)
     node.find("density")  # for automatic inertias, which read it themselves
     node.attribute("auto")
     if inertia is None:

@@ -162,7 +162,7 @@ def _expressed_in(node: XmlNode, name: str, frame: FrameOf, root: str, context: 
 def _seen_from(expressed_in: str, direction: Vector3, frame: FrameOf) -> Vector3:
     pose = frame(expressed_in)
     assert pose is not None
-    return pose.direction(direction)
+    return pose.transform_vector(direction)
 
 
 def _number(node: XmlNode, tag: str, default: float, context: Context) -> float:

@@ -6,7 +6,7 @@ from trundle.model import Light, LightType
 from trundle.spatial import normalized
 from trundle.xmlnode import XmlNode
 
-from .context import Context, leave_out, read_pose
+from .context import Context, read_pose, warn_ignored
 from .frames import FrameGraph
 from .material import read_colour
 
@@ -30,7 +30,7 @@ def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -
         name=node.attribute("name") or "light",
         type=_TYPES.get(written, "point"),
         at=node.at,
-        world_from_light=graph.within(owner, read_pose(node, context), node.at),
+        world_from_light=graph.pose_in(owner, read_pose(node, context), node.at),
         direction=direction or default.direction,
         diffuse=read_colour(node, "diffuse", default.diffuse, context),
         specular=read_colour(node, "specular", default.specular, context),
@@ -47,7 +47,7 @@ def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -
     if not node.flag("light_on", default=True, report=report):
         report.info(node.at, f"light {light.name!r} is off")
         light = replace(light, intensity=0.0)
-    leave_out(node, ("visualize",), "is for the window, where lights are not drawn", context)
+    warn_ignored(node, ("visualize",), "is for the window, where lights are not drawn", context)
     for each in (node, attenuation, spot):
         if each is not None:
             each.report_unread(report)

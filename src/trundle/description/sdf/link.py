@@ -7,13 +7,13 @@ from trundle.xmlnode import XmlNode
 
 from .auto_inertia import inertial_of_collisions
 from .camera_labels import with_plugins
-from .context import Context, leave_out, read_bits, read_pose
+from .context import Context, read_bits, read_pose, warn_ignored
 from .frames import FrameGraph
 from .geometry import read_geometry
 from .inertial import read_inertial
 from .light import read_light
 from .material import read_material
-from .sensor import named_apart, read_sensor
+from .sensor import read_sensor, with_unique_names
 from .surface import read_surface
 
 
@@ -28,7 +28,9 @@ def read_link(node: XmlNode, name: str, graph: FrameGraph, context: Context) -> 
         inertial=read_inertial(node, name, context),
         visuals=tuple(_read_visual(child, name, graph, context) for child in node.all("visual")),
         collisions=tuple(_read_collision(child, name, graph, context) for child in node.all("collision")),
-        sensors=named_apart((read_sensor(child, name, graph, context) for child in node.all("sensor")), name, context),
+        sensors=with_unique_names(
+            (read_sensor(child, name, graph, context) for child in node.all("sensor")), name, context
+        ),
         lights=tuple(read_light(child, name, graph, context) for child in node.all("light")),
         gravity=node.flag("gravity", default=True, report=report),
         self_collide=_flag(node, "self_collide", context),
@@ -40,7 +42,7 @@ def read_link(node: XmlNode, name: str, graph: FrameGraph, context: Context) -> 
     inertial = node.find("inertial")
     if inertial is not None and (inertial.attribute("auto") or "").lower() in ("true", "1"):
         link = replace(link, inertial=inertial_of_collisions(link, node, context))
-    leave_out(node, ("must_be_base_link",), "tells Simbody where to cut a loop", context)
+    warn_ignored(node, ("must_be_base_link",), "tells Simbody where to cut a loop", context)
     node.report_unread(report)
     return link
 
@@ -55,7 +57,7 @@ def _read_visual(node: XmlNode, link: str, graph: FrameGraph, context: Context) 
         name=node.attribute("name") or "visual",
         geometry=read_geometry(node, context),
         at=node.at,
-        link_from_visual=graph.within(link, read_pose(node, context), node.at),
+        link_from_visual=graph.pose_in(link, read_pose(node, context), node.at),
         material=read_material(node, context),
     )
     return with_appearance(visual, node, context)
@@ -71,7 +73,7 @@ def with_appearance(visual: Visual, node: XmlNode, context: Context) -> Visual:
         laser_retro=node.number("laser_retro", default=visual.laser_retro, report=report),
         visibility_flags=read_bits(node, "visibility_flags", context, default=visual.visibility_flags),
     )
-    leave_out(node, ("meta",), "is for Gazebo's editor", context)
+    warn_ignored(node, ("meta",), "is for Gazebo's editor", context)
     visual = with_plugins(visual, node.all("plugin"), context)
     node.report_unread(report)
     return visual
@@ -82,12 +84,12 @@ def _read_collision(node: XmlNode, link: str, graph: FrameGraph, context: Contex
         name=node.attribute("name") or "collision",
         geometry=read_geometry(node, context),
         at=node.at,
-        link_from_collision=graph.within(link, read_pose(node, context), node.at),
+        link_from_collision=graph.pose_in(link, read_pose(node, context), node.at),
         surface=read_surface(node, context),
         laser_retro=node.number("laser_retro", default=0.0, report=context.report),
     )
-    leave_out(node, ("max_contacts",), "is ODE's; MuJoCo makes as many contacts as the shapes need", context)
-    leave_out(node, ("auto_inertia_params",), "is for calculators of one's own", context)
+    warn_ignored(node, ("max_contacts",), "is ODE's; MuJoCo makes as many contacts as the shapes need", context)
+    warn_ignored(node, ("auto_inertia_params",), "is for calculators of one's own", context)
     node.find("density")  # for automatic inertias, which read it themselves
     node.report_unread(context.report)
     return collision

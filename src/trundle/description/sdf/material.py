@@ -8,7 +8,7 @@ from trundle.diagnostics import DescriptionError
 from trundle.model import GREY, Material, Rgba
 from trundle.xmlnode import XmlNode
 
-from .context import Context, leave_out
+from .context import Context, warn_ignored
 from .gazebo_materials import GAZEBO_MATERIALS, TEXTURED
 
 _WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
@@ -37,7 +37,7 @@ def read_material(visual: XmlNode, context: Context) -> Material:
         texture=base.texture,
         texture_scale=base.texture_scale,
     )
-    leave_out(node, ("lighting", "shader", "render_order", "double_sided", "shininess"), "is not drawn", context)
+    warn_ignored(node, ("lighting", "shader", "render_order", "double_sided", "shininess"), "is not drawn", context)
     node.report_unread(context.report)
     return material
 

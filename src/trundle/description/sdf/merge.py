@@ -11,14 +11,14 @@ from .frames import MODEL, FrameGraph
 from .unplaced_model import UnplacedModel
 
 
-class Merged(Struct, frozen=True):
+class MergedModel(Struct, frozen=True):
     """A model whose parts have become known as the outer model's, or the world's."""
 
     part: UnplacedModel
     frame: str
     """What stands for the lost model's frame."""
 
-    def into(self, outer: Model, graph: FrameGraph) -> Model:
+    def merge_into(self, outer: Model, graph: FrameGraph) -> Model:
         """The outer model with everything of the inner one added."""
         inner = self.part.model
         turn = graph.pose(self.frame)
@@ -38,7 +38,7 @@ class Merged(Struct, frozen=True):
         )
 
 
-def merged(part: UnplacedModel, graph: FrameGraph) -> Merged:
+def merge_model(part: UnplacedModel, graph: FrameGraph) -> MergedModel:
     """Make everything in a model known by its own names, relative to a frame that stands for the model."""
     frame = f"_merged__{part.model.name}__model__"
     graph.add(frame, part.placed(graph), part.model.at, attached_to=part.model.canonical_link or graph.root)
@@ -48,7 +48,7 @@ def merged(part: UnplacedModel, graph: FrameGraph) -> Merged:
             graph.add(each, RawPose(pose, frame), part.model.at, attached_to=attached)
     for model in part.model.models:
         graph.add_scope(model.name, part.scope.inside(model.name))
-    return Merged(part, frame)
+    return MergedModel(part, frame)
 
 
 def _moved(link: Link, graph: FrameGraph) -> Link:
@@ -66,6 +66,6 @@ def _moved_model(model: Model, graph: FrameGraph) -> Model:
 
 def _turned_joint(joint: Joint, turn: Pose) -> Joint:
     def turned(axis: JointAxis | None) -> JointAxis | None:
-        return None if axis is None else replace(axis, direction=turn.direction(axis.direction))
+        return None if axis is None else replace(axis, direction=turn.transform_vector(axis.direction))
 
     return replace(joint, axis=turned(joint.axis), axis2=turned(joint.axis2))

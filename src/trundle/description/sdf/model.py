@@ -15,7 +15,7 @@ from .frames import MODEL, WORLD, FrameGraph
 from .include import open_include, read_included_model
 from .joint import TYPES, read_joint
 from .link import read_link
-from .merge import Merged, merged
+from .merge import MergedModel, merge_model
 from .sensor import read_plugin
 from .unplaced_model import UnplacedModel
 
@@ -38,7 +38,7 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> UnplacedModel
     nested, dissolved = _nested(node, graph, context, depth)
     frames = read_frames(node, graph, context)
     graph.canonical_link = _canonical(node, links, nested, dissolved, graph)
-    joints = [joint for child in node.all("joint") if (joint := WrittenJoint(child, graph, context)).is_sound]
+    joints = [joint for child in node.all("joint") if (joint := JointElement(child, graph, context)).is_sound]
     for joint in joints:
         joint.add_to(graph)
     model = Model(
@@ -56,7 +56,7 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> UnplacedModel
     )
     model = labelled(model, node.all("plugin"), context)
     for each in dissolved:
-        model = each.into(model, graph)
+        model = each.merge_into(model, graph)
     model = replace(model, canonical_link=graph.canonical_link)
     if model.canonical_link is None and not model.static:
         context.report.warn(node.at, f"model {name!r} has no links; nothing of it can move")
@@ -83,10 +83,12 @@ def placed_links(nodes: Iterable[XmlNode], graph: FrameGraph, context: Context) 
     return links
 
 
-def _nested(node: XmlNode, graph: FrameGraph, context: Context, depth: int) -> tuple[list[UnplacedModel], list[Merged]]:
+def _nested(
+    node: XmlNode, graph: FrameGraph, context: Context, depth: int
+) -> tuple[list[UnplacedModel], list[MergedModel]]:
     """Models in this one, in file order, and those that dissolve in it."""
     parts: list[UnplacedModel] = []
-    dissolved: list[Merged] = []
+    dissolved: list[MergedModel] = []
     for child in node.children:
         if child.tag == "model":
             part = read_model(child, context, depth + 1)
@@ -102,7 +104,7 @@ def _nested(node: XmlNode, graph: FrameGraph, context: Context, depth: int) -> t
         else:
             continue
         if part.merge:
-            dissolved.append(merged(part, graph))
+            dissolved.append(merge_model(part, graph))
         elif any(part.model.name == other.model.name for other in parts):
             context.report.warn(part.model.at, f"a second nested model {part.model.name!r}; it is left out")
         else:
@@ -129,7 +131,11 @@ def read_frames(node: XmlNode, graph: FrameGraph, context: Context) -> list[Fram
 
 
 def _canonical(
-    node: XmlNode, links: Iterable[str], nested: Iterable[UnplacedModel], dissolved: Iterable[Merged], graph: FrameGraph
+    node: XmlNode,
+    links: Iterable[str],
+    nested: Iterable[UnplacedModel],
+    dissolved: Iterable[MergedModel],
+    graph: FrameGraph,
 ) -> str | None:
     """The link a model rides on: the one it names, else its first, its own before those of nested models."""
     named = node.attribute("canonical_link")
@@ -144,7 +150,7 @@ def _canonical(
     return next(iter(first), None)
 
 
-class WrittenJoint:
+class JointElement:
     """A <joint> whose ends are known but whose place is not."""
 
     def __init__(self, node: XmlNode, graph: FrameGraph, context: Context) -> None:
@@ -154,7 +160,7 @@ class WrittenJoint:
         self._ends = [_end(node, tag) for tag in ("parent", "child")]
         # Before SDF 1.7 a joint may be called like a link, and then it is no frame to refer to.
         self._frame = f"joint {self._name}" if self._name in graph else self._name
-        self.is_sound = self._frame not in graph and self._has_known_type(graph) and self._joins_two(graph)
+        self.is_sound = self._frame not in graph and self._has_known_type(graph) and self._has_two_links(graph)
         if not self.is_sound:
             node.mark_all_read()
 
@@ -166,7 +172,7 @@ class WrittenJoint:
         graph.report.warn(self._node.at, f"{why}; as in Gazebo the joint is left out")
         return False
 
-    def _joins_two(self, graph: FrameGraph) -> bool:
+    def _has_two_links(self, graph: FrameGraph) -> bool:
         who = f"joint {self._name!r}"
         for tag, end in zip(("parent", "child"), self._ends, strict=True):
             if not end:

@@ -15,8 +15,8 @@ from msgspec.structs import replace
 from trundle.spatial import Pose, Vector3
 from trundle.xmlnode import XmlNode
 
-from .cluster import cluster_middles
 from .context import Context, RawPose, read_pose
+from .kmeans import kmeans_centers
 from .unplaced_model import UnplacedModel
 
 _MOST = 1_000
@@ -49,7 +49,7 @@ def read_population(
         replace(
             part,
             model=replace(part.model, name=f"{part.model.name}_clone_{number}"),
-            raw=RawPose(Pose(_plus(pose.position, _plus(region.corner, pose.direction(place)))), at=node.at),
+            raw=RawPose(Pose(_add(pose.position, _add(region.corner, pose.transform_vector(place)))), at=node.at),
         )
         for number, place in enumerate(places)
     ]
@@ -104,15 +104,15 @@ class _Region:
             return "its <box> or <cylinder> has no inside"
         match self.kind:
             case "random":
-                return [self._anywhere(chance) for _ in range(count)]
+                return [self._random_point(chance) for _ in range(count)]
             case "uniform":
-                return cluster_middles(self._samples(chance), count, chance)
+                return kmeans_centers(self._samples(chance), count, chance)
             case "linear-x" | "linear-y" | "linear-z" if self.size is not None:
                 return _row("xyz".index(self.kind[-1]), self.size, count)
             case _:
                 return f"no distribution {self.kind!r} of a {'cylinder' if self.size is None else 'box'}"
 
-    def _anywhere(self, chance: random.Random) -> Vector3:
+    def _random_point(self, chance: random.Random) -> Vector3:
         if self.size is not None:
             return (chance.uniform(0, self.size[0]), chance.uniform(0, self.size[1]), chance.uniform(0, self.size[2]))
         assert self.round is not None
@@ -123,7 +123,7 @@ class _Region:
     def _samples(self, chance: random.Random) -> _Places:
         """Points that fill the region; of a box a grid, with chance for the height."""
         if self.size is None:
-            return [self._anywhere(chance) for _ in range(_SAMPLES)]
+            return [self._random_point(chance) for _ in range(_SAMPLES)]
         width, depth, height = self.size
         spacing = max(_SPACING, math.sqrt(width * depth / _SAMPLES))
         return [
@@ -142,5 +142,5 @@ def _row(axis: int, size: Vector3, count: int) -> _Places:
     return places
 
 
-def _plus(a: Vector3, b: Vector3) -> Vector3:
+def _add(a: Vector3, b: Vector3) -> Vector3:
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]

@@ -46,11 +46,11 @@ def scaled(geometry: Geometry, scale: Vector3) -> Geometry:
     x, y, z = scale
     match geometry:
         case Box(size):
-            return Box(_by(size, scale))
+            return Box(_multiply(size, scale))
         case Sphere(radius):
             return Sphere(radius * max(scale))
         case Ellipsoid(radii):
-            return Ellipsoid(_by(radii, scale))
+            return Ellipsoid(_multiply(radii, scale))
         case Cylinder(radius, length):
             return Cylinder(radius * max(x, y), length * z)
         case Capsule(radius, length):
@@ -62,12 +62,12 @@ def scaled(geometry: Geometry, scale: Vector3) -> Geometry:
         case Polyline(outlines, height):
             return Polyline(tuple(tuple((u * x, v * y) for u, v in outline) for outline in outlines), height * z)
         case MeshFile():
-            return replace(geometry, scale=_by(geometry.scale, scale))
+            return replace(geometry, scale=_multiply(geometry.scale, scale))
         case Heightmap():
-            return replace(geometry, size=_by(geometry.size, scale))
+            return replace(geometry, size=_multiply(geometry.size, scale))
         case Empty():
             return geometry
 
 
-def _by(a: Vector3, b: Vector3) -> Vector3:
+def _multiply(a: Vector3, b: Vector3) -> Vector3:
     return a[0] * b[0], a[1] * b[1], a[2] * b[2]

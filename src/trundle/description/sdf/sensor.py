@@ -8,8 +8,8 @@ from msgspec.structs import replace
 from trundle.model import MEASURING, PluginTag, Sensor
 from trundle.xmlnode import XmlNode
 
-from .camera import SEEING, read_cameras
-from .context import Context, leave_out, read_pose
+from .camera import CAMERA_TYPES, read_cameras
+from .context import Context, read_pose, warn_ignored
 from .frames import FrameGraph
 
 
@@ -21,26 +21,26 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
         name=node.attribute("name") or type_,
         type=type_,
         at=node.at,
-        link_from_sensor=graph.within(owner, read_pose(node, context), node.at),
+        link_from_sensor=graph.pose_in(owner, read_pose(node, context), node.at),
         update_rate_hz=_rate(node, context),
         always_on=node.flag("always_on", default=False, report=report),
         visualize=node.flag("visualize", default=False, report=report),
         topic=_topic(node, type_),
-        cameras=read_cameras(node, type_, context) if type_ in SEEING else (),
+        cameras=read_cameras(node, type_, context) if type_ in CAMERA_TYPES else (),
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
     )
     if type_ in MEASURING:
-        from .measuring import with_settings  # a world without any starts without what they are set to
+        from .sensor_elements import with_settings  # a world without any starts without what they are set to
 
         sensor = with_settings(sensor, node, context)
-    if type_ in MEASURING | SEEING:
+    if type_ in MEASURING | CAMERA_TYPES:
         node.report_unread(report)
     else:
-        leave_out(node, [child.tag for child in node.unread()], f"of type {type_!r} is not read yet", context)
+        warn_ignored(node, [child.tag for child in node.unread()], f"of type {type_!r} is not read yet", context)
     return sensor
 
 
-def named_apart(sensors: Iterable[Sensor], link: str, context: Context) -> tuple[Sensor, ...]:
+def with_unique_names(sensors: Iterable[Sensor], link: str, context: Context) -> tuple[Sensor, ...]:
     """The sensors of a link; of several that share a name all but the first get a number, aloud."""
     apart: dict[str, Sensor] = {}
     for sensor in sensors:

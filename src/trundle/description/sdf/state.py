@@ -8,7 +8,7 @@ from trundle.model import Light, Link, Model
 from trundle.spatial import Pose
 from trundle.xmlnode import XmlNode
 
-from .context import Context, leave_out, read_pose
+from .context import Context, read_pose, warn_ignored
 from .scale import scaled_model
 
 _MOVED = 1e-3
@@ -44,10 +44,10 @@ def _applied(
     poses = {state.attribute("name"): state for state in _states(node, "model")}
     lit = {state.attribute("name"): state for state in _states(node, "light")}
     gone = _deleted(node, {each.name for each in (*models, *lights)}, context)
-    leave_out(
+    warn_ignored(
         node, ("sim_time", "wall_time", "real_time", "iterations", "time"), "is not heeded: time starts at 0", context
     )
-    leave_out(node, ("joint_state",), "is not heeded: the poses of links say where joints start", context)
+    warn_ignored(node, ("joint_state",), "is not heeded: the poses of links say where joints start", context)
     insertions = node.find("insertions")
     if insertions is not None:
         insertions.all("model")
@@ -60,11 +60,11 @@ def _applied(
                 report.warn(state.at, f"<state> of {kind} {name!r}, which is not in this world; it is ignored")
                 state.mark_all_read()
     placed = [
-        _placed(model, poses[model.name], Pose(), context) if model.name in poses else model
+        _model_with_state(model, poses[model.name], Pose(), context) if model.name in poses else model
         for model in models
         if model.name not in gone
     ]
-    shone = [_shone(light, lit.get(light.name), context) for light in lights if light.name not in gone]
+    shone = [_light_with_state(light, lit.get(light.name), context) for light in lights if light.name not in gone]
     return placed, shone
 
 
@@ -80,7 +80,7 @@ def _deleted(node: XmlNode, there: set[str], context: Context) -> set[str]:
     return {each.text for each in names}
 
 
-def _shone(light: Light, state: XmlNode | None, context: Context) -> Light:
+def _light_with_state(light: Light, state: XmlNode | None, context: Context) -> Light:
     if state is None:
         return light
     pose = state.find("pose")
@@ -88,14 +88,14 @@ def _shone(light: Light, state: XmlNode | None, context: Context) -> Light:
     return light if pose is None else replace(light, world_from_light=read_pose(state, context).pose)
 
 
-def _placed(model: Model, state: XmlNode, world_from_outer: Pose, context: Context) -> Model:
+def _model_with_state(model: Model, state: XmlNode, world_from_outer: Pose, context: Context) -> Model:
     """A model where its state has it; states of nested models are in the world too."""
     report = context.report
     has_pose = state.find("pose") is not None
     nested = {inner.attribute("name"): inner for inner in _states(state, "model")}
     links = {link.attribute("name"): link for link in _states(state, "link")}
     scale = state.vector("scale", default=(1.0, 1.0, 1.0), report=report)
-    leave_out(state, ("joint", "joint_state"), "is not heeded, in Gazebo neither: the poses of links are", context)
+    warn_ignored(state, ("joint", "joint_state"), "is not heeded, in Gazebo neither: the poses of links are", context)
     state.report_unread(report)
     for name, each in links.items():
         if name not in {link.name for link in model.links}:
@@ -105,7 +105,7 @@ def _placed(model: Model, state: XmlNode, world_from_outer: Pose, context: Conte
     world_from_model = read_pose(state, context).pose if has_pose else world_from_outer @ model.world_from_model
     joined = set[str]() if model.static else {end for joint in model.joints for end in (joint.parent, joint.child)}
     started = tuple(
-        _started(link, links[link.name], world_from_model, context, is_joined=link.name in joined)
+        _link_with_state(link, links[link.name], world_from_model, context, is_joined=link.name in joined)
         if link.name in links
         else link
         for link in model.links
@@ -115,16 +115,16 @@ def _placed(model: Model, state: XmlNode, world_from_outer: Pose, context: Conte
         world_from_model=world_from_outer.inverse() @ world_from_model,
         links=started,
         models=tuple(
-            _placed(inner, nested[inner.name], world_from_model, context) if inner.name in nested else inner
+            _model_with_state(inner, nested[inner.name], world_from_model, context) if inner.name in nested else inner
             for inner in model.models
         ),
     )
 
 
-def _started(link: Link, state: XmlNode, world_from_model: Pose, context: Context, *, is_joined: bool) -> Link:
+def _link_with_state(link: Link, state: XmlNode, world_from_model: Pose, context: Context, *, is_joined: bool) -> Link:
     """A link where its state has it; of one that a joint holds the joint's zero stays where it was written."""
-    leave_out(state, _AT_REST + _ACCELERATED, "is not heeded: everything starts at rest", context)
-    leave_out(state, ("collision", "collision_state"), "is not heeded, in Gazebo neither", context)
+    warn_ignored(state, _AT_REST + _ACCELERATED, "is not heeded: everything starts at rest", context)
+    warn_ignored(state, ("collision", "collision_state"), "is not heeded, in Gazebo neither", context)
     has_pose = state.find("pose") is not None
     state.report_unread(context.report)
     if not has_pose:
@@ -134,7 +134,7 @@ def _started(link: Link, state: XmlNode, world_from_model: Pose, context: Contex
     moved = max(map(abs, (*written_from_saved.position, *written_from_saved.quaternion[1:])))
     if moved <= _MOVED:
         return link
-    return replace(link, start=model_from_link) if is_joined else replace(link, model_from_link=model_from_link)
+    return replace(link, initial_pose=model_from_link) if is_joined else replace(link, model_from_link=model_from_link)
 
 
 def _states(node: XmlNode, kind: str) -> Iterator[XmlNode]:

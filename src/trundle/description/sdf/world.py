@@ -8,13 +8,13 @@ from trundle.diagnostics import DescriptionError
 from trundle.model import Light, Model, World
 from trundle.xmlnode import XmlNode
 
-from .context import Context, leave_out, read_pose
+from .context import Context, read_pose, warn_ignored
 from .environment import read_atmosphere, read_physics, read_scene, read_spherical_coordinates
 from .frames import WORLD, FrameGraph
 from .include import open_include, read_included_model
 from .light import read_light
-from .merge import Merged, merged
-from .model import WrittenJoint, read_frames, read_model
+from .merge import MergedModel, merge_model
+from .model import JointElement, read_frames, read_model
 from .population import read_population
 from .road import read_road
 from .sensor import read_plugin
@@ -58,7 +58,7 @@ def read_world(node: XmlNode, context: Context) -> World:
     for child in inserted(node):
         contents.add(child)
     frames = read_frames(node, contents.graph, context)
-    joints = [j for child in node.all("joint") if (j := WrittenJoint(child, contents.graph, context)).is_sound]
+    joints = [j for child in node.all("joint") if (j := JointElement(child, contents.graph, context)).is_sound]
     for joint in joints:
         joint.add_to(contents.graph)
     wind = node.find("wind")
@@ -71,7 +71,7 @@ def read_world(node: XmlNode, context: Context) -> World:
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
     )
     for each in contents.dissolved:
-        whole = each.into(whole, contents.graph)
+        whole = each.merge_into(whole, contents.graph)
     models, lights = apply_state(node, name, whole.models, contents.lights, context)
     world = World(
         name=name,
@@ -90,7 +90,7 @@ def read_world(node: XmlNode, context: Context) -> World:
         magnetic_field=node.vector("magnetic_field", default=default.magnetic_field, report=report),
         wind=default.wind if wind is None else wind.vector("linear_velocity", default=default.wind, report=report),
     )
-    leave_out(node, ("gui", "audio"), "speaks to Gazebo's own window", context)
+    warn_ignored(node, ("gui", "audio"), "speaks to Gazebo's own window", context)
     node.report_unread(report)
     return world
 
@@ -111,7 +111,7 @@ class _Contents:
         self.graph = FrameGraph(WORLD, context.report)
         self.parts: list[UnplacedModel] = []
         self.lights: list[Light] = []
-        self.dissolved: list[Merged] = []
+        self.dissolved: list[MergedModel] = []
         """Models that are none of the world's: what is in them is."""
         self._context = context
         for child in node.children:
@@ -146,15 +146,15 @@ class _Contents:
         root, inner = opened
         part = read_included_model(node, root, inner, self._context, read_model)
         if part is not None:
-            if part.merge and self._can_dissolve(part, node):
-                self.dissolved.append(merged(part, self.graph))
+            if part.merge and self._can_merge(part, node):
+                self.dissolved.append(merge_model(part, self.graph))
             else:
                 self._add(part)
             return
         name = node.string("name")
         for light in (read_light(child, WORLD, self.graph, inner) for child in root.all("light")):
             has_pose = node.find("pose") is not None
-            pose = self.graph.within(WORLD, read_pose(node, self._context), node.at)
+            pose = self.graph.pose_in(WORLD, read_pose(node, self._context), node.at)
             self.lights.append(
                 replace(
                     light,
@@ -163,7 +163,7 @@ class _Contents:
                 )
             )
 
-    def _can_dissolve(self, part: UnplacedModel, node: XmlNode) -> bool:
+    def _can_merge(self, part: UnplacedModel, node: XmlNode) -> bool:
         """Links are in models only, and a name stands for one thing."""
         taken = [inner.name for inner in part.model.models if inner.name in self.graph]
         why = ""

@@ -143,9 +143,9 @@ class GazeboTags:
         ]
         if not found:
             return ()
-        from ..sdf.sensor import named_apart
+        from ..sdf.sensor import with_unique_names
 
-        return named_apart(found, lump.name, self._context)
+        return with_unique_names(found, lump.name, self._context)
 
     def lights(self, link: str) -> "tuple[Light, ...]":
         """<light> elements, likewise."""
@@ -205,12 +205,12 @@ class GazeboTags:
         nodes = self._all("", "joint")
         if not nodes:
             return ()
-        from ..sdf.model import WrittenJoint
+        from ..sdf.model import JointElement
 
-        sound: list[WrittenJoint] = []
+        sound: list[JointElement] = []
         for node in nodes:
             try:
-                joint = WrittenJoint(node, graph, self._context)
+                joint = JointElement(node, graph, self._context)
             except DescriptionError as error:
                 self._context.report.warn(error.at, f"{error.what}; the joint is left out")
                 continue

@@ -292,7 +292,7 @@ class _Lowering:
             self.report.warn(joint.at, what)
             lower, upper = upper, lower
         return JointAxis(
-            direction=root_from_joint.direction(normalized(joint.axis) or (1.0, 0.0, 0.0)),
+            direction=root_from_joint.transform_vector(normalized(joint.axis) or (1.0, 0.0, 0.0)),
             lower=lower,
             upper=upper,
             effort=math.inf if limit is None else _bound(limit.effort),

@@ -9,7 +9,7 @@ from trundle.robot import Robot, RobotInertial, RobotShape
 from trundle.spatial import ZERO, Pose, Quaternion
 from trundle.xmlnode import XmlNode
 
-from ..inertia_sum import sum_of, turned
+from ..inertia_sum import rotate_inertia, sum_inertias
 
 WORLD = "world"
 
@@ -88,10 +88,12 @@ def lumped_inertial(parts: list[tuple[RobotInertial, Pose]], orientation: Quater
         orientation: of the axes to express it in, seen from the lump's frame.
     """
     coms = [(part, pose @ part.link_from_com) for part, pose in parts]
-    bodies = [(part.mass, com.position, turned((*part.moments, *part.products), com.quaternion)) for part, com in coms]
-    mass, center, tensor = sum_of(bodies)
+    bodies = [
+        (part.mass, com.position, rotate_inertia((*part.moments, *part.products), com.quaternion)) for part, com in coms
+    ]
+    mass, center, tensor = sum_inertias(bodies)
     w, x, y, z = orientation
-    ixx, iyy, izz, ixy, ixz, iyz = turned(tensor, (w, -x, -y, -z))
+    ixx, iyy, izz, ixy, ixz, iyz = rotate_inertia(tensor, (w, -x, -y, -z))
     return Inertial(
         mass=mass, link_from_com=Pose(center, orientation), moments=(ixx, iyy, izz), products=(ixy, ixz, iyz)
     )

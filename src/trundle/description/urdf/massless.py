@@ -22,7 +22,7 @@ def massless_lumps(robot: Robot, lumps: Mapping[str, Lump], report: Diagnostics)
     for link in robot.links:
         if link.name == WORLD or link.name in dropped or tree.mass[link.name] > _NO_MASS:
             continue
-        gone = [name for name in tree.hung_on(link.name) if name not in dropped]
+        gone = [name for name in tree.subtree(link.name) if name not in dropped]
         dropped.update(gone)
         if gone:
             report.warn(link.at, _sentence(link, tree.mass[link.name], gone))
@@ -64,7 +64,7 @@ class _Tree:
         lump = self._lump_of[link]
         return [child for child in self._below.get(link, []) if self._lump_of[child] == lump]
 
-    def hung_on(self, link: str) -> list[str]:
+    def subtree(self, link: str) -> list[str]:
         """The lumps at and below a link, itself first where it is one; what only went into another lump is none."""
         pending, found = [link], list[str]()
         while pending:

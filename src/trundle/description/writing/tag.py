@@ -26,7 +26,7 @@ class Tag:
 
     def add(self, name: str, text: Value = None, /, **attributes: str) -> "Tag":
         """Append a child and return it."""
-        child = Tag(name, attributes, spelled(text))
+        child = Tag(name, attributes, format_value(text))
         self.children.append(child)
         return child
 
@@ -47,7 +47,7 @@ class Tag:
         numbers = pose.as_list()
         if max(map(abs, numbers)) < _NOTHING and not attributes:
             return
-        self.children.append(Tag("pose", attributes, spelled(numbers)))
+        self.children.append(Tag("pose", attributes, format_value(numbers)))
 
     def lines(self, indent: int = 0) -> list[str]:
         """The element as lines of XML."""
@@ -71,7 +71,7 @@ class Tag:
         return "\n".join(['<?xml version="1.0"?>', *self.lines()]) + "\n"
 
 
-def spelled(value: Value) -> str:
+def format_value(value: Value) -> str:
     """A value as XML text."""
     match value:
         case None:

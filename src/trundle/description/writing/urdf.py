@@ -28,9 +28,9 @@ from trundle.model import (
 from trundle.spatial import Pose
 
 from .files import UriOf
-from .sdf_environment import add_light
-from .sdf_sensor import add_sensor
-from .tag import Tag, spelled
+from .sdf.environment import add_light
+from .sdf.sensor import add_sensor
+from .tag import Tag, format_value
 
 _UNLIMITED = 1e16
 _TYPES = {
@@ -125,16 +125,16 @@ class _Writer:
         tag = root.add("link", name=link.name)
         inertial = tag.add("inertial")
         _add_origin(inertial, frame_from_link @ link.inertial.link_from_com)
-        inertial.add("mass", value=spelled(link.inertial.mass))
+        inertial.add("mass", value=format_value(link.inertial.mass))
         names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
         numbers = (*link.inertial.moments, *link.inertial.products)
-        inertial.add("inertia", **{name: spelled(value) for name, value in zip(names, numbers, strict=True)})
+        inertial.add("inertia", **{name: format_value(value) for name, value in zip(names, numbers, strict=True)})
         for visual in link.visuals:
             shape = self._add_shape(tag, "visual", visual, frame_from_link @ visual.link_from_visual)
             if shape is not None and visual.material is not GREY:
                 material = shape.add("material", name=f"{link.name}_{visual.name}")
                 r, g, b, a = visual.material.diffuse
-                material.add("color", rgba=spelled((r, g, b, a * (1.0 - visual.transparency))))
+                material.add("color", rgba=format_value((r, g, b, a * (1.0 - visual.transparency))))
                 if visual.material.texture is not None:
                     material.add("texture", filename=self.uri_of(visual.material.texture, ""))
         for collision in link.collisions:
@@ -156,14 +156,15 @@ class _Writer:
     def _geometry(self, geometry: Geometry) -> Tag | None:
         match geometry:
             case Box(size):
-                return Tag("box", {"size": spelled(size)})
+                return Tag("box", {"size": format_value(size)})
             case Cylinder(radius, length):
-                return Tag("cylinder", {"radius": spelled(radius), "length": spelled(length)})
+                return Tag("cylinder", {"radius": format_value(radius), "length": format_value(length)})
             case Sphere(radius):
-                return Tag("sphere", {"radius": spelled(radius)})
+                return Tag("sphere", {"radius": format_value(radius)})
             case MeshFile(submesh=None):
                 return Tag(
-                    "mesh", {"filename": self.uri_of(geometry.path, geometry.uri), "scale": spelled(geometry.scale)}
+                    "mesh",
+                    {"filename": self.uri_of(geometry.path, geometry.uri), "scale": format_value(geometry.scale)},
                 )
             case _:
                 return None
@@ -184,17 +185,17 @@ class _Writer:
         tag.add("parent", link=joint.parent)
         tag.add("child", link=joint.child)
         if axis is not None and joint.type is not JointType.FIXED:
-            tag.add("axis", xyz=spelled(model_from_frame.inverse().direction(axis.direction)))
-            bounds = {"effort": spelled(_bounded(axis.effort)), "velocity": spelled(_bounded(axis.velocity))}
+            tag.add("axis", xyz=format_value(model_from_frame.inverse().transform_vector(axis.direction)))
+            bounds = {"effort": format_value(_bounded(axis.effort)), "velocity": format_value(_bounded(axis.velocity))}
             if type_ != "continuous":
-                bounds |= {"lower": spelled(_bounded(axis.lower)), "upper": spelled(_bounded(axis.upper))}
+                bounds |= {"lower": format_value(_bounded(axis.lower)), "upper": format_value(_bounded(axis.upper))}
             tag.add("limit", **bounds)
             if axis.damping or axis.friction:
-                tag.add("dynamics", damping=spelled(axis.damping), friction=spelled(axis.friction))
+                tag.add("dynamics", damping=format_value(axis.damping), friction=format_value(axis.friction))
             if axis.mimic is not None:
                 offset = axis.mimic.offset - axis.mimic.multiplier * axis.mimic.reference
-                multiplier = spelled(axis.mimic.multiplier)
-                tag.add("mimic", joint=axis.mimic.joint, multiplier=multiplier, offset=spelled(offset))
+                multiplier = format_value(axis.mimic.multiplier)
+                tag.add("mimic", joint=axis.mimic.joint, multiplier=multiplier, offset=format_value(offset))
         extra = Tag("gazebo", {"reference": joint.name})
         if joint.type is JointType.FIXED:
             extra.add("preserveFixedJoint", True)
@@ -233,7 +234,7 @@ class _Writer:
 def _add_origin(home: Tag, pose: Pose) -> None:
     x, y, z, *rpy = pose.as_list()
     if pose != Pose():
-        home.add("origin", xyz=spelled((x, y, z)), rpy=spelled(rpy))
+        home.add("origin", xyz=format_value((x, y, z)), rpy=format_value(rpy))
 
 
 def _bounded(value: float) -> float:

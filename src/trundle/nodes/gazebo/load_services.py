@@ -42,8 +42,8 @@ class _Efforts:
         simulation = self._simulator.simulation
         link = find_link(simulation, request.body_name)
         frame = world_from(simulation, request.reference_frame)
-        force, torque = (frame.direction(vector_of(v)) for v in (request.wrench.force, request.wrench.torque))
-        arm = frame.point(vector_of(request.reference_point))
+        force, torque = (frame.transform_vector(vector_of(v)) for v in (request.wrench.force, request.wrench.torque))
+        arm = frame.transform_point(vector_of(request.reference_point))
         if not is_world(request.reference_frame):
             x, y, z = link.pose.position
             arm = (arm[0] - x, arm[1] - y, arm[2] - z)

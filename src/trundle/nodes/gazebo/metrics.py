@@ -50,14 +50,14 @@ class MetricsTopic:
         """Say how it went since the last look; on the simulation's thread."""
         simulator, before = self._simulator, self._before
         now_ns = simulator.simulation.time_ns
-        readings = {id(sensor): sensor.readings for sensor in simulator.sensors}
+        readings = {id(sensor): sensor.reading_count for sensor in simulator.sensors}
         self._before = now = _Look(time.monotonic(), now_ns / 1e9, readings)
         if before is None or now.sim_s < before.sim_s:  # time was reset
             return
         wall_s, sim_s = now.wall_s - before.wall_s, now.sim_s - before.sim_s
         sensors: list[dict[str, Any]] = []
         for sensor in simulator.sensors:
-            count = sensor.readings - before.readings.get(id(sensor), 0)
+            count = sensor.reading_count - before.readings.get(id(sensor), 0)
             a_second = count / wall_s
             sensors.append(
                 {

@@ -6,7 +6,7 @@ from ..host import Simulator
 from .ode import IGNORED, OdeSettings
 from .property_setters import LONGEST_S, SHORTEST_S, set_physics
 
-_MOST_GRAVITY = 100.0
+_MAX_GRAVITY = 100.0
 _FASTEST_HZ = 1_000_000.0
 
 
@@ -14,7 +14,7 @@ def advertise_options(node: Node, simulator: Simulator, ode: OdeSettings) -> Non
     """Offer what gazebo_ros does; of ODE's own options it is said that they do nothing."""
     physics = simulator.simulation.world.physics
     pulls = [
-        Option(name=f"gravity_{axis}", value=value, lower=-_MOST_GRAVITY, upper=_MOST_GRAVITY, description="[m/s²]")
+        Option(name=f"gravity_{axis}", value=value, lower=-_MAX_GRAVITY, upper=_MAX_GRAVITY, description="[m/s²]")
         for axis, value in zip("xyz", physics.gravity, strict=True)
     ]
     rate = Option(

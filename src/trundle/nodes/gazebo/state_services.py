@@ -101,7 +101,7 @@ class _States:
 
 def _turned(frame: Pose, twist: Twist) -> Twist:
     """A velocity given in a frame's axes, in the world's."""
-    return Twist(frame.direction(twist.linear), frame.direction(twist.angular))
+    return Twist(frame.transform_vector(twist.linear), frame.transform_vector(twist.angular))
 
 
 def _seen_from(simulation: Simulation, frame: Pose, entity: str, pose: Pose, twist: Twist) -> Twist:
@@ -117,7 +117,8 @@ def _seen_from(simulation: Simulation, frame: Pose, entity: str, pose: Pose, twi
     angular = tuple(v - o for v, o in zip(twist.angular, own.angular, strict=True))
     back = frame.inverse()
     return Twist(
-        back.direction((linear[0], linear[1], linear[2])), back.direction((angular[0], angular[1], angular[2]))
+        back.transform_vector((linear[0], linear[1], linear[2])),
+        back.transform_vector((angular[0], angular[1], angular[2])),
     )
 
 

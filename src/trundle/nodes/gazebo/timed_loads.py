@@ -38,7 +38,7 @@ class TimedLoads(Generic[Target, Load]):
 
     def begin(self) -> None:
         """Follow the simulation's time."""
-        self._simulation.add_hook(self, wanted=lambda: self._next_ns is not None)
+        self._simulation.add_hook(self, enabled=lambda: self._next_ns is not None)
         self._simulation.on_reset(self._forget)
 
     def add(self, target: Target, load: Load, *, start_ns: int, duration_ns: int) -> None:
@@ -60,14 +60,14 @@ class TimedLoads(Generic[Target, Load]):
 
     def _look(self) -> None:
         now = self._simulation.time_ns
-        self._jobs = [job for job in self._jobs if job.target.is_there and (job.end_ns is None or job.end_ns > now)]
+        self._jobs = [job for job in self._jobs if job.target.is_valid and (job.end_ns is None or job.end_ns > now)]
         acting: dict[Target, list[Load]] = {}
         for job in self._jobs:
             if job.start_ns <= now:
                 acting.setdefault(job.target, []).append(job.load)
         for target in {**self._acting, **acting}:
             loads = acting.get(target, [])
-            if target.is_there and loads != self._acting.get(target, []):
+            if target.is_valid and loads != self._acting.get(target, []):
                 self._put(target, loads)
         self._acting = acting
         times = [time for job in self._jobs for time in (job.start_ns, job.end_ns) if time is not None and time > now]

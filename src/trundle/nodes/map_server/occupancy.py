@@ -17,7 +17,7 @@ from trundle.meshes import why_undecoded
 from trundle.yaml_loader import load_yaml
 
 _FREE, _OCCUPIED, _UNKNOWN = 0, 100, -1
-_MOST_BYTES = 256 * 1024 * 1024
+_MAX_BYTES = 256 * 1024 * 1024
 _LARGEST_PIXELS = 100_000_000
 
 
@@ -91,7 +91,7 @@ def read_cells(picture: Path, *, negate: bool, occupied: float, free: float, mod
 def _pixels(picture: Path) -> NDArray[np.float64]:
     """(height, width, channels) 0 … 255, the last channel opacity where there are two or four."""
     try:
-        with Image.open(io.BytesIO(read_file(picture, most=_MOST_BYTES))) as image:
+        with Image.open(io.BytesIO(read_file(picture, max_bytes=_MAX_BYTES))) as image:
             if image.width * image.height > _LARGEST_PIXELS:
                 raise UsageError(f"{picture}: {image.width} × {image.height} pixels are more than a map may have")
             plain = image if image.mode in ("L", "LA", "RGB", "RGBA") else image.convert("L")

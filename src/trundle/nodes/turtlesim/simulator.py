@@ -13,12 +13,12 @@ from .turtle import Colour, Turtle
 _NS = 1_000_000_000
 _TICK_NS = 16_000_000
 """The original's window timer."""
-_MOST_BEHIND_NS = 2_000_000_000
+_MAX_BEHIND_NS = 2_000_000_000
 """By then every turtle stands: a command holds for a second."""
 _PICTURE_EVERY = 6
 """Passes between two pictures: ten a second."""
 _BACKGROUND: Colour = (0x45, 0x56, 0xFF)
-_MOST_TURTLES = 1000
+_MAX_TURTLES = 1000
 _THINNEST_PX = 1
 """Of a pen that is set without a width."""
 
@@ -91,7 +91,7 @@ class TurtleSim:
             if moved_ns > now_ns:  # time went back
                 moved_ns = now_ns - _TICK_NS
             # A pass that comes late makes up for it: as far as a turtle gets is a matter of time, not of passes.
-            moved_ns = max(moved_ns, now_ns - _MOST_BEHIND_NS)
+            moved_ns = max(moved_ns, now_ns - _MAX_BEHIND_NS)
             while moved_ns + _TICK_NS <= now_ns:
                 moved_ns += _TICK_NS
                 for name, registered in self._turtles.items():
@@ -203,8 +203,8 @@ class TurtleSim:
         name = request.name or self._new_name()
         if name in self._turtles:
             raise ServiceError(f"A turtle named [{name}] already exists")
-        if len(self._turtles) >= _MOST_TURTLES:
-            raise ServiceError(f"{_MOST_TURTLES} turtles are the most there may be")
+        if len(self._turtles) >= _MAX_TURTLES:
+            raise ServiceError(f"{_MAX_TURTLES} turtles are the most there may be")
         self._spawn(name, Turtle(request.x, request.y, request.theta, size=SIZE_M))
         return {"name": name}
 

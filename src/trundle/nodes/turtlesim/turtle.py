@@ -7,7 +7,7 @@ from dataclasses import dataclass
 Colour = tuple[int, int, int]
 _COMMAND_HOLDS_NS = 1_000_000_000
 """A turtle that hears nothing for a second stops."""
-_MOST_COMING = 100
+_MAX_COMING = 100
 _Velocity = tuple[float, float, float]
 _REST: _Velocity = (0.0, 0.0, 0.0)
 
@@ -34,7 +34,7 @@ class Turtle:
         self._size = size
         self._command = _REST
         self._command_ns = 0
-        self._coming: deque[tuple[int, _Velocity]] = deque(maxlen=_MOST_COMING)
+        self._coming: deque[tuple[int, _Velocity]] = deque(maxlen=_MAX_COMING)
         """Commands, each with when it came [ns]."""
 
     def command(self, x: float, y: float, turn: float, *, now_ns: int) -> None:

@@ -11,7 +11,7 @@ from trundle.model import JointAxis, World
 from trundle.spatial import ZERO, Vector3
 
 from .joints import Axis
-from .kinematic_tree import JointEdge, Tree
+from .kinematic_tree import JointEdge, KinematicTree
 
 _Indices = NDArray[np.intp]
 _WIDTH = {int(mujoco.mjtJoint.mjJNT_BALL): 3}
@@ -29,7 +29,7 @@ class CompiledWorld(Struct, frozen=True, eq=False):
     link_bodies: _Indices
     joint_axes: tuple[range, ...]
     """Each joint's freedoms, as indices into the arrays below; a ball joint has three."""
-    joint_hangs: tuple[tuple[int, Vector3, float], ...]
+    joint_anchors: tuple[tuple[int, Vector3, float], ...]
     """Of each joint: the link that hangs from it, or −1; its anchor in that link's frame [m]; −1 where the link is the
     joint's parent.
     """
@@ -48,17 +48,17 @@ class CompiledWorld(Struct, frozen=True, eq=False):
     """[rad/s or m/s] Beyond this an effort does not push on."""
     axis_range: NDArray[np.float64]
     """(axes, 2) [rad or m] Limits."""
-    balls: tuple[int, ...]
+    ball_joints: tuple[int, ...]
     """The first axis of each ball joint."""
     geom_collisions: tuple[str, ...]
     """`model::link::collision` of each geom."""
-    start: NDArray[np.float64] | None = None
+    initial_qpos: NDArray[np.float64] | None = None
     """Positions of everything at the start, where that is not as written."""
 
 
 def index_world(
     world: World,
-    tree: Tree,
+    tree: KinematicTree,
     axes: Mapping[str, Sequence[Axis]],
     collisions: Mapping[str, str],
     model: mujoco.MjModel,
@@ -73,9 +73,9 @@ def index_world(
     limits: list[list[float]] = []
     spans: list[range] = []
     balls: list[int] = []
-    for hold in tree.joints:
+    for edge in tree.joints:
         first = len(qpos)
-        for axis in axes.get(hold.name, ()):
+        for axis in axes.get(edge.name, ()):
             joint = model.joint(axis.engine_joint)
             if axis.axis is None:
                 balls.append(len(qpos))
@@ -91,11 +91,11 @@ def index_world(
     return CompiledWorld(
         world=world,
         model=model,
-        link_names=tuple(tree.places),
-        joint_names=tuple(hold.name for hold in tree.joints),
-        link_bodies=np.array([model.body(name).id for name in tree.places], dtype=np.intp),
+        link_names=tuple(tree.links),
+        joint_names=tuple(edge.name for edge in tree.joints),
+        link_bodies=np.array([model.body(name).id for name in tree.links], dtype=np.intp),
         joint_axes=tuple(spans),
-        joint_hangs=tuple(_hang(hold, tree) for hold in tree.joints),
+        joint_anchors=tuple(_joint_anchor(edge, tree) for edge in tree.joints),
         first_axes=np.array([span.start if span else -1 for span in spans], dtype=np.intp),
         axis_qpos=np.array(qpos, dtype=np.intp),
         axis_dof=np.array(dof, dtype=np.intp),
@@ -104,17 +104,17 @@ def index_world(
         axis_effort=np.array(effort),
         axis_velocity=np.array(velocity),
         axis_range=np.array(limits).reshape(-1, 2),
-        balls=tuple(balls),
+        ball_joints=tuple(balls),
         geom_collisions=tuple(collisions.get(model.geom(i).name, "") for i in range(model.ngeom)),
     )
 
 
-def _hang(hold: JointEdge, tree: Tree) -> tuple[int, Vector3, float]:
-    for below, sign in ((hold.below, 1.0), (hold.above, -1.0)):
+def _joint_anchor(edge: JointEdge, tree: KinematicTree) -> tuple[int, Vector3, float]:
+    for below, sign in ((edge.child, 1.0), (edge.parent, -1.0)):
         held = tree.parent_joint.get(below)
-        if held is not None and held.name == hold.name:
-            anchor = tree.places[below].at_zero.inverse().point(hold.world_from_joint.position)
-            return list(tree.places).index(below), anchor, sign
+        if held is not None and held.name == edge.name:
+            anchor = tree.links[below].world_from_link_at_zero.inverse().transform_point(edge.world_from_joint.position)
+            return list(tree.links).index(below), anchor, sign
     return -1, ZERO, 1.0
 
 

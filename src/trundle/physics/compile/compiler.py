@@ -15,15 +15,15 @@ from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import Collision, Heightmap, MeshFile, Plane, World, flattened
 from trundle.spatial import ZERO, Pose
 
-from ..convex.native_output import muted
+from ..convex.native_output import native_output_hidden
 from .compiled_world import CompiledWorld, index_world
 from .compliance import set_compliance
 from .contact_pairs import add_contacts
 from .contact_params import ContactParams
 from .inertia import principal_inertia
 from .initial_positions import initial_positions
-from .joints import JointMaker
-from .kinematic_tree import WORLD, JointEdge, LinkNode, Tree
+from .joints import JointBuilder
+from .kinematic_tree import WORLD, JointEdge, KinematicTree, LinkNode
 from .law_tables import fill_tables, reserve_tables
 from .shapes import CollidesWith, ShapeEntry, add_shape
 from .solver_settings import apply_settings, choose_jacobian
@@ -31,7 +31,7 @@ from .tunnelling import enable_ccd
 from .wheels import TREAD_POINTS, tread_of, without_tread
 
 if TYPE_CHECKING:
-    from ..convex.mesh_decomposition import Decomposition
+    from ..convex.mesh_decomposition import WorldDecomposition
 
 _KINEMATIC_MASS = 1e6
 """How many times heavier a kinematic link is than written: nothing that the file has moves it."""
@@ -56,7 +56,7 @@ class Compiler:
 
     def __init__(self, world: World, report: Diagnostics, *, cut_meshes: bool = True) -> None:
         self.cuts_meshes = cut_meshes
-        self.decomposition: Decomposition | None = None
+        self.decomposition: WorldDecomposition | None = None
         """How meshes are cut, once they are."""
         self.world = world
         self.report = report
@@ -65,17 +65,17 @@ class Compiler:
         apply_settings(self.spec)
         self.spec.option.timestep = world.physics.max_step_size_s
         self.spec.option.gravity = world.physics.gravity
-        self.tree = Tree.of(world, report)
-        self.joints = JointMaker(self.spec, report)
-        joined = {end for hold in self.tree.joints for end in (hold.above, hold.below)}
+        self.tree = KinematicTree.from_world(world, report)
+        self.joints = JointBuilder(self.spec, report)
+        joined = {end for edge in self.tree.joints for end in (edge.parent, edge.child)}
         self.scenery = frozenset(
-            place.name
-            for place in self.tree.places.values()
-            if world.models[place.model].static and place.name not in joined
+            node.name
+            for node in self.tree.links.values()
+            if world.models[node.model].static and node.name not in joined
         )
         """Links whose shapes are the world body's: MuJoCo looks at every shape of any other body at every step."""
-        parts = Counter(hold.below for hold in self.tree.loops)
-        self.share = {name: 1 / (1 + parts[name]) for name in self.tree.places}
+        parts = Counter(edge.child for edge in self.tree.loops)
+        self.mass_share = {name: 1 / (1 + parts[name]) for name in self.tree.links}
         """Of a link's mass that its body has: links that close a loop are cut in equal parts."""
         self.bodies: dict[str, mujoco.MjsBody] = {}
         self.shapes: list[ShapeEntry] = []
@@ -87,42 +87,42 @@ class Compiler:
         Raises:
             DescriptionError: the engine refuses it.
         """
-        touches = self.fill()
-        reserve_tables(self.spec, touches, self.shapes, self.world)
+        pair_params = self.fill()
+        reserve_tables(self.spec, pair_params, self.shapes, self.world)
         collisions = {shape.name: shape.collision for shape in self.shapes}
         compiled = self.compile_spec()
         choose_jacobian(compiled)
-        set_compliance(compiled, touches)
+        set_compliance(compiled, pair_params)
         world = index_world(self.world, self.tree, self.joints.axes, collisions, compiled)
-        fill_tables(compiled, touches, self.shapes, world.link_bodies.tolist(), self.world)
+        fill_tables(compiled, pair_params, self.shapes, world.link_bodies.tolist(), self.world)
         enable_ccd(compiled, self.shapes)
-        return replace(world, start=initial_positions(compiled, self.tree, self.joints.axes, self.report))
+        return replace(world, initial_qpos=initial_positions(compiled, self.tree, self.joints.axes, self.report))
 
     def fill(self) -> dict[tuple[str, str], ContactParams]:
         """Put the world into the specification; return how its shapes touch."""
-        for place in self.tree.places.values():
-            self._place(place)
-        for hold in self.tree.loops:
-            self._close(hold)
-        collisions = (collision for place in self.tree.places.values() for collision in place.link.collisions)
+        for node in self.tree.links.values():
+            self._add_link(node)
+        for edge in self.tree.loops:
+            self._close_loop(edge)
+        collisions = (collision for node in self.tree.links.values() for collision in node.link.collisions)
         if self.cuts_meshes and any(isinstance(collision.geometry, MeshFile) for collision in collisions):
             from ..mesh_shapes import cut_meshes  # a world without meshes starts without what cuts them
 
             self.decomposition = cut_meshes(self.tree)
-        for place in self.tree.places.values():
-            for collision in place.link.collisions:
-                self._add_collision(place, collision)
-        touches = add_contacts(self.spec, self.shapes, self.world.models, self.tree, self.report)
-        self.joints.tie_followers(self.tree)
+        for node in self.tree.links.values():
+            for collision in node.link.collisions:
+                self._add_collision(node, collision)
+        pair_params = add_contacts(self.spec, self.shapes, self.world.models, self.tree, self.report)
+        self.joints.couple_joints(self.tree)
         for axes in self.joints.axes.values():
             for axis in axes:
                 if axis.axis is not None:
                     self._add_motor(axis.engine_joint)
-        return touches
+        return pair_params
 
     def compile_spec(self) -> mujoco.MjModel:
         """Hand the world to MuJoCo; its own checks speak in its own words."""
-        with muted(), warnings.catch_warnings(record=True) as caught:
+        with native_output_hidden(), warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             try:
                 compiled = self.spec.compile()
@@ -133,44 +133,44 @@ class Compiler:
             self.report.warn(self.world.at, f"the engine is in doubt: {' '.join(str(warning.message).split())}")
         return compiled
 
-    def _place(self, place: LinkNode) -> None:
+    def _add_link(self, node: LinkNode) -> None:
         """Add a link's body, after those that it hangs from."""
         chain: list[LinkNode] = []
-        below: LinkNode | None = place
+        below: LinkNode | None = node
         while below is not None and below.name not in self.bodies:
             chain.append(below)
-            hold = self._hold(below)
-            below = None if hold is None or hold.above == WORLD else self.tree.places[hold.above]
+            edge = self._parent_joint(below)
+            below = None if edge is None or edge.parent == WORLD else self.tree.links[edge.parent]
         for each in reversed(chain):
-            hold = self._hold(each)
-            body = self._add_body(each.name, each, hold)
-            if hold is not None:
-                self.joints.add(body, hold, each.at_zero)
+            edge = self._parent_joint(each)
+            body = self._add_body(each.name, each, edge)
+            if edge is not None:
+                self.joints.add(body, edge, each.world_from_link_at_zero)
             elif not each.fixed:
                 body.add_freejoint(name=f"{each.name}::free")
             self.bodies[each.name] = body
 
-    def _hold(self, place: LinkNode) -> JointEdge | None:
-        return None if place.fixed else self.tree.parent_joint.get(place.name)
+    def _parent_joint(self, node: LinkNode) -> JointEdge | None:
+        return None if node.fixed else self.tree.parent_joint.get(node.name)
 
-    def _close(self, hold: JointEdge) -> None:
+    def _close_loop(self, edge: JointEdge) -> None:
         """Hang a part of a link from another parent."""
-        place = self.tree.places[hold.below]
-        part = f"{place.name} on {hold.name}"
-        self.joints.add(self._add_body(part, place, hold), hold, place.at_zero)
-        self.joints.weld(part, place.name, as_one=hold.above_from_below is not None)
-        self.report.info(hold.joint.at, f"joint {hold.joint.name!r} closes a loop of links; a constraint holds it")
+        node = self.tree.links[edge.child]
+        part = f"{node.name} on {edge.name}"
+        self.joints.add(self._add_body(part, node, edge), edge, node.world_from_link_at_zero)
+        self.joints.weld(part, node.name, as_one=edge.parent_from_child is not None)
+        self.report.info(edge.joint.at, f"joint {edge.joint.name!r} closes a loop of links; a constraint holds it")
 
-    def _add_body(self, name: str, place: LinkNode, hold: JointEdge | None) -> mujoco.MjsBody:
+    def _add_body(self, name: str, node: LinkNode, edge: JointEdge | None) -> mujoco.MjsBody:
         """Add a link, or its share of one that a loop cuts in parts, where it hangs from."""
-        link, share = place.link, self.share[place.name]
+        link, share = node.link, self.mass_share[node.name]
         parent, world_from_parent = self.spec.worldbody, Pose()
-        if hold is not None and hold.above != WORLD:
-            parent, world_from_parent = self.bodies[hold.above], self.tree.places[hold.above].at_start
-        held = None if hold is None else hold.above_from_below
-        pose = world_from_parent.inverse() @ place.at_start if held is None else held
+        if edge is not None and edge.parent != WORLD:
+            parent, world_from_parent = self.bodies[edge.parent], self.tree.links[edge.parent].world_from_link
+        held = None if edge is None else edge.parent_from_child
+        pose = world_from_parent.inverse() @ node.world_from_link if held is None else held
         body = parent.add_body(name=name, pos=pose.position, quat=pose.quaternion)
-        if not place.fixed:
+        if not node.fixed:
             mass, axes, moments = principal_inertia(link, self.report)
             if link.kinematic:
                 share *= _KINEMATIC_MASS
@@ -180,9 +180,9 @@ class Compiler:
             body.gravcomp = 1.0
         return body
 
-    def _add_collision(self, place: LinkNode, collision: Collision) -> None:
-        fixed = place.name in self.tree.immobile
-        body = self.bodies[place.name]
+    def _add_collision(self, node: LinkNode, collision: Collision) -> None:
+        fixed = node.name in self.tree.immobile
+        body = self.bodies[node.name]
         if isinstance(collision.geometry, Plane | Heightmap) and not fixed:
             what = "plane" if isinstance(collision.geometry, Plane) else "heightmap"
             self.report.warn(collision.at, f"collision {collision.name!r}: a {what} cannot move; it is left out")
@@ -190,9 +190,9 @@ class Compiler:
         if fixed and collision.surface.fdir1 != ZERO:
             what = "its <fdir1> does not count: as in Gazebo, that of what moves on it does"
             self.report.info(collision.at, f"collision {collision.name!r}: {what}")
-        name = self._shape_name(f"{place.name}::{collision.name}")
+        name = self._shape_name(f"{node.name}::{collision.name}")
         parts = [(collision, name, CollidesWith.ALL, 1)]
-        tread = tread_of(collision, place, self.tree)
+        tread = tread_of(collision, node, self.tree)
         if tread is not None:
             on = CollidesWith.PLANES | CollidesWith.STANDING
             rolling = replace(collision, geometry=tread)
@@ -200,20 +200,20 @@ class Compiler:
                 (rolling, f"{name}::tread", on, TREAD_POINTS),
                 (without_tread(collision), name, CollidesWith.ALL, 1),
             ]
-        if place.name in self.scenery:
+        if node.name in self.scenery:
             body = self.spec.worldbody
-            parts = [(_in_world(collision, place), name, CollidesWith.ALL, 1)]
+            parts = [(_in_world(collision, node), name, CollidesWith.ALL, 1)]
         for part, part_name, on, points in parts:
             for geom, meets in add_shape(
                 self.spec, body, part, part_name, self.report, fixed=fixed, decomposition=self.decomposition
             ):
-                self._keep(geom, geom.name, place, collision, meets & on, points)
+                self._add_shape_entry(geom, geom.name, node, collision, meets & on, points)
 
-    def _keep(
+    def _add_shape_entry(
         self,
         geom: mujoco.MjsGeom,
         name: str,
-        place: LinkNode,
+        node: LinkNode,
         collision: Collision,
         meets: CollidesWith,
         points: int,
@@ -222,12 +222,12 @@ class Compiler:
             ShapeEntry(
                 geom,
                 name,
-                collision=f"{place.name}::{collision.name}",
-                model=place.model,
-                link=place.name,
-                fixed=place.name in self.tree.immobile,
+                collision=f"{node.name}::{collision.name}",
+                model=node.model,
+                link=node.name,
+                fixed=node.name in self.tree.immobile,
                 surface=collision.surface,
-                meets=meets,
+                collides_with=meets,
                 points=points,
             )
         )
@@ -252,6 +252,6 @@ class Compiler:
         motor.ctrllimited = mujoco.mjtLimited.mjLIMITED_FALSE
 
 
-def _in_world(collision: Collision, place: LinkNode) -> Collision:
+def _in_world(collision: Collision, node: LinkNode) -> Collision:
     """The same, posed in the world."""
-    return replace(collision, link_from_collision=place.at_start @ collision.link_from_collision)
+    return replace(collision, link_from_collision=node.world_from_link @ collision.link_from_collision)

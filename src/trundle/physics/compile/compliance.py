@@ -42,33 +42,33 @@ def pair_name(a: str, b: str) -> str:
     return f"{a} {b}"
 
 
-def set_compliance(model: mujoco.MjModel, touches: Mapping[tuple[str, str], ContactParams]) -> None:
+def set_compliance(model: mujoco.MjModel, pair_params: Mapping[tuple[str, str], ContactParams]) -> None:
     """Make each pair as soft as its surfaces are, or, where those are hard, as all points of what stands on them."""
     softness = _tree_softness(model)
-    for (a, b), touch in touches.items():
+    for (a, b), params in pair_params.items():
         bodies = [int(model.geom_bodyid[model.geom(name).id]) for name in (a, b)]
         inverse_mass = float(sum(model.body_invweight0[body, 0] for body in bodies))
         pair = model.pair(pair_name(a, b)).id
         h = model.opt.timestep
-        if is_soft(touch.kp * touch.points, inverse_mass, h, min_depth=touch.min_depth):
-            model.pair_solref[pair] = _spring(touch, inverse_mass, h)
+        if is_soft(params.kp * params.points, inverse_mass, h, min_depth=params.min_depth):
+            model.pair_solref[pair] = _spring(params, inverse_mass, h)
             model.pair_solimp[pair, :2] = _SOFT
             model.pair_solreffriction[pair] = (-1.0, -_SOFT * _HOLD / h)
         else:
             trees = [int(tree) for tree in model.body_treeid[bodies] if tree >= 0]
             if len(trees) == 1 and trees[0] in softness:
-                share = softness[trees[0]] / touch.points
+                share = softness[trees[0]] / params.points
                 model.pair_solimp[pair, :2] = min(1 - share / inverse_mass, _HARDEST)
 
 
-def _spring(touch: ContactParams, inverse_mass: float, h: float) -> tuple[float, float]:
+def _spring(params: ContactParams, inverse_mass: float, h: float) -> tuple[float, float]:
     """The solref by which a constraint of impedance d and inverse mass A pushes with kp · depth + kd · speed.
 
     Its force is (K d · depth + B · speed) / R with R = A (1 − d) / d, K = −solref₀ / d² and B = −solref₁ / d. As it
     is the depth at the step's end, a spring damps by h · kp, too.
     """
-    reach = inverse_mass * (1 - _SOFT) * touch.points
-    return -touch.kp * reach, -max(touch.kd - h * touch.kp, 0.0) * reach
+    reach = inverse_mass * (1 - _SOFT) * params.points
+    return -params.kp * reach, -max(params.kd - h * params.kp, 0.0) * reach
 
 
 def _tree_softness(model: mujoco.MjModel) -> dict[int, float]:

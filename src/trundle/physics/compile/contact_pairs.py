@@ -16,77 +16,79 @@ from trundle.diagnostics import Diagnostics
 from trundle.model import Model
 
 from .compliance import is_soft, pair_name
-from .contact_params import ContactParams, contact_params_of, friction_of, is_plain, may_collide
-from .kinematic_tree import Tree
+from .contact_params import ContactParams, bitmasks_match, combine_surfaces, friction_of, is_plain
+from .kinematic_tree import KinematicTree
 from .shapes import CollidesWith, ShapeEntry
 from .solver_settings import SOLIMP, contact_solref, limit_solref, sliding_solref
 
-MOST_PAIRS = 2000
+MAX_PAIRS = 2000
 """Of what stands with what moves. Beyond these, shapes meet by MuJoCo's own search: a pair costs about 10 ns a step
 whether it meets or not."""
-MOST_MOVING_PAIRS = 1000
+MAX_MOVING_PAIRS = 1000
 """Of what moves: fewer, for that is seldom near one another."""
-MOST_GIVING_PAIRS = 20_000
+MAX_SOFT_PAIRS = 20_000
 """Of shapes that give: beyond, they are as hard as all others that meet by search."""
 _BITS = 0x7FFFFFFF
 _TOUCHING = 1e-9
 """[m] What is set down on a floor touches it from the first step on: MuJoCo wants it to be below its surface."""
-_NEVER_FELT = 1e3
+_NO_FORCE_DEPTH = 1e3
 """[m] Deeper than any shape is in another: the two meet and feel nothing before."""
 
 
 def add_contacts(
-    spec: mujoco.MjSpec, shapes: Sequence[ShapeEntry], models: Sequence[Model], tree: Tree, report: Diagnostics
+    spec: mujoco.MjSpec, shapes: Sequence[ShapeEntry], models: Sequence[Model], tree: KinematicTree, report: Diagnostics
 ) -> dict[tuple[str, str], ContactParams]:
     """Write a pair for every two shapes that may touch; return how they do."""
-    touches: dict[tuple[str, str], ContactParams] = {}
+    pair_params: dict[tuple[str, str], ContactParams] = {}
     for shape in shapes:
         shape.geom.contype = shape.geom.conaffinity = 0
-    rules = _Rules(models, tree)
+    rules = _CollisionRules(models, tree)
     ranks = {mu: -i for i, mu in enumerate(sorted({friction_of(shape.surface) for shape in shapes}))}
     fixed = [shape for shape in shapes if shape.fixed]
     moving = [shape for shape in shapes if not shape.fixed]
-    solid = [shape for shape in moving if shape.meets & CollidesWith.MOVING]
-    special = _special(shapes, models, tree, h=spec.option.timestep, report=report)
-    if len(fixed) * len(moving) > MOST_PAIRS:
+    solid = [shape for shape in moving if shape.collides_with & CollidesWith.MOVING]
+    special = _needs_pairs(shapes, models, tree, h=spec.option.timestep, report=report)
+    if len(fixed) * len(moving) > MAX_PAIRS:
         # Planes, which most things stand on, keep their pairs: only a pair can keep what slides from hopping.
         found = [shape for shape in fixed if shape.name not in special and shape.kind is CollidesWith.STANDING]
-        finding = [shape for shape in moving if shape.name not in special and shape.meets & CollidesWith.STANDING]
-        _let_find(found, finding, h=spec.option.timestep, ranks=ranks)
-        _keep_apart(spec, product(finding, found), rules)
+        finding = [
+            shape for shape in moving if shape.name not in special and shape.collides_with & CollidesWith.STANDING
+        ]
+        _enable_search_of_fixed(found, finding, h=spec.option.timestep, ranks=ranks)
+        _exclude_pairs(spec, product(finding, found), rules)
         met = {(a.name, b.name) for a, b in product(finding, found)}
-        _add_pairs(spec, ((a, b) for a, b in product(moving, fixed) if (a.name, b.name) not in met), rules, touches)
+        _add_pairs(spec, ((a, b) for a, b in product(moving, fixed) if (a.name, b.name) not in met), rules, pair_params)
     else:
-        _add_pairs(spec, product(moving, fixed), rules, touches)
-    if len(solid) * (len(solid) - 1) <= 2 * MOST_MOVING_PAIRS:
-        _add_pairs(spec, combinations(solid, 2), rules, touches)
-        return touches
+        _add_pairs(spec, product(moving, fixed), rules, pair_params)
+    if len(solid) * (len(solid) - 1) <= 2 * MAX_MOVING_PAIRS:
+        _add_pairs(spec, combinations(solid, 2), rules, pair_params)
+        return pair_params
     plain = [shape for shape in solid if shape.name not in special]
     others = [shape for shape in solid if shape.name in special]
-    _add_pairs(spec, product(others, plain), rules, touches)
-    _add_pairs(spec, combinations(others, 2), rules, touches)
-    _let_search(plain, h=spec.option.timestep, ranks=ranks)
+    _add_pairs(spec, product(others, plain), rules, pair_params)
+    _add_pairs(spec, combinations(others, 2), rules, pair_params)
+    _enable_search(plain, h=spec.option.timestep, ranks=ranks)
     by_model: dict[int, list[ShapeEntry]] = {}
     for shape in plain:
         by_model.setdefault(shape.model, []).append(shape)
-    _keep_apart(spec, (pair for own in by_model.values() for pair in combinations(own, 2)), rules)
-    return touches
+    _exclude_pairs(spec, (pair for own in by_model.values() for pair in combinations(own, 2)), rules)
+    return pair_params
 
 
-def _special(
-    shapes: Sequence[ShapeEntry], models: Sequence[Model], tree: Tree, *, h: float, report: Diagnostics
+def _needs_pairs(
+    shapes: Sequence[ShapeEntry], models: Sequence[Model], tree: KinematicTree, *, h: float, report: Diagnostics
 ) -> frozenset[str]:
     """Names of the shapes that touch in a way of their own, and so need pairs however many there are."""
     odd = {shape.name for shape in shapes if not is_plain(shape.surface)}
-    heaviest = max((tree.places[shape.link].link.inertial.mass for shape in shapes if not shape.fixed), default=0.0)
+    heaviest = max((tree.links[shape.link].link.inertial.mass for shape in shapes if not shape.fixed), default=0.0)
 
     def gives(shape: ShapeEntry) -> bool:
-        mass = heaviest if shape.fixed else tree.places[shape.link].link.inertial.mass
+        mass = heaviest if shape.fixed else tree.links[shape.link].link.inertial.mass
         is_deep = shape.surface.min_depth > 0 and not shape.fixed
         return is_deep or (mass > 0 and is_soft(shape.surface.kp, 1 / mass, h))
 
     giving = [shape for shape in shapes if shape.name not in odd and gives(shape)]
-    if len(giving) * len(shapes) <= MOST_GIVING_PAIRS:
+    if len(giving) * len(shapes) <= MAX_SOFT_PAIRS:
         return frozenset(odd | {shape.name for shape in giving})
     first = giving[0]
     what = f"{len(giving)} of {len(shapes)} shapes give (kp, min_depth), from {first.collision!r} on"
@@ -94,19 +96,19 @@ def _special(
     return frozenset(odd)
 
 
-class _Rules:
-    def __init__(self, models: Sequence[Model], tree: Tree) -> None:
-        self._joined = {frozenset((hold.above, hold.below)) for hold in tree.joints}
+class _CollisionRules:
+    def __init__(self, models: Sequence[Model], tree: KinematicTree) -> None:
+        self._joined = {frozenset((edge.parent, edge.child)) for edge in tree.joints}
         self._self_collides = {
-            place.name: models[place.model].self_collide if place.link.self_collide is None else place.link.self_collide
-            for place in tree.places.values()
+            node.name: models[node.model].self_collide if node.link.self_collide is None else node.link.self_collide
+            for node in tree.links.values()
         }
 
-    def may_touch(self, a: ShapeEntry, b: ShapeEntry) -> bool:
-        can = a.kind in b.meets and b.kind in a.meets
-        return can and may_collide(a.surface, b.surface) and self.links_may_touch(a, b)
+    def can_collide(self, a: ShapeEntry, b: ShapeEntry) -> bool:
+        can = a.kind in b.collides_with and b.kind in a.collides_with
+        return can and bitmasks_match(a.surface, b.surface) and self.links_can_collide(a, b)
 
-    def links_may_touch(self, a: ShapeEntry, b: ShapeEntry) -> bool:
+    def links_can_collide(self, a: ShapeEntry, b: ShapeEntry) -> bool:
         """Whether the links of two shapes may touch, whatever their bitmasks say."""
         if a.link == b.link or frozenset((a.link, b.link)) in self._joined:
             return False
@@ -116,52 +118,54 @@ class _Rules:
 def _add_pairs(
     spec: mujoco.MjSpec,
     pairs: Iterable[tuple[ShapeEntry, ShapeEntry]],
-    rules: _Rules,
-    touches: dict[tuple[str, str], ContactParams],
+    rules: _CollisionRules,
+    pair_params: dict[tuple[str, str], ContactParams],
 ) -> None:
     for a, b in pairs:
-        if rules.may_touch(a, b):
+        if rules.can_collide(a, b):
             points = max(a.points, b.points)
-            touch = touches[a.name, b.name] = contact_params_of(a.surface, b.surface, b_stands=b.fixed, points=points)
-            _add_pair(spec, a, b, touch)
+            params = pair_params[a.name, b.name] = combine_surfaces(
+                a.surface, b.surface, b_stands=b.fixed, points=points
+            )
+            _add_pair(spec, a, b, params)
 
 
-def _add_pair(spec: mujoco.MjSpec, a: ShapeEntry, b: ShapeEntry, touch: ContactParams) -> None:
+def _add_pair(spec: mujoco.MjSpec, a: ShapeEntry, b: ShapeEntry, params: ContactParams) -> None:
     h = spec.option.timestep
     pair = spec.add_pair(name=pair_name(a.name, b.name), geomname1=a.name, geomname2=b.name)
-    slides_freely = touch.mu <= 0 and touch.mu2 <= 0
-    pair.condim = 1 if slides_freely else 4 if touch.torsion > 0 or touch.patch > 0 else 3
+    slides_freely = params.mu <= 0 and params.mu2 <= 0
+    pair.condim = 1 if slides_freely else 4 if params.torsion > 0 or params.patch > 0 else 3
     # On a horizontal floor MuJoCo's first tangent lies along y, as ODE's does where no fdir1 is given.
-    pair.friction = [max(touch.mu, 1e-5), max(touch.mu2, 1e-5), max(touch.torsion, 1e-5), 0.0001, 0.0001]
-    pair.solref = limit_solref(h) if touch.min_depth > 0 else contact_solref(h)
+    pair.friction = [max(params.mu, 1e-5), max(params.mu2, 1e-5), max(params.torsion, 1e-5), 0.0001, 0.0001]
+    pair.solref = limit_solref(h) if params.min_depth > 0 else contact_solref(h)
     pair.solreffriction = sliding_solref(h)
     pair.solimp = SOLIMP
     pair.margin = _TOUCHING
-    if not touch.is_felt:
-        pair.margin, pair.gap = -_NEVER_FELT, _NEVER_FELT
+    if not params.has_force:
+        pair.margin, pair.gap = -_NO_FORCE_DEPTH, _NO_FORCE_DEPTH
 
 
-def _let_find(
+def _enable_search_of_fixed(
     fixed: Sequence[ShapeEntry], moving: Sequence[ShapeEntry], *, h: float, ranks: Mapping[float, int]
 ) -> None:
     """Let moving shapes find what stands; they do not find each other so."""
     for shape in fixed:
-        _carry(shape, h, ranks)
+        _set_geom_contact(shape, h, ranks)
         shape.geom.contype = shape.surface.collide_bitmask & _BITS
     for shape in moving:
-        _carry(shape, h, ranks)
+        _set_geom_contact(shape, h, ranks)
         shape.geom.conaffinity = shape.surface.collide_bitmask & _BITS
 
 
-def _let_search(moving: Sequence[ShapeEntry], *, h: float, ranks: Mapping[float, int]) -> None:
+def _enable_search(moving: Sequence[ShapeEntry], *, h: float, ranks: Mapping[float, int]) -> None:
     """Let moving shapes find each other."""
     for shape in moving:
-        _carry(shape, h, ranks)
+        _set_geom_contact(shape, h, ranks)
         shape.geom.contype = shape.surface.collide_bitmask & _BITS
         shape.geom.conaffinity = shape.surface.collide_bitmask & _BITS
 
 
-def _carry(shape: ShapeEntry, h: float, ranks: Mapping[float, int]) -> None:
+def _set_geom_contact(shape: ShapeEntry, h: float, ranks: Mapping[float, int]) -> None:
     """Write what contacts found by search need on the shape itself; the smaller friction has the higher priority."""
     mu, geom = friction_of(shape.surface), shape.geom
     geom.priority = ranks[mu]
@@ -171,12 +175,12 @@ def _carry(shape: ShapeEntry, h: float, ranks: Mapping[float, int]) -> None:
     geom.solimp = SOLIMP
 
 
-def _keep_apart(spec: mujoco.MjSpec, pairs: Iterable[tuple[ShapeEntry, ShapeEntry]], rules: _Rules) -> None:
+def _exclude_pairs(spec: mujoco.MjSpec, pairs: Iterable[tuple[ShapeEntry, ShapeEntry]], rules: _CollisionRules) -> None:
     """Exclude links from the search that must not touch."""
     apart = {
         (min(a.link, b.link), max(a.link, b.link))
         for a, b in pairs
-        if a.link != b.link and not rules.links_may_touch(a, b)
+        if a.link != b.link and not rules.links_can_collide(a, b)
     }
     for one, other in sorted(apart):
         spec.add_exclude(bodyname1=one, bodyname2=other)

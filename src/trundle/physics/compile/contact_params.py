@@ -11,7 +11,7 @@ INFINITE_FRICTION = 100.0
 """What SDF's negative mu stands for: steeper than any slope."""
 _LEAST = 1e-4
 """Least ratio of one friction to the other: none at all is more than MuJoCo's solver takes."""
-_MOST_SLIP = 1e9
+_MAX_SLIP = 1e9
 """[m/s/N, rad/s/(N·m)] As good as none of the friction."""
 _OF_PAIRS = (
     "fdir1",
@@ -33,7 +33,7 @@ class ContactParams(Struct, frozen=True, kw_only=True):
     mu2: float
     fdir1: Vector3
     """First friction direction; zero: left to the engine."""
-    fdir1_of: int
+    fdir1_shape: int
     """In the frame of which of the two."""
     slip: Vector3
     """[m/s/N] along the first friction direction and across it, [rad/s/(N·m)] about the normal."""
@@ -51,13 +51,13 @@ class ContactParams(Struct, frozen=True, kw_only=True):
     restitution: float
     threshold: float
     """[m/s]"""
-    is_felt: bool
+    has_force: bool
     """Whether the two push each other, not only meet."""
     points: int = 1
     """How many of ODE's contact points one contact stands for."""
 
 
-def contact_params_of(a: Surface, b: Surface, *, b_stands: bool = False, points: int = 1) -> ContactParams:
+def combine_surfaces(a: Surface, b: Surface, *, b_stands: bool = False, points: int = 1) -> ContactParams:
     """The smaller friction wins, springs act in series, dampers and slips add up; the first's min_depth counts.
 
     As Gazebo's `ODEPhysics::Collide` has it. The fdir1 of the second of two it works out and never uses; ODE's second
@@ -77,7 +77,7 @@ def contact_params_of(a: Surface, b: Surface, *, b_stands: bool = False, points:
         mu=max(mu, _LEAST * mu2),
         mu2=max(mu2, _LEAST * mu),
         fdir1=(a, b)[first].fdir1,
-        fdir1_of=first,
+        fdir1_shape=first,
         slip=(
             _bounded(a.slip1 + b.slip1),
             _bounded(a.slip2 + b.slip2),
@@ -90,12 +90,12 @@ def contact_params_of(a: Surface, b: Surface, *, b_stands: bool = False, points:
         min_depth=max(a.min_depth, 0.0),
         restitution=min(max(min(a.restitution, b.restitution), 0.0), 1.0),
         threshold=min(a.bounce_threshold, b.bounce_threshold),
-        is_felt=not (a.collide_without_contact or b.collide_without_contact),
+        has_force=not (a.collide_without_contact or b.collide_without_contact),
         points=points,
     )
 
 
-def may_collide(a: Surface, b: Surface) -> bool:
+def bitmasks_match(a: Surface, b: Surface) -> bool:
     """Whether their collide_bitmasks share a bit; as in Gazebo 11, the category_bitmasks do not count."""
     return bool(a.collide_bitmask & b.collide_bitmask)
 
@@ -111,7 +111,7 @@ def _friction(mu: float) -> float:
 
 
 def _bounded(slip: float) -> float:
-    return max(0.0, min(slip, _MOST_SLIP))
+    return max(0.0, min(slip, _MAX_SLIP))
 
 
 def _torsion(a: Surface, b: Surface, kp: float) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from trundle.spatial import Pose
 from .solver_settings import apply_settings
 
 _Points = NDArray[np.float64]
-THINNEST = 1e-4
+MIN_THICKNESS = 1e-4
 """[m] What a thickness of zero becomes: 0.1 mm."""
 _COARSEST = 2e-6
 """Part of how far from its origin a mesh is that it must be thick: MuJoCo's corners have 24 bits."""
@@ -48,7 +48,7 @@ def add_hulls(
     return geoms
 
 
-def thick_hulls(pieces: Sequence[_Points]) -> tuple[list[_Points], float]:
+def thicken(pieces: Sequence[_Points]) -> tuple[list[_Points], float]:
     """Pieces (N, 3) [m], with a second layer across what is flat or a line; and how thick at most, 0 where none is."""
     thick = list(pieces)
     thickest = 0.0
@@ -57,7 +57,7 @@ def thick_hulls(pieces: Sequence[_Points]) -> tuple[list[_Points], float]:
         by_size.setdefault(len(corners), []).append(i)
     for numbers in by_size.values():
         corners = np.stack([pieces[i] for i in numbers])
-        thinnest = np.maximum(THINNEST, _COARSEST * np.abs(corners).max(axis=(1, 2)))
+        thinnest = np.maximum(MIN_THICKNESS, _COARSEST * np.abs(corners).max(axis=(1, 2)))
         centred = corners - corners.mean(axis=1, keepdims=True)
         axes = np.linalg.eigh(centred.transpose(0, 2, 1) @ centred)[1]
         is_thin = np.ptp(centred @ axes, axis=1) < thinnest[:, None]

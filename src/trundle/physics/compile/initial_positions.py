@@ -12,7 +12,7 @@ from trundle.diagnostics import Diagnostics
 from trundle.spatial import Pose, Quaternion, Vector3, cross, quaternion_product, rotate
 
 from .joints import Axis
-from .kinematic_tree import LinkNode, Tree
+from .kinematic_tree import KinematicTree, LinkNode
 
 _FREE, _BALL, _SLIDE = (
     int(t) for t in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL, mujoco.mjtJoint.mjJNT_SLIDE)
@@ -22,7 +22,7 @@ _OFF_M, _OFF_RAD = 0.01, 0.05
 
 
 def initial_positions(
-    model: mujoco.MjModel, tree: Tree, axes: Mapping[str, Sequence[Axis]], report: Diagnostics
+    model: mujoco.MjModel, tree: KinematicTree, axes: Mapping[str, Sequence[Axis]], report: Diagnostics
 ) -> NDArray[np.float64] | None:
     """The engine's qpos at the start; None where everything starts as it is written.
 
@@ -32,19 +32,19 @@ def initial_positions(
         axes: the freedoms of its joints.
         report: takes a note of each link that its joints cannot take to where it was saved.
     """
-    saved = {place.model for place in tree.places.values() if place.link.start is not None}
+    saved = {node.model for node in tree.links.values() if node.link.initial_pose is not None}
     moved = [
         axis
-        for hold in tree.parent_joint.values()
-        if tree.places[hold.below].model not in saved
-        for axis in axes.get(hold.name, ())
+        for edge in tree.parent_joint.values()
+        if tree.links[edge.child].model not in saved
+        for axis in axes.get(edge.name, ())
         if axis.axis is not None and axis.axis.initial_position
     ]
     if not saved and not moved:
         return None
-    wanted = {name: _saved(place) for name, place in tree.places.items() if place.model in saved}
+    wanted = {name: _saved_pose(node) for name, node in tree.links.items() if node.model in saved}
     bodies = dict(wanted)
-    bodies |= {f"{hold.below} on {hold.name}": wanted[hold.below] for hold in tree.loops if hold.below in wanted}
+    bodies |= {f"{edge.child} on {edge.name}": wanted[edge.child] for edge in tree.loops if edge.child in wanted}
     positions = np.array(model.qpos0)
     world_from_body = [Pose()] * model.nbody
     for i in range(1, model.nbody):
@@ -52,21 +52,23 @@ def initial_positions(
         at_zero = above @ Pose(tuple(model.body_pos[i].tolist()), tuple(model.body_quat[i].tolist()))
         world_from_body[i] = bodies.get(model.body(i).name, at_zero)
         if model.body_jntnum[i]:
-            _put(model, i, positions, at_zero, world_from_body[i])
+            _set_joint_positions(model, i, positions, at_zero, world_from_body[i])
     for axis in moved:
         assert axis.axis is not None
         positions[model.joint(axis.engine_joint).qposadr[0]] = axis.sign * axis.axis.initial_position
-    _name_strays(model, positions, {name: tree.places[name] for name in wanted}, report)
+    _report_unreachable(model, positions, {name: tree.links[name] for name in wanted}, report)
     return positions
 
 
-def _saved(place: LinkNode) -> Pose:
-    link = place.link
-    world_from_model = place.at_zero @ link.model_from_link.inverse()
-    return world_from_model @ (link.start or link.model_from_link)
+def _saved_pose(node: LinkNode) -> Pose:
+    link = node.link
+    world_from_model = node.world_from_link_at_zero @ link.model_from_link.inverse()
+    return world_from_model @ (link.initial_pose or link.model_from_link)
 
 
-def _put(model: mujoco.MjModel, body: int, positions: NDArray[np.float64], at_zero: Pose, wanted: Pose) -> None:
+def _set_joint_positions(
+    model: mujoco.MjModel, body: int, positions: NDArray[np.float64], at_zero: Pose, wanted: Pose
+) -> None:
     """Set the joints of a body so that they take it from where it is at zero to where it is wanted."""
     first = int(model.body_jntadr[body])
     address = int(model.jnt_qposadr[first])
@@ -82,23 +84,27 @@ def _put(model: mujoco.MjModel, body: int, positions: NDArray[np.float64], at_ze
         for j in joints:
             axis, anchor = _vector(model.jnt_axis[j]), _vector(model.jnt_pos[j])
             if j not in hinges:
-                there = moved.point(anchor)
+                there = moved.transform_point(anchor)
                 positions[model.jnt_qposadr[j]] = sum((t - a) * x for t, a, x in zip(there, anchor, axis, strict=True))
         turn = moved.quaternion
         for j, after in zip_longest(hinges, hinges[1:]):
             axis = _vector(model.jnt_axis[j])
-            angle = _about(axis, turn) if after is None else _between(axis, _vector(model.jnt_axis[after]), turn)
-            positions[model.jnt_qposadr[j]] = _within(model, j, angle)
-            turn = quaternion_product(_turn(axis, -angle), turn)
+            angle = (
+                _angle_about(axis, turn)
+                if after is None
+                else _first_axis_angle(axis, _vector(model.jnt_axis[after]), turn)
+            )
+            positions[model.jnt_qposadr[j]] = _wrap_into_limits(model, j, angle)
+            turn = quaternion_product(_rotation(axis, -angle), turn)
 
 
-def _about(axis: Vector3, turn: Quaternion) -> float:
+def _angle_about(axis: Vector3, turn: Quaternion) -> float:
     """How far a rotation turns about an axis [rad]."""
     w, x, y, z = turn
     return math.remainder(2 * math.atan2(x * axis[0] + y * axis[1] + z * axis[2], w), math.tau)
 
 
-def _between(axis: Vector3, inner: Vector3, turn: Quaternion) -> float:
+def _first_axis_angle(axis: Vector3, inner: Vector3, turn: Quaternion) -> float:
     """How far a joint's first axis has turned [rad], from where that took the second."""
     there = rotate(turn, inner)
     across = cross(inner, there)
@@ -106,12 +112,12 @@ def _between(axis: Vector3, inner: Vector3, turn: Quaternion) -> float:
     return math.atan2(_dot(axis, across), along)
 
 
-def _turn(axis: Vector3, angle: float) -> Quaternion:
+def _rotation(axis: Vector3, angle: float) -> Quaternion:
     s = math.sin(angle / 2)
     return (math.cos(angle / 2), axis[0] * s, axis[1] * s, axis[2] * s)
 
 
-def _within(model: mujoco.MjModel, joint: int, angle: float) -> float:
+def _wrap_into_limits(model: mujoco.MjModel, joint: int, angle: float) -> float:
     """The same angle, a full turn on or back where that is within the limits."""
     lower, upper = (float(limit) for limit in model.jnt_range[joint])
     if not model.jnt_limited[joint] or lower <= angle <= upper:
@@ -119,20 +125,20 @@ def _within(model: mujoco.MjModel, joint: int, angle: float) -> float:
     return next((each for each in (angle + math.tau, angle - math.tau) if lower <= each <= upper), angle)
 
 
-def _name_strays(
+def _report_unreachable(
     model: mujoco.MjModel, positions: NDArray[np.float64], places: dict[str, LinkNode], report: Diagnostics
 ) -> None:
     data = mujoco.MjData(model)
     data.qpos[:] = positions
     mujoco.mj_kinematics(model, data)
-    for name, place in places.items():
+    for name, node in places.items():
         body = model.body(name).id
         there = Pose(_vector(data.xpos[body]), tuple(data.xquat[body].tolist()))
-        wanted = _saved(place)
+        wanted = _saved_pose(node)
         off = (there.inverse() @ wanted).quaternion
         if math.dist(there.position, wanted.position) > _OFF_M or 2 * math.hypot(*off[1:]) > _OFF_RAD:
-            what = f"link {place.link.name!r} was saved where its joints cannot take it; it starts as near as they can"
-            report.info(place.link.at, what)
+            what = f"link {node.link.name!r} was saved where its joints cannot take it; it starts as near as they can"
+            report.info(node.link.at, what)
 
 
 def _vector(numbers: NDArray[np.float64]) -> Vector3:

@@ -13,10 +13,10 @@ from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import Joint, JointAxis, JointType, Mimic
-from trundle.spatial import Pose, Vector3, upright
+from trundle.spatial import Pose, Vector3, rotation_from_z
 
-from .kinematic_tree import JointEdge, Tree, is_rigid
-from .solver_settings import SOLIMP, friction_solref, limit_solref, tie_solref
+from .kinematic_tree import JointEdge, KinematicTree, is_rigid
+from .solver_settings import SOLIMP, equality_solref, friction_solref, limit_solref
 
 _NO_EFFORT = 1e-9
 """[N·m or N] What an effort limit of zero becomes: MuJoCo wants a range that is not empty."""
@@ -24,7 +24,7 @@ _HARD_STOP = 1e8
 """[N/m or N·m/rad] SDF's own stiffness of a limit."""
 _PARALLEL = 0.9999
 """Cosine of 0.8 degrees."""
-_ACROSS = ("::x", "::y")
+_PLANAR_SUFFIXES = ("::x", "::y")
 _TWO_HINGES = frozenset({JointType.UNIVERSAL, JointType.REVOLUTE2})
 
 
@@ -40,7 +40,7 @@ class Axis(Struct, frozen=True):
     """−1 where the engine's position runs the other way."""
 
 
-class JointMaker:
+class JointBuilder:
     """Adds joints to bodies."""
 
     def __init__(self, spec: mujoco.MjSpec, report: Diagnostics) -> None:
@@ -49,39 +49,39 @@ class JointMaker:
         self.axes: dict[str, list[Axis]] = {}
         """Joint → its freedoms, in the file's order."""
 
-    def add(self, body: mujoco.MjsBody, hold: JointEdge, below_at_zero: Pose) -> None:
+    def add(self, body: mujoco.MjsBody, edge: JointEdge, world_from_child: Pose) -> None:
         """Give a body the freedom that a joint leaves it; the body's frame is that of the link below."""
-        joint = hold.joint
-        frame = below_at_zero.inverse()
-        anchor = frame.point(hold.world_from_joint.position)
+        joint = edge.joint
+        frame = world_from_child.inverse()
+        anchor = frame.transform_point(edge.world_from_joint.position)
         if is_rigid(joint):
             if joint.axis is not None and joint.type is not JointType.FIXED:
                 what = f"lower = upper = {joint.axis.lower:g} leaves no freedom; rigid"
                 self._report.info(joint.at, f"joint {joint.name!r}: {what}")
             return
         if joint.type is JointType.BALL:
-            body.add_joint(name=hold.name, type=mujoco.mjtJoint.mjJNT_BALL, pos=anchor)
-            self.axes[hold.name] = [Axis(hold.name, hold.name, None, -1.0 if hold.turned else 1.0)]
+            body.add_joint(name=edge.name, type=mujoco.mjtJoint.mjJNT_BALL, pos=anchor)
+            self.axes[edge.name] = [Axis(edge.name, edge.name, None, -1.0 if edge.is_reversed else 1.0)]
             return
         written = _planar(joint.axis) if joint.type is JointType.PLANAR else [(joint.axis, "")]
         if joint.type in _TWO_HINGES:
             written = [(joint.axis, "::axis"), (joint.axis2, "::axis2")]
-            if joint.axis is not None and joint.axis2 is not None and _parallel(joint.axis, joint.axis2):
+            if joint.axis is not None and joint.axis2 is not None and _are_parallel(joint.axis, joint.axis2):
                 what = "its two axes are parallel, which is one freedom; the second is left out"
                 self._report.warn(joint.at, f"joint {joint.name!r}: {what}")
                 written.pop()
         made: list[Axis] = []
         # The first joint of a body is the outermost: turned round, the last axis comes first.
-        for axis, suffix in reversed(written) if hold.turned else written:
+        for axis, suffix in reversed(written) if edge.is_reversed else written:
             if axis is None or (axis.is_rigid and axis.mimic is None):
                 continue
-            name = f"{hold.name}{suffix}"
-            slides = joint.type is JointType.PRISMATIC or suffix in _ACROSS
-            self._add_axis(body, name, anchor, frame.direction(hold.direction(axis)), joint, axis, slides=slides)
-            made.append(Axis(hold.name, name, axis))
+            name = f"{edge.name}{suffix}"
+            slides = joint.type is JointType.PRISMATIC or suffix in _PLANAR_SUFFIXES
+            self._add_axis(body, name, anchor, frame.transform_vector(edge.direction(axis)), joint, axis, slides=slides)
+            made.append(Axis(edge.name, name, axis))
         if joint.type is JointType.SCREW and joint.axis is not None:
-            self._add_thread(body, hold, anchor, frame.direction(hold.direction(joint.axis)))
-        self.axes[hold.name] = made[::-1] if hold.turned else made
+            self._add_screw(body, edge, anchor, frame.transform_vector(edge.direction(joint.axis)))
+        self.axes[edge.name] = made[::-1] if edge.is_reversed else made
 
     def _add_axis(
         self,
@@ -100,11 +100,11 @@ class JointMaker:
             type=mujoco.mjtJoint.mjJNT_SLIDE if slides else mujoco.mjtJoint.mjJNT_HINGE,
             pos=anchor,
             axis=direction,
-            frictionloss=self._positive(axis.friction, "friction", joint),
+            frictionloss=self._non_negative(axis.friction, "friction", joint),
             springref=axis.spring_reference,
         )
-        hinge.damping[0] = self._positive(axis.damping, "damping", joint)
-        hinge.stiffness[0] = self._positive(axis.spring_stiffness, "spring_stiffness", joint)
+        hinge.damping[0] = self._non_negative(axis.damping, "damping", joint)
+        hinge.stiffness[0] = self._non_negative(axis.spring_stiffness, "spring_stiffness", joint)
         hinge.solref_friction = friction_solref(h)
         hinge.solref_limit, hinge.solimp_limit = limit_solref(h), SOLIMP
         is_limited = not axis.is_rigid and (math.isfinite(axis.lower) or math.isfinite(axis.upper))
@@ -123,45 +123,45 @@ class JointMaker:
             effort = max(axis.effort, _NO_EFFORT)
             hinge.actfrcrange = [-effort, effort]
 
-    def _positive(self, value: float, what: str, joint: Joint) -> float:
+    def _non_negative(self, value: float, what: str, joint: Joint) -> float:
         if value >= 0 and math.isfinite(value):
             return value
         self._report.warn(joint.at, f"joint {joint.name!r}: {what} {value:g} would add energy; physics uses 0")
         return 0.0
 
-    def _add_thread(self, body: mujoco.MjsBody, hold: JointEdge, anchor: Vector3, direction: Vector3) -> None:
+    def _add_screw(self, body: mujoco.MjsBody, edge: JointEdge, anchor: Vector3, direction: Vector3) -> None:
         """A screw advances −angle / thread_pitch along its axis."""
-        pitch, advance = hold.joint.thread_pitch, f"{hold.name}::advance"
+        pitch, advance = edge.joint.thread_pitch, f"{edge.name}::advance"
         if pitch == 0 or not math.isfinite(pitch):
             what = f"thread_pitch {pitch:g} is no screw; it turns without advancing"
-            self._report.warn(hold.joint.at, f"joint {hold.joint.name!r}: {what}")
+            self._report.warn(edge.joint.at, f"joint {edge.joint.name!r}: {what}")
             return
         body.add_joint(name=advance, type=mujoco.mjtJoint.mjJNT_SLIDE, pos=anchor, axis=direction)
-        self._tie(advance, hold.name, ratio=-1.0 / pitch)
+        self._couple(advance, edge.name, ratio=-1.0 / pitch)
 
-    def _tie(self, follower: str, leader: str, *, ratio: float, offset: float = 0.0) -> None:
+    def _couple(self, follower: str, leader: str, *, ratio: float, offset: float = 0.0) -> None:
         """follower = offset + ratio · leader"""
         tie = self._spec.add_equality(type=mujoco.mjtEq.mjEQ_JOINT, name1=follower, name2=leader)
         tie.objtype = mujoco.mjtObj.mjOBJ_JOINT
         tie.data = [offset, ratio, *[0.0] * (len(tie.data) - 2)]
-        tie.solref, tie.solimp = tie_solref(self._spec.option.timestep), SOLIMP
+        tie.solref, tie.solimp = equality_solref(self._spec.option.timestep), SOLIMP
 
     def weld(self, half: str, other: str, *, as_one: bool) -> None:
         """Hold two halves of a link together as they stand with every joint at zero, or one in the other."""
         weld = self._spec.add_equality(type=mujoco.mjtEq.mjEQ_WELD, name1=half, name2=other)
         weld.objtype = mujoco.mjtObj.mjOBJ_BODY
         weld.data = [0.0] * 6 + [float(as_one), 0.0, 0.0, 0.0, 1.0] + [0.0] * (len(weld.data) - 11)
-        weld.solref, weld.solimp = tie_solref(self._spec.option.timestep), SOLIMP
+        weld.solref, weld.solimp = equality_solref(self._spec.option.timestep), SOLIMP
 
-    def tie_followers(self, tree: Tree) -> None:
+    def couple_joints(self, tree: KinematicTree) -> None:
         """Make mimics follow and gears mesh, once every joint is there."""
-        for hold in tree.joints:
-            prefix = hold.name.removesuffix(hold.joint.name)
-            for axis in self.axes.get(hold.name, []):
+        for edge in tree.joints:
+            prefix = edge.name.removesuffix(edge.joint.name)
+            for axis in self.axes.get(edge.name, []):
                 if axis.axis is not None and axis.axis.mimic is not None:
-                    self._mimic(axis, axis.axis.mimic, prefix, hold.joint)
-            if hold.joint.type is JointType.GEARBOX:
-                self._mesh(hold, prefix, tree)
+                    self._mimic(axis, axis.axis.mimic, prefix, edge.joint)
+            if edge.joint.type is JointType.GEARBOX:
+                self._add_gearbox(edge, prefix, tree)
 
     def _mimic(self, follower: Axis, mimic: Mimic, prefix: str, joint: Joint) -> None:
         leaders = self.axes.get(f"{prefix}{mimic.joint}", [])
@@ -170,15 +170,15 @@ class JointMaker:
             self._report.warn(joint.at, f"joint {joint.name!r} {what}")
             return
         offset = mimic.offset - mimic.multiplier * mimic.reference
-        self._tie(follower.engine_joint, leaders[mimic.axis].engine_joint, ratio=mimic.multiplier, offset=offset)
+        self._couple(follower.engine_joint, leaders[mimic.axis].engine_joint, ratio=mimic.multiplier, offset=offset)
 
-    def _mesh(self, hold: JointEdge, prefix: str, tree: Tree) -> None:
+    def _add_gearbox(self, edge: JointEdge, prefix: str, tree: KinematicTree) -> None:
         """Child over reference turns −ratio times what parent over reference does."""
-        joint = hold.joint
+        joint = edge.joint
         reference = f"{prefix}{joint.gearbox_reference_body}"
         wheels = [
-            self._turning(link, reference, axis, hold, tree.parent_joint)
-            for link, axis in ((hold.above, joint.axis), (hold.below, joint.axis2))
+            self._hinge_between(link, reference, axis, edge, tree.parent_joint)
+            for link, axis in ((edge.parent, joint.axis), (edge.child, joint.axis2))
         ]
         driver, driven = wheels
         if driver is None or driven is None:
@@ -186,20 +186,20 @@ class JointMaker:
             self._report.warn(joint.at, f"joint {joint.name!r}: {what}")
             return
         ratio = -joint.gearbox_ratio * driver[1] * driven[1]
-        self._tie(driven[0], driver[0], ratio=ratio)
+        self._couple(driven[0], driver[0], ratio=ratio)
 
-    def _turning(
+    def _hinge_between(
         self, link: str, reference: str, axis: JointAxis | None, gearbox: JointEdge, held: Mapping[str, JointEdge]
     ) -> tuple[str, float] | None:
         """The engine's joint by which a link turns against the reference body, and which way round."""
         for low, high, sign in ((link, reference, 1.0), (reference, link, -1.0)):
-            hold = held.get(low)
-            if hold is None or hold.above != high or axis is None:
+            edge = held.get(low)
+            if edge is None or edge.parent != high or axis is None:
                 continue
-            axes = self.axes.get(hold.name, [])
+            axes = self.axes.get(edge.name, [])
             if len(axes) == 1 and axes[0].axis is not None:
-                along = hold.direction(axes[0].axis)
-                wanted = gearbox.world_from_axes.direction(axis.direction)
+                along = edge.direction(axes[0].axis)
+                wanted = gearbox.world_from_axes.transform_vector(axis.direction)
                 agree = sum(a * b for a, b in zip(along, wanted, strict=True)) >= 0
                 return axes[0].engine_joint, sign if agree else -sign
         return None
@@ -209,10 +209,13 @@ def _planar(axis: JointAxis | None) -> list[tuple[JointAxis | None, str]]:
     """The three freedoms of a planar joint: two ways across its axis, and about it."""
     if axis is None:
         return []
-    plane = Pose(quaternion=upright(axis.direction))
-    ways = (plane.direction((1.0, 0.0, 0.0)), plane.direction((0.0, 1.0, 0.0)))
-    return [*((replace(axis, direction=way), name) for way, name in zip(ways, _ACROSS, strict=True)), (axis, "::turn")]
+    plane = Pose(quaternion=rotation_from_z(axis.direction))
+    ways = (plane.transform_vector((1.0, 0.0, 0.0)), plane.transform_vector((0.0, 1.0, 0.0)))
+    return [
+        *((replace(axis, direction=way), name) for way, name in zip(ways, _PLANAR_SUFFIXES, strict=True)),
+        (axis, "::turn"),
+    ]
 
 
-def _parallel(a: JointAxis, b: JointAxis) -> bool:
+def _are_parallel(a: JointAxis, b: JointAxis) -> bool:
     return abs(sum(x * y for x, y in zip(a.direction, b.direction, strict=True))) > _PARALLEL

@@ -25,9 +25,9 @@ class LinkNode(Struct, frozen=True, eq=False):
     link: Link
     fixed: bool
     """As the file says: it is part of the world."""
-    at_zero: Pose
+    world_from_link_at_zero: Pose
     """world_from_link with every joint at zero."""
-    at_start: Pose
+    world_from_link: Pose
     """world_from_link with each joint that has no freedom where its limits hold it."""
 
 
@@ -37,32 +37,32 @@ class JointEdge(Struct, frozen=True, eq=False):
     name: str
     """`model::joint`"""
     joint: Joint
-    above: str
+    parent: str
     """`model::link` or `world`"""
-    below: str
+    child: str
     world_from_joint: Pose
     """With every joint at zero."""
     world_from_axes: Pose
     """The frame that the joint's axes are written in."""
-    turned: bool = False
+    is_reversed: bool = False
     """Above is the joint's child."""
 
     @property
-    def above_from_below(self) -> Pose | None:
+    def parent_from_child(self) -> Pose | None:
         """Where a fixed joint holds `below`; None: as the two lie with every joint at zero."""
         held = self.joint.parent_from_child
-        return held.inverse() if held is not None and self.turned else held
+        return held.inverse() if held is not None and self.is_reversed else held
 
     def direction(self, axis: JointAxis) -> Vector3:
         """The way `below` moves as the joint's position grows, in the world with every joint at zero."""
-        x, y, z = self.world_from_axes.direction(axis.direction)
-        return (-x, -y, -z) if self.turned else (x, y, z)
+        x, y, z = self.world_from_axes.transform_vector(axis.direction)
+        return (-x, -y, -z) if self.is_reversed else (x, y, z)
 
 
-class Tree(Struct, frozen=True, eq=False):
+class KinematicTree(Struct, frozen=True, eq=False):
     """Every link and joint of a world, in file order: models first, then the joints between models."""
 
-    places: Mapping[str, LinkNode]
+    links: Mapping[str, LinkNode]
     joints: tuple[JointEdge, ...]
     parent_joint: Mapping[str, JointEdge]
     """Link → the joint it hangs from."""
@@ -72,24 +72,24 @@ class Tree(Struct, frozen=True, eq=False):
     """Links that cannot move against the world."""
 
     @classmethod
-    def of(cls, world: World, report: Diagnostics) -> "Tree":
+    def from_world(cls, world: World, report: Diagnostics) -> "KinematicTree":
         """Find out; what cannot be joined is named and left out.
 
         Raises:
             DescriptionError: two models, or two links or joints of one, share a name.
         """
-        _refuse_twins("model", world.models)
+        _refuse_duplicates("model", world.models)
         for model in world.models:
-            _refuse_twins("link", model.links)
-            _refuse_twins("joint", model.joints)
-        places = {place.name: place for i, model in enumerate(world.models) for place in _places(i, model)}
-        joints = [hold for model in world.models for hold in _joints_of(model)]
-        joints += [_between_models(joint, places) for joint in world.joints if _known(joint, places)]
+            _refuse_duplicates("link", model.links)
+            _refuse_duplicates("joint", model.joints)
+        places = {node.name: node for i, model in enumerate(world.models) for node in _link_nodes(i, model)}
+        joints = [edge for model in world.models for edge in _joint_edges(model)]
+        joints += [_joint_between_models(joint, places) for joint in world.joints if _has_known_links(joint, places)]
         for joint in world.joints:
-            if not _known(joint, places):
+            if not _has_known_links(joint, places):
                 report.warn(joint.at, f"joint {joint.name!r} joins links that are not there; it is left out")
-        held, loops = _grow(joints, places)
-        return cls(places, tuple(joints), held, loops, _still(places, held))
+        held, loops = _spanning_tree(joints, places)
+        return cls(places, tuple(joints), held, loops, _immobile_links(places, held))
 
 
 def is_rigid(joint: Joint) -> bool:
@@ -99,7 +99,7 @@ def is_rigid(joint: Joint) -> bool:
     return joint.axis2 is None and joint.axis is not None and joint.axis.is_rigid and joint.axis.mimic is None
 
 
-def _refuse_twins(kind: str, named: Sequence[Model] | Sequence[Link] | Sequence[Joint]) -> None:
+def _refuse_duplicates(kind: str, named: Sequence[Model] | Sequence[Link] | Sequence[Joint]) -> None:
     seen: set[str] = set()
     for one in named:
         if one.name in seen:
@@ -107,7 +107,7 @@ def _refuse_twins(kind: str, named: Sequence[Model] | Sequence[Link] | Sequence[
         seen.add(one.name)
 
 
-def _places(index: int, model: Model) -> list[LinkNode]:
+def _link_nodes(index: int, model: Model) -> list[LinkNode]:
     held_at = {j.name: j.axis.lower for j in model.joints if j.axis is not None and is_rigid(j) and j.axis.is_rigid}
     start = model_from_links(model, held_at) if held_at else {}
     return [
@@ -116,14 +116,14 @@ def _places(index: int, model: Model) -> list[LinkNode]:
             model=index,
             link=link,
             fixed=model.static or link.fixed,
-            at_zero=model.world_from_model @ link.model_from_link,
-            at_start=model.world_from_model @ start.get(link.name, link.model_from_link),
+            world_from_link_at_zero=model.world_from_model @ link.model_from_link,
+            world_from_link=model.world_from_model @ start.get(link.name, link.model_from_link),
         )
         for link in model.links
     ]
 
 
-def _joints_of(model: Model) -> list[JointEdge]:
+def _joint_edges(model: Model) -> list[JointEdge]:
     def full(link: str) -> str:
         return link if link == WORLD else f"{model.name}::{link}"
 
@@ -131,8 +131,8 @@ def _joints_of(model: Model) -> list[JointEdge]:
         JointEdge(
             name=f"{model.name}::{joint.name}",
             joint=joint,
-            above=full(joint.parent),
-            below=full(joint.child),
+            parent=full(joint.parent),
+            child=full(joint.child),
             world_from_joint=model.world_from_model @ model_from_joint(model, joint),
             world_from_axes=model.world_from_model,
         )
@@ -140,58 +140,58 @@ def _joints_of(model: Model) -> list[JointEdge]:
     ]
 
 
-def _known(joint: Joint, places: Mapping[str, LinkNode]) -> bool:
+def _has_known_links(joint: Joint, places: Mapping[str, LinkNode]) -> bool:
     return all(link == WORLD or link in places for link in (joint.parent, joint.child))
 
 
-def _between_models(joint: Joint, places: Mapping[str, LinkNode]) -> JointEdge:
-    world_from_child = Pose() if joint.child == WORLD else places[joint.child].at_zero
+def _joint_between_models(joint: Joint, places: Mapping[str, LinkNode]) -> JointEdge:
+    world_from_child = Pose() if joint.child == WORLD else places[joint.child].world_from_link_at_zero
     joint_pose = world_from_child @ joint.child_from_joint
     return JointEdge(joint.name, joint, joint.parent, joint.child, joint_pose, world_from_axes=Pose())
 
 
-def _grow(
+def _spanning_tree(
     joints: list[JointEdge], places: Mapping[str, LinkNode]
 ) -> tuple[dict[str, JointEdge], tuple[JointEdge, ...]]:
     held: dict[str, JointEdge] = {}
 
-    def can(hold: JointEdge) -> bool:
-        if hold.below == WORLD or hold.below in held or places[hold.below].fixed:
+    def can(edge: JointEdge) -> bool:
+        if edge.child == WORLD or edge.child in held or places[edge.child].fixed:
             return False
-        above = hold.above
+        above = edge.parent
         while above in held:
-            above = held[above].above
-            if above == hold.below:
+            above = held[above].parent
+            if above == edge.child:
                 return False
-        return above != hold.below
+        return above != edge.child
 
     rest: list[JointEdge] = []
-    for hold in joints:
-        if hold.joint.type is JointType.GEARBOX:
+    for edge in joints:
+        if edge.joint.type is JointType.GEARBOX:
             continue
-        if can(hold):
-            held[hold.below] = hold
+        if can(edge):
+            held[edge.child] = edge
         else:
-            rest.append(hold)
+            rest.append(edge)
     loops: list[JointEdge] = []
-    for hold in rest:
-        turned = replace(hold, above=hold.below, below=hold.above, turned=True)
+    for edge in rest:
+        turned = replace(edge, parent=edge.child, child=edge.parent, is_reversed=True)
         if can(turned):
-            held[turned.below] = turned
-        elif not all(end == WORLD or places[end].fixed for end in (hold.above, hold.below)):
-            loops.append(turned if hold.below == WORLD or places[hold.below].fixed else hold)
+            held[turned.child] = turned
+        elif not all(end == WORLD or places[end].fixed for end in (edge.parent, edge.child)):
+            loops.append(turned if edge.child == WORLD or places[edge.child].fixed else edge)
     return held, tuple(loops)
 
 
-def _still(places: Mapping[str, LinkNode], held: Mapping[str, JointEdge]) -> frozenset[str]:
+def _immobile_links(places: Mapping[str, LinkNode], held: Mapping[str, JointEdge]) -> frozenset[str]:
     def moves(name: str) -> bool:
         while not places[name].fixed:
-            hold = held.get(name)
-            if hold is None or not is_rigid(hold.joint):
+            edge = held.get(name)
+            if edge is None or not is_rigid(edge.joint):
                 return True
-            if hold.above == WORLD:
+            if edge.parent == WORLD:
                 return False
-            name = hold.above
+            name = edge.parent
         return False
 
     return frozenset(name for name in places if not moves(name))

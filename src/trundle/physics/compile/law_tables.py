@@ -48,18 +48,18 @@ _Pair: TypeAlias = tuple[int, int, ContactParams]
 Touches: TypeAlias = Mapping[tuple[str, str], ContactParams]
 
 
-def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[ShapeEntry], world: World) -> None:
+def reserve_tables(spec: mujoco.MjSpec, pair_params: Touches, shapes: Sequence[ShapeEntry], world: World) -> None:
     """Give a model room for its tables before it is compiled."""
     rows = {
         "laws": 1,
-        "restitution": sum(map(_bounces, touches.values())),
-        "friction": sum(map(_has_friction, touches.values())),
-        "damping": sum(map(_decays, _links(world))),
+        "restitution": sum(map(_bounces, pair_params.values())),
+        "friction": sum(map(_has_friction, pair_params.values())),
+        "damping": sum(map(_has_velocity_decay, _links(world))),
         "motions": len(spec.bodies),
         "motors": len(spec.actuators),
         "chains": len(spec.bodies),
         "springs": len(spec.joints),
-        "dead_zones": sum(touch.min_depth > 0 for touch in touches.values()),
+        "dead_zones": sum(params.min_depth > 0 for params in pair_params.values()),
         "geoms": len(spec.geoms),
     }
     for name, width in _WIDTHS.items():
@@ -67,7 +67,7 @@ def reserve_tables(spec: mujoco.MjSpec, touches: Touches, shapes: Sequence[Shape
         size = max(rows[name] * width, 1)
         spec.add_numeric(name=f"trundle::{name}", data=[0.0] * size, size=size)
     # The speed that each motor wants; then how contacts push that slip or grow with their load, in groups.
-    groups = len(spec.bodies) + len(set(_groups(touches, shapes).values()))
+    groups = len(spec.bodies) + len(set(_groups(pair_params, shapes).values()))
     spec.nuserdata = len(spec.actuators) + _GROUP_WIDTH * groups
     _reserve_motors(spec)
     # What brings MuJoCo to call mjcb_sensor; see `set_needstage`.
@@ -95,23 +95,23 @@ def find_table(model: mujoco.MjModel, name: str) -> _Table:
 
 
 def fill_tables(
-    model: mujoco.MjModel, touches: Touches, shapes: Sequence[ShapeEntry], bodies: Sequence[int], world: World
+    model: mujoco.MjModel, pair_params: Touches, shapes: Sequence[ShapeEntry], bodies: Sequence[int], world: World
 ) -> None:
     """Write the tables of a compiled model.
 
     Args:
         model: to be written.
-        touches: how two shapes touch, by their names.
+        pair_params: how two shapes touch, by their names.
         shapes: all of them.
         bodies: number of each link's body, in the order of the world's links.
         world: without nested models.
     """
     equality = model.equality(_EQUALITY).id if model.nu else -1
-    named = _groups(touches, shapes)
+    named = _groups(pair_params, shapes)
     groups = {_key(model, int(model.geom(a).id), int(model.geom(b).id)): n for (a, b), n in named.items()}
     count = len(set(groups.values()))
     find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, equality, 0.0, 0.0, count, 0.0, 0.0
-    pairs = [(int(model.geom(a).id), int(model.geom(b).id), touch) for (a, b), touch in touches.items()]
+    pairs = [(int(model.geom(a).id), int(model.geom(b).id), params) for (a, b), params in pair_params.items()]
     pairs.sort(key=lambda pair: _key(model, pair[0], pair[1]))
     _write(model, "restitution", _restitution(model, pairs))
     _write(model, "friction", _friction(model, pairs, groups))
@@ -121,7 +121,9 @@ def fill_tables(
         joint = model.actuator_trnid[motor, 0]
         row[:] = motor, 0.0, model.jnt_qposadr[joint], model.jnt_dofadr[joint]
     _center(model)
-    _write(model, "dead_zones", ((_key(model, a, b), touch.min_depth) for a, b, touch in pairs if touch.min_depth > 0))
+    _write(
+        model, "dead_zones", ((_key(model, a, b), params.min_depth) for a, b, params in pairs if params.min_depth > 0)
+    )
     geoms = find_table(model, "geoms")
     for shape in shapes:  # what stands may be a shape of the world's body
         geoms[model.geom(shape.name).id] = model.body(shape.link).id
@@ -158,7 +160,7 @@ def _is_slow(model: mujoco.MjModel, joint: int) -> bool:
     return 0.0 < model.jnt_stiffness[joint] * inverse_inertia * model.opt.timestep**2 < _SLOW
 
 
-def switch_off(model: mujoco.MjModel) -> None:
+def disable_laws(model: mujoco.MjModel) -> None:
     """Have a copy of a model go without its laws."""
     find_table(model, "laws")[0, 1] = 0.0
 
@@ -172,40 +174,40 @@ def follow_friction(model: mujoco.MjModel, other: mujoco.MjModel) -> None:
 
 
 def _write(model: mujoco.MjModel, name: str, rows: Iterator[tuple[float, ...]]) -> None:
-    for place, row in zip(find_table(model, name), rows, strict=True):
-        place[:] = row
+    for node, row in zip(find_table(model, name), rows, strict=True):
+        node[:] = row
 
 
 def _key(model: mujoco.MjModel, a: int, b: int) -> int:
     return min(a, b) * int(model.ngeom) + max(a, b)
 
 
-def _bounces(touch: ContactParams) -> bool:
-    return touch.restitution > 0 and touch.is_felt
+def _bounces(params: ContactParams) -> bool:
+    return params.restitution > 0 and params.has_force
 
 
-def _has_friction(touch: ContactParams) -> bool:
-    return _has_grain(touch) or _gives(touch)
+def _has_friction(params: ContactParams) -> bool:
+    return _is_anisotropic(params) or _gives(params)
 
 
-def _gives(touch: ContactParams) -> bool:
+def _gives(params: ContactParams) -> bool:
     """Whether something of it slips or grows with the load."""
-    return touch.mu + touch.mu2 > 0 and (any(touch.slip) or touch.patch > 0)
+    return params.mu + params.mu2 > 0 and (any(params.slip) or params.patch > 0)
 
 
-def _groups(touches: Touches, shapes: Sequence[ShapeEntry]) -> dict[tuple[str, str], int]:
+def _groups(pair_params: Touches, shapes: Sequence[ShapeEntry]) -> dict[tuple[str, str], int]:
     """By two shapes' names, the number of the two collisions that they are of, where contacts slip or grow."""
     of = {shape.name: shape.collision for shape in shapes}
     numbers: dict[tuple[str, str], int] = {}
-    giving = [pair for pair, touch in touches.items() if _gives(touch)]
+    giving = [pair for pair, params in pair_params.items() if _gives(params)]
     return {(a, b): numbers.setdefault((of[a], of[b]), len(numbers)) for a, b in giving}
 
 
-def _has_grain(touch: ContactParams) -> bool:
-    return touch.mu != touch.mu2 and min(touch.mu, touch.mu2) > 0
+def _is_anisotropic(params: ContactParams) -> bool:
+    return params.mu != params.mu2 and min(params.mu, params.mu2) > 0
 
 
-def _decays(link: Link) -> bool:
+def _has_velocity_decay(link: Link) -> bool:
     return link.linear_decay > 0 or link.angular_decay > 0
 
 
@@ -215,22 +217,22 @@ def _links(world: World) -> Iterator[Link]:
 
 def _restitution(model: mujoco.MjModel, pairs: Sequence[_Pair]) -> Iterator[tuple[float, ...]]:
     slowest = _SLOWEST * math.hypot(*model.opt.gravity) * model.opt.timestep
-    for a, b, touch in pairs:
-        if _bounces(touch):
-            yield _key(model, a, b), touch.restitution, max(touch.threshold, slowest)
+    for a, b, params in pairs:
+        if _bounces(params):
+            yield _key(model, a, b), params.restitution, max(params.threshold, slowest)
 
 
 def _friction(model: mujoco.MjModel, pairs: Sequence[_Pair], groups: Mapping[int, int]) -> Iterator[tuple[float, ...]]:
-    for a, b, touch in pairs:
-        if _has_friction(touch):
+    for a, b, params in pairs:
+        if _has_friction(params):
             key = _key(model, a, b)
-            geom = -1 if touch.fdir1 == ZERO else (a, b)[touch.fdir1_of]
-            yield key, geom, *touch.fdir1, *touch.slip, touch.patch, groups.get(key, -1)
+            geom = -1 if params.fdir1 == ZERO else (a, b)[params.fdir1_shape]
+            yield key, geom, *params.fdir1, *params.slip, params.patch, groups.get(key, -1)
 
 
 def _damping(model: mujoco.MjModel, bodies: Sequence[int], world: World) -> Iterator[tuple[float, ...]]:
     """Rows of the world's body, which never moves, where a link has no freedom to lose speed in."""
     for body, link in zip(bodies, _links(world), strict=True):
-        if _decays(link):
+        if _has_velocity_decay(link):
             parts = (min(max(part, 0.0), 1.0) for part in (link.linear_decay, link.angular_decay))
             yield body if model.body_dofnum[body] > 0 else 0, *parts

@@ -11,7 +11,7 @@ import numpy as np
 from trundle.diagnostics import Diagnostics
 from trundle.meshes import Mesh, Texture, mean_colour
 from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Rgba, Sphere, World, flattened
-from trundle.spatial import Pose, upright
+from trundle.spatial import Pose, rotation_from_z
 
 from .compiler import Compiler
 from .mjcf_precision import with_full_precision
@@ -44,7 +44,7 @@ def compile_mjcf(world: World, scene: "Scene", report: Diagnostics, *, picture_o
     world = flattened(world)
     compiler = Compiler(world, report)
     compiler.fill()
-    looks = _Looks(compiler, scene, report, picture_of)
+    looks = _VisualWriter(compiler, scene, report, picture_of)
     looks.add()
     compiler.compile_spec()
     return _with_pictures(with_full_precision(compiler.spec.to_xml(), compiler.spec), looks.pictures)
@@ -71,7 +71,7 @@ def _with_pictures(xml: str, pictures: Mapping[str, str]) -> str:
     return Xml.tostring(root, encoding="unicode") + "\n"
 
 
-class _Looks:
+class _VisualWriter:
     """Adds visuals and lights to what is simulated."""
 
     def __init__(self, compiler: Compiler, scene: "Scene", report: Diagnostics, picture_of: PictureOf) -> None:
@@ -105,24 +105,39 @@ class _Looks:
     def _add_shape(self, shape: "Shape") -> None:
         pose = shape.body_from_shape
         if isinstance(shape.geometry, Plane):
-            pose = pose @ Pose(quaternion=upright(shape.geometry.normal))
+            pose = pose @ Pose(quaternion=rotation_from_z(shape.geometry.normal))
         geom = self._bodies[shape.body].add_geom(
             pos=pose.position, quat=pose.quaternion, group=_VISUAL, contype=0, conaffinity=0, mass=0.0
         )
         geom.material = self._material(shape)
         match shape.geometry:
             case Box((x, y, z)):
-                geom.type, geom.size = mujoco.mjtGeom.mjGEOM_BOX, [_thick(x) / 2, _thick(y) / 2, _thick(z) / 2]
+                geom.type, geom.size = (
+                    mujoco.mjtGeom.mjGEOM_BOX,
+                    [_at_least_thin(x) / 2, _at_least_thin(y) / 2, _at_least_thin(z) / 2],
+                )
             case Cylinder(radius, length):
-                geom.type, geom.size = mujoco.mjtGeom.mjGEOM_CYLINDER, [_thick(radius), _thick(length) / 2, 0]
+                geom.type, geom.size = (
+                    mujoco.mjtGeom.mjGEOM_CYLINDER,
+                    [_at_least_thin(radius), _at_least_thin(length) / 2, 0],
+                )
             case Capsule(radius, length):
-                geom.type, geom.size = mujoco.mjtGeom.mjGEOM_CAPSULE, [_thick(radius), _thick(length) / 2, 0]
+                geom.type, geom.size = (
+                    mujoco.mjtGeom.mjGEOM_CAPSULE,
+                    [_at_least_thin(radius), _at_least_thin(length) / 2, 0],
+                )
             case Sphere(radius):
-                geom.type, geom.size = mujoco.mjtGeom.mjGEOM_SPHERE, [_thick(radius), 0, 0]
+                geom.type, geom.size = mujoco.mjtGeom.mjGEOM_SPHERE, [_at_least_thin(radius), 0, 0]
             case Ellipsoid((x, y, z)):
-                geom.type, geom.size = mujoco.mjtGeom.mjGEOM_ELLIPSOID, [_thick(x), _thick(y), _thick(z)]
+                geom.type, geom.size = (
+                    mujoco.mjtGeom.mjGEOM_ELLIPSOID,
+                    [_at_least_thin(x), _at_least_thin(y), _at_least_thin(z)],
+                )
             case Plane(_, (width, height)):
-                geom.type, geom.size = mujoco.mjtGeom.mjGEOM_PLANE, [_thick(width) / 2, _thick(height) / 2, 1]
+                geom.type, geom.size = (
+                    mujoco.mjtGeom.mjGEOM_PLANE,
+                    [_at_least_thin(width) / 2, _at_least_thin(height) / 2, 1],
+                )
             case Mesh():
                 geom.type, geom.meshname = (
                     mujoco.mjtGeom.mjGEOM_MESH,
@@ -193,5 +208,5 @@ class _Looks:
         )
 
 
-def _thick(length: float) -> float:
+def _at_least_thin(length: float) -> float:
     return max(length, _THINNEST)

@@ -29,7 +29,7 @@ def with_full_precision(xml: str, spec: mujoco.MjSpec) -> str:
     """The XML that a specification wrote, its numbers as exact as the specification has them."""
     root = Xml.fromstring(xml)
     for element in root.iter("option"):
-        _mend(element, spec.option, {})
+        _restore(element, spec.option, {})
     named: list[tuple[str, Iterable[Any]]] = [
         ("mesh", spec.meshes),
         ("hfield", spec.hfields),
@@ -41,27 +41,27 @@ def with_full_precision(xml: str, spec: mujoco.MjSpec) -> str:
         by_name = {each.name: each for each in objects}
         for element in root.iter(tag):
             if (found := by_name.get(element.get("name", ""))) is not None:
-                _mend(element, found, _NAMES.get(tag, {}))
+                _restore(element, found, _NAMES.get(tag, {}))
     for section, objects in (("equality", spec.equalities), ("actuator", spec.actuators)):
         elements = [child for home in root.iter(section) for child in home]
         for element, each in zip(elements, objects, strict=False):  # in the order they were added; some have no name
-            _mend(element, each, _NAMES.get(section, {}))
+            _restore(element, each, _NAMES.get(section, {}))
     bodies = {body.name: body for body in spec.bodies}
     for element in root.iter("body"):
-        _mend_body(element, bodies[element.get("name", "")])
+        _restore_body(element, bodies[element.get("name", "")])
     return Xml.tostring(root, encoding="unicode") + "\n"
 
 
-def _mend_body(element: Xml.Element, body: mujoco.MjsBody) -> None:
-    _mend(element, body, {})
+def _restore_body(element: Xml.Element, body: mujoco.MjsBody) -> None:
+    _restore(element, body, {})
     for inertial in element.findall("inertial"):
-        _mend(inertial, body, _NAMES["inertial"])
+        _restore(inertial, body, _NAMES["inertial"])
     for tag, objects in (("geom", body.geoms), ("joint", body.joints)):
         for child, each in zip(element.findall(tag), objects, strict=False):
-            _mend(child, each, _NAMES.get(tag, {}))
+            _restore(child, each, _NAMES.get(tag, {}))
 
 
-def _mend(element: Xml.Element, source: Any, names: Mapping[str, str]) -> None:
+def _restore(element: Xml.Element, source: Any, names: Mapping[str, str]) -> None:
     for attribute, text in element.attrib.items():
         exact = getattr(source, names.get(attribute, attribute), None)
         if exact is None or isinstance(exact, str):
@@ -72,8 +72,8 @@ def _mend(element: Xml.Element, source: Any, names: Mapping[str, str]) -> None:
         except (TypeError, ValueError):  # a word
             continue
         if values.shape == written.shape and np.allclose(values, written, rtol=0.0, atol=_CLOSE * np.abs(values).max()):
-            element.set(attribute, " ".join(map(_spelled, values.tolist())))
+            element.set(attribute, " ".join(map(_format, values.tolist())))
 
 
-def _spelled(value: float) -> str:
+def _format(value: float) -> str:
     return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)

@@ -10,7 +10,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.meshes import triangles_of
+from trundle.meshes import triangulate
 from trundle.model import (
     Box,
     Capsule,
@@ -27,15 +27,15 @@ from trundle.model import (
     Sphere,
     Surface,
 )
-from trundle.spatial import Pose, Vector3, upright
+from trundle.spatial import Pose, Vector3, rotation_from_z
 
-from .convex_geoms import THINNEST, add_hull, add_hulls, thick_hulls
+from .convex_geoms import MIN_THICKNESS, add_hull, add_hulls, thicken
 
 if TYPE_CHECKING:
-    from ..convex.mesh_decomposition import Decomposition
+    from ..convex.mesh_decomposition import WorldDecomposition
 
 _CONE_SIDES = 32
-_MOST_CORNERS = 1000
+_MAX_CORNERS = 1000
 """Of a polyline: cutting it up takes time by their cube."""
 
 
@@ -62,7 +62,7 @@ class ShapeEntry(Struct, frozen=True):
     fixed: bool
     """Part of the world: nothing moves it."""
     surface: Surface
-    meets: CollidesWith = CollidesWith.ALL
+    collides_with: CollidesWith = CollidesWith.ALL
     points: int = 1
     """How many of ODE's contact points each of its contacts stands for."""
 
@@ -82,7 +82,7 @@ def add_shape(
     report: Diagnostics,
     *,
     fixed: bool,
-    decomposition: "Decomposition | None",
+    decomposition: "WorldDecomposition | None",
 ) -> list[tuple[mujoco.MjsGeom, CollidesWith]]:
     """Add a collision to a body, in pieces where it takes several; none after a warning where it cannot be one.
 
@@ -95,7 +95,7 @@ def add_shape(
         fixed: it never moves.
         decomposition: cuts meshes; None: each is its convex hull.
     """
-    geometry = _mended(collision, report)
+    geometry = _repaired(collision, report)
     pose = collision.link_from_collision
     match geometry:
         case MeshFile(path=None) | Empty():
@@ -135,7 +135,7 @@ def add_shape(
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_ELLIPSOID, list(radii)
         case Plane(normal, _):
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_PLANE, [0, 0, 1]
-            geom.quat = (pose @ Pose(quaternion=upright(normal))).quaternion
+            geom.quat = (pose @ Pose(quaternion=rotation_from_z(normal))).quaternion
     return [(geom, CollidesWith.ALL)]
 
 
@@ -149,11 +149,11 @@ def _add_prisms(
     height: float,
 ) -> list[mujoco.MjsGeom]:
     """A polyline as one prism for each triangle of its ground plan."""
-    if sum(map(len, outlines)) > _MOST_CORNERS or not height > 0:
-        what = f"a polyline of more than {_MOST_CORNERS} corners, or without height; it is left out"
+    if sum(map(len, outlines)) > _MAX_CORNERS or not height > 0:
+        what = f"a polyline of more than {_MAX_CORNERS} corners, or without height; it is left out"
         report.warn(collision.at, f"collision {collision.name!r}: {what}")
         return []
-    prisms = [np.array([(x, y, z) for z in (0.0, height) for x, y in triangle]) for triangle in triangles_of(outlines)]
+    prisms = [np.array([(x, y, z) for z in (0.0, height) for x, y in triangle]) for triangle in triangulate(outlines)]
     return add_hulls(spec, body, collision.link_from_collision, name, thick_pieces(prisms, collision, report))
 
 
@@ -161,23 +161,23 @@ def thick_pieces(
     pieces: Sequence[NDArray[np.float64]], collision: Collision, report: Diagnostics
 ) -> list[NDArray[np.float64]]:
     """Pieces (N, 3) [m] that a hull can be made of."""
-    thick, thickest = thick_hulls(pieces)
+    thick, thickest = thicken(pieces)
     if thickest:
         what = f"a mesh of zero thickness; physics uses {thickest * 1000:.2g} mm"
         report.warn(collision.at, f"collision {collision.name!r}: {what}")
     return thick
 
 
-def _mended(collision: Collision, report: Diagnostics) -> Geometry:
+def _repaired(collision: Collision, report: Diagnostics) -> Geometry:
     def thick(lengths: Vector3, names: str) -> Vector3:
-        thin = [n for n, length in zip(names.split(), lengths, strict=False) if not length >= THINNEST]
+        thin = [n for n, length in zip(names.split(), lengths, strict=False) if not length >= MIN_THICKNESS]
         if thin:
             report.warn(
                 collision.at,
                 f"collision {collision.name!r}: {' and '.join(thin)} of zero thickness; "
-                f"physics uses {THINNEST * 1000:g} mm",
+                f"physics uses {MIN_THICKNESS * 1000:g} mm",
             )
-        x, y, z = (max(length, THINNEST) for length in lengths)
+        x, y, z = (max(length, MIN_THICKNESS) for length in lengths)
         return (x, y, z)
 
     match collision.geometry:

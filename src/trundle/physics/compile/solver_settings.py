@@ -30,7 +30,7 @@ def friction_solref(h: float) -> tuple[float, float]:
     return (2 * h, 1.0)
 
 
-def tie_solref(h: float) -> tuple[float, float]:
+def equality_solref(h: float) -> tuple[float, float]:
     """Of what holds two joints or the two halves of a link together: as stiff as a step can follow, so that a loop of
     links keeps its course; by (2 h, 1) a crank of four bars is 0.13 rad behind after 3 s, so 4 mrad."""
     return (-1 / (h * h), -1 / h)

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from trundle.diagnostics import Diagnostics
 from trundle.model import Collision, Cylinder, Ellipsoid, JointType, World
 
-from .kinematic_tree import JointEdge, LinkNode, Tree
+from .kinematic_tree import JointEdge, KinematicTree, LinkNode
 
 TREAD = 1e-4
 """[m] How far the tread stands out of the cylinder."""
@@ -20,24 +20,24 @@ _SMALLEST = 1e-3
 """[m] Radius under which a cylinder is left as it is."""
 
 
-def tread_of(collision: Collision, place: LinkNode, tree: Tree) -> Ellipsoid | None:
+def tread_of(collision: Collision, node: LinkNode, tree: KinematicTree) -> Ellipsoid | None:
     """What a cylinder that turns about its own axis rolls on; None of all else."""
-    geometry, hold = collision.geometry, tree.parent_joint.get(place.name)
-    if hold is None or not isinstance(geometry, Cylinder) or geometry.radius < _SMALLEST:
+    geometry, edge = collision.geometry, tree.parent_joint.get(node.name)
+    if edge is None or not isinstance(geometry, Cylinder) or geometry.radius < _SMALLEST:
         return None
-    if not _turns_about_itself(hold, place, collision):
+    if not _spins_about_own_axis(edge, node, collision):
         return None
     return Ellipsoid((geometry.radius, geometry.radius, max(geometry.length / 2, TREAD)))
 
 
-def _turns_about_itself(hold: JointEdge, place: LinkNode, collision: Collision) -> bool:
-    joint = hold.joint
+def _spins_about_own_axis(edge: JointEdge, node: LinkNode, collision: Collision) -> bool:
+    joint = edge.joint
     axis = {JointType.REVOLUTE: joint.axis, JointType.REVOLUTE2: joint.axis2}.get(joint.type)
     if axis is None:
         return False
-    world_from_cylinder = place.at_zero @ collision.link_from_collision
-    along = world_from_cylinder.inverse().direction(hold.direction(axis))
-    x, y, _ = world_from_cylinder.inverse().point(hold.world_from_joint.position)
+    world_from_cylinder = node.world_from_link_at_zero @ collision.link_from_collision
+    along = world_from_cylinder.inverse().transform_vector(edge.direction(axis))
+    x, y, _ = world_from_cylinder.inverse().transform_point(edge.world_from_joint.position)
     return abs(along[2]) > 0.9999 and max(abs(x), abs(y)) < TREAD
 
 
@@ -47,7 +47,7 @@ def without_tread(collision: Collision) -> Collision:
     return replace(collision, geometry=replace(collision.geometry, radius=collision.geometry.radius - TREAD))
 
 
-def name_wheels(world: World, report: Diagnostics) -> None:
+def report_wheels(world: World, report: Diagnostics) -> None:
     """Report every wheel, and how far its surface is from the cylinder that the file has.
 
     Args:
@@ -57,10 +57,10 @@ def name_wheels(world: World, report: Diagnostics) -> None:
     Raises:
         DescriptionError: two models, or two links or joints of one, share a name.
     """
-    tree = Tree.of(world, Diagnostics())
-    for place in tree.places.values():
-        for collision in place.link.collisions:
-            if tread_of(collision, place, tree) is not None:
+    tree = KinematicTree.from_world(world, Diagnostics())
+    for node in tree.links.values():
+        for collision in node.link.collisions:
+            if tread_of(collision, node, tree) is not None:
                 what = "a wheel; in physics it rolls on the ellipsoid inscribed in it"
                 away = f"a surface up to {TREAD * 1e3:g} mm away"
                 report.info(collision.at, f"collision {collision.name!r}: {what}, {away}")

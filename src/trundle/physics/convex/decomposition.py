@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .hulls import Hull, area_of, hull_of, surface_error, volume_of
-from .native_output import muted
+from .native_output import native_output_hidden
 from .shell_decomposition import shell_pieces
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
-MOST_FACES = 100_000
+MAX_FACES = 100_000
 """Faces of the largest mesh that is cut."""
 _FULL: Mapping[str, object] = {
     "maxConvexHulls": 16,
@@ -33,7 +33,7 @@ _NEAR = 0.01
 """Part of the mesh's size: pieces nearer to it than this are good."""
 _FEW = 96
 """Faces of a thin surface that sheets are tried on first: they take a hundredth of a second."""
-MOST_SHEETED = 20_000
+MAX_SHEETED = 20_000
 """Faces."""
 _THIN = 0.03
 """Part of its size that half a wall's thickness is at most where sheets may do better than voxels."""
@@ -54,12 +54,12 @@ def decompose(
         closed: whether the surface has an inside; what has none becomes a wall of a few hundredths of its size.
         coarse: into fewer pieces, which takes a fraction of the time.
     """
-    if len(faces) > MOST_FACES:
+    if len(faces) > MAX_FACES:
         return None
-    return _cut(points, faces, hull, closed, coarse) or None
+    return _candidates(points, faces, hull, closed, coarse) or None
 
 
-def _cut(points: _Points, faces: _Faces, hull: Hull, closed: bool, coarse: bool) -> list[_Points]:
+def _candidates(points: _Points, faces: _Faces, hull: Hull, closed: bool, coarse: bool) -> list[_Points]:
     """Whichever is nearer to the mesh; voxels, which leave no hollow in a wall, unless sheets are so by far."""
     size = float(np.ptp(points, axis=0).max())
     triangles = points[faces]
@@ -67,14 +67,14 @@ def _cut(points: _Points, faces: _Faces, hull: Hull, closed: bool, coarse: bool)
     if is_shell and len(faces) <= _FEW:
         sheets = _solids(shell_pieces(points, faces, closed=closed), hull)
         if surface_error(triangles, sheets, closed=closed) < _NEAR * size:
-            return _covering(hull, sheets)
+            return _with_hull_corners(hull, sheets)
     voxels = _solids(_voxels(points, faces, size, closed=closed, coarse=coarse), hull)
     from_voxels = surface_error(triangles, voxels, closed=closed) if len(voxels) > 1 else np.inf
-    if is_shell and not coarse and from_voxels > _NEAR * size and len(faces) <= MOST_SHEETED:
+    if is_shell and not coarse and from_voxels > _NEAR * size and len(faces) <= MAX_SHEETED:
         sheets = _solids(shell_pieces(points, faces, closed=closed), hull)
         if 2 * surface_error(triangles, sheets, closed=closed) < from_voxels:
-            return _covering(hull, sheets)
-    return _covering(hull, voxels) if len(voxels) > 1 else []
+            return _with_hull_corners(hull, sheets)
+    return _with_hull_corners(hull, voxels) if len(voxels) > 1 else []
 
 
 def is_thin(triangles: _Points, size: float) -> bool:
@@ -89,17 +89,17 @@ def _voxels(points: _Points, faces: _Faces, size: float, *, closed: bool, coarse
     middle = points.mean(axis=0)
     numbered = np.column_stack([np.full(len(faces), 3), faces]).astype(np.uint32)
     settings = _COARSE if coarse else _FULL
-    with muted():
+    with native_output_hidden():
         # A wall without thickness must not be shrunk onto its surface: nothing would be left of it.
         found = compute_vhacd((points - middle) / size, numbered.ravel(), shrinkWrap=closed, **settings)
     return [corners * size + middle for corners, _ in found]
 
 
 def _solids(pieces: list[_Points], hull: Hull) -> list[Hull]:
-    return [solid for piece in pieces if (solid := hull_of(_within(hull, piece))) is not None]
+    return [solid for piece in pieces if (solid := hull_of(_clip_to_hull(hull, piece))) is not None]
 
 
-def _within(hull: Hull, corners: _Points) -> _Points:
+def _clip_to_hull(hull: Hull, corners: _Points) -> _Points:
     """Corners of a piece, those that stick out of the hull moved back onto it."""
     for _ in range(_SWEEPS):
         out = np.flatnonzero((corners @ hull.normals.T - hull.offsets).max(axis=0) > 0.0)
@@ -108,7 +108,7 @@ def _within(hull: Hull, corners: _Points) -> _Points:
     return corners
 
 
-def _covering(hull: Hull, solids: list[Hull]) -> list[_Points]:
+def _with_hull_corners(hull: Hull, solids: list[Hull]) -> list[_Points]:
     """Each piece with the corners of the hull that are nearest to it."""
-    nearest = np.argmin([solid.heights(hull.corners) for solid in solids], axis=0)
+    nearest = np.argmin([solid.signed_distances(hull.corners) for solid in solids], axis=0)
     return [np.concatenate([solid.corners, hull.corners[nearest == i]]) for i, solid in enumerate(solids)]

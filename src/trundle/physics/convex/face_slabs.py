@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from .hulls import area_around
-from .mesh_components import WELD, islands_of
+from .hulls import convex_hull_area
+from .mesh_components import WELD, connected_components
 from .patches import convex_patches
 
 _Points = NDArray[np.float64]
@@ -31,7 +31,7 @@ def is_convex_layer(points: _Points, faces: _Faces, own: _Points) -> bool:
     normals = np.cross(b - a, c - a)
     areas = np.linalg.norm(normals, axis=1)
     widest = int(areas.argmax())
-    return area_around(own, normals[widest] / areas[widest]) <= areas.sum() / 2 * _FILLS
+    return convex_hull_area(own, normals[widest] / areas[widest]) <= areas.sum() / 2 * _FILLS
 
 
 def slabs_of(points: _Points, faces: _Faces, own: _Points) -> list[_Points]:
@@ -53,7 +53,7 @@ def slabs_of(points: _Points, faces: _Faces, own: _Points) -> list[_Points]:
     for members in _polygons(faces, normals, np.einsum("ij,ij->i", normals, a)):
         normal = normals[members[0]]
         corners = points[np.unique(faces[members])]
-        if area_around(corners, normal) <= areas[members].sum() / 2 * 1.01:
+        if convex_hull_area(corners, normal) <= areas[members].sum() / 2 * 1.01:
             slabs.append(np.concatenate([corners, corners - normal * thickness]))
             is_left[members] = False
     patches = convex_patches(points, faces[is_left], depth=thickness)
@@ -72,7 +72,7 @@ def _polygons(faces: _Faces, normals: _Points, offsets: _Points) -> list[_Faces]
     # A corner is another one in each plane: what hangs together over an edge between planes does not count.
     corners, numbered = np.unique(faces + planes[:, None] * (int(faces.max()) + 1), return_inverse=True)
     numbered = numbered.reshape(faces.shape)
-    labels = islands_of(len(corners), numbered)[numbered[:, 0]]
+    labels = connected_components(len(corners), numbered)[numbered[:, 0]]
     order = np.argsort(labels, kind="stable")
     starts = np.flatnonzero(np.diff(labels[order])) + 1
     return [members for members in np.split(order, starts) if len(members) > 1]

@@ -5,7 +5,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from .native_output import muted
+from .native_output import native_output_hidden
 
 _Points = NDArray[np.float64]
 _Numbers = NDArray[np.intp]
@@ -37,7 +37,7 @@ class Hull(Struct, frozen=True):
     volume: float
     """[m³]"""
 
-    def heights(self, points: _Points) -> _Points:
+    def signed_distances(self, points: _Points) -> _Points:
         """(N,) how far above the highest face that they are above points (N, 3) are; below zero: inside [m]."""
         highest = np.full(len(points), -np.inf)
         for normal, offset in zip(self.normals, self.offsets, strict=True):
@@ -54,7 +54,7 @@ def hull_of(points: _Points) -> Hull | None:
     geom = spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, contype=1)
     geom.meshname = "hull"
     try:
-        with muted():
+        with native_output_hidden():
             model = spec.compile()
     except ValueError:
         return None
@@ -90,7 +90,7 @@ def area_of(triangles: _Points) -> float:
     return float(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum()) / 2
 
 
-def distance(
+def hausdorff_distance(
     from_triangles: _Points, to_triangles: _Points, *, probes: int = _PROBES, samples: int = _SAMPLES
 ) -> float:
     """[m] From the point of one surface (F, 3, 3) that is farthest from another (G, 3, 3), to that; about so.
@@ -101,7 +101,7 @@ def distance(
         probes: points of the first that are tried.
         samples: points that stand for the second.
     """
-    points, _ = spread(from_triangles, probes)
+    points, _ = sample_surface(from_triangles, probes)
     return float(_distances_to(points, to_triangles, samples).max())
 
 
@@ -109,7 +109,7 @@ def _distances_to(probes: _Points, triangles: _Points, count: int = _SAMPLES) ->
     """(N,) [m] from points (N, 3) to a surface; about so."""
     if len(triangles) <= _FEW:
         return _distances(probes[:, None], triangles[None]).min(axis=1)
-    samples, owners = spread(triangles, count)
+    samples, owners = sample_surface(triangles, count)
     squares = (samples * samples).sum(axis=1) - 2 * probes @ samples.T
     nearest = np.argpartition(squares, min(_NEAREST, len(samples)) - 1, axis=1)[:, :_NEAREST]
     return _distances(probes[:, None], triangles[owners[nearest]]).min(axis=1)
@@ -119,14 +119,14 @@ def surface_error(triangles: _Points, solids: list[Hull], *, closed: bool) -> fl
     """[m] How far what solids together look like is from a surface (F, 3, 3) at most, either way; about so."""
     if not solids:
         return np.inf
-    samples, _ = spread(triangles, _SURVEY)
-    missing = float(_over(solids, samples).max())
-    probes, owners = spread(np.concatenate([solid.triangles for solid in solids]), _SURVEY)
+    samples, _ = sample_surface(triangles, _SURVEY)
+    missing = float(_signed_distances(solids, samples).max())
+    probes, owners = sample_surface(np.concatenate([solid.triangles for solid in solids]), _SURVEY)
     owner = np.repeat(np.arange(len(solids)), [len(solid.triangles) for solid in solids])[owners]
     # Where one piece goes on as another, and what is inside the surface, is not to be seen.
     hidden = np.zeros(len(probes), dtype=bool)
     for i, solid in enumerate(solids):
-        hidden |= (owner != i) & (solid.heights(probes) < _TOUCH)
+        hidden |= (owner != i) & (solid.signed_distances(probes) < _TOUCH)
     probes = probes[~hidden]
     away = _distances_to(probes, triangles)
     for i in np.argsort(-away, kind="stable"):
@@ -135,11 +135,11 @@ def surface_error(triangles: _Points, solids: list[Hull], *, closed: bool) -> fl
     return max(missing, 0.0)
 
 
-def _over(solids: list[Hull], points: _Points) -> _Points:
+def _signed_distances(solids: list[Hull], points: _Points) -> _Points:
     """(N,) how far points (N, 3) are outside all of some solids; below zero: in one of them [m]."""
     heights = np.full(len(points), np.inf)
     for solid in solids:
-        np.minimum(heights, solid.heights(points), out=heights)
+        np.minimum(heights, solid.signed_distances(points), out=heights)
     return heights
 
 
@@ -152,7 +152,7 @@ def _is_inside(point: _Points, triangles: _Points) -> bool:
     return float(np.arctan2(over, la * lb * lc + ab * lc + bc * la + ca * lb).sum()) > np.pi
 
 
-def spread(triangles: _Points, count: int) -> tuple[_Points, _Numbers]:
+def sample_surface(triangles: _Points, count: int) -> tuple[_Points, _Numbers]:
     """About `count` points evenly on a surface (F, 3, 3), the same every time, and which triangle each is on."""
     edges = triangles[:, 1:] - triangles[:, :1]
     areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
@@ -179,7 +179,7 @@ def _distances(points: _Points, triangles: _Points) -> _Points:
     return np.where((sides > 0).all(axis=-1), np.abs((normals * arms[..., 0, :]).sum(axis=-1)), to_edges)
 
 
-def area_around(corners: _Points, normal: _Points) -> float:
+def convex_hull_area(corners: _Points, normal: _Points) -> float:
     """[m²] Of the convex polygon around points (N, 3), seen along a normal: Andrew's monotone chain."""
     across = np.cross(normal, [1.0, 0.0, 0.0] if abs(normal[0]) < 0.9 else [0.0, 1.0, 0.0])
     across /= np.linalg.norm(across)

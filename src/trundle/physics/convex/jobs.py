@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from trundle.diagnostics import UsageError
 
-from .pieces import ConvexPieces, HollowPart, cut_part
+from .pieces import ConcavePart, ConvexPieces, decompose_part
 from .process import DecompositionProcess
 from .progress import DecompositionProgress
 
@@ -18,11 +18,11 @@ SHORT_S = 1.5
 _WORKER_S = 0.5
 """[s] Work that is worth a process of its own."""
 _TICK_S = 0.2
-_Answer: TypeAlias = tuple[HollowPart, ConvexPieces | None] | None
+_Answer: TypeAlias = tuple[ConcavePart, ConvexPieces | None] | None
 """None: Ctrl-C has ended a process."""
 
 
-def cut_parts(parts: Sequence[HollowPart]) -> Generator[tuple[HollowPart, ConvexPieces | None]]:
+def decompose_parts(parts: Sequence[ConcavePart]) -> Generator[tuple[ConcavePart, ConvexPieces | None]]:
     """Cut parts and yield each as it is done; None where it cannot be cut.
 
     Raises:
@@ -35,10 +35,10 @@ def cut_parts(parts: Sequence[HollowPart]) -> Generator[tuple[HollowPart, Convex
     try:
         if sum(seconds) <= SHORT_S or not sys.executable:
             for part in parts:
-                yield part, _cut_here(part)
+                yield part, _decompose_in_process(part)
                 progress.done(part.seconds)
             return
-        for part, pieces in _cut_there(parts, count, progress):
+        for part, pieces in _decompose_in_workers(parts, count, progress):
             progress.done(part.seconds)
             yield part, pieces
     finally:
@@ -49,18 +49,18 @@ def _processors() -> int:
     return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
 
 
-def _cut_here(part: HollowPart) -> ConvexPieces | None:
+def _decompose_in_process(part: ConcavePart) -> ConvexPieces | None:
     try:
-        return cut_part(part)
+        return decompose_part(part)
     except Exception:  # whatever a mesh may be, its hull stands for it
         return None
 
 
-def _cut_there(
-    parts: Sequence[HollowPart], count: int, progress: DecompositionProgress
-) -> Generator[tuple[HollowPart, ConvexPieces | None]]:
+def _decompose_in_workers(
+    parts: Sequence[ConcavePart], count: int, progress: DecompositionProgress
+) -> Generator[tuple[ConcavePart, ConvexPieces | None]]:
     # The longest first: at the end no processor waits for one of them.
-    todo: SimpleQueue[HollowPart] = SimpleQueue()
+    todo: SimpleQueue[ConcavePart] = SimpleQueue()
     for part in sorted(parts, key=lambda part: -part.seconds):
         todo.put(part)
     done: SimpleQueue[_Answer] = SimpleQueue()
@@ -76,7 +76,7 @@ def _cut_there(
             worker.close()
 
 
-def _work(worker: DecompositionProcess, todo: SimpleQueue[HollowPart], done: SimpleQueue[_Answer]) -> None:
+def _work(worker: DecompositionProcess, todo: SimpleQueue[ConcavePart], done: SimpleQueue[_Answer]) -> None:
     """Have a process cut what is left, until nothing is."""
     while True:
         try:
@@ -84,13 +84,13 @@ def _work(worker: DecompositionProcess, todo: SimpleQueue[HollowPart], done: Sim
         except Empty:
             return
         try:
-            done.put((part, worker.cut(part) if worker.has_started else _cut_here(part)))
+            done.put((part, worker.decompose(part) if worker.has_started else _decompose_in_process(part)))
         except InterruptedError:
             done.put(None)
             return
 
 
-def _next(done: SimpleQueue[_Answer], progress: DecompositionProgress) -> tuple[HollowPart, ConvexPieces | None]:
+def _next(done: SimpleQueue[_Answer], progress: DecompositionProgress) -> tuple[ConcavePart, ConvexPieces | None]:
     while True:
         try:
             answer = done.get(timeout=_TICK_S)

@@ -20,7 +20,7 @@ def welded(vertices: _Points, faces: _Faces) -> tuple[_Points, _Faces]:
     return points, faces[area > 1e-12]
 
 
-def islands_of(count: int, faces: _Faces) -> _Faces:
+def connected_components(count: int, faces: _Faces) -> _Faces:
     """For each corner the smallest number of a corner that it hangs together with."""
     labels = np.arange(count)
     while True:

@@ -15,9 +15,19 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from .cache import find_pieces, keep_pieces
-from .jobs import cut_parts
-from .pieces import MOST_PIECES, MOST_SLABS, ConvexPieces, Detail, HollowPart, Split, filled, in_one, split
+from .cache import load_pieces, save_pieces
+from .jobs import decompose_parts
+from .pieces import (
+    MAX_PIECES,
+    MAX_SLABS,
+    ConcavePart,
+    ConvexPieces,
+    Detail,
+    MeshSplit,
+    as_single_hull,
+    hull_of_part,
+    split_mesh,
+)
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
@@ -27,18 +37,18 @@ MeshRequest: TypeAlias = tuple[_Points, _Faces, bool]
 """Vertices (N, 3) [m], faces (M, 3) counter-clockwise from outside, and whether it never moves."""
 FULL = "TRUNDLE_FULL_DECOMPOSITION"
 """Environment variable that lets cutting take as long as it takes."""
-MOST_SECONDS = 120.0
+MAX_SECONDS = 120.0
 """[s] That one processor cuts for a world; what comes then is cut coarsely."""
-MOST_SECONDS_A_MESH = 40.0
-_MOST_KNOWN = 1024
+MAX_SECONDS_A_MESH = 40.0
+_MAX_KNOWN = 1024
 
-_splits: dict[bytes, Split] = {}
+_splits: dict[bytes, MeshSplit] = {}
 """By mesh; the longest unused first."""
 _known: dict[str, ConvexPieces] = {}
 """By part, likewise."""
 
 
-class CutMesh(Struct, frozen=True):
+class DecomposedMesh(Struct, frozen=True):
     """Convex pieces of a mesh."""
 
     pieces: ConvexPieces
@@ -48,66 +58,66 @@ class CutMesh(Struct, frozen=True):
     """Some part is filled, for it could not be cut."""
 
 
-class Decomposition:
+class WorldDecomposition:
     """How the meshes of one world are cut."""
 
     def __init__(self) -> None:
-        self._plans: dict[bytes, tuple[Split, list[HollowPart]]] = {}
-        self._chosen: dict[str, HollowPart] = {}
+        self._plans: dict[bytes, tuple[MeshSplit, list[ConcavePart]]] = {}
+        self._chosen: dict[str, ConcavePart] = {}
         """How a part is cut, by how it would be if there were time."""
         self._seconds = 0.0
         self._slabs = 0
         self._failed: dict[str, ConvexPieces] = {}
 
-    def cut_ahead(self, meshes: Iterable[MeshRequest]) -> None:
+    def decompose_all(self, meshes: Iterable[MeshRequest]) -> None:
         """Cut meshes, in the order of the file, in several processes where it takes long."""
-        wanted: dict[str, HollowPart] = {}
+        wanted: dict[str, ConcavePart] = {}
         for vertices, faces, fixed in meshes:
             _, parts = self._plan(vertices, faces, fixed=fixed)
             wanted.update((part.key, part) for part in parts)
         todo = {key: part for key, part in wanted.items() if key not in self._failed and self._find(part) is None}
-        with closing(cut_parts(list(todo.values()))) as done:
+        with closing(decompose_parts(list(todo.values()))) as done:
             for part, pieces in done:
                 if pieces is None:
-                    self._failed[part.key] = filled(part)
+                    self._failed[part.key] = hull_of_part(part)
                     continue
-                _remember(_known, part.key, pieces)
+                _cache(_known, part.key, pieces)
                 if part.detail is not Detail.HULL:
-                    keep_pieces(part.key, pieces)
+                    save_pieces(part.key, pieces)
 
-    def pieces_of(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> CutMesh:
+    def pieces_of(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> DecomposedMesh:
         """Find the convex pieces of a mesh; what was not cut ahead is cut now."""
         whole, parts = self._plan(vertices, faces, fixed=fixed)
         pieces = ConvexPieces(list(whole.corners), [])
-        for (lowest, _), part in zip(whole.hollow, parts, strict=True):
+        for (lowest, _), part in zip(whole.concave, parts, strict=True):
             if self._find(part) is None and part.key not in self._failed:
-                self.cut_ahead([(vertices, faces, fixed)])
+                self.decompose_all([(vertices, faces, fixed)])
             cut = self._find(part) or self._failed[part.key]
             pieces.corners.extend(corners + lowest for corners in cut.corners)
-            pieces.misfits.extend(cut.misfits)
+            pieces.errors.extend(cut.errors)
         is_coarse = any(part.detail is Detail.COARSE for part in parts)
-        return CutMesh(pieces, is_coarse, any(part.key in self._failed for part in parts))
+        return DecomposedMesh(pieces, is_coarse, any(part.key in self._failed for part in parts))
 
-    def _plan(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> tuple[Split, list[HollowPart]]:
+    def _plan(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> tuple[MeshSplit, list[ConcavePart]]:
         """Find what a mesh consists of, and how its hollow parts are cut."""
         digest = hashlib.sha256(b"%d %d " % (fixed, len(vertices)) + vertices.tobytes() + faces.tobytes()).digest()
         if digest not in self._plans:
-            whole = _splits.get(digest) or split(vertices, faces, fixed=fixed)
-            _remember(_splits, digest, whole)
-            if len(whole.corners) > MOST_PIECES and len(whole.corners) > MOST_SLABS - self._slabs:
-                whole = in_one(vertices, faces)
+            whole = _splits.get(digest) or split_mesh(vertices, faces, fixed=fixed)
+            _cache(_splits, digest, whole)
+            if len(whole.corners) > MAX_PIECES and len(whole.corners) > MAX_SLABS - self._slabs:
+                whole = as_single_hull(vertices, faces)
             self._slabs += len(whole.corners)
-            self._plans[digest] = whole, self._chosen_parts([part for _, part in whole.hollow])
+            self._plans[digest] = whole, self._chosen_parts([part for _, part in whole.concave])
         return self._plans[digest]
 
-    def _chosen_parts(self, parts: Iterable[HollowPart]) -> list[HollowPart]:
+    def _chosen_parts(self, parts: Iterable[ConcavePart]) -> list[ConcavePart]:
         """Choose how the parts of a mesh are cut, while there is time."""
         before_s = self._seconds
-        chosen: list[HollowPart] = []
+        chosen: list[ConcavePart] = []
         for part in parts:
             key = part.key
             if key not in self._chosen:
-                left_s = min(MOST_SECONDS - self._seconds, MOST_SECONDS_A_MESH - (self._seconds - before_s))
+                left_s = min(MAX_SECONDS - self._seconds, MAX_SECONDS_A_MESH - (self._seconds - before_s))
                 if part.detail is Detail.FULL and part.seconds > left_s and FULL not in os.environ:
                     part = replace(part, detail=Detail.COARSE)
                 self._chosen[key] = part
@@ -115,28 +125,28 @@ class Decomposition:
             chosen.append(self._chosen[key])
         return chosen
 
-    def _find(self, part: HollowPart) -> ConvexPieces | None:
+    def _find(self, part: ConcavePart) -> ConvexPieces | None:
         pieces = _known.get(part.key)
         if pieces is None and part.detail is not Detail.HULL:
-            pieces = find_pieces(part.key)
+            pieces = load_pieces(part.key)
         if pieces is not None:
-            _remember(_known, part.key, pieces)
+            _cache(_known, part.key, pieces)
         return pieces
 
 
-def forget() -> None:
+def clear_cache() -> None:
     """Let go of what is known in memory."""
     _splits.clear()
     _known.clear()
 
 
-def _remember(memory: dict[_K, _V], key: _K, value: _V) -> None:
+def _cache(memory: dict[_K, _V], key: _K, value: _V) -> None:
     memory.pop(key, None)
     memory[key] = value
-    if len(memory) > _MOST_KNOWN:
+    if len(memory) > _MAX_KNOWN:
         del memory[next(iter(memory))]
 
 
 def convex_pieces(vertices: _Points, faces: _Faces, *, fixed: bool) -> ConvexPieces:
     """Cut one mesh up, or find how it was."""
-    return Decomposition().pieces_of(vertices, faces, fixed=fixed).pieces
+    return WorldDecomposition().pieces_of(vertices, faces, fixed=fixed).pieces

@@ -6,21 +6,21 @@ import threading
 from collections.abc import Generator
 from contextlib import ExitStack, contextmanager
 
-_THEIRS = (b"qhull", b"vhacd")
+_STREAMS = (b"qhull", b"vhacd")
 _swap = threading.Lock()
 
 
 @contextmanager
-def muted() -> Generator[None]:
+def native_output_hidden() -> Generator[None]:
     """Hold back what is printed, and print afterwards what another thread wrote meanwhile."""
     with _swap, ExitStack() as streams:
         for number in (1, 2):
-            streams.enter_context(_held_back(number))
+            streams.enter_context(_redirected(number))
         yield
 
 
 @contextmanager
-def _held_back(number: int) -> Generator[None]:
+def _redirected(number: int) -> Generator[None]:
     try:
         screen = os.dup(number)
     except OSError:  # it was closed: `trundle … 2>&-`
@@ -35,7 +35,7 @@ def _held_back(number: int) -> Generator[None]:
             os.close(screen)
             caught.seek(0)
             words = caught.read()
-            if not any(name in words.lower() for name in _THEIRS):
+            if not any(name in words.lower() for name in _STREAMS):
                 _write_all(number, words)
 
 

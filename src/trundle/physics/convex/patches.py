@@ -10,8 +10,8 @@ _TOLERANCE = 1e-4
 """[m] By which a patch's hull may be off its faces."""
 _STRAIGHT = 1e-4
 """Sine of the angle by which an outline may turn the wrong way."""
-_MOST_CORNERS = 12
-_MOST_FACES = 16
+_MAX_CORNERS = 12
+_MAX_FACES = 16
 _ROUNDS = 6
 
 
@@ -57,8 +57,8 @@ def _joinable(points: _Points, patches: Patches, depth: float) -> tuple[_Numbers
     pairs = _neighbours(patches)
     first, edge, second, other = pairs.T
     pairs = pairs[
-        (patches.sizes[first] + patches.sizes[second] - 2 <= _MOST_CORNERS)
-        & (patches.counts[first] + patches.counts[second] <= _MOST_FACES)
+        (patches.sizes[first] + patches.sizes[second] - 2 <= _MAX_CORNERS)
+        & (patches.counts[first] + patches.counts[second] <= _MAX_FACES)
     ]
     first, edge, second, other = pairs.T
     # … p, u, v, q … and … s, v, u, t …

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from contextlib import suppress
 
-from .pieces import ConvexPieces, HollowPart
+from .pieces import ConcavePart, ConvexPieces
 
 _INTERRUPTED = (-signal.SIGINT, 0xC000013A)
 """Exit codes of what Ctrl-C ends, also on Windows."""
@@ -49,7 +49,7 @@ class DecompositionProcess:
                 self._raise_if_interrupted()
         return self._is_ready
 
-    def cut(self, part: HollowPart) -> ConvexPieces | None:
+    def decompose(self, part: ConcavePart) -> ConvexPieces | None:
         """Have a part cut; None where it cannot be.
 
         Raises:

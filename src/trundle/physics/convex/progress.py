@@ -29,7 +29,7 @@ class DecompositionProgress:
         self._width = 0
         self._in_log = self._stream is not None and not self._on_terminal and self._expected_s > _LONG_S
         if self._in_log:
-            what = f"cutting {self._count} hollow meshes into convex pieces, about {_said(self._expected_s)}"
+            what = f"cutting {self._count} hollow meshes into convex pieces, about {_format_duration(self._expected_s)}"
             self._log(f"{what}; that is done once")
         self.show()
 
@@ -50,7 +50,7 @@ class DecompositionProgress:
     def show(self) -> None:
         """Redraw the line."""
         if self._on_terminal and self._expected_s > _QUICK_S:
-            text = f"cutting meshes: {self._finished} of {self._count}, about {_said(self.left_s)} left"
+            text = f"cutting meshes: {self._finished} of {self._count}, about {_format_duration(self.left_s)} left"
             self._stream.write(f"\r{text:<{self._width}}")
             self._stream.flush()
             self._width = len(text)
@@ -62,12 +62,12 @@ class DecompositionProgress:
             self._stream.flush()
             self._width = 0
         if self._in_log:
-            passed = _said(time.monotonic() - self._started_s)
+            passed = _format_duration(time.monotonic() - self._started_s)
             self._log(f"cut {self._finished} of {self._count} hollow meshes in {passed}")
 
     def _log(self, text: str) -> None:
         print(text, file=self._stream, flush=True)
 
 
-def _said(seconds: float) -> str:
+def _format_duration(seconds: float) -> str:
     return f"{max(round(seconds), 1)} s" if seconds < 100 else f"{round(seconds / 60)} min"

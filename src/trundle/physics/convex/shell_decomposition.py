@@ -9,7 +9,7 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
-from .hulls import area_around, area_of, distance, hull_of, volume_of
+from .hulls import area_of, convex_hull_area, hausdorff_distance, hull_of, volume_of
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
@@ -86,11 +86,11 @@ class _Surface:
             heights = self._points @ normal - self._points[self._faces[seed, 0]] @ normal
             facing = self._normals @ normal
             alike = (facing if self._closed else np.abs(facing)) >= _STEEPEST
-            patch = self._around(seed, free & alike & (np.abs(heights) <= bend)[self._faces].all(axis=1))
+            patch = self._connected(seed, free & alike & (np.abs(heights) <= bend)[self._faces].all(axis=1))
             free[patch] = False
             yield from self._walls(patch, normal, bend)
 
-    def _around(self, seed: int, wanted: NDArray[np.bool_]) -> _Faces:
+    def _connected(self, seed: int, wanted: NDArray[np.bool_]) -> _Faces:
         """The wanted faces that hang together with one of them."""
         found, todo = {seed}, [seed]
         while todo:
@@ -117,11 +117,11 @@ class _Surface:
 
     def _is_full(self, patch: _Faces, corners: _Points, normal: _Points) -> bool:
         seen = self._areas[patch] @ np.abs(self._normals[patch] @ normal)
-        return area_around(corners, normal) <= _WASTE * float(seen)
+        return convex_hull_area(corners, normal) <= _WASTE * float(seen)
 
     def _is_near(self, wall: _Points, bend: float) -> bool:
         solid = hull_of(wall)
         if solid is None:
             return True
-        away = distance(solid.triangles, self._points[self._faces], probes=_PROBES, samples=_SAMPLES)
+        away = hausdorff_distance(solid.triangles, self._points[self._faces], probes=_PROBES, samples=_SAMPLES)
         return away <= bend + self._thickness

@@ -22,7 +22,7 @@ def main() -> None:
         ctypes.CDLL(None).prctl(_DIE_WITH_PARENT, signal.SIGKILL)
     parts, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # where V-HACD may print
-    from .pieces import cut_part
+    from .pieces import decompose_part
 
     pickle.dump(os.getpid(), answers)
     answers.flush()
@@ -32,7 +32,7 @@ def main() -> None:
         except EOFError:
             return
         try:
-            answer = cut_part(part)
+            answer = decompose_part(part)
         except Exception:  # whatever a mesh may be, its hull stands for it
             answer = None
         pickle.dump(answer, answers)

@@ -61,12 +61,12 @@ class ContactLaws:
         self._always = slides or decays or bool(self._head[4:7].any())
 
     @property
-    def acts(self) -> bool:
+    def is_active(self) -> bool:
         """Whether any law has anything to do."""
-        return self._always or self.is_watched
+        return self._always or self.prevents_sleep
 
     @property
-    def is_watched(self) -> bool:
+    def prevents_sleep(self) -> bool:
         """Whether nothing may sleep, for surfaces move."""
         return bool(self._head[2])
 
@@ -79,10 +79,10 @@ class ContactLaws:
         if self._head[8] > 0.0:
             self._model.opt.enableflags |= _SPECULATIVE
 
-    def set_grips(self, grips: "Mapping[int, LinkGrip]") -> None:
+    def set_surface_motions(self, motions: "Mapping[int, LinkGrip]") -> None:
         """Have the surfaces of bodies, by number, move and slip like this; all others are ordinary."""
         self._motions[:] = 0.0
-        for body, grip in grips.items():
-            self._motions[body] = grip.row
-        self._head[2] = self._model.flg_surfacevel = bool(grips)
-        set_needstage(self._model, solved=bool(grips) or self._head[6] > 0)
+        for body, motion in motions.items():
+            self._motions[body] = motion.row
+        self._head[2] = self._model.flg_surfacevel = bool(motions)
+        set_needstage(self._model, solved=bool(motions) or self._head[6] > 0)

@@ -10,21 +10,21 @@ from ..compile.compiled_world import CompiledWorld
 from .contact import Contact, contacts_of
 from .engine_snapshot import ScratchEngine
 
-_Marks = NDArray[np.bool_]
+_Mask = NDArray[np.bool_]
 _AWAKE = int(mujoco.mjtSleepState.mjS_AWAKE)
 
 
 class ContactQuery:
     """Reads contacts; MuJoCo keeps none of what sleeps, so these are found beside it, once for as long as it sleeps."""
 
-    def __init__(self, compiled: CompiledWorld, data: mujoco.MjData, looker: ScratchEngine) -> None:
+    def __init__(self, compiled: CompiledWorld, data: mujoco.MjData, scratch: ScratchEngine) -> None:
         self._compiled = compiled
         self._data = data
-        self._looker = looker
+        self._scratch = scratch
         self._bodies = compiled.model.geom_bodyid
-        self._marks: dict[frozenset[str], _Marks] = {}
+        self._geom_masks: dict[frozenset[str], _Mask] = {}
         """Which geoms are of collisions of these names; those that were asked for."""
-        self._still: tuple[bytes, list[Contact]] = (b"", [])
+        self._sleeping_contacts: tuple[bytes, list[Contact]] = (b"", [])
         """Who slept where at the last look, and what touched among them."""
 
     def contacts(self, among: frozenset[str] | None, asleep: Callable[[], NDArray[np.float64]] | None) -> list[Contact]:
@@ -34,24 +34,24 @@ class ContactQuery:
             among: names of collisions that something touches; None: all.
             asleep: the engine's state, where anything sleeps.
         """
-        marks = None if among is None else self._marked(among)
+        marks = None if among is None else self._geom_mask(among)
         if asleep is None:
-            return contacts_of(self._compiled, self._compiled.model, self._data, self._chosen(marks, None))
+            return contacts_of(self._compiled, self._compiled.model, self._data, self._contact_indices(marks, None))
         awake = self._data.body_awake[self._bodies] == _AWAKE
-        found = contacts_of(self._compiled, self._compiled.model, self._data, self._chosen(marks, awake))
+        found = contacts_of(self._compiled, self._compiled.model, self._data, self._contact_indices(marks, awake))
         return found + [c for c in self._sleeping(awake, asleep) if among is None or among & set(c.collisions)]
 
-    def contacts_beside(self, among: frozenset[str] | None, state: NDArray[np.float64]) -> list[Contact]:
+    def contacts_of_state(self, among: frozenset[str] | None, state: NDArray[np.float64]) -> list[Contact]:
         """Every contact of the engine's state, where its data holds none; as `contacts`."""
-        found = self._looker.contacts(state, np.zeros(len(self._bodies), dtype=bool))
+        found = self._scratch.contacts(state, np.zeros(len(self._bodies), dtype=bool))
         return [c for c in found if among is None or among & set(c.collisions)]
 
-    def _marked(self, collisions: frozenset[str]) -> _Marks:
-        if collisions not in self._marks:
-            self._marks[collisions] = np.array([name in collisions for name in self._compiled.geom_collisions])
-        return self._marks[collisions]
+    def _geom_mask(self, collisions: frozenset[str]) -> _Mask:
+        if collisions not in self._geom_masks:
+            self._geom_masks[collisions] = np.array([name in collisions for name in self._compiled.geom_collisions])
+        return self._geom_masks[collisions]
 
-    def _chosen(self, marks: _Marks | None, awake: _Marks | None) -> NDArray[np.intp]:
+    def _contact_indices(self, marks: _Mask | None, awake: _Mask | None) -> NDArray[np.intp]:
         """The numbers of the contacts with a marked geom and one that is awake."""
         geoms = self._data.contact.geom
         chosen = np.ones(len(geoms), dtype=bool)
@@ -60,10 +60,10 @@ class ContactQuery:
                 chosen &= each[geoms].any(axis=1)
         return np.flatnonzero(chosen)
 
-    def _sleeping(self, awake: _Marks, state: Callable[[], NDArray[np.float64]]) -> list[Contact]:
+    def _sleeping(self, awake: _Mask, state: Callable[[], NDArray[np.float64]]) -> list[Contact]:
         data = self._data
         asleep = data.body_awake != _AWAKE
         key = b"".join(each.tobytes() for each in (asleep, data.xpos[asleep], data.xquat[asleep]))
-        if key != self._still[0]:
-            self._still = (key, self._looker.contacts(state(), awake))
-        return self._still[1]
+        if key != self._sleeping_contacts[0]:
+            self._sleeping_contacts = (key, self._scratch.contacts(state(), awake))
+        return self._sleeping_contacts[1]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..compile.compiled_world import CompiledWorld
 from ..compile.law_tables import follow_friction
 from .contact import Contact, contacts_of
-from .motors import MotorOrders
+from .motors import MotorCommands
 from .separation import find_deep, separate
 from .state_reader import StateReader
 
@@ -27,7 +27,7 @@ class ScratchEngine:
         self._lock = Lock()
 
     @cached_property
-    def _second(self) -> tuple[mujoco.MjModel, mujoco.MjData, StateReader]:
+    def _engine(self) -> tuple[mujoco.MjModel, mujoco.MjData, StateReader]:
         """Another engine, made when it is first needed."""
         model = copy.copy(self._compiled.model)
         model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
@@ -39,15 +39,15 @@ class ScratchEngine:
     def poses(self, qpos: _Array, qvel: _Array) -> _Array:
         """`StateReader.link_poses` of a state."""
         with self._lock:
-            _, _, reader = self._second
-            reader.show(qpos, qvel)
+            _, _, reader = self._engine
+            reader.set_state(qpos, qvel)
             return reader.link_poses()
 
     def twists(self, qpos: _Array, qvel: _Array) -> _Array:
         """`StateReader.link_twists` of a state."""
         with self._lock:
-            _, _, reader = self._second
-            reader.show(qpos, qvel)
+            _, _, reader = self._engine
+            reader.set_state(qpos, qvel)
             return reader.link_twists()
 
     def contacts(self, state: _Array, apart: NDArray[np.bool_]) -> list[Contact]:
@@ -64,15 +64,15 @@ class ScratchEngine:
             state: as mjSTATE_INTEGRATION has it.
         """
         with self._lock:
-            model, data = self._placed(state)
+            model, data = self._set_state(state)
             return separate(model, data) if find_deep(model, data).any() else None
 
-    def _placed(self, state: _Array) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    def _set_state(self, state: _Array) -> tuple[mujoco.MjModel, mujoco.MjData]:
         """Put everything where a state has it, with the contacts there."""
-        model, data, reader = self._second
+        model, data, reader = self._engine
         mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
         mujoco.mj_fwdPosition(model, data)
-        reader.changed()
+        reader.invalidate()
         return model, data
 
     def reactions(self, state: _Array) -> _Array:
@@ -91,22 +91,22 @@ class ScratchEngine:
             return np.concatenate([forces, torques + np.cross(arms, forces)], axis=1)
 
     def _solve(self, state: _Array) -> tuple[mujoco.MjModel, mujoco.MjData]:
-        model, data, reader = self._second
+        model, data, reader = self._engine
         follow_friction(model, self._compiled.model)
-        MotorOrders.of(self._compiled.model).put(model)
+        MotorCommands.from_model(self._compiled.model).apply(model)
         model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
         mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
         mujoco.mj_forward(model, data)
-        reader.changed()
+        reader.invalidate()
         return model, data
 
 
 class EngineSnapshot:
     """What the engine held; nothing in it changes any more. Poses cost most, so they wait until they are wanted."""
 
-    def __init__(self, looker: ScratchEngine, reader: StateReader) -> None:
+    def __init__(self, scratch: ScratchEngine, reader: StateReader) -> None:
         """Take what the reader has before it."""
-        self._looker = looker
+        self._scratch = scratch
         self._reader = reader
         self._qpos, self._qvel = reader.state()
         self._efforts = reader.efforts()
@@ -129,9 +129,9 @@ class EngineSnapshot:
     @cached_property
     def poses(self) -> _Array:
         """(links, 7) of the link frames; see `StateReader.link_poses`."""
-        return self._looker.poses(self._qpos, self._qvel)
+        return self._scratch.poses(self._qpos, self._qvel)
 
     @cached_property
     def twists(self) -> _Array:
         """(links, 6) of the link frames; see `StateReader.link_twists`."""
-        return self._looker.twists(self._qpos, self._qvel)
+        return self._scratch.twists(self._qpos, self._qvel)

@@ -25,20 +25,20 @@ _HUGE = 1e10
 _NO_MOTORS = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
 
 
-class MotorOrders(Struct, frozen=True, eq=False):
+class MotorCommands(Struct, frozen=True, eq=False):
     """Orders of a model's motors, without the speeds and positions, which are in its data."""
 
-    most: NDArray[np.float64]
+    max_efforts: NDArray[np.float64]
     rates: NDArray[np.float64]
 
     @classmethod
-    def of(cls, model: mujoco.MjModel) -> "MotorOrders":
+    def from_model(cls, model: mujoco.MjModel) -> "MotorCommands":
         """Those of a model now."""
         return cls(model.tendon_frictionloss.copy(), find_table(model, "motors")[:, 1].copy())
 
-    def put(self, model: mujoco.MjModel) -> None:
+    def apply(self, model: mujoco.MjModel) -> None:
         """Tell them a model."""
-        model.tendon_frictionloss[:] = self.most
+        model.tendon_frictionloss[:] = self.max_efforts
         find_table(model, "motors")[:, 1] = self.rates
 
 
@@ -59,12 +59,12 @@ class Motors:
         # Lists: one number of an array costs four times as much, and controllers give orders at every step.
         self._dofs: list[int] = compiled.axis_dof.tolist()
         self._actuators: list[int] = compiled.axis_actuator.tolist()
-        self._largest: list[float] = compiled.axis_effort.tolist()
-        self._fastest: list[float] = compiled.axis_velocity.tolist()
-        self._orders: dict[int, tuple[float, ...]] = {}
+        self._max_efforts: list[float] = compiled.axis_effort.tolist()
+        self._max_velocities: list[float] = compiled.axis_velocity.tolist()
+        self._commands: dict[int, tuple[float, ...]] = {}
         self._rates = find_table(compiled.model, "motors")[:, 1]
-        self._keep_on = False
-        self._plug()
+        self._always_enabled = False
+        self._update_actuation_flag()
 
     def set_effort(self, axis: int, effort: float) -> None:
         """Hold an effort [N·m or N] on an axis, as far as its limits let it, and switch its motor off.
@@ -72,17 +72,17 @@ class Motors:
         As in Gazebo, an axis that is faster than its limit is not pushed on: with such a limit the effort is a
         motor's, which wants that speed and pulls one way only.
         """
-        largest, fastest = self._largest[axis], self._fastest[axis]
+        largest, fastest = self._max_efforts[axis], self._max_velocities[axis]
         effort = min(max(effort, -largest), largest)
         if math.isinf(fastest) or effort == 0.0 or not math.isfinite(effort):
-            self._order(axis, command=0.0, most=0.0, effort=effort)
+            self._command(axis, command=0.0, most=0.0, effort=effort)
             return
         # Half of the effort, and a motor of the other half: together from nothing to all of it.
-        self._order(axis, command=math.copysign(fastest, effort), most=abs(effort) / 2, effort=effort / 2)
+        self._command(axis, command=math.copysign(fastest, effort), most=abs(effort) / 2, effort=effort / 2)
 
     def set_velocity(self, axis: int, velocity: float, max_effort: float) -> None:
         """Have a motor keep a speed [rad/s or m/s] with at most so much effort."""
-        self._keep(axis, velocity, max_effort, rate=0.0)
+        self._drive(axis, velocity, max_effort, rate=0.0)
 
     def drive_kinematically(self, axis: int, velocity: float) -> None:
         """Have an axis keep a speed [rad/s or m/s] that it takes at once; only what hangs from it feels that.
@@ -91,22 +91,22 @@ class Motors:
         What is held up by something is pushed on by the motor alone.
         """
         dof, actuator = self._dofs[axis], self._actuators[axis]
-        last = self._orders.get(actuator)
+        last = self._commands.get(actuator)
         speed = float(self._data.qvel[dof])
         now = last[0] if last is not None and last[2] == _KINEMATIC else speed
-        self._order(axis, command=velocity, most=min(self._largest[axis] or _HUGE, _HUGE), rate=_KINEMATIC)
+        self._command(axis, command=velocity, most=min(self._max_efforts[axis] or _HUGE, _HUGE), rate=_KINEMATIC)
         if velocity != now and abs(speed - now) <= _KEEPS_UP[0] * abs(now) + _KEEPS_UP[1]:
             self._data.qvel[dof] = velocity
 
     def hold(self, axis: int, position: float, max_effort: float) -> None:
         """Have a motor go to a position [rad or m] and stay there."""
-        self._keep(axis, position, max_effort, rate=HOLD_RATE)
+        self._drive(axis, position, max_effort, rate=HOLD_RATE)
 
-    def _keep(self, axis: int, command: float, max_effort: float, *, rate: float) -> None:
-        most = min(max_effort, self._largest[axis], _HUGE)
-        self._order(axis, command=command, most=max(most, 0.0), rate=rate)
+    def _drive(self, axis: int, command: float, max_effort: float, *, rate: float) -> None:
+        most = min(max_effort, self._max_efforts[axis], _HUGE)
+        self._command(axis, command=command, most=max(most, 0.0), rate=rate)
 
-    def _order(self, axis: int, *, command: float, most: float, rate: float = 0.0, effort: float = 0.0) -> None:
+    def _command(self, axis: int, *, command: float, most: float, rate: float = 0.0, effort: float = 0.0) -> None:
         """Have the motor keep a command with an effort up to `most`, beside an effort that lasts."""
         dof, actuator = self._dofs[axis], self._actuators[axis]
         self._data.qfrc_applied[dof] = effort
@@ -114,46 +114,46 @@ class Motors:
             return
         order = (command, most, rate)
         # The same order again, as controllers give it at every turn, wakes nobody.
-        last = self._orders.get(actuator)
+        last = self._commands.get(actuator)
         if last == order:
             return
-        self._orders[actuator] = order
+        self._commands[actuator] = order
         self._model.tendon_frictionloss[actuator] = most
         self._rates[actuator] = rate
         self._data.ctrl[actuator] = command
         if last is None or (last[1] > 0.0) != (most > 0.0):
-            self._plug()
+            self._update_actuation_flag()
         self._wake(dof)
 
-    def report(self) -> None:
+    def write_efforts(self) -> None:
         """Write what the motors exert where efforts are read, after a step."""
         if not self._model.opt.disableflags & _NO_MOTORS:
             _contact_laws.report_efforts(self._model._address, self._data._address)
 
     @property
-    def keep_on(self) -> bool:
+    def always_enabled(self) -> bool:
         """Whether the engine has to work the motors though none does anything: with them go its contact laws."""
-        return self._keep_on
+        return self._always_enabled
 
-    @keep_on.setter
-    def keep_on(self, value: bool) -> None:
-        if value != self._keep_on:
-            self._keep_on = value
-            self._plug()
+    @always_enabled.setter
+    def always_enabled(self, value: bool) -> None:
+        if value != self._always_enabled:
+            self._always_enabled = value
+            self._update_actuation_flag()
 
-    def forget(self) -> None:
+    def invalidate(self) -> None:
         """The arrays were changed by somebody else: the next order is a new one."""
-        self._orders.clear()
-        self._plug()
+        self._commands.clear()
+        self._update_actuation_flag()
 
     def switch_off(self) -> None:
         """Every motor."""
         self._model.tendon_frictionloss[:] = 0
-        self.forget()
+        self.invalidate()
 
-    def _plug(self) -> None:
+    def _update_actuation_flag(self) -> None:
         """Spare the engine the motors while none does anything: a seventh of a step of what is at rest."""
         model = self._model
-        is_on = self._keep_on or bool(model.tendon_frictionloss.any())
+        is_on = self._always_enabled or bool(model.tendon_frictionloss.any())
         flags = model.opt.disableflags
         model.opt.disableflags = flags & ~_NO_MOTORS if is_on else flags | _NO_MOTORS

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from ..compile.compiled_world import CompiledWorld
 
-EVERY = 512
+DECISION_PERIOD = 512
 """Steps from one decision to the next."""
 TOLERANCE = 1e-6
 """[m/s or rad/s] What moves slower is at rest. With MuJoCo's own 1e-3 what just begins to slide would freeze."""
-_STIR = 1e-200
+_WAKING_SPEED = 1e-200
 """[m/s or rad/s] A speed that wakes a tree and moves nothing."""
 STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 _SLEEP = int(mujoco.mjtEnableBit.mjENBL_SLEEP)
@@ -31,7 +31,7 @@ class SleepPolicy:
         self._data = data
         model = compiled.model
         self._trees = model.dof_treeid.copy()
-        self.is_blank = True
+        self.has_state_only = True
         """Whether the data holds a state alone, and nothing that a step worked out, such as contacts."""
         model.opt.sleep_tolerance = TOLERANCE
         # MuJoCo multiplies an angular speed by the size of the shapes it moves, which of a bare link is nothing at all.
@@ -58,7 +58,7 @@ class SleepPolicy:
     def step(self, count: int) -> None:
         """Take so many steps; as long as everybody sleeps, one is like the other, and only the clock goes on."""
         model, data = self._model, self._data
-        self.is_blank = False
+        self.has_state_only = False
         if count > 1 and self._all_sleep():
             mujoco.mj_step(model, data)  # who was told something since the last one wakes
             count -= 1
@@ -73,7 +73,7 @@ class SleepPolicy:
     def _all_sleep(self) -> bool:
         return self.is_on and int(self._data.tree_asleep.min()) >= 0
 
-    def decide(self) -> None:
+    def update(self) -> None:
         """Let trees sleep if at least half of what can move hangs from what is wholly at rest."""
         moving = np.zeros(self._model.ntree, dtype=bool)
         moving[self._trees[np.abs(self._data.qvel) >= TOLERANCE]] = True
@@ -82,7 +82,7 @@ class SleepPolicy:
         if wanted != self.is_on:
             self._switch(wanted)
 
-    def forbid(self) -> None:
+    def disable(self) -> None:
         """Wake everybody: from now on every step is watched."""
         if self.is_on:
             self._switch(False)
@@ -90,17 +90,17 @@ class SleepPolicy:
     def _switch(self, sleep: bool) -> None:
         state = np.empty(mujoco.mj_stateSize(self._model, STATE))
         mujoco.mj_getState(self._model, self._data, state, STATE)
-        self.allow(sleep)
-        self.put(state, self._data.qfrc_actuator.copy())
+        self.set_flags(sleep)
+        self.set_state(state, self._data.qfrc_actuator.copy())
 
-    def put(self, state: NDArray[np.float64], efforts: NDArray[np.float64]) -> None:
+    def set_state(self, state: NDArray[np.float64], efforts: NDArray[np.float64]) -> None:
         """Set the engine's state, everybody awake: who sleeps is forgotten by a reset alone."""
         mujoco.mj_resetData(self._model, self._data)
         mujoco.mj_setState(self._model, self._data, state, STATE)
         self._data.qfrc_actuator[:] = efforts
-        self.is_blank = True
+        self.has_state_only = True
 
-    def allow(self, sleep: bool) -> None:
+    def set_flags(self, sleep: bool) -> None:
         """Set the engine's flags; the data has to be reset or replaced with them."""
         option = self._model.opt
         option.enableflags = option.enableflags | _SLEEP if sleep else option.enableflags & ~_SLEEP
@@ -109,4 +109,4 @@ class SleepPolicy:
     def wake(self, dof: int) -> None:
         """Wake the tree of a degree of freedom, which has been told something."""
         if self.is_on and self._data.tree_asleep[self._model.dof_treeid[dof]] >= 0 and self._data.qvel[dof] == 0.0:
-            self._data.qvel[dof] = _STIR
+            self._data.qvel[dof] = _WAKING_SPEED

@@ -17,8 +17,8 @@ class StateReader:
         self._model = compiled.model
         self._data = data
         self._roots = self._model.body_rootid[compiled.link_bodies]
-        self._balls = [(range(b, b + 3), int(compiled.axis_qpos[b])) for b in compiled.balls]
-        self._ball_starts = frozenset(compiled.balls)
+        self._balls = [(range(b, b + 3), int(compiled.axis_qpos[b])) for b in compiled.ball_joints]
+        self._ball_starts = frozenset(compiled.ball_joints)
         self._qpos_addresses: list[int] = compiled.axis_qpos.tolist()
         self._dofs: list[int] = compiled.axis_dof.tolist()
         self._signs: list[float] = compiled.axis_sign.tolist()
@@ -26,16 +26,16 @@ class StateReader:
         self._twists: NDArray[np.float64] | None = None
         """Values of the state that the reader holds, from the first time they are asked for."""
 
-    def show(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
+    def set_state(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
         """Put another state before the reader; time and forces stay."""
         self._data.qpos[:], self._data.qvel[:] = qpos, qvel
-        self.changed()
+        self.invalidate()
 
     def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """What `show` takes."""
         return self._data.qpos.copy(), self._data.qvel.copy()
 
-    def changed(self) -> None:
+    def invalidate(self) -> None:
         """The state is another now."""
         self._poses = self._twists = None
 

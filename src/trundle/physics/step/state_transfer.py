@@ -12,7 +12,7 @@ _POSITIONS = {int(mujoco.mjtJoint.mjJNT_FREE): 7, int(mujoco.mjtJoint.mjJNT_BALL
 _SPEEDS = {int(mujoco.mjtJoint.mjJNT_FREE): 6, int(mujoco.mjtJoint.mjJNT_BALL): 3}
 
 
-def carry_over(
+def transfer_state(
     old: tuple[mujoco.MjModel, mujoco.MjData], new: tuple[mujoco.MjModel, mujoco.MjData], renamed: Mapping[str, str]
 ) -> None:
     """Copy positions, speeds, efforts, motors and wrenches to the bit; time goes on.
@@ -24,7 +24,7 @@ def carry_over(
     """
     (old_model, old_data), (new_model, new_data) = old, new
     new_data.time = old_data.time
-    for a, b in _both(_names(old_model.njnt, old_model.joint, renamed), _names(new_model.njnt, new_model.joint)):
+    for a, b in _matches(_names(old_model.njnt, old_model.joint, renamed), _names(new_model.njnt, new_model.joint)):
         kind = int(new_model.jnt_type[b])
         if kind != int(old_model.jnt_type[a]):
             continue
@@ -36,11 +36,11 @@ def carry_over(
         for name in ("qvel", "qacc_warmstart", "qfrc_applied", "qfrc_actuator"):
             getattr(new_data, name)[q : q + n] = getattr(old_data, name)[p : p + n]
     old_rates, new_rates = (find_table(model, "motors")[:, 1] for model in (old_model, new_model))
-    for a, b in _both(_names(old_model.nu, old_model.actuator, renamed), _names(new_model.nu, new_model.actuator)):
+    for a, b in _matches(_names(old_model.nu, old_model.actuator, renamed), _names(new_model.nu, new_model.actuator)):
         new_data.ctrl[b] = old_data.ctrl[a]
         new_model.tendon_frictionloss[b] = old_model.tendon_frictionloss[a]
         new_rates[b] = old_rates[a]
-    for a, b in _both(_names(old_model.nbody, old_model.body, renamed), _names(new_model.nbody, new_model.body)):
+    for a, b in _matches(_names(old_model.nbody, old_model.body, renamed), _names(new_model.nbody, new_model.body)):
         new_data.xfrc_applied[b] = old_data.xfrc_applied[a]
 
 
@@ -54,15 +54,15 @@ def _names(count: int, view: Callable[[int], _Named], renamed: Mapping[str, str]
     names = [view(i).name for i in range(count)]
     for old, new in (renamed or {}).items():
         parts = [name.split(_ON) for name in names]
-        names = [_ON.join(_moved(part, f"{old}::", f"{new}::") for part in each) for each in parts]
+        names = [_ON.join(_renamed(part, f"{old}::", f"{new}::") for part in each) for each in parts]
     return names
 
 
-def _moved(name: str, old: str, new: str) -> str:
+def _renamed(name: str, old: str, new: str) -> str:
     return new + name.removeprefix(old) if name.startswith(old) else name
 
 
-def _both(old: list[str], new: list[str]) -> Iterator[tuple[int, int]]:
+def _matches(old: list[str], new: list[str]) -> Iterator[tuple[int, int]]:
     """The numbers of what has the same name in both."""
     numbers = {name: i for i, name in enumerate(old)}
     for i, name in enumerate(new):

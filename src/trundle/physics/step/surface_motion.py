@@ -16,7 +16,7 @@ _DIRECTION, _TRACK, _WHEEL = 1.0, 2.0, 3.0
 class SurfaceMotion(Struct, frozen=True, kw_only=True):
     """How a link's surface holds on, wherever it touches."""
 
-    along: Vector3
+    direction: Vector3
     """First friction direction, the one that mu counts along, world axes; what is normal to the surface is left out."""
     speed: float = 0.0
     """[m/s] At which the surface runs past its own link, along the first direction."""
@@ -28,7 +28,7 @@ class SurfaceMotion(Struct, frozen=True, kw_only=True):
     @property
     def row(self) -> tuple[float, ...]:
         """As a row of the table of motions."""
-        return (_DIRECTION, *self.along, self.speed, self.slip, self.slip_across, 0.0, *ZERO)
+        return (_DIRECTION, *self.direction, self.speed, self.slip, self.slip_across, 0.0, *ZERO)
 
 
 class TrackMotion(Struct, frozen=True, kw_only=True):

@@ -24,7 +24,7 @@ _TURNING = math.radians(10)
 """Beyond it, it turns on the spot, by a thousandth of what is missing at each step."""
 _X, _Y = (-3.0, 3.5), (-10.0, 2.0)
 """[m] Where it may be."""
-_MOST_TRIES = 1000
+_MAX_TRIES = 1000
 
 
 class WanderingActor(Plugin):
@@ -102,7 +102,7 @@ class WanderingActor(Plugin):
     def _draw(self, sim: Simulation) -> Vector3:
         """A target that is near neither the last one nor a model; where there is none, the last one stays."""
         others = [model.pose.position for model in sim.models]
-        for _ in range(_MOST_TRIES):
+        for _ in range(_MAX_TRIES):
             drawn = (float(self._random.uniform(*_X)), float(self._random.uniform(*_Y)), self._target[2])
             if all(math.dist(drawn, other) >= _APART for other in (self._target, *others)):
                 return drawn

@@ -30,7 +30,7 @@ def bounding_box(link: Link) -> Vector3:
 def _corners(collision: Collision) -> list[Vector3]:
     (x0, y0, z0), (x1, y1, z1) = _extent(collision.geometry)
     corners = itertools.product((x0, x1), (y0, y1), (z0, z1))
-    return [collision.link_from_collision.point(corner) for corner in corners]
+    return [collision.link_from_collision.transform_point(corner) for corner in corners]
 
 
 def _extent(geometry: Geometry) -> tuple[Vector3, Vector3]:

@@ -61,7 +61,7 @@ class Buoyancy(Plugin):
         for each in self._volumes:
             mass = self._density * each.volume
             lift = Wrench(force=(-mass * gx, -mass * gy, -mass * gz))
-            each.link.add_wrench(lift, at=each.link.pose.point(each.centre))
+            each.link.add_wrench(lift, at=each.link.pose.transform_point(each.centre))
 
 
 def _of_collisions(link: Link) -> tuple[float, Vector3]:

@@ -113,7 +113,7 @@ def _in_world(joint: Joint, model: ModelHandle) -> Joint:
         return link if link == "world" else f"{model.name}::{link}"
 
     def turned(axis: JointAxis | None, by: Pose) -> JointAxis | None:
-        return None if axis is None else replace(axis, direction=by.direction(axis.direction))
+        return None if axis is None else replace(axis, direction=by.transform_vector(axis.direction))
 
     return replace(
         joint,

@@ -61,10 +61,10 @@ class LiftDrag(Plugin):
         """Push by the speed of now."""
         del sim
         pose, twist = self._link.pose, self._link.twist
-        at = pose.point(self._centre)
+        at = pose.transform_point(self._centre)
         arm = (at[0] - pose.position[0], at[1] - pose.position[1], at[2] - pose.position[2])
         velocity = _add(twist.linear, cross(twist.angular, arm))
-        forward, upward = pose.direction(self._forward), pose.direction(self._upward)
+        forward, upward = pose.transform_vector(self._forward), pose.transform_vector(self._upward)
         if self._is_round:
             upward = normalized(cross(forward, cross(forward, velocity))) or upward
         span = normalized(cross(forward, upward))

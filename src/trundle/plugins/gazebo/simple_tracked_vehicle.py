@@ -45,11 +45,11 @@ class SimpleTrackedVehicle(Plugin):
     def before_step(self, sim: Simulation) -> None:
         """Have the tracks run as fast as they are told to."""
         del sim
-        speeds, left = self._tracks.speeds, self._body.pose.direction((0.0, 1.0, 0.0))
+        speeds, left = self._tracks.speeds, self._body.pose.transform_vector((0.0, 1.0, 0.0))
         centre = self._centre(speeds, left)
         for links, speed in zip(self._links, speeds, strict=True):
             for link in links:
-                link.set_grip(TrackMotion(axis=left, speed=speed, centre=centre))
+                link.set_surface_motion(TrackMotion(axis=left, speed=speed, centre=centre))
 
     def reset(self) -> None:
         """Stand still."""

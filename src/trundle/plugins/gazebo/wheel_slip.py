@@ -43,7 +43,7 @@ class WheelSlip(Plugin):
 
     def __init__(self, model: ModelHandle, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
         self._model = model
-        self._down = model.pose.inverse().direction(normalized(sim.world.physics.gravity) or (0.0, 0.0, -1.0))
+        self._down = model.pose.inverse().transform_vector(normalized(sim.world.physics.gravity) or (0.0, 0.0, -1.0))
         self._wheels: list[_Wheel] = []
         for wheel in tag.node.all("wheel"):
             try:
@@ -72,7 +72,7 @@ class WheelSlip(Plugin):
             wheel.lateral = lateral if lateral >= 0.0 else wheel.lateral
             wheel.longitudinal = longitudinal if longitudinal >= 0.0 else wheel.longitudinal
             per_turn = wheel.radius / wheel.normal_force
-            wheel.link.set_grip(
+            wheel.link.set_surface_motion(
                 WheelGrip(axis=wheel.axis, slip=per_turn * wheel.lateral, slip_across=per_turn * wheel.longitudinal)
             )
 
@@ -86,9 +86,11 @@ class WheelSlip(Plugin):
         for wheel in self._wheels:
             if wheel.topic is None:
                 continue
-            twist, axis = wheel.link.twist, wheel.link.pose.direction(wheel.axis)
+            twist, axis = wheel.link.twist, wheel.link.pose.transform_vector(wheel.axis)
             tread = wheel.radius * _dot(twist.angular, axis)
-            along = self._model.pose.direction(cross(self._down, self._model.pose.inverse().direction(axis)))
+            along = self._model.pose.transform_vector(
+                cross(self._down, self._model.pose.inverse().transform_vector(axis))
+            )
             wheel.topic.publish({"x": _dot(along, twist.linear) - tread, "y": _dot(axis, twist.linear), "z": tread})
 
     def _take_lateral(self, message: Message) -> None:
@@ -131,7 +133,7 @@ def _radius(link: LinkHandle) -> float:
 def _axis_in_link(joint: Joint, link: LinkHandle) -> Vector3:
     axis = joint.axis2 if joint.type is JointType.REVOLUTE2 and joint.axis2 is not None else joint.axis
     assert axis is not None
-    return link.link.model_from_link.inverse().direction(axis.direction)
+    return link.link.model_from_link.inverse().transform_vector(axis.direction)
 
 
 def _dot(a: Vector3, b: Vector3) -> float:

@@ -110,7 +110,7 @@ class _Part:
 
     def disturb(self, value: float) -> float:
         """The value with noise."""
-        return self._noise.disturb_one(value)
+        return self._noise.apply_to_value(value)
 
 
 def _read_noise(node: XmlNode | None, report: Diagnostics) -> Noise:

@@ -25,4 +25,4 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     def publish(reading: ContactReading) -> None:
         outlet.publish(reading, lambda: contacts_message(reading))
 
-    sensor.listen(publish, wanted=outlet.wanted)
+    sensor.listen(publish, enabled=outlet.wanted)

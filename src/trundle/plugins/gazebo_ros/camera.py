@@ -50,7 +50,7 @@ def attach_pictures(
         pictures.publish(reading, lambda: image(reading))
         infos.publish(reading, lambda: calibration)
 
-    sensor.listen(publish, wanted=lambda: pictures.wanted() or infos.wanted())
+    sensor.listen(publish, enabled=lambda: pictures.wanted() or infos.wanted())
     offer_rate(sensor, node, tag, rate_hz)
 
 
@@ -80,7 +80,7 @@ def offer_rate(sensor: CameraSensor, node: Node, tag: PluginTag, plugin_rate_hz:
 def keep_borders_if_told(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> None:
     """Heed <borderCrop>."""
     if not tag.node.flag("borderCrop", default=True, report=report):
-        sensor.keep_borders()
+        sensor.disable_crop()
 
 
 def camera_topic(sensor: CameraSensor, tag: PluginTag, parameter: str, default: str) -> str:

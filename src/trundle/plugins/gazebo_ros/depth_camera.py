@@ -67,7 +67,7 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
         points.publish(reading, lambda: cloud(cut(reading)))
 
     outlets = (pictures, infos, depths, depth_infos, points)
-    sensor.listen(publish, wanted=lambda: any(each.wanted() for each in outlets))
+    sensor.listen(publish, enabled=lambda: any(each.wanted() for each in outlets))
     offer_rate(sensor, node, tag, rate_hz)
 
 

@@ -2,7 +2,7 @@
 
 import math
 
-from trundle.control import DifferentialDrive, WheelOdometry, approach
+from trundle.control import DifferentialDrive, WheelOdometry, step_towards
 from trundle.model import PluginTag
 from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import JointHandle, ModelHandle, Simulation, Snapshot
@@ -65,7 +65,7 @@ class DiffDrive(RosPlugin):
         wanted = self._drive.wheel_speeds(self._command.forward, self._sign * self._command.turning)
         for number, (wheel, speed) in enumerate(zip(self._wheels, wanted, strict=True)):
             if self._acceleration > 0.0:
-                speed = approach(self._speeds[number], speed, most / self._drive.wheel_radius)
+                speed = step_towards(self._speeds[number], speed, most / self._drive.wheel_radius)
             self._speeds[number] = speed
             wheel.set_velocity(speed, max_effort=self._torque)
 
@@ -95,7 +95,7 @@ class DiffDrive(RosPlugin):
         left, right = (now - before for now, before in zip(turned, self._turned, strict=True))
         if self._sign < 0.0:
             left, right = right, left
-        distance, turn = self._place.roll(left, right)
+        distance, turn = self._place.update(left, right)
         elapsed, self._turned, self._last_ns = (time_ns - self._last_ns) / 1e9, turned, time_ns
         place = self._place
         pose = Pose((place.x, place.y, 0.0), (math.cos(place.yaw / 2), 0.0, 0.0, math.sin(place.yaw / 2)))

@@ -38,7 +38,7 @@ class ForceTorque(RosPlugin):
         self._topic.publish({"header": header, "wrench": wrench})
 
     def _told(self, back: Pose, vector: Vector3) -> dict[str, float]:
-        values = [-value for value in back.direction(vector)]
+        values = [-value for value in back.transform_vector(vector)]
         if self._noise > 0.0:
             values = [value + float(self._random.normal(0.0, self._noise)) for value in values]
         return dict(zip("xyz", values, strict=True))

@@ -46,4 +46,4 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     def publish(reading: ImuReading) -> None:
         outlet.publish(reading, lambda: message(reading))
 
-    sensor.listen(publish, wanted=outlet.wanted)
+    sensor.listen(publish, enabled=outlet.wanted)

@@ -11,7 +11,7 @@ from trundle.simulation import ModelHandle, Simulation
 from .namespaces import namespace_of, period_of, topic_in
 from .ros_plugin import RosPlugin
 
-_MOST_POINTS = 100_000
+_MAX_POINTS = 100_000
 
 
 class JointPoseTrajectory(RosPlugin):
@@ -60,8 +60,8 @@ class JointPoseTrajectory(RosPlugin):
         for name in names:
             if not self._model.joint(name).is_driven:
                 raise UsageError(f"joint {name!r} cannot be put anywhere")
-        if len(trajectory.points) > _MOST_POINTS:
-            raise UsageError(f"{len(trajectory.points)} points are more than {_MOST_POINTS}")
+        if len(trajectory.points) > _MAX_POINTS:
+            raise UsageError(f"{len(trajectory.points)} points are more than {_MAX_POINTS}")
         if any(len(point.positions) != len(names) for point in trajectory.points):
             raise UsageError(f"each point needs {len(names)} positions")
         start_ns = max(ns_of(trajectory.header.stamp), self._sim.time_ns)

@@ -65,4 +65,4 @@ def _listen(sensor: RangeSensor, outlet: Outlet, *, as_points: bool) -> None:
     def publish(reading: RangeReading) -> None:
         outlet.publish(reading, lambda: points_message(reading) if as_points else scan_message(reading, period_s))
 
-    sensor.listen(publish, wanted=outlet.wanted)
+    sensor.listen(publish, enabled=outlet.wanted)

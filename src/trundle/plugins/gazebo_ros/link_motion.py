@@ -19,7 +19,7 @@ class Motion:
 
     def in_link(self, vector: Vector3) -> Vector3:
         """A vector of the world in the link's axes."""
-        return Pose(quaternion=self.orientation).inverse().direction(vector)
+        return Pose(quaternion=self.orientation).inverse().transform_vector(vector)
 
 
 class LinkMotion:
@@ -39,5 +39,7 @@ class LinkMotion:
             ax, ay, az = ((now - then) / elapsed for now, then in zip(twist.linear, before[1], strict=True))
         back = Pose(quaternion=orientation).inverse()
         return Motion(
-            orientation=orientation, rate=back.direction(twist.angular), acceleration=back.direction((ax, ay, az))
+            orientation=orientation,
+            rate=back.transform_vector(twist.angular),
+            acceleration=back.transform_vector((ax, ay, az)),
         )

@@ -63,8 +63,8 @@ class P3D(RosPlugin):
         }
         speeds = {
             "twist": {
-                "linear": self._disturbed(back.direction((ax - bx, ay - by, az - bz))),
-                "angular": self._disturbed(back.direction((ux - vx, uy - vy, uz - vz))),
+                "linear": self._disturbed(back.transform_vector((ax - bx, ay - by, az - bz))),
+                "angular": self._disturbed(back.transform_vector((ux - vx, uy - vy, uz - vz))),
             },
             "covariance": self._covariance,
         }

@@ -50,4 +50,4 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     def publish(reading: RangeReading) -> None:
         outlet.publish(reading, lambda: message(reading))
 
-    sensor.listen(publish, wanted=outlet.wanted)
+    sensor.listen(publish, enabled=outlet.wanted)

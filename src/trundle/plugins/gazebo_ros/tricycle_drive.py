@@ -2,7 +2,7 @@
 
 import math
 
-from trundle.control import DifferentialDrive, WheelOdometry, approach
+from trundle.control import DifferentialDrive, WheelOdometry, step_towards
 from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
@@ -67,11 +67,11 @@ class TricycleDrive(RosPlugin):
         dt_s = (self.period_ns or sim.step_ns) / 1e9
         wanted = self._command.forward / self._radius
         change = self._faster if abs(wanted) > abs(self._speed) else self._slower
-        self._speed = approach(self._speed, wanted, change * dt_s) if self._faster > 0.0 else wanted
+        self._speed = step_towards(self._speed, wanted, change * dt_s) if self._faster > 0.0 else wanted
         self._wheel.set_velocity(self._speed, max_effort=self._torque)
         angle = min(max(self._command.turning, -math.pi / 2), math.pi / 2)
         if self._steering_speed > 0.0:
-            angle = approach(self._angle, angle, self._steering_speed * dt_s)
+            angle = step_towards(self._angle, angle, self._steering_speed * dt_s)
         self._angle = angle
         self._steering.drive_kinematically((angle - self._steering.position) / (_LAG * dt_s))
 
@@ -102,7 +102,7 @@ class TricycleDrive(RosPlugin):
         """Add up what the wheels turned."""
         turned = [wheel.position for wheel in self._encoders]
         left, right = (now - before for now, before in zip(turned, self._turned, strict=True))
-        distance, turn = self._place.roll(left, right)
+        distance, turn = self._place.update(left, right)
         elapsed, self._turned, self._last_ns = (time_ns - self._last_ns) / 1e9, turned, time_ns
         pose = Pose.from_rpy(self._place.x, self._place.y, 0.0, 0.0, 0.0, self._place.yaw)
         if elapsed <= 0.0:

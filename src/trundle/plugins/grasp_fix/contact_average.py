@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from trundle.physics import Contact
 from trundle.simulation import LinkHandle
 
-_LEAST_RATIO = 0.3
+_MIN_RATIO = 0.3
 """Of the weaker to the stronger of two forces that hold something between them."""
-_LEAST_FORCE = 1e-4
+_MIN_FORCE = 1e-4
 """[N] What is less holds nothing."""
 
 
@@ -43,8 +43,8 @@ class ContactAverage:
         x, y, z = points.mean(axis=0).tolist()
         self.steps += 1
         self.force += forces.mean(axis=0)
-        self.point += finger_from_world.point((x, y, z))
-        self.object_origin += finger_from_world.point(self.object_link.pose.position)
+        self.point += finger_from_world.transform_point((x, y, z))
+        self.object_origin += finger_from_world.transform_point(self.object_link.pose.position)
 
     @property
     def mean_force(self) -> NDArray[np.float64]:
@@ -55,7 +55,7 @@ class ContactAverage:
         """How much nearer or farther the place that touched is from the object than it was then [m]."""
         point, origin = self.point / self.steps, self.object_origin / self.steps
         x, y, z = point.tolist()
-        now = math.dist(self.finger.pose.point((x, y, z)), self.object_link.pose.position)
+        now = math.dist(self.finger.pose.transform_point((x, y, z)), self.object_link.pose.position)
         return abs(float(np.linalg.norm(point - origin)) - now)
 
 
@@ -87,7 +87,7 @@ def is_held(forces: Sequence[NDArray[np.float64]], least_angle_rad: float) -> bo
     """Whether two of the forces oppose each other by more than an angle, and neither is much weaker."""
     for one, other in combinations(forces, 2):
         strong, weak = sorted((float(np.linalg.norm(one)), float(np.linalg.norm(other))), reverse=True)
-        if weak < _LEAST_FORCE or weak < _LEAST_RATIO * strong:
+        if weak < _MIN_FORCE or weak < _MIN_RATIO * strong:
             continue
         cosine = float(np.clip(one @ other / (strong * weak), -1.0, 1.0))
         if math.acos(cosine) > least_angle_rad:

@@ -61,11 +61,11 @@ class ForceBasedMove(RosPlugin):
         """Push."""
         del sim
         twist = self.model.twist
-        vx, vy, _ = self.model.pose.inverse().direction(twist.linear)
+        vx, vy, _ = self.model.pose.inverse().transform_vector(twist.linear)
         x_gain, y_gain = self._gains
         force = (x_gain * (self.command.forward - vx), y_gain * (self.command.sideways - vy), 0.0)
         torque = (0.0, 0.0, self._yaw_gain * (self.command.turning - twist.angular[2]))
-        self._link.add_wrench(Wrench(self._link.pose.direction(force), torque))
+        self._link.add_wrench(Wrench(self._link.pose.transform_vector(force), torque))
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell how far that led, now and then."""
@@ -76,8 +76,8 @@ class ForceBasedMove(RosPlugin):
             return
         elapsed_s, self._told_ns = elapsed_ns / 1e9, snapshot.time_ns
         body_from_world = self.model.pose.inverse()
-        vx, vy, _ = body_from_world.direction(self.model.twist.linear)
-        rate = body_from_world.direction(self.model.twist.angular)[2]
+        vx, vy, _ = body_from_world.transform_vector(self.model.twist.linear)
+        rate = body_from_world.transform_vector(self.model.twist.angular)[2]
         vy = vy if self.SIDEWAYS else 0.0
         self._place = self._place @ _arc(vx * elapsed_s, vy * elapsed_s, rate * elapsed_s if _turns(rate) else 0.0)
         twist = Twist((vx, vy, 0.0), (0.0, 0.0, rate))

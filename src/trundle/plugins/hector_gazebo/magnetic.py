@@ -42,7 +42,7 @@ class Magnetic(LinkSensor):
         """Tell."""
         if not self._topic.has_subscribers:
             return
-        here = Pose(quaternion=self.link.pose.quaternion).inverse().direction(self._field)
+        here = Pose(quaternion=self.link.pose.quaternion).inverse().transform_vector(self._field)
         told = dict(zip("xyz", self._errors.of(here, self.elapsed_s(snapshot.time_ns)), strict=True))
         header = {"stamp": snapshot.time_ns, "frame_id": self.frame}
         self._topic.publish({"header": header, self._value: told})

@@ -48,7 +48,7 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     def publish(reading: RangeReading) -> None:
         outlet.publish(reading, lambda: message(reading))
 
-    sensor.listen(publish, wanted=outlet.wanted)
+    sensor.listen(publish, enabled=outlet.wanted)
 
 
 def _width(axis: ScanAxis) -> float:

@@ -80,7 +80,7 @@ class AckermannSteering:
             self._odometry.publish(time_ns, self._place, (linear, 0.0, angular))
         for number, wanted in enumerate(self._wanted(time_ns)):
             last, before = self._history[number]
-            self._history[number] = (self._limits[number].limited(wanted, last, before, dt), last)
+            self._history[number] = (self._limits[number].limit(wanted, last, before, dt), last)
         (linear, _), (angle, _) = self._history
         self._wheel.command = linear / self._radius
         self._steer.command = angle

@@ -83,7 +83,7 @@ class DiffDriveController:
         linear, angular = self._wanted(time_ns)
         for number, wanted in enumerate((linear, angular)):
             last, before = self._history[number]
-            limited = self._limits[number].limited(wanted, last, before, dt)
+            limited = self._limits[number].limit(wanted, last, before, dt)
             self._history[number] = (limited, last)
         (linear, _), (angular, _) = self._history
         if self._told is not None and self._told.has_subscribers:
@@ -143,7 +143,7 @@ class DiffDriveController:
             )
             self._turned = now
         radius = self._drive.wheel_radius
-        distance, turn = self._place.roll(left / radius, right / radius)
+        distance, turn = self._place.update(left / radius, right / radius)
         if dt > 0.0:
             self._speeds.append((distance / dt, turn / dt))
 

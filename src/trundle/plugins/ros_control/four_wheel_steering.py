@@ -84,7 +84,7 @@ class FourWheelDrive:
         speeds: Wheels = tuple(joint.velocity for joint in self._wheels)  # pyright: ignore[reportAssignmentType]
         fl, fr, rl, rr = (joint.position for joint in self._steers)
         front, rear = axle_angle(fl, fr), axle_angle(rl, rr)
-        forward, sideways, turning = self._law.motion(speeds, front, rear)
+        forward, sideways, turning = self._law.forward_kinematics(speeds, front, rear)
         x, y, yaw = self._place
         cos, sin = math.cos(yaw), math.sin(yaw)
         self._place = (
@@ -114,17 +114,17 @@ class FourWheelDrive:
         if self._angles[0] >= self._twist[0]:
             stamp, speed, front, rear = self._angles
             speed, front, rear = (speed, front, rear) if time_ns - stamp <= self._timeout_ns else (0.0, 0.0, 0.0)
-            speeds, angles = self._law.by_angles(self._limited(0, speed, dt), front, rear)
+            speeds, angles = self._law.command_for_angles(self._limited(0, speed, dt), front, rear)
         else:
             stamp, forward, turning = self._twist
             forward, turning = (forward, turning) if time_ns - stamp <= self._timeout_ns else (0.0, 0.0)
-            speeds, angles = self._law.by_twist(self._limited(0, forward, dt), self._limited(1, turning, dt))
+            speeds, angles = self._law.command_for_twist(self._limited(0, forward, dt), self._limited(1, turning, dt))
         for joint, command in zip((*self._wheels, *self._steers), (*speeds, *angles), strict=True):
             joint.command = command
 
     def _limited(self, number: int, wanted: float, dt: float) -> float:
         last, before = self._history[number]
-        limited = self._limits[number].limited(wanted, last, before, dt)
+        limited = self._limits[number].limit(wanted, last, before, dt)
         self._history[number] = (limited, last)
         return limited
 

@@ -5,7 +5,7 @@ from trundle.ros import Node, NodeParams, Option, Options, ReconfigureServer
 
 from .controller import Endpoints
 
-_MOST_P = 100_000.0
+_MAX_P = 100_000.0
 _MOST = 1_000.0
 """control_toolbox's bounds, of p and of everything else."""
 
@@ -25,7 +25,7 @@ def tunable_pid(node: Node, settings: NodeParams, ends: Endpoints) -> ToolboxPid
     """
     pid = _read_pid(settings)
     options = (
-        Option(name="p", value=pid.p, lower=-_MOST_P, upper=_MOST_P, description="Proportional gain"),
+        Option(name="p", value=pid.p, lower=-_MAX_P, upper=_MAX_P, description="Proportional gain"),
         Option(name="i", value=pid.i, lower=-_MOST, upper=_MOST, description="Integral gain"),
         Option(name="d", value=pid.d, lower=-_MOST, upper=_MOST, description="Derivative gain"),
         Option(name="i_clamp_min", value=-pid.i_clamp, lower=-_MOST, upper=0.0, description="Least integral part"),

@@ -12,7 +12,7 @@ from trundle.ros import Message, NodeParams, ns_of
 
 _STOPPED = 0.01
 """[rad/s or m/s] The original's idea of a joint that stands still."""
-_MOST_POINTS = 100_000
+_MAX_POINTS = 100_000
 
 
 class GoalError(ValueError):
@@ -89,7 +89,7 @@ class SampledTrajectory:
     def at(self, time_ns: int) -> list[tuple[float, float, float]]:
         """Position, velocity and acceleration of each joint."""
         time_s = (time_ns - self._start_ns) / 1e9
-        return [spline.at(time_s) for spline in self._splines]
+        return [spline.sample(time_s) for spline in self._splines]
 
     def unwind(self, number: int) -> None:
         """Shift a joint that turns without end by whole turns, so that it goes to its first point the short way."""
@@ -132,8 +132,8 @@ def read_trajectory(
         )
     begin_ns = ns_of(trajectory.header.stamp) or now_ns
     times = [(begin_ns - now_ns + ns_of(point.time_from_start)) / 1e9 for point in trajectory.points]
-    if len(times) > _MOST_POINTS:
-        raise GoalError(GoalError.INVALID_GOAL, f"{len(times)} points are more than {_MOST_POINTS}")
+    if len(times) > _MAX_POINTS:
+        raise GoalError(GoalError.INVALID_GOAL, f"{len(times)} points are more than {_MAX_POINTS}")
     if any(b <= a for a, b in pairwise(times)):
         raise GoalError(GoalError.INVALID_GOAL, "time_from_start must grow from point to point")
     if times[-1] < 0.0:

@@ -56,7 +56,7 @@ class MotorModel(RosPlugin):
             raise UsageError(f"joint {self._joint.name!r} cannot move")
         axis, parent = self._joint.joint.axis, self._joint.joint.parent
         assert axis is not None, f"{self._joint.name} moves"
-        self._axis = self._link.link.model_from_link.inverse().direction(axis.direction)
+        self._axis = self._link.link.model_from_link.inverse().transform_vector(axis.direction)
         """In the rotor's frame."""
         self._parent = None if parent == "world" else model.link(parent)
         self._number = parameters.integer("motorNumber", default=0, report=report)
@@ -122,12 +122,12 @@ class MotorModel(RosPlugin):
         accelerometer feedback in quadrotor control (ICRA 2010)."""
         pose, rate = self._link.pose, self._joint.velocity * self._slowdown
         thrust = self._way * math.copysign(rate * rate * self._lift, rate)
-        axis = np.array(pose.direction(self._axis))
+        axis = np.array(pose.transform_vector(self._axis))
         airspeed = np.array(self._link.twist.linear) - self._wind
         across = airspeed - (airspeed @ axis) * axis
-        self._link.add_wrench(Wrench(_sum(pose.direction((0.0, 0.0, thrust)), -abs(rate) * self._drag * across)))
+        self._link.add_wrench(Wrench(_sum(pose.transform_vector((0.0, 0.0, thrust)), -abs(rate) * self._drag * across)))
         if self._parent is not None:
-            torque = pose.direction((0.0, 0.0, -self._way * thrust * self._moment))
+            torque = pose.transform_vector((0.0, 0.0, -self._way * thrust * self._moment))
             self._parent.add_wrench(Wrench(torque=_sum(torque, -abs(rate) * self._roll * across)))
 
     def _take(self, message: Message) -> None:

@@ -87,7 +87,7 @@ class Odometry(RosPlugin):
     def _motion(self) -> tuple[Pose, Twist]:
         """Of the centre of mass against the reference, velocities of the link's origin in the link's axes."""
         link, twist = self._link.pose, self._link.twist
-        com = link.point(self._link.link.inertial.link_from_com.position)
+        com = link.transform_point(self._link.link.inertial.link_from_com.position)
         pose, linear, angular = Pose(com, link.quaternion), twist.linear, twist.angular
         if self._reference is not None:
             frame, carried = self._reference.pose, self._reference.twist
@@ -98,7 +98,7 @@ class Odometry(RosPlugin):
             wx, wy, wz = (w - c for w, c in zip(angular, carried.angular, strict=True))
             linear, angular = (vx, vy, vz), (wx, wy, wz)
         back = Pose(quaternion=link.quaternion).inverse()
-        return pose, Twist(back.direction(linear), back.direction(angular))
+        return pose, Twist(back.transform_vector(linear), back.transform_vector(angular))
 
     def _disturbed(self, pose: Pose, twist: Twist) -> tuple[Pose, Twist]:
         errors = self._random.normal(size=(4, 3)) * self._normal

@@ -24,19 +24,19 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     tag.node.report_unread(report)
 
     def message(reading: ContactReading) -> dict[str, object]:
-        force = reading.world_from_link.inverse().direction(_mean_force(reading))
+        force = reading.world_from_link.inverse().transform_vector(_mean_force(reading))
         return {"wrench": {"force": dict(zip("xyz", force, strict=True))}}
 
     def publish(reading: ContactReading) -> None:
         outlet.publish(reading, lambda: message(reading))
 
-    sensor.listen(publish, wanted=outlet.wanted)
+    sensor.listen(publish, enabled=outlet.wanted)
 
 
 def _mean_force(reading: ContactReading) -> Vector3:
     """Of all contacts of a reading, world axes [N]."""
-    contacts = len({(touch.time_ns, touch.own, touch.other) for touch in reading.touches})
+    contacts = len({(touch.time_ns, touch.own, touch.other) for touch in reading.contacts})
     if not contacts:
         return (0.0, 0.0, 0.0)
-    x, y, z = (sum(each) / contacts for each in zip(*(t.wrench.force for t in reading.touches), strict=True))
+    x, y, z = (sum(each) / contacts for each in zip(*(t.wrench.force for t in reading.contacts), strict=True))
     return (x, y, z)

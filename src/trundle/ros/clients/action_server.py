@@ -15,7 +15,7 @@ _KEPT_S = 5.0
 """How long a finished goal stays in the status list, as in actionlib."""
 _PENDING, _ACTIVE = 0, 1
 _NUMBERS = {"preempted": 2, "succeeded": 3, "aborted": 4, "rejected": 5}
-_MOST_GOALS = 1000
+_MAX_GOALS = 1000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,8 +97,8 @@ class ActionServer:
         stamp = ns_of(message.goal_id.stamp) or now
         if key in self._goals:
             return
-        if len(self._goals) >= _MOST_GOALS:
-            self._node.log_error(f"more than {_MOST_GOALS} goals at once; one is not taken")
+        if len(self._goals) >= _MAX_GOALS:
+            self._node.log_error(f"more than {_MAX_GOALS} goals at once; one is not taken")
             return
         if not self._side_by_side:
             for other in self._goals.values():

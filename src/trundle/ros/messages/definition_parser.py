@@ -5,11 +5,11 @@ from typing import Any
 
 from ..errors import DefinitionError
 from .constants import Constant, read_constant
-from .definition_search import MOST_CHARACTERS
+from .definition_search import MAX_CHARACTERS
 
-MOST_ELEMENTS = 1_000_000_000
+MAX_ELEMENTS = 1_000_000_000
 """Elements of an array: as many bytes as a connection carries at once."""
-_MOST_FIELDS = 5_000
+_MAX_FIELDS = 5_000
 _FIELD = re.compile(
     r"(?P<type>[A-Za-z]\w*(?:/[A-Za-z]\w*){0,2})(?:<=(?P<longest>\d{1,9}))?"
     r"(?P<list>\[(?P<bound><=)?(?P<count>-?\d*)\])?[ \t]+(?P<name>[A-Za-z]\w*)",
@@ -34,8 +34,8 @@ def read_type(text: str, key: str) -> tuple[list[Constant], list[tuple[str, Any]
     Raises:
         DefinitionError: it cannot be read; the text says why, and in which line.
     """
-    if len(text) > MOST_CHARACTERS:
-        raise DefinitionError(1, f"it has more than the {MOST_CHARACTERS} characters that are read")
+    if len(text) > MAX_CHARACTERS:
+        raise DefinitionError(1, f"it has more than the {MAX_CHARACTERS} characters that are read")
     constants: list[Constant] = []
     fields: list[tuple[str, Any]] = []
     names: dict[str, int] = {}
@@ -51,8 +51,8 @@ def read_type(text: str, key: str) -> tuple[list[Constant], list[tuple[str, Any]
         name = constant[0] if constant is not None else fields[-1][0]
         if names.setdefault(name, number) != number:
             raise DefinitionError(number, f"the name {name[:80]!r} is taken by line {names[name]}")
-        if len(names) > _MOST_FIELDS:
-            raise DefinitionError(number, f"more than {_MOST_FIELDS} fields and constants")
+        if len(names) > _MAX_FIELDS:
+            raise DefinitionError(number, f"more than {_MAX_FIELDS} fields and constants")
     return constants, fields
 
 
@@ -84,8 +84,8 @@ def _read_field(line: str, package: str, number: int) -> tuple[str, Any]:
     if field["list"] is None:
         return field["name"], inner
     count = field["count"]
-    if count.startswith("-") or len(count) > len(str(MOST_ELEMENTS)) or int(count or 0) > MOST_ELEMENTS:
-        raise DefinitionError(number, f"an array has from 0 to {MOST_ELEMENTS} elements, not {count[:40]}")
+    if count.startswith("-") or len(count) > len(str(MAX_ELEMENTS)) or int(count or 0) > MAX_ELEMENTS:
+        raise DefinitionError(number, f"an array has from 0 to {MAX_ELEMENTS} elements, not {count[:40]}")
     if field["bound"] or not count:
         return field["name"], (Nodetype.SEQUENCE, (inner, int(count or 0)))
     return field["name"], (Nodetype.ARRAY, (inner, int(count)))

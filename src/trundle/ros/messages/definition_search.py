@@ -10,7 +10,7 @@ from pathlib import Path
 from trundle.files import read_text
 
 _SHIPPED = Path(__file__).parents[1] / "definitions"
-MOST_CHARACTERS = 1_000_000
+MAX_CHARACTERS = 1_000_000
 """Length of a text; the longest of a desktop installation has below 100,000. Texts of peers have the same bound."""
 _SEPARATOR = re.compile(r"^\s*---[^\n]*$", re.MULTILINE)
 DEBIAN_SHARE = "/usr/share"
@@ -81,7 +81,7 @@ class Definitions:
             path = Path(share, package, kind, f"{name}.{kind}")
             if share and path.is_file():
                 with suppress(OSError):
-                    return read_text(path, most=MOST_CHARACTERS)
+                    return read_text(path, max_bytes=MAX_CHARACTERS)
         return None
 
     def load_all(self) -> None:
@@ -111,7 +111,7 @@ class Definitions:
         for path in sorted(folder.glob(f"{kind}/*.{kind}")):
             name = f"{package}/{path.stem}"
             try:
-                yield name, path, read_text(path, most=MOST_CHARACTERS)
+                yield name, path, read_text(path, max_bytes=MAX_CHARACTERS)
             except OSError as error:
                 asked = f"{name}Action.msg" if kind == "action" else f"{name}.{kind}"
                 self.unreadable.setdefault(asked, f"{path}:1: it cannot be read: {error.strerror}")

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _BATCH_MESSAGES, _BATCH_BYTES = 200, 1024 * 1024
 """How much is handed on before others get their turn on the loop, whoever publishes however fast."""
 _BYTES = bytes, bytearray, memoryview
-_MOST_WARNINGS = 100
+_MAX_WARNINGS = 100
 """About so many subscribers of another type, as their names are theirs to choose."""
 
 
@@ -139,7 +139,7 @@ class Publisher:
         """Take a subscriber's connection, or refuse it with the reason the original gives."""
         peer = header.get("callerid", "unknown")
         if (reason := self._mismatch(header, peer)) is not None:
-            if peer not in self._refused and len(self._refused) < _MOST_WARNINGS:
+            if peer not in self._refused and len(self._refused) < _MAX_WARNINGS:
                 self._refused.add(peer)
                 self._node.log_warn(f"Could not process inbound connection: {reason} ({peer} asks for {self.topic})")
             link.refuse(reason)

@@ -17,7 +17,7 @@ _TRUST_BYTES = 256 * 1024
 """How much room a frame gets before any of it has come, unless one as long came before."""
 _NOTE = 1 << 31
 """Added to the length of what is no message but a word between two of our own programs."""
-_MOST_NOTE_BYTES = 64
+_MAX_NOTE_BYTES = 64
 _of_this_thread = threading.local()
 
 
@@ -72,7 +72,7 @@ class FrameDecoder:
         while (begin := start + LENGTH.size) <= end:
             (size,) = LENGTH.unpack_from(data, start)
             if size > self.limit:
-                if self.take_note is None or not _NOTE <= size <= _NOTE + _MOST_NOTE_BYTES:
+                if self.take_note is None or not _NOTE <= size <= _NOTE + _MAX_NOTE_BYTES:
                     raise WireError(f"a frame of {size} bytes is announced, more than is accepted")
                 size -= _NOTE
                 if begin + size > end:

@@ -14,7 +14,7 @@ from ..messages.codec import Pieces
 from .shared_ring import LONG_BYTES, SharedRing
 from .unix_sockets import peer_process
 
-_MOST_KERNEL_BYTES = 4 * 1024 * 1024
+_MAX_KERNEL_BYTES = 4 * 1024 * 1024
 """As much as TCP may take by Linux's own settings."""
 _UNIX = getattr(socket, "AF_UNIX", None)
 _WRITEV: "Callable[[int, Sequence[bytes | memoryview]], int] | None" = getattr(os, "writev", None)
@@ -194,7 +194,7 @@ class SendQueue:
             return
         self._kernel_bytes = size
         with contextlib.suppress(OSError):
-            wanted = min(2 * size, _MOST_KERNEL_BYTES)
+            wanted = min(2 * size, _MAX_KERNEL_BYTES)
             if wanted > self._socket.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF):
                 self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, wanted)
 

@@ -20,7 +20,7 @@ LONG_BYTES: Final = 32 * 1024
 """Frames from here on; for shorter ones a socket is as fast."""
 _FRAMES, _FEWEST_FRAMES = 8, 4
 """As many as the first one are to find room; of long ones fewer."""
-_LEAST_BYTES, _PLENTY_BYTES, _MOST_BYTES = 1024 * 1024, 32 * 1024 * 1024, 64 * 1024 * 1024
+_MIN_BYTES, _PLENTY_BYTES, _MAX_BYTES = 1024 * 1024, 32 * 1024 * 1024, 64 * 1024 * 1024
 """The second one is passed for the sake of the fewest frames only."""
 _OPENED = struct.Struct("<QQ")
 """Publisher to subscriber: the file's number in the publisher's process, and its size."""
@@ -42,8 +42,8 @@ class SharedRing:
         Raises:
             OSError: no such memory here, or not as much as that takes.
         """
-        plenty = min(max(_FRAMES * longest, _LEAST_BYTES), _PLENTY_BYTES)
-        if (wanted := max(plenty, _FEWEST_FRAMES * longest)) > _MOST_BYTES:
+        plenty = min(max(_FRAMES * longest, _MIN_BYTES), _PLENTY_BYTES)
+        if (wanted := max(plenty, _FEWEST_FRAMES * longest)) > _MAX_BYTES:
             raise OSError(f"frames of {longest} bytes are too long to be shared")
         self._size = -(-wanted // mmap.PAGESIZE) * mmap.PAGESIZE
         self._file = _sealed_memory(self._size)
@@ -104,7 +104,7 @@ class SharedRingReader:
             OSError: it cannot be seen from here.
         """
         number, self._size = _unpacked(_OPENED, note)
-        if self._size > _MOST_BYTES:
+        if self._size > _MAX_BYTES:
             raise WireError(f"memory of {self._size} bytes is announced, more than is accepted")
         if (process := peer_process(sock)) is None:
             raise PermissionError("the peer is no program of this user")

@@ -73,7 +73,7 @@ def refusal_of_browsers(head: Head) -> str | None:
 
     A page can reach loopback. It cannot send text/xml to another origin without asking first, its POST carries an
     Origin, and a browser of today adds Sec-Fetch-Site. Programs: rospy, roscpp, rosnodejs, goroslib, rosjava and
-    @foxglove/ros1 send text/xml; roslibrust and rosrust send no type. `NodeHost` says nothing: they dial aliases.
+    @foxglove/ros1 send text/xml; roslibrust and rosrust send no type. `Host` says nothing: they dial aliases.
     """
     fields = head.fields
     agent, origin = fields.get("user-agent", ""), fields.get("origin")

@@ -1,0 +1,1 @@
+"""A world or a model as SDF 1.11."""

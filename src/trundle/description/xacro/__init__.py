@@ -1,0 +1,1 @@
+"""Xacro expanded with the official package."""

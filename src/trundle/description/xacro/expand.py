@@ -1,0 +1,300 @@
+"""Expands xacro with the official package: our package resolver in place of ament's, and a pass for Indigo's files.
+
+Indigo's xacro took `<property>`, `<macro>`, … and calls of macros without the `xacro:` prefix; today's copies them to
+the output as plain XML, without a word, and a robot has no links. The pass rewrites them and says so.
+"""
+
+import io
+import itertools
+import os
+import sys
+import threading
+from collections.abc import Callable, Generator, Mapping
+from contextlib import contextmanager
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import Any, TextIO
+from xml.parsers.expat import ErrorString, ExpatError
+
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.expressions import PYTHON_NAMES, Budget
+from trundle.files import read_file
+from trundle.packages import Packages, refuse_ros2_language
+
+from ..xacro_places import Cursor, parse_with_lines, place_of
+from .error import description_error
+from .missing_packages import MissingPackageError, skip_missing_packages
+from .symbols import SubstitutedNames, install_symbols, new_interpreter
+
+
+class _Yaml(ModuleType):
+    """In yaml's place for the package's substitution_args, which imports it and asks it for nothing in most files."""
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(import_module("yaml"), name)
+
+
+class _CommandLine(ModuleType):
+    """In the place of the package's own, which is never asked."""
+
+    process_args = None
+
+
+def _import_xacro() -> tuple[Any, Any]:
+    stand_ins = {each.__name__: each for each in (_Yaml("yaml"), _CommandLine("xacro.cli"))}
+    absent = stand_ins.keys() - sys.modules.keys()
+    sys.modules.update({name: stand_ins[name] for name in absent})
+    try:
+        return import_module("xacro"), import_module("xacro.substitution_args")
+    finally:
+        for name in absent:
+            del sys.modules[name]
+
+
+xacro, substitution_args = _import_xacro()
+
+
+install_symbols(xacro)
+
+
+def _collect_args_for(original: Callable[[str], list[str]]) -> Callable[[str], list[str]]:
+    """Whatever a $(…) stood for is gone through once more, letter by letter."""
+
+    def collect_args(text: str) -> list[str]:
+        return original(text) if "$" in text else []
+
+    return collect_args
+
+
+substitution_args._collect_args = _collect_args_for(substitution_args._collect_args)
+
+
+_MAX_ELEMENTS = 50_000
+"""What macros may expand to; the largest published robot has some 5,000."""
+_LONG = 200
+"""Characters of a text that is counted, each time it is put somewhere."""
+_LOCK = threading.Lock()
+"""The package keeps its state in module globals."""
+_CORE = {
+    "include": "filename",
+    "property": "name",
+    "macro": "name",
+    "if": "value",
+    "unless": "value",
+    "insert_block": "name",
+}
+"""Indigo's bare tags, and the attribute that tells them from plain XML of the same name."""
+_BARE = tuple(f"<{tag}".encode() for tag in _CORE)
+_URDF_TAGS = """
+    robot link joint inertial visual collision origin geometry box cylinder sphere mesh material color
+    texture mass inertia parent child axis limit dynamics mimic safety_controller calibration transmission
+    actuator gazebo sensor plugin hardwareInterface mechanicalReduction type
+"""
+_URDF = frozenset(_URDF_TAGS.split())
+"""Element names that stay what they are even where a macro has the same name."""
+
+
+def expand_xacro(
+    path: Path, arguments: Mapping[str, str], *, packages: Packages, report: Diagnostics, data: bytes | None = None
+) -> str:
+    """Expand a file; return the XML text.
+
+    Args:
+        path: the top file.
+        arguments: `name:=value` of the command line.
+        packages: answers `$(find …)`.
+        report: takes what was rewritten and what xacro warns of.
+        data: what is in the top file, where that is a pipe; relative paths then start beside `path`.
+
+    Raises:
+        DescriptionError: it cannot be expanded; the sentence is xacro's, with the file it was in.
+    """
+    if data is None:
+        if not os.path.exists(path):
+            raise DescriptionError(Source(str(path)), "no such file")
+        refuse_ros2_language(path, is_launch=False)
+        packages = packages.around(path)
+        try:
+            data = read_file(path)
+        except OSError as error:
+            raise DescriptionError(Source(str(path)), str(error.strerror)) from None
+    cursor = Cursor(Source(str(path)))
+    with _LOCK, _patched(packages, report, path, data, cursor):
+        try:
+            document: Any = xacro.process_file(str(path), mappings=dict(arguments), verbosity=0)
+            return str(document.toprettyxml(indent="  "))
+        except DescriptionError:
+            raise
+        except RecursionError:
+            raise DescriptionError(cursor.at, "elements, macros or properties within one another without end") from None
+        except Exception as error:  # xacro evaluates the file's own Python: anything may come out of it
+            raise description_error(error, cursor.at, map(str, xacro.all_includes)) from None
+
+
+@contextmanager
+def _patched(packages: Packages, report: Diagnostics, path: Path, data: bytes, cursor: Cursor) -> Generator[None]:
+    """Put our functions in the official package's place, for as long as one file takes."""
+    stood_in: set[str] = set()
+
+    def find(name: str) -> str:
+        folder = packages.find_folder(name)
+        if folder is None:
+            raise MissingPackageError(f"$(find {name}): {packages.why_not_found(name)}")
+        if packages.stand_in_package(folder) is not None and name not in stood_in:
+            stood_in.add(name)
+            what = f"no package {name!r}: a stand-in of boxes is used; put the original on ROS_PACKAGE_PATH"
+            report.warn(cursor.at, what)
+        return str(folder)
+
+    def warn(*words: object) -> None:
+        report.warn(cursor.at, " ".join(map(str, words)))
+
+    def open_readable(name: str) -> TextIO:
+        packages.check_readable(Path(name), cursor.at, told="load_yaml")
+        try:
+            return io.StringIO(_data(name).decode())
+        except UnicodeDecodeError:
+            raise package.XacroException(f"{name}: it is not UTF-8 text") from None
+
+    def substitution_eval(text: str, _: object, symbols: object) -> object:
+        return interpreter.evaluate(text, SubstitutedNames(symbols, {**PYTHON_NAMES, "range": range}))
+
+    package, arguments, interpreter = xacro, substitution_args, new_interpreter(xacro)
+    names = (
+        "parse", "eval_all", "handle_macro_call", "reqd_attrs", "warning", "print_location", "safe_eval", "eval_text",
+        "process_doc", "process_include", "get_include_files",
+    )  # fmt: skip
+    kept = {name: getattr(package, name) for name in names}
+    own_find = arguments._eval_find
+    package.parse = _parse_for(kept["parse"], packages, report, {str(path): data}, cursor)
+    package.eval_all = _eval_all_for(kept["eval_all"], cursor)
+    package.handle_macro_call = _call_for(kept["handle_macro_call"], report, cursor)
+    if packages.is_lenient:
+        skip_missing_packages(package, packages, report)
+    cursor.follow(package)
+    package.safe_eval = interpreter.evaluate
+    package.eval_text = _eval_text_for(kept["eval_text"], interpreter.budget)
+    package.warning = warn
+    package.open = open_readable  # shadows the builtin that its load_yaml would open any file with
+    package.print_location = lambda: None  # it writes to stderr where a warning was; the cursor knows
+    arguments._eval_find = arguments._eval_dict["find"] = find
+    arguments.eval = substitution_eval  # in its module, in place of the builtin one
+    package.all_includes.clear()
+    try:
+        yield
+    finally:
+        for name, function in kept.items():
+            setattr(package, name, function)
+        arguments._eval_find = arguments._eval_dict["find"] = own_find
+        del arguments.eval
+        package.filestack = package.macrostack = None
+        del package.open
+
+
+def _eval_text_for(original: Callable[..., object], budget: Budget) -> Callable[..., object]:
+    """Most text of a file holds nothing to evaluate, and the package's lexer costs as much as all the rest."""
+
+    def eval_text(text: str, symbols: object) -> object:
+        found = original(text, symbols) if "$" in text else text
+        if isinstance(found, str) and len(found) > _LONG:
+            budget.allocate(len(found))  # a thousand elements may hold it, and the output has it a thousand times
+        return found
+
+    return eval_text
+
+
+def _parse_for(
+    original: Callable[..., Any], packages: Packages, report: Diagnostics, known: Mapping[str, bytes], cursor: Cursor
+) -> Callable[..., Any]:
+    """Parse files our way; of those `known`, by name, the contents are here."""
+
+    def parse(inp: object, filename: str | None = None) -> Any:
+        if filename is None:
+            return original(inp, filename)
+        if filename not in known:
+            packages.check_readable(Path(filename), cursor.at, told="xacro:include")
+            _expect_stand_in(Path(filename), packages, cursor.at)
+        data = known[filename] if filename in known else _data(filename)
+        document = _parsed(data, filename, report)
+        if any(start in data for start in _BARE):
+            _prefix_core_tags(document, report)
+        _drop_unnamed(document, report)
+        return document
+
+    return parse
+
+
+def _parsed(data: bytes, filename: str, report: Diagnostics) -> Any:
+    if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
+        raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
+    if data[:1].isspace() and data.lstrip().startswith(b"<?xml"):
+        report.warn(Source(filename, 1), "blank lines before <?xml …?>, for which xacro refuses the file")
+    try:
+        return parse_with_lines(data, filename)
+    except ExpatError as error:
+        from trundle.xmlnode import parse_xml  # slow to load, and most files are well-formed
+
+        parse_xml(data, name=filename)  # says in a sentence of ours what is wrong
+        what = f"not well-formed XML: {ErrorString(error.code)}"
+        raise DescriptionError(Source(filename, error.lineno), what) from None
+
+
+def _expect_stand_in(file: Path, packages: Packages, at: Source) -> None:
+    package = packages.stand_in_package(file)
+    if package is not None and packages.is_absent(file):
+        raise DescriptionError(at, f"{packages.why_not_found(package)}; its stand-in has no {file.name}")
+
+
+def _data(name: str) -> bytes:
+    """The contents of a file that a file names; one that cannot be read an include may allow."""
+    try:
+        return read_file(name)
+    except OSError as error:
+        raise xacro.XacroException(exc=error) from None
+
+
+def _prefix_core_tags(document: Any, report: Diagnostics) -> None:
+    """Give Indigo's bare core tags their prefix."""
+    rewritten: dict[str, Source] = {}
+    for element in document.getElementsByTagName("*"):
+        tag = element.tagName
+        if tag in _CORE and element.hasAttribute(_CORE[tag]):
+            has_elements = any(child.nodeType == child.ELEMENT_NODE for child in element.childNodes)
+            if not (tag == "include" and has_elements):
+                element.tagName = element.nodeName = f"xacro:{tag}"
+                rewritten.setdefault(tag, place_of(element))
+    for tag, at in sorted(rewritten.items()):
+        report.warn(at, f"<{tag}> without the prefix xacro: is Indigo's way; read as <xacro:{tag}>")
+
+
+def _drop_unnamed(document: Any, report: Diagnostics) -> None:
+    """Leave out properties that no expression can name; Indigo's xacro kept them, today's refuses the file."""
+    for element in document.getElementsByTagName("xacro:property"):
+        name = str(element.getAttribute("name"))
+        if element.hasAttribute("name") and not name.isidentifier():
+            element.parentNode.removeChild(element)
+            report.warn(place_of(element), f"a property named {name!r} can be used nowhere; it is left out")
+
+
+def _eval_all_for(original: Callable[..., None], cursor: Cursor) -> Callable[..., None]:
+    """Count what is gone through: every element, macro and block, each time it is put somewhere."""
+    elements = itertools.count()
+
+    def eval_all(node: Any, macros: Any, symbols: Any) -> None:
+        if next(elements) > _MAX_ELEMENTS:
+            raise DescriptionError(cursor.at, f"macros and blocks that expand to more than {_MAX_ELEMENTS} elements")
+        original(node, macros, symbols)
+
+    return eval_all
+
+
+def _call_for(original: Callable[..., bool], report: Diagnostics, cursor: Cursor) -> Callable[..., bool]:
+    def handle_macro_call(node: Any, macros: Any, symbols: Any) -> bool:
+        name = str(node.tagName)
+        if ":" not in name and name not in _URDF and name in macros:
+            report.warn(cursor.at, f"<{name}> calls a macro without the prefix xacro:; read as <xacro:{name}>")
+            node.tagName = node.nodeName = f"xacro:{name}"
+        return original(node, macros, symbols)
+
+    return handle_macro_call

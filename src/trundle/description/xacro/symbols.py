@@ -1,0 +1,118 @@
+"""The names that xacro gives every expression, as our interpreter may call them."""
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from types import FunctionType
+from typing import Any
+
+from trundle.expressions import Caller, Function, Interpreter, is_method, wrap_function
+
+_DEPRECATED = {"sorted": "python", "range": "python", "load_yaml": "xacro", "abs_filename": "xacro", "dotify": "xacro"}
+"""Functions that may be called without their namespace, with a warning."""
+
+
+def install_symbols(package: Any) -> None:
+    """Put what an expression may call in place of the package's functions, some of which reach anything."""
+
+    def dotify(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+        return package.YamlDictWrapper(caller.call(dict, values, named))
+
+    symbols = package._global_symbols
+    functions, python = symbols["xacro"], symbols["python"]
+    dict.pop(python, "vars")  # would open what no name may
+    dict.update(
+        functions,
+        load_yaml=Function("load_yaml", _yaml_reader(package)),
+        tokenize=wrap_function(_tokenize, "tokenize"),
+        dotify=Function("dotify", dotify),
+    )
+    for name, value in list(dict.items(functions)):
+        if isinstance(value, FunctionType):
+            dict.__setitem__(functions, name, wrap_function(value, name))
+    for name, space in _DEPRECATED.items():
+        symbols[name] = Function(name, _deprecated(package, name, space, symbols[space][name]))
+    package.Table.__repr__ = package.Table.__str__ = _namespace_text  # else all that it and its parents hold
+
+
+def new_interpreter(package: Any) -> Interpreter:
+    """Prepare to evaluate the expressions of one file."""
+
+    def dotted(owner: Any, name: str) -> Any:
+        if isinstance(owner, package.Table):
+            return package.NameSpace.__getattr__(owner, name)
+        if isinstance(owner, package.YamlDictWrapper) and not is_method(dict, name):
+            return package.YamlDictWrapper.__getattr__(owner, name)
+        return NotImplemented
+
+    return Interpreter(dotted=dotted)
+
+
+def _namespace_text(_: object) -> str:
+    return "<namespace>"
+
+
+def _deprecated(package: Any, name: str, space: str, value: Any) -> Callable[..., Any]:
+    def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+        package.warning(f"Using {name}() directly is deprecated. Use {space}.{name}() instead.")
+        return caller.call(value, values, named)
+
+    return call
+
+
+def _tokenize(text: str, sep: str = ",; ", skip_empty: bool = True) -> list[str]:
+    """Split a text as the package does; the separators are characters, never a pattern that takes an hour."""
+    items = re.split("[{}]".format(re.sub(r"([\[\]\\^])", r"\\\1", sep)), text)
+    return [item for item in items if item] if skip_empty else items
+
+
+def _yaml_of(text: str, name: str, package: Any) -> Any:
+    """Read YAML with xacro's units, such as `!degrees 90`."""
+    from yaml import YAMLError  # slow to load, and most robots have none
+
+    from trundle.yaml_loader import BoundedLoader, load_yaml, one_line
+
+    class Loader(BoundedLoader):
+        pass
+
+    for unit in package.ConstructUnits:
+        Loader.add_constructor(unit.value.tag, unit.constructor)
+    try:
+        return load_yaml(text, Loader)
+    except YAMLError as error:
+        raise package.XacroException(f"{name}: {one_line(error)}") from None
+
+
+def _yaml_reader(package: Any) -> Callable[[Caller, Sequence[Any], Mapping[str, Any]], Any]:
+    def read(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
+        (filename,) = (*values, *named.values())
+        name = package.abs_filename_spec(filename)
+        with package.open(name) as file:
+            text = file.read()
+        caller.budget.spend(len(text))
+        package.filestack.append(name)
+        try:
+            return package.YamlListWrapper.wrap(_yaml_of(text, name, package))
+        finally:
+            package.filestack.pop()
+            package.all_includes.append(name)
+
+    return read
+
+
+class SubstitutedNames:
+    """Names of a `$(eval …)`, whose functions come from the package; the original lets it have every builtin."""
+
+    def __init__(self, symbols: Any, others: Mapping[str, Any]) -> None:
+        self._symbols, self._others = symbols, others
+
+    def __getitem__(self, name: str) -> Any:
+        """The value of a name.
+
+        Raises:
+            KeyError: nothing has it.
+        """
+        try:
+            value = self._symbols[name]
+        except KeyError:
+            return self._others[name]
+        return wrap_function(value, name) if isinstance(value, FunctionType) else value

@@ -1,0 +1,165 @@
+"""Where the boxes and arrows of a graph go: in columns from left to right, by Sugiyama's method.
+
+K. Sugiyama, S. Tagawa, M. Toda: Methods for visual understanding of hierarchical system structures, 1981. An arrow that
+spans columns has a slot of its own in each of those between, so that none runs behind a box.
+"""
+
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TypeAlias
+
+Vertex: TypeAlias = Hashable
+_SWEEPS = 12
+"""Passes of sorting each column by its neighbours, which takes most crossings out."""
+_STRAIGHT = 8.0
+"""How much rather an arrow is straight than a box in the middle of its neighbours."""
+
+
+@dataclass(frozen=True, slots=True)
+class LayeredLayout:
+    """Columns of boxes and slots, and how high each is."""
+
+    columns: list[list[Vertex]]
+    """From left to right, each from top to bottom; a slot is (number of the edge, column)."""
+    heights: dict[Vertex, float]
+    """The middle of each, from 0 at the topmost."""
+    routes: list[list[Vertex]]
+    """For each edge what it passes from its start to its end, slots included."""
+
+
+def layered_layout(
+    items: Sequence[Vertex], edges: Sequence[tuple[Vertex, Vertex]], *, box_gap: float, slot_gap: float
+) -> LayeredLayout:
+    """Place the boxes: each right of those that feed it, as far as loops allow.
+
+    Args:
+        items: the boxes.
+        edges: between boxes, from, to.
+        box_gap: between the middles of two boxes in a column; half of it goes to each.
+        slot_gap: the same of two slots.
+    """
+    order = _without_loops(items, edges)
+    position = {item: i for i, item in enumerate(order)}
+    forwards = [(a, b) if position[a] <= position[b] else (b, a) for a, b in edges]
+    depth = _depths(order, forwards)
+    columns: list[list[Vertex]] = [[] for _ in range(max(depth.values(), default=-1) + 1)]
+    joined = {item for edge in edges for item in edge}
+    for item in order:
+        if item in joined:
+            columns[depth[item]].append(item)
+    links: dict[Vertex, tuple[list[Vertex], list[Vertex]]] = {item: ([], []) for item in order}
+    routes: list[list[Vertex]] = []
+    for i, ((start, _), (first, last)) in enumerate(zip(edges, forwards, strict=True)):
+        slots: list[Vertex] = [(i, column) for column in range(depth[first] + 1, depth[last])]
+        for column, slot in enumerate(slots, depth[first] + 1):
+            columns[column].append(slot)
+            links[slot] = ([], [])
+        route = [first, *slots, last]
+        for left, right in pairwise(route):
+            links[left][1].append(right)
+            links[right][0].append(left)
+        routes.append(route if start == first else route[::-1])
+    boxes = set(items)
+    _sort(columns, links)
+    heights = _heights(columns, links, boxes, box_gap, slot_gap)
+    lowest = max(heights.values(), default=-box_gap)
+    for item in (item for item in items if item not in joined):  # what has no arrows goes below all else
+        lowest += box_gap
+        heights[item] = lowest
+        columns[0].append(item)
+    top = min(heights.values(), default=0.0)
+    return LayeredLayout(columns, {vertex: height - top for vertex, height in heights.items()}, routes)
+
+
+def _without_loops(items: Sequence[Vertex], edges: Sequence[tuple[Vertex, Vertex]]) -> list[Vertex]:
+    """Order the boxes so that arrows point forwards, but for those that close a loop."""
+    below: dict[Vertex, list[Vertex]] = {item: [] for item in items}
+    fed = {end for _, end in edges}
+    for start, end in edges:
+        below[start].append(end)
+    done: dict[Vertex, None] = {}
+    entered: set[Vertex] = set()
+    for first in sorted(items, key=lambda item: item in fed):  # a loop is cut where something comes into it
+        waiting = [(first, iter(below[first]))] if first not in entered else []
+        entered.add(first)
+        while waiting:
+            item, rest = waiting[-1]
+            following = next((other for other in rest if other not in entered), None)
+            if following is None:
+                done[item] = None
+                waiting.pop()
+            else:
+                entered.add(following)
+                waiting.append((following, iter(below[following])))
+    return list(done)[::-1]
+
+
+def _depths(order: Sequence[Vertex], forwards: Sequence[tuple[Vertex, Vertex]]) -> dict[Vertex, int]:
+    """The column of each box: after the last of those that feed it; what nothing feeds, before the first it feeds."""
+    below: dict[Vertex, list[Vertex]] = {item: [] for item in order}
+    for start, end in forwards:
+        if start != end:
+            below[start].append(end)
+    depth = dict.fromkeys(order, 0)
+    for item in order:
+        for other in below[item]:
+            depth[other] = max(depth[other], depth[item] + 1)
+    for item in order:
+        if depth[item] == 0 and below[item]:
+            depth[item] = min(depth[other] for other in below[item]) - 1
+    return depth
+
+
+def _sort(columns: list[list[Vertex]], links: Mapping[Vertex, tuple[list[Vertex], list[Vertex]]]) -> None:
+    """Bring each column into the order of what its members are joined to, now on the left, now on the right."""
+    row = {vertex: float(i) for column in columns for i, vertex in enumerate(column)}
+    for sweep in range(_SWEEPS):
+        side = sweep % 2
+        for column in columns if side == 0 else reversed(columns):
+            wished = {vertex: _mean([row[other] for other in links[vertex][side]], row[vertex]) for vertex in column}
+            column.sort(key=lambda vertex: (wished[vertex], row[vertex]))
+            row.update((vertex, float(i)) for i, vertex in enumerate(column))
+
+
+def _heights(
+    columns: Sequence[Sequence[Vertex]],
+    links: Mapping[Vertex, tuple[list[Vertex], list[Vertex]]],
+    boxes: set[Vertex],
+    box_gap: float,
+    slot_gap: float,
+) -> dict[Vertex, float]:
+    """As high as what each is joined to, as far as its column has room."""
+    room = {vertex: box_gap if vertex in boxes else slot_gap for column in columns for vertex in column}
+    height = {vertex: 0.0 for column in columns for vertex in column}
+    for sweep in range(_SWEEPS):
+        for column in columns if sweep % 2 == 0 else reversed(columns):
+            wished = [
+                _mean([height[other] for other in (*links[vertex][0], *links[vertex][1])], height[vertex])
+                for vertex in column
+            ]
+            weights = [1.0 if vertex in boxes else _STRAIGHT for vertex in column]
+            height.update(zip(column, _spread(wished, weights, [room[vertex] for vertex in column]), strict=True))
+    return height
+
+
+def _spread(wished: Sequence[float], weights: Sequence[float], room: Sequence[float]) -> list[float]:
+    """The heights nearest to those wished for that keep order and distance (pool adjacent violators)."""
+    offsets = [0.0]
+    for above, below in pairwise(room):
+        offsets.append(offsets[-1] + (above + below) / 2)
+    pools: list[tuple[float, float, int]] = []
+    """Mean, weight, members."""
+    for wish, weight, offset in zip(wished, weights, offsets, strict=False):
+        mean, total, count = wish - offset, weight, 1
+        while pools and pools[-1][0] > mean:
+            other, other_total, other_count = pools.pop()
+            mean = (mean * total + other * other_total) / (total + other_total)
+            total, count = total + other_total, count + other_count
+        pools.append((mean, total, count))
+    flat = [mean for mean, _, count in pools for _ in range(count)]
+    return [mean + offset for mean, offset in zip(flat, offsets, strict=False)]
+
+
+def _mean(values: Sequence[float], otherwise: float) -> float:
+    return sum(values) / len(values) if values else otherwise

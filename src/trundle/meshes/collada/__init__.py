@@ -1,0 +1,1 @@
+"""COLLADA files: scene, skeletons, animations and skins."""

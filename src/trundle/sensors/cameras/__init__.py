@@ -1,0 +1,1 @@
+"""Cameras of every kind: a snapshot becomes a picture."""

@@ -1,0 +1,186 @@
+"""Ways that a camera looks: the pinhole pictures it needs, and the picture it makes of them."""
+
+import math
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.model import CameraOptics, Distortion
+from trundle.render import Intrinsics, Picture
+from trundle.spatial import Pose
+
+from .lens import CUBE, directions_through
+from .remap import Remap
+from .undistort import distorted, undistorted
+
+_Array = NDArray[np.float64]
+_STEEPEST = math.tan(math.radians(85.0))
+"""No pinhole picture reaches farther from its axis than this slope."""
+_MAX_PX = 1 << 25
+_MAX_ALONG = 8190
+"""From the middle of a picture to its rim [px]."""
+_MIN_SCALE = 1e-7
+
+
+class CameraProjection(Protocol):
+    """How a camera looks."""
+
+    @property
+    def pinhole_views(self) -> list[tuple[Pose, Intrinsics]]:
+        """The pinhole pictures it needs, of one size: camera_from_face, and their lenses."""
+        ...
+
+    def compose(self, pictures: list[Picture]) -> Picture:
+        """The camera's own picture, made of those."""
+        ...
+
+    def slopes(self) -> tuple[_Array, _Array]:
+        """How far to the right and down each pixel looks, (height, width) each, 1 m ahead [m]."""
+        ...
+
+
+class PinholeProjection:
+    """One picture as it is drawn."""
+
+    def __init__(self, intrinsics: Intrinsics) -> None:
+        self.pinhole_views = [(Pose(), intrinsics)]
+
+    def compose(self, pictures: list[Picture]) -> Picture:
+        """See `CameraProjection.compose`."""
+        return pictures[0]
+
+    def slopes(self) -> tuple[_Array, _Array]:
+        """See `CameraProjection.slopes`."""
+        ((_, seen),) = self.pinhole_views
+        columns, rows = _pixels(seen.width_px, seen.height_px)
+        f = seen.focal_px
+        return (columns - seen.width_px / 2) / f, (rows - seen.height_px / 2) / f
+
+
+class DistortedProjection:
+    """A pinhole picture that distortion bends, or whose middle or pixels are not as a renderer has them."""
+
+    def __init__(self, optics: CameraOptics, intrinsics: Intrinsics, *, crop: bool) -> None:
+        """Find where each pixel looks, and the pinhole picture that holds all of that."""
+        columns, rows = _pixels(optics.width_px, optics.height_px)
+        f, pinhole, distortion = intrinsics.focal_px, optics.intrinsics, optics.distortion
+        if pinhole is None:
+            right, down, sound = _gazebo_slopes(columns, rows, f, distortion, crop=crop)
+        else:
+            f = max(pinhole.fx, pinhole.fy)
+            down = (rows - pinhole.cy) / pinhole.fy
+            right = (columns - pinhole.cx - pinhole.skew * down) / pinhole.fx
+            right, down, sound = undistorted(right, down, distortion)
+        self._right, self._down = right, down
+        sound &= (np.abs(self._right) < _STEEPEST) & (np.abs(self._down) < _STEEPEST)
+        face = _covering_intrinsics(self._right[sound], self._down[sound], f, intrinsics)
+        self.pinhole_views = [(Pose(), face)]
+        ahead = np.ones_like(self._right)
+        directions = np.stack([ahead, -self._right, -self._down], axis=-1)
+        self._remap = Remap(self.pinhole_views, directions, sound)
+
+    def compose(self, pictures: list[Picture]) -> Picture:
+        """See `CameraProjection.compose`."""
+        return self._remap.compose(pictures)
+
+    def slopes(self) -> tuple[_Array, _Array]:
+        """See `CameraProjection.slopes`."""
+        return self._right, self._down
+
+
+class WideAngleProjection:
+    """What a wide lens sees, looked up in those sides of a cube that it needs."""
+
+    def __init__(self, optics: CameraOptics, intrinsics: Intrinsics) -> None:
+        lens = optics.lens
+        assert lens is not None, "not a wide-angle camera"
+        width, height = optics.width_px, optics.height_px
+        columns, rows = _pixels(width, height)
+        half = width / 2
+        x, y = (columns - half) / half, (rows - height / 2) / half
+        directions, seen = directions_through(lens, optics.horizontal_fov_rad, x, y)
+        # Two pixels more than a quarter turn: neighbours are looked up within one face.
+        size = lens.face_px + 2
+        fov = 2.0 * math.atan(size / lens.face_px)
+        face = Intrinsics(
+            width_px=size,
+            height_px=size,
+            horizontal_fov_rad=fov,
+            near_m=intrinsics.near_m,
+            far_m=intrinsics.far_m,
+        )
+        self._remap = Remap([(side, face) for side in CUBE], directions, seen)
+        self.pinhole_views = self._remap.pinhole_views
+
+    def compose(self, pictures: list[Picture]) -> Picture:
+        """See `CameraProjection.compose`."""
+        return self._remap.compose(pictures)
+
+    def slopes(self) -> tuple[_Array, _Array]:
+        """A wide lens looks to where no slope leads."""
+        raise AssertionError("depths are seen through pinholes only")
+
+
+def projection_of(optics: CameraOptics, intrinsics: Intrinsics, *, crop: bool = True) -> CameraProjection:
+    """How a camera with these optics looks.
+
+    Args:
+        optics: of the camera.
+        intrinsics: of a pinhole as wide.
+        crop: whether a picture whose `k1` is negative is enlarged until no border is black, as in Gazebo.
+    """
+    if optics.lens is not None:
+        return WideAngleProjection(optics, intrinsics)
+    if optics.intrinsics is not None or optics.distortion != Distortion():
+        return DistortedProjection(optics, intrinsics, crop=crop)
+    return PinholeProjection(intrinsics)
+
+
+def _gazebo_slopes(
+    columns: _Array, rows: _Array, focal: float, distortion: Distortion, *, crop: bool
+) -> tuple[_Array, _Array, NDArray[np.bool_]]:
+    """Slopes to the right and down that pixels see, and which of them see anything.
+
+    Gazebo 11's map of a distortion is square, whatever the picture's shape: the picture is stretched to a square of its
+    longer side, bent, and stretched back. How much it is enlarged is what becomes of that square's diagonal.
+    """
+    height, width = columns.shape
+    side = max(width, height) / focal
+    middle = distortion.center
+    scale = (1.0, 1.0)
+    if crop and distortion.k1 < 0.0:
+        low, high = (-middle[0] * side, -middle[1] * side), ((1.0 - middle[0]) * side, (1.0 - middle[1]) * side)
+        left, top = distorted(np.array(low[0]), np.array(low[1]), distortion)
+        right, bottom = distorted(np.array(high[0]), np.array(high[1]), distortion)
+        scale = (float(right - left) / side, float(bottom - top) / side)
+        if min(scale) < _MIN_SCALE:  # where Gazebo, too, does not crop
+            scale = (1.0, 1.0)
+    u, v = (
+        ((at / size - 0.5) * factor + 0.5 - center) * side
+        for at, size, factor, center in zip((columns, rows), (width, height), scale, middle, strict=True)
+    )
+    across, along, sound = undistorted(u, v, distortion)
+    right = across * width / focal / side + (middle[0] - 0.5) * width / focal
+    return right, along * height / focal / side + (middle[1] - 0.5) * height / focal, sound
+
+
+def _pixels(width: int, height: int) -> tuple[_Array, _Array]:
+    """Columns and rows of the pixels' middles, (height, width) each."""
+    columns, rows = np.arange(width, dtype=np.float64) + 0.5, np.arange(height, dtype=np.float64) + 0.5
+    return np.tile(columns, (height, 1)), np.repeat(rows[:, None], width, axis=1)
+
+
+def _covering_intrinsics(right: _Array, down: _Array, focal: float, intrinsics: Intrinsics) -> Intrinsics:
+    """A pinhole picture that holds all these slopes, as sharp as the camera's own if that is possible."""
+    across = float(np.abs(right).max(initial=1e-3))
+    along = float(np.abs(down).max(initial=1e-3))
+    focal = min(focal, math.sqrt(_MAX_PX / (4.0 * across * along)), _MAX_ALONG / max(across, along))
+    width, height = (2 * (math.ceil(focal * slope) + 1) for slope in (across, along))
+    return Intrinsics(
+        width_px=width,
+        height_px=height,
+        horizontal_fov_rad=2.0 * math.atan(width / (2.0 * focal)),
+        near_m=intrinsics.near_m,
+        far_m=intrinsics.far_m,
+    )

@@ -1,0 +1,108 @@
+"""What all cameras look at: one renderer, and what each shape that it draws is."""
+
+from collections.abc import Callable
+
+import numpy as np
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from trundle.model import EVERY_BIT, Visual, World
+from trundle.render import Intrinsics, Picture, Renderer, Scene, scene_from_world, size_of
+from trundle.simulation import Simulation, Snapshot
+from trundle.spatial import Pose
+
+_MAX_BATCH_PX = 1 << 22
+"""Of one call: pictures that are large gain nothing by it, and all of them are kept until the last one is fetched."""
+
+
+class RenderRequest(Struct, eq=False):
+    """Pictures that a camera wants of an instant."""
+
+    snapshot: Snapshot
+    views: list[tuple[Pose, Intrinsics]]
+    depth: bool
+    segmentation: bool
+    batch: list["RenderRequest"]
+    """Those that are drawn when the first of them is fetched; afterwards none."""
+    pictures: list[Picture] | None = None
+    """None: not drawn yet."""
+
+
+class CameraScene:
+    """The world as cameras see it. Its tables are by a shape's number; number −1, no shape, is their last entry."""
+
+    def __init__(self, simulation: Simulation, make: Callable[[Scene], Renderer], *, mask: int = EVERY_BIT) -> None:
+        """Make the scene and its renderer.
+
+        Args:
+            simulation: what there is to see; another scene is made after models came, went or were edited.
+            make: makes the one renderer that all cameras share.
+            mask: which visuals they see; see `scene_from_world`.
+        """
+        self.mask = mask
+        self._simulation = simulation
+        self._make = make
+        self._shown: Snapshot | None = None
+        self._requested: Snapshot | None = None
+        self._open: dict[tuple[int, int, bool, bool], list[RenderRequest]] = {}
+        """Of that instant, and not drawn yet: by height, width and kind."""
+        self._build(simulation.world)
+
+    def _build(self, world: World) -> None:
+        self._world = world
+        self.scene = scene_from_world(world, self._simulation.report, mask=self.mask)
+        self._renderer = self._make(self.scene)
+        visuals: dict[tuple[int, str], Visual] = {}
+        model_of: list[int] = []
+        for number, model in enumerate(world.models):
+            for link in model.links:
+                visuals |= {(len(model_of), visual.name): visual for visual in link.visuals}
+                model_of.append(number)
+        air = world.atmosphere.temperature
+        shapes = [(shape.body, visuals.get((shape.body, shape.name))) for shape in self.scene.shapes]
+        self.models: NDArray[np.intp] = np.array([*(model_of[body] for body, _ in shapes), -1], dtype=np.intp)
+        """Which model it is of; −1: none."""
+        self.labels: NDArray[np.uint8] = np.array([*(v.label if v else 0 for _, v in shapes), 0], dtype=np.uint8)
+        heats = [air if visual is None or visual.temperature is None else visual.temperature for _, visual in shapes]
+        self.temperatures: NDArray[np.float32] = np.array([*heats, air], dtype=np.float32)
+        """[K]"""
+
+    def request(
+        self, snapshot: Snapshot, views: list[tuple[Pose, Intrinsics]], *, depth: bool, segmentation: bool
+    ) -> RenderRequest:
+        """Have pictures of one size drawn, by one call with those that are ordered before any of them is fetched."""
+        if self._requested is not snapshot:
+            self._requested, self._open = snapshot, {}
+        height, width = size_of(views)
+        kind = (height, width, depth, segmentation)
+        together = self._open.get(kind, [])
+        if (len(together) + 1) * len(views) * height * width > _MAX_BATCH_PX:
+            together = []
+        self._open[kind] = together
+        request = RenderRequest(snapshot, views, depth, segmentation, together)
+        together.append(request)
+        return request
+
+    def fetch(self, request: RenderRequest) -> list[Picture]:
+        """The pictures that were ordered; the shapes are put in place once for all cameras."""
+        if request.pictures is None:
+            self._show(request.snapshot)
+            views = [view for each in request.batch for view in each.views]
+            pictures = iter(self._renderer.render(views, depth=request.depth, segmentation=request.segmentation))
+            for each in request.batch:
+                each.pictures = [next(pictures) for _ in each.views]
+            request.batch.clear()
+        assert request.pictures is not None
+        return request.pictures
+
+    def _show(self, snapshot: Snapshot) -> None:
+        if self._world is not self._simulation.world:
+            self._build(self._simulation.world)
+            self._shown = None
+        if self._shown is not snapshot:
+            self._renderer.update(snapshot.poses)
+            if self.scene.skins:
+                from trundle.render import update_skins  # only actors have some
+
+                update_skins(self._renderer, self.scene, self._simulation.animation_state)
+            self._shown = snapshot
