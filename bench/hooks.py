@@ -97,7 +97,7 @@ def _controlled_arm(folder: Path, loop: GraphLoop) -> Simulation:
     urdf = f'<robot name="r">{weld}{links}{joints}{plugin}</gazebo></robot>'
     core = Core(loop, port=0)
     loop.run(core.start(), _PATIENCE_S)
-    loop.run(core.ready(), _PATIENCE_S)
+    loop.run(core.wait_ready(), _PATIENCE_S)
     sim = _load("arm.urdf", urdf, folder)
     node = Node(
         "/gazebo", loop=loop, master_uri=core.uri, deliver=lambda call: sim.post(lambda _: call()), rosout=False

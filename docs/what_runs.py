@@ -6,7 +6,7 @@ from pathlib import Path
 
 from trundle.cli.main import COMMANDS
 from trundle.nodes import BUILTIN_NODES
-from trundle.plugins import BUILTIN, OF_SENSORS
+from trundle.plugins import BUILTIN, SENSOR_PLUGINS
 from trundle.sensors import SIMULATED_CAMERAS
 
 README = Path(__file__).parents[1] / "README.md"
@@ -17,7 +17,7 @@ GAZEBO_ROS = "gazebo_ros_"
 
 def table() -> str:
     """The rows: commands, nodes, sensors, plugins; a name's other spellings are left out."""
-    plugins = {name.removeprefix("lib").removesuffix(".so") for name in {*BUILTIN, *OF_SENSORS}}
+    plugins = {name.removeprefix("lib").removesuffix(".so") for name in {*BUILTIN, *SENSOR_PLUGINS}}
     of_ros = {name for name in plugins if name.startswith(GAZEBO_ROS)}
     rows = {
         "`trundle …`": _listed(COMMANDS),

@@ -44,6 +44,6 @@ def running_graph(messages: Messages | None = None) -> Iterator[Graph]:
     with GraphLoop(messages=messages) as loop:
         core = Core(loop, port=0)
         loop.run(core.start(), PATIENCE_S)
-        loop.run(core.ready(), PATIENCE_S)
+        loop.run(core.wait_ready(), PATIENCE_S)
         yield Graph(loop, core)
         loop.run(core.stop(), PATIENCE_S)

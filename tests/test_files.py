@@ -116,7 +116,7 @@ class TestEveryReader:
             read_heights(fifo)
 
     def test_of_maps(self, fifo: Path) -> None:
-        from trundle.nodes.map_server.occupancy import read_map
+        from trundle.nodes.map_server.occupancy_grid import read_map
 
         keys = "resolution: 1, origin: [0, 0, 0], negate: 0, occupied_thresh: 1, free_thresh: 0"
         described = fifo.with_name("map.yaml")

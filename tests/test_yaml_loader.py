@@ -6,7 +6,7 @@ import pytest
 import yaml
 
 from trundle.diagnostics import DescriptionError, Diagnostics, UsageError
-from trundle.nodes.map_server.occupancy import read_map
+from trundle.nodes.map_server.occupancy_grid import read_map
 from trundle.viewer import read_rviz_config
 from trundle.yaml_loader import BoundedLoader, load_yaml, one_line
 

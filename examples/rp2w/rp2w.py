@@ -69,9 +69,11 @@ class Rp2w(Plugin):
         self.odom = node.advertise("/odom", "nav_msgs/Odometry", queue_size=5)
         self.tf = ros.TransformBroadcaster(node)
         x_forward = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
-        ros.StaticTransformBroadcaster(node).send(ros.Transform(parent="world", child="odom", rotation=x_forward))
-        states = bridge.JointStates(node, model)
-        sim.add_hook(states, period_ns=states.period_ns, enabled=states.wanted)
+        ros.StaticTransformBroadcaster(node).send_transform(
+            ros.Transform(parent="world", child="odom", rotation=x_forward)
+        )
+        states = bridge.JointStatesTopic(node, model)
+        sim.add_hook(states, period_ns=states.period_ns, enabled=states.has_subscribers)
         node.subscribe("/cmd_vel", "geometry_msgs/Twist", self.take)
         node.subscribe("/camera/pan", "std_msgs/Float64", lambda message: self.look(self.pan, message.data))
         # The tilt joint's axis is the model's +x, to the right: turning about it lifts the view.
@@ -104,7 +106,7 @@ class Rp2w(Plugin):
     def publish(self, time_ns: int, speed: float, turning: float) -> None:
         here = self.odometry
         qw, qz = math.cos(here.yaw / 2), math.sin(here.yaw / 2)
-        self.tf.send(
+        self.tf.send_transform(
             ros.Transform(
                 parent="odom",
                 child=self.frame,

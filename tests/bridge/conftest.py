@@ -54,10 +54,10 @@ def hear(graph: SimpleNamespace, described: Described) -> Hear:
         sensors = mount_sensors(sim)
         for sensor in (*cameras, *sensors):
             sensor.start(sim)
-        still = StaticTransformBroadcaster(graph.node)
-        camera_topics(graph.node, still, cameras, FrameNames.of(sim.world))
-        sensor_topics(graph.node, still, sensors, FrameNames.of(sim.world))
-        still.send(Transform(parent="world", child="the last"))
+        static_broadcaster = StaticTransformBroadcaster(graph.node)
+        camera_topics(graph.node, static_broadcaster, cameras, FrameNames.from_world(sim.world))
+        sensor_topics(graph.node, static_broadcaster, sensors, FrameNames.from_world(sim.world))
+        static_broadcaster.send_transform(Transform(parent="world", child="the last"))
         heard: dict[str, Any] = {}
         frames: set[str] = set()
         graph.ear.subscribe(

@@ -58,7 +58,7 @@ def stage() -> Iterator[SimpleNamespace]:
     camera = CameraSensor(SensorMount(model, link, sensor, 0, (0,)), optics, scene=scenery)
     with running_graph() as running:
         node, viewer = running.node("sim"), running.node("viewer")
-        topics = CameraTopics(node, StaticTransformBroadcaster(node), camera, FrameNames.of(world))
+        topics = CameraTopics(node, StaticTransformBroadcaster(node), camera, FrameNames.from_world(world))
         running.ready(node)
         yield SimpleNamespace(camera=camera, viewer=viewer, loop=running.loop, topics=topics)
         for one in (viewer, node):

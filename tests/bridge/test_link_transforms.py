@@ -78,8 +78,8 @@ def test_what_cannot_move_is_told_apart() -> None:
     )
     model = Model(name="arm", at=AT, links=arm().links, joints=(rigid,))
 
-    assert [f.moves for f in link_frames(World(name="w", at=AT, models=(model,)))] == [False, True]
-    assert [f.moves for f in link_frames(World(name="w", at=AT, models=(arm(static=True),)))] == [False, False]
+    assert [f.is_moving for f in link_frames(World(name="w", at=AT, models=(model,)))] == [False, True]
+    assert [f.is_moving for f in link_frames(World(name="w", at=AT, models=(arm(static=True),)))] == [False, False]
 
 
 def sensor(name: str) -> Sensor:
@@ -103,6 +103,6 @@ def test_sensors_of_one_name_have_frames_of_their_own() -> None:
 def test_no_sensor_has_the_frame_of_a_link() -> None:
     """Neither that of one that is simulated nor, of a URDF, that of one that is lumped."""
     robot = Robot(name="bot", at=AT, root="mast", links=(RobotLink(name="mast", at=AT),), joints=())
-    told = frames_of_sensors(FrameNames.of_robot(robot), ("base", "imu"), ("imu", "base"), ("base", "mast"))
+    told = frames_of_sensors(FrameNames.from_robot(robot), ("base", "imu"), ("imu", "base"), ("base", "mast"))
 
     assert told == ["imu_sensor", "base_sensor", "mast_sensor"]

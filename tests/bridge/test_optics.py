@@ -9,7 +9,7 @@ import pytest
 from trundle.description import write_sdf, written_uri
 from trundle.diagnostics import Diagnostics
 from trundle.model import Lens, PluginTag
-from trundle.plugins.gazebo_ros.camera import keep_borders_if_told
+from trundle.plugins.gazebo_ros.camera import read_border_crop
 from trundle.render import NativeRenderer
 from trundle.sensors import mount_cameras
 from trundle.xmlnode import parse_xml
@@ -72,7 +72,7 @@ def test_a_plugin_may_leave_out_the_crop(described: Any, told: str, is_whole: bo
     (camera,) = mount_cameras(sim, NativeRenderer)
     node = parse_xml(f"<plugin>{told}</plugin>", name="a.sdf")
 
-    keep_borders_if_told(camera, PluginTag(name="p", filename="p.so", at=node.at, node=node), sim.report)
+    read_border_crop(camera, PluginTag(name="p", filename="p.so", at=node.at, node=node), sim.report)
 
     assert (np.abs(camera.projection.slopes()[0]).max() > 32 / F) == is_whole
     assert sim.report.warnings == []

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import trundle
-from trundle.bridge import FrameNames, SimulationFrames, camera_topics, sensor_topics
+from trundle.bridge import FrameNames, LinkTransforms, camera_topics, sensor_topics
 from trundle.render import NativeRenderer
 from trundle.ros import Transform, TransformBuffer
 from trundle.sensors import (
@@ -57,9 +57,9 @@ class Ear:
     def take(self, parent: str, child: str, stamp: int, place: Any, turn: Any) -> None:
         assert self.tree.frames().get(child) in (None, parent), f"{child} has two parents"
         made = Transform(parent=parent, child=child, stamp_ns=stamp, translation=place, rotation=turn)
-        self.tree.insert(made, static=stamp == 0)
+        self.tree.set_transform(made, static=stamp == 0)
 
-    def send(self, *transforms: Transform) -> None:
+    def send_transform(self, *transforms: Transform) -> None:
         """As the broadcaster of what does not move."""
         for each in transforms:
             self.take(each.parent, each.child, 0, each.translation, each.rotation)
@@ -94,10 +94,10 @@ def robot(name: str, place: str) -> str:
 def spoken(sim: Simulation) -> tuple[Ear, Any, list[Any]]:
     ear: Any = Ear()
     mounted: list[Any] = [*mount_cameras(sim, NativeRenderer), *mount_sensors(sim)]
-    names = FrameNames.of(sim.world)
+    names = FrameNames.from_world(sim.world)
     camera_topics(ear, ear, [each for each in mounted if isinstance(each, CameraSensor)], names)
     sensor_topics(ear, ear, [each for each in mounted if not isinstance(each, CameraSensor)], names)
-    return ear, SimulationFrames(ear, ear, sim.world, sim.snapshot()), mounted
+    return ear, LinkTransforms(ear, ear, sim.world, sim.snapshot()), mounted
 
 
 def placed(sensor: Any, snapshot: Snapshot) -> Pose:
@@ -135,7 +135,7 @@ def test_every_sensor_speaks_in_a_frame_that_is_where_the_sensor_is(tmp_path: Pa
         for topic, frame in ear.named.items():
             if frame == "world":  # contacts and heights are told in it
                 continue
-            found, expected = ear.tree.lookup("world", frame).pose, placed(sensor, now)
+            found, expected = ear.tree.lookup_transform("world", frame).pose, placed(sensor, now)
             assert found.position == pytest.approx(expected.position, abs=1e-6), topic
             assert abs(sum(a * b for a, b in zip(found.quaternion, expected.quaternion, strict=True))) == pytest.approx(
                 1.0, abs=1e-9

@@ -3,7 +3,7 @@
 import pytest
 from tests.bringup.conftest import Gazebo, until
 
-from trundle.bringup.page_layout import drawn_lines
+from trundle.bringup.page_scene import drawn_lines
 
 _FOOT = """<sdf version="1.6"><model name="foot"><link name="l"><pose>0 0 0.1 0 0 0</pose>
 <inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>

@@ -8,7 +8,7 @@ import pytest
 from tests.bringup.conftest import PATIENCE_S, Gazebo, until
 
 from trundle.nodes.gazebo import GazeboServer, SpawnModel
-from trundle.ros import Message, Node, ns_of
+from trundle.ros import Message, Node, to_nsec
 
 _BALL = """<sdf version="1.6"><model name="as_written"><pose>0 0 1 0 0 0</pose><link name="link">
 <inertial><mass>2</mass><inertia><ixx>0.02</ixx><iyy>0.02</iyy><izz>0.02</izz></inertia></inertial>
@@ -298,7 +298,7 @@ def test_topics_of_a_model_go_with_it_unless_another_has_them_too(gazebo: Gazebo
     model = "<sdf version='1.6'><model name='m'><static>1</static><link name='l'>{}</link></model></sdf>"
 
     def topics() -> set[str]:
-        return set(dict(gazebo.loop.run(gazebo.client.ask("getPublishedTopics", "/")))) & {"/own", "/both"}
+        return set(dict(gazebo.loop.run(gazebo.client.call_master("getPublishedTopics", "/")))) & {"/own", "/both"}
 
     gazebo.spawn(model.format(imu.format("/own") + imu.format("/both").replace("'s'", "'t'")), "one")
     gazebo.spawn(model.format(imu.format("/both")), "two", x=1.0)
@@ -328,7 +328,7 @@ def test_metrics_tell_how_often_sensors_measure(gazebo: Gazebo) -> None:
     told = {sensor.name: sensor for sensor in second.sensors}
     assert second.real_time_factor > 0
     assert told["turn"].fps == -1
-    seconds = (ns_of(second.header.stamp) - ns_of(first.header.stamp)) / 1e9
+    seconds = (to_nsec(second.header.stamp) - to_nsec(first.header.stamp)) / 1e9
     for name, rate_hz in (("turn", 100), ("eye", 20)):
         assert told[name].sim_update_rate * seconds == pytest.approx(rate_hz * seconds, abs=1.01)
     assert told["eye"].fps == told["eye"].real_update_rate > 0

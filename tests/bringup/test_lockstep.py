@@ -16,11 +16,11 @@ def test_a_start_that_never_rests_ends_when_asked_to() -> None:
     ending = threading.Event()
     with GraphLoop() as loop:
         steps = Lockstep(loop, end_ns=None, recorder=None, say=said.append)
-        never_done = loop.work.begin()
-        waiting = loop.spawn(steps.let_start(ending.is_set))
+        never_done = loop.work.start()
+        waiting = loop.spawn(steps.wait_started(ending.is_set))
         ending.set()
         waiting.result(60.0)
-        loop.work.end(never_done)
+        loop.work.finish(never_done)
     assert said == []  # it was not the patience that ended
 
 

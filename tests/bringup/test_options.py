@@ -7,7 +7,7 @@ import pytest
 from tests.bringup.conftest import PATIENCE_S, Gazebo, until
 from tests.bringup.controlled import Robot, driven, standing
 
-from trundle.ros import Option, find_reconfigurable, ns_of, read_options, set_options
+from trundle.ros import Option, find_reconfigurable, read_options, set_options, to_nsec
 
 CAMERA = """<sdf version="1.6"><model name="mast"><static>1</static><link name="l">
 <sensor name="eye" type="camera"><update_rate>50</update_rate><camera><horizontal_fov>1</horizontal_fov>
@@ -64,7 +64,7 @@ def test_a_camera_takes_pictures_at_the_rate_it_is_set_to(gazebo: Gazebo) -> Non
     gazebo.call("unpause_physics")
 
     def shortest() -> int:  # a busy machine drops pictures
-        gaps = [ns_of(b.header.stamp) - ns_of(a.header.stamp) for a, b in pairwise(list(heard))]
+        gaps = [to_nsec(b.header.stamp) - to_nsec(a.header.stamp) for a, b in pairwise(list(heard))]
         return min(gaps, default=1_000_000_000)
 
     until(lambda: shortest() <= 5_000_000)
@@ -88,7 +88,7 @@ def test_both_eyes_of_a_multicamera_keep_step_at_another_rate(gazebo: Gazebo) ->
     gazebo.call("unpause_physics")
 
     def gaps(side: str) -> set[int]:  # a busy machine drops pictures
-        return {ns_of(b.header.stamp) - ns_of(a.header.stamp) for a, b in pairwise(list(heard[side]))}
+        return {to_nsec(b.header.stamp) - to_nsec(a.header.stamp) for a, b in pairwise(list(heard[side]))}
 
     until(lambda: all(5_000_000 in gaps(side) for side in heard))
     assert all(gap % 5_000_000 == 0 for side in heard for gap in gaps(side))

@@ -8,7 +8,7 @@ import pytest
 from msgspec.structs import replace
 
 import trundle
-from trundle.bringup.page import Page
+from trundle.bringup.page import SimulationPage
 from trundle.bringup.ray_overlay import RayOverlay
 from trundle.render import NativeRenderer
 from trundle.sensors import mount_cameras, mount_sensors
@@ -44,7 +44,7 @@ def sensor(type_: str, inside: str, *, visualize: bool = True, turn: str = "0 0 
 def test_rays_are_drawn_from_the_sensor_to_what_they_meet(tmp_path: Path) -> None:
     sim, mounted = world(tmp_path, sensor("ray", _SCAN.format(3)))
     sight = RayOverlay(lambda: True)
-    sight.follow(mounted)
+    sight.set_sensors(mounted)
 
     assert sight.lines(sim.snapshot()) == ()
     sim.run(0.1)
@@ -61,7 +61,7 @@ def test_of_many_rays_some_are_drawn_and_of_a_sonar_its_cone(tmp_path: Path) -> 
     sonar = sensor("sonar", _SONAR, turn="0 -1.5707963 0")
     sim, mounted = world(tmp_path, sensor("ray", _SCAN.format(5000)) + sonar)
     sight = RayOverlay(lambda: True)
-    sight.follow(mounted)
+    sight.set_sensors(mounted)
 
     sim.run(0.1)
     by_count = sorted(sight.lines(sim.snapshot()), key=lambda line: len(line.points))
@@ -74,7 +74,7 @@ def test_of_many_rays_some_are_drawn_and_of_a_sonar_its_cone(tmp_path: Path) -> 
 def test_what_is_not_to_be_seen_or_seen_by_nobody_costs_nothing(tmp_path: Path) -> None:
     sim, mounted = world(tmp_path, sensor("ray", _SCAN.format(3), visualize=False) + sensor("sonar", _SONAR))
     sight = RayOverlay(lambda: False)
-    sight.follow(mounted)
+    sight.set_sensors(mounted)
 
     sim.run(0.2)
 
@@ -102,18 +102,18 @@ def test_a_camera_is_shown_once_and_where_it_is_now(tmp_path: Path) -> None:
     """The page is told anew of all cameras whenever a model comes or goes."""
     sim, (first,) = world(tmp_path, sensor("camera", _CAMERA))
     screen = Screen()
-    page = Page(cast(Viewer, screen), sim, None, [])
+    page = SimulationPage(cast(Viewer, screen), sim, None, [])
     assert sim.lines_are_shown
-    page.replace(sim, [first])
+    page.reload(sim, [first])
     sim.spawn(replace(sim["eye"].model, name="other"))
     second = mount_cameras(sim, NativeRenderer, model="other", beside=[first])[0]
     sim.add_hook(second, period_ns=second.period_ns, enabled=second.enabled)
 
-    page.replace(sim, [first, second])
+    page.reload(sim, [first, second])
     sim.run(0.1)
     assert sorted(screen.images) == [0, 1]
 
     sim.delete("eye")
-    page.replace(sim, [second])
+    page.reload(sim, [second])
     sim.run(0.1)
     assert screen.images[2:] == [0]

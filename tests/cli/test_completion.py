@@ -17,7 +17,7 @@ def complete(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any
     node = graph.node("talker", params={"rate": 5})
     node.advertise("/chatter", "std_msgs/String")
     node.advertise_service("~enable", "std_srvs/SetBool", lambda _: {})
-    StaticTransformBroadcaster(node).send(Transform(parent="map", child="laser", stamp_ns=0))
+    StaticTransformBroadcaster(node).send_transform(Transform(parent="map", child="laser", stamp_ns=0))
     graph.ready(node)
 
     package = tmp_path / "my_robot"

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from tests.cli.conftest import PATIENCE_S
 
-from trundle.ros import open_bag, recovered
+from trundle.ros import open_bag, recover_messages
 
 COMMAND = [sys.executable, "-m", "trundle", "exec", "my_robot", "fly"]
 
@@ -62,7 +62,7 @@ def test_a_tool_that_is_told_to_end_closes_its_bag(graph: Any, tmp_path: Path, n
     active = tmp_path / "x.bag.active"
     with subprocess.Popen([*COMMAND[:4], "rosbag", "record", "-q", "-O", str(tmp_path / "x.bag"), "/said"]) as process:
         try:
-            graph.until(lambda: active.exists() and active.stat().st_size and list(recovered(active)))
+            graph.until(lambda: active.exists() and active.stat().st_size and list(recover_messages(active)))
             process.send_signal(number)
             assert process.wait(PATIENCE_S) == 0
         finally:

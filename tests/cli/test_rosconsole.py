@@ -10,7 +10,7 @@ from trundle.ros import Loggers
 @pytest.mark.real_ros
 def test_rosconsole_lists_and_sets(graph: Any, original: Any, capsys: pytest.CaptureFixture[str]) -> None:
     node = graph.node("cpp")
-    node.loggers = Loggers.of_roscpp("topic_tools")
+    node.loggers = Loggers.for_roscpp("topic_tools")
     graph.ready(node)
     assert "ros\nros.roscpp\n" in original("rosconsole", "list", "/cpp")
     node.log_debug("not yet")

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from tests.description.compare import close, differences, same_pose, shape_of
 
-from trundle.bringup.check.json_output import described
+from trundle.bringup.check.json_output import description_json
 from trundle.description import expand_xacro, load, load_urdf
 from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.packages import Packages
@@ -56,7 +56,7 @@ def _sdf_differences(row: dict[str, Any], corpus: Path, packages: Packages) -> I
         return
     if not (row["accept_libsdformat12"] and row["agree_9_12"]):
         return
-    ours = json.loads(json.dumps(described(loaded), allow_nan=False))
+    ours = json.loads(json.dumps(description_json(loaded), allow_nan=False))
     theirs = json.loads(gzip.decompress((corpus / row["ref"]).read_bytes()))["dump12"]
     placed = "<state" not in file.read_text(errors="replace")
     world = theirs["worlds"][0] if theirs["worlds"] else None
@@ -109,7 +109,7 @@ def _urdf_differences(row: dict[str, Any], corpus: Path, packages: Packages) -> 
     if not row["accept_urdfdom"]:
         yield "accepted; urdfdom refuses it"
         return
-    ours = json.loads(json.dumps(described(loaded), allow_nan=False))
+    ours = json.loads(json.dumps(description_json(loaded), allow_nan=False))
     yield from _tree_differences(ours["urdf"], answers["urdfdom3"]["dump"])
     if row["accept_libsdformat12"] and not answers["differences_sdf9_vs_sdf12"]:
         (theirs,) = answers["libsdformat12"]["dump"]["models"]

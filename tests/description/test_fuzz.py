@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from trundle.bringup.check.json_output import described
+from trundle.bringup.check.json_output import description_json
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.model import flattened
@@ -96,7 +96,7 @@ def test_a_damaged_description_is_read_or_refused(
 
     with contextlib.suppress(TrundleError):
         loaded = load(str(file), report, packages=Packages({"HOME": str(tmp_path)}, start=tmp_path))
-        json.dumps(described(loaded), allow_nan=False)
+        json.dumps(description_json(loaded), allow_nan=False)
         compile_world(flattened(loaded.world), report)
 
     assert all("\n" not in str(finding) for finding in report.findings)

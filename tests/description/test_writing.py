@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from trundle.bringup.check.json_output import described
+from trundle.bringup.check.json_output import description_json
 from trundle.description import LoadedDescription, load_text, write_sdf, write_urdf, written_uri
 from trundle.description.writing.tag import Tag
 from trundle.diagnostics import DescriptionError, Diagnostics
@@ -46,7 +46,7 @@ def same(a: Any, b: Any, key: str = "") -> bool:
 
 
 def comparable(loaded: LoadedDescription) -> dict[str, object]:
-    return {k: v for k, v in described(loaded).items() if k not in ("sdf_version", "urdf")}
+    return {k: v for k, v in description_json(loaded).items() if k not in ("sdf_version", "urdf")}
 
 
 RICH = """<sdf version="1.9"><world name="w">

@@ -98,7 +98,7 @@ def test_a_command_that_hangs_is_ended() -> None:
 def test_who_waits_for_a_slow_command_is_told(
     monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("trundle.launch.programs._QUIET_S", 0.01)
+    monkeypatch.setattr("trundle.launch.run_command._QUIET_S", 0.01)
 
     assert resolve(f"{PYTHON} -c 'import time; time.sleep(0.5)'") == ""
 

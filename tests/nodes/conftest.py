@@ -10,7 +10,7 @@ import pytest
 from tests.graphs import PATIENCE_S, running_graph, until
 
 from trundle.names import parse_arguments
-from trundle.nodes import NodeHost, Replacement, run_builtin_node
+from trundle.nodes import BuiltinReplacement, NodeHost, run_builtin_node
 from trundle.nodes.catalog import BUILTIN_NODES
 from trundle.ros import Core, GraphLoop, Message, Messages, Node, Publisher
 from trundle.supervisor import ProcessTree
@@ -42,7 +42,7 @@ class Stage:
             remappings=given.remappings,
             params={**given.params, **params},
         )
-        stand_in = Replacement(BUILTIN_NODES[package, kind])
+        stand_in = BuiltinReplacement(BUILTIN_NODES[package, kind])
         future = self.loop.spawn(
             run_builtin_node(stand_in, node, list(given.rest), replace(host or NodeHost(), tree=self._tree))
         )

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from trundle.nodes.arbotix.gripper import read_gripper
+from trundle.nodes.arbotix.gripper_controller import read_gripper
 from trundle.ros import NodeParams, ParamError
 
 SUCCEEDED, ABORTED, PREEMPTED = 3, 4, 2

@@ -10,8 +10,8 @@ from tests.nodes.fakes import FakeClock, FakeNode, run_to_end
 
 from trundle.nodes import NodeHost
 from trundle.nodes.arbotix import ArbotixDriver
-from trundle.nodes.arbotix.diff import Unicycle
-from trundle.nodes.arbotix.servos import HobbyServo
+from trundle.nodes.arbotix.diff_controller import Unicycle
+from trundle.nodes.arbotix.servo_controller import HobbyServo
 from trundle.ros import NodeParams
 
 S = 1_000_000_000
@@ -44,7 +44,7 @@ def test_ten_seconds_of_exact_steps_end_where_forward_euler_ends() -> None:
     """The ideal unicycle is at −0.959, 0.716; the original's Euler steps of 0.1 s go wide by 2.5 %."""
     base = Unicycle(speed=0.5, turn_rate=0.5)
     for _ in range(100):
-        base.advance(0.1)
+        base.integrate(0.1)
     assert (base.x, base.y, base.heading) == (
         pytest.approx(-0.9410, abs=5e-4),
         pytest.approx(0.7400, abs=5e-4),
@@ -198,12 +198,12 @@ def test_a_servo_moves_by_its_speed_limit_in_whole_ticks() -> None:
 def test_a_servo_that_a_controller_moves_does_not_obey_its_topic() -> None:
     node = FakeNode(FakeClock(end_ns=S), {})
     servo = HobbyServo(node, "arm", NodeParams({"id": 1}, "/n"))  # pyright: ignore[reportArgumentType]
-    servo.is_taken = lambda: True
+    servo.is_controlled = lambda: True
     node.hear("/arm/command", {"data": 0.5}, "std_msgs/Float64")
     servo.interpolate(1.0)
     assert servo.reading.position == 0.0
 
-    servo.is_taken = lambda: False
+    servo.is_controlled = lambda: False
     node.hear("/arm/command", {"data": 0.5}, "std_msgs/Float64")
     servo.interpolate(1.0)
     assert servo.reading.position == pytest.approx(0.5, abs=2e-3)

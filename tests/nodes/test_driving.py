@@ -6,51 +6,51 @@ import pytest
 from tests.nodes.conftest import PATIENCE_S
 
 from trundle.nodes import NodeHost
-from trundle.nodes.twist_mux import Source, find_driver, read_sources
+from trundle.nodes.twist_mux import TopicHandle, find_active_topic, read_topic_handles
 from trundle.ros import Node, ParamError
 
 TWIST = "geometry_msgs/Twist"
 S = 1_000_000_000
 
 
-def source(name: str, priority: int, *, timeout_s: float = 0.5, heard_s: float | None = None) -> Source:
-    return Source(name, name, timeout_s, priority, None if heard_s is None else round(heard_s * S))
+def source(name: str, priority: int, *, timeout_s: float = 0.5, heard_s: float | None = None) -> TopicHandle:
+    return TopicHandle(name, name, timeout_s, priority, None if heard_s is None else round(heard_s * S))
 
 
 def test_the_fresh_source_of_highest_priority_drives() -> None:
     low, high = source("low", 10, heard_s=10.0), source("high", 100, heard_s=9.8)
-    assert find_driver([low, high], [], 10 * S) is high
-    assert find_driver([low, high], [], round(10.4 * S)) is low  # high has fallen silent
-    assert find_driver([low, high], [], 20 * S) is None
+    assert find_active_topic([low, high], [], 10 * S) is high
+    assert find_active_topic([low, high], [], round(10.4 * S)) is low  # high has fallen silent
+    assert find_active_topic([low, high], [], 20 * S) is None
 
 
 def test_of_equal_priorities_the_first_drives_and_without_a_timeout_none_falls_silent() -> None:
     first, second = source("first", 10, heard_s=10.0), source("second", 10, heard_s=10.0)
-    assert find_driver([first, second], [], 10 * S) is first
+    assert find_active_topic([first, second], [], 10 * S) is first
     never_heard = source("never heard", 20, timeout_s=0.0)
-    assert find_driver([first, never_heard], [], 10 * S) is never_heard
-    assert find_driver([source("none", 0, heard_s=10.0)], [], 10 * S) is None
+    assert find_active_topic([first, never_heard], [], 10 * S) is never_heard
+    assert find_active_topic([source("none", 0, heard_s=10.0)], [], 10 * S) is None
 
 
 def test_a_lock_masks_what_is_below_it() -> None:
     low, equal = source("low", 10, heard_s=10.0), source("equal", 50, heard_s=9.0)
     lock = source("lock", 50, timeout_s=0.0)
-    assert find_driver([low, equal], [lock], 10 * S) is low
-    lock.closed = True
-    assert find_driver([low, equal], [lock], 10 * S) is None
-    equal.heard_ns = 10 * S
-    assert find_driver([low, equal], [lock], 10 * S) is equal
+    assert find_active_topic([low, equal], [lock], 10 * S) is low
+    lock.lock = True
+    assert find_active_topic([low, equal], [lock], 10 * S) is None
+    equal.received_ns = 10 * S
+    assert find_active_topic([low, equal], [lock], 10 * S) is equal
 
 
 def test_a_lock_that_falls_silent_masks() -> None:
     low, lock = source("low", 10, heard_s=10.0), source("lock", 50, heard_s=9.0)
-    assert find_driver([low], [lock], 10 * S) is None
+    assert find_active_topic([low], [lock], 10 * S) is None
 
 
 @pytest.mark.parametrize("value", [{"a": 1}, [{"name": "a"}], [{"name": "a", "topic": "t"}], ["x"]])
 def test_sources_that_are_none_are_refused(value: object) -> None:
     with pytest.raises(ParamError):
-        read_sources(value, "/twist_mux/topics")
+        read_topic_handles(value, "/twist_mux/topics")
 
 
 def test_twist_mux_passes_on_what_may_drive(stage) -> None:

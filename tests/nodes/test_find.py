@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.nodes import BUILTIN_NODES, Executable, Missing, Replacement, find_node, program_names
+from trundle.nodes import BUILTIN_NODES, BuiltinReplacement, Executable, MissingNode, find_node, program_names
 
 
 def program(path: Path, mode: int = 0o755) -> Path:
@@ -25,7 +25,7 @@ def test_the_packages_own_program_goes_before_the_stand_in(tmp_path: Path) -> No
     path = program(tmp_path / "scripts/rviz")
     assert find_node("rviz", "rviz", lambda _: tmp_path, env={}) == Executable(path)
     path.chmod(0o644)
-    assert isinstance(find_node("rviz", "rviz", lambda _: tmp_path, env={}), Replacement)
+    assert isinstance(find_node("rviz", "rviz", lambda _: tmp_path, env={}), BuiltinReplacement)
 
 
 @pytest.mark.parametrize(
@@ -55,38 +55,38 @@ def test_a_stand_in_goes_before_what_is_installed(tmp_path: Path) -> None:
     """Debian's rviz is a program in /usr/share/rviz."""
     program(tmp_path / "lib/rviz/rviz")
     folder = program(tmp_path / "share/rviz/rviz").parent
-    assert isinstance(find_node("rviz", "rviz", lambda _: folder, env={}), Replacement)
+    assert isinstance(find_node("rviz", "rviz", lambda _: folder, env={}), BuiltinReplacement)
 
 
 def test_programs_in_hidden_and_build_folders_do_not_count(tmp_path: Path) -> None:
     program(tmp_path / ".git/x")
     program(tmp_path / "build/x")
-    assert isinstance(find_node("p", "x", lambda _: tmp_path, env={}), Missing)
+    assert isinstance(find_node("p", "x", lambda _: tmp_path, env={}), MissingNode)
 
 
 def test_a_type_may_name_a_folder_but_never_leave_the_package(tmp_path: Path) -> None:
     path = program(tmp_path / "p/nodes/x")
     program(tmp_path / "outside")
     assert find_node("p", "nodes/x", lambda _: tmp_path / "p", env={}) == Executable(path)
-    assert isinstance(find_node("p", "../outside", lambda _: tmp_path / "p", env={}), Missing)
+    assert isinstance(find_node("p", "../outside", lambda _: tmp_path / "p", env={}), MissingNode)
 
 
 @pytest.mark.parametrize("name", ["arbotix_driver", "arbotix_driver.py", "driver.py"])
 def test_old_names_of_the_arbotix_driver_lead_to_it(name: str) -> None:
     found = find_node("arbotix_python", name, lambda _: None, env={})
-    assert found == Replacement("trundle.nodes.arbotix:ArbotixDriver")
+    assert found == BuiltinReplacement("trundle.nodes.arbotix:ArbotixDriver")
 
 
 def test_what_is_missing_is_named(tmp_path: Path) -> None:
-    assert find_node("tf", "nope", lambda _: None, env={}) == Missing(
+    assert find_node("tf", "nope", lambda _: None, env={}) == MissingNode(
         "no package 'tf', and no stand-in for tf/nope; stand-ins of that package: "
         "static_transform_publisher, tf_echo, tf_monitor, view_frames"
     )
     path = program(tmp_path / "x.py", 0o644)
-    assert find_node("p", "x.py", lambda _: tmp_path, env={}) == Missing(
+    assert find_node("p", "x.py", lambda _: tmp_path, env={}) == MissingNode(
         f"{path} is not executable; run chmod +x on it"
     )
-    assert find_node("p", "y", lambda _: tmp_path, env={}) == Missing(
+    assert find_node("p", "y", lambda _: tmp_path, env={}) == MissingNode(
         f"no executable 'y' in {tmp_path}, and no stand-in for p/y"
     )
 
@@ -106,7 +106,7 @@ def test_a_script_for_a_ros_that_is_not_installed_gives_way_to_the_stand_in(
     own.write_text("import rospy\n")
     assert find_node("p", "talk.py", lambda _: tmp_path, env={}) == Executable(own)
     found = find_node("arbotix_python", "arbotix_driver", lambda _: tmp_path, env={})
-    assert found == Replacement("trundle.nodes.arbotix:ArbotixDriver")
+    assert found == BuiltinReplacement("trundle.nodes.arbotix:ArbotixDriver")
 
 
 def test_so_does_one_whose_messages_nobody_built(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -117,14 +117,14 @@ def test_so_does_one_whose_messages_nobody_built(tmp_path: Path, monkeypatch: py
     path.write_text("import rospy\nfrom controller_manager_msgs.srv import *\n")
 
     found = find_node("controller_manager", "spawner", lambda _: tmp_path, env={})
-    assert isinstance(found, Replacement)
+    assert isinstance(found, BuiltinReplacement)
     (tmp_path / "modules/controller_manager_msgs").mkdir()
     assert find_node("controller_manager", "spawner", lambda _: tmp_path, env={}) == Executable(path)
 
 
 def test_what_is_out_of_scope_is_named_with_a_way_out() -> None:
     found = find_node("move_base", "move_base", lambda _: None, env={})
-    assert isinstance(found, Missing)
+    assert isinstance(found, MissingNode)
     assert "the real one can run in a container with ROS_MASTER_URI set to this master" in found.why
 
 
@@ -134,11 +134,11 @@ def test_a_program_that_has_to_be_compiled_is_named_with_its_source(tmp_path: Pa
     )
     (tmp_path / "CMakeLists.txt").write_text(text)
     missing = find_node("arm", "arm", lambda _: tmp_path, env={})
-    assert isinstance(missing, Missing)
+    assert isinstance(missing, MissingNode)
     assert missing.why.endswith(
         f"; it is C++ that is not compiled yet: {tmp_path}/CMakeLists.txt:2 builds it (target 'arm_node') "
         "from src/arm.cpp; catkin_make compiles it"
     )
     other = find_node("arm", "leg", lambda _: tmp_path, env={})
-    assert isinstance(other, Missing)
+    assert isinstance(other, MissingNode)
     assert "C++" not in other.why

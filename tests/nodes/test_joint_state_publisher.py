@@ -59,7 +59,7 @@ def test_other_publishers_move_free_joints() -> None:
     joints = JointSet(NodeParams({}, "/n"), NOETIC)
     joints.read(parse_xml(ROBOT, name="r.urdf"), Diagnostics())
     state = {"name": ["wheel", "nobody"], "position": [0.75, 9.0]}
-    joints.hear(MESSAGES.new("sensor_msgs/JointState", state))
+    joints.update(MESSAGES.new("sensor_msgs/JointState", state))
     assert joints.message()["position"] == pytest.approx([0.75, 0.4, 2.0, -2.0])
     assert "velocity" not in joints.message()
 

@@ -2,19 +2,19 @@
 
 from tests.nodes.conftest import PATIENCE_S
 
-from trundle.nodes import Missing, Replacement, find_node
+from trundle.nodes import BuiltinReplacement, MissingNode, find_node
 from trundle.nodes.catalog import NODELETS
 
 
 def test_every_nodelet_of_the_list_is_there() -> None:
     for target in NODELETS.values():
-        assert callable(Replacement(target).load())
+        assert callable(BuiltinReplacement(target).load())
 
 
 def test_a_nodelet_that_a_stand_in_can_be_is_it(stage) -> None:
     stage.start("nodelet/nodelet", "manager", name="manager")
     stage.start("nodelet/nodelet", "load depthimage_to_laserscan/DepthImageToLaserScanNodelet manager", name="scan")
-    stage.until(lambda: ["/scan", "sensor_msgs/LaserScan"] in stage.loop.run(stage.client.ask("getTopicTypes")))
+    stage.until(lambda: ["/scan", "sensor_msgs/LaserScan"] in stage.loop.run(stage.client.call_master("getTopicTypes")))
 
 
 def test_another_is_named_before_anything_starts(stage, capsys) -> None:
@@ -23,10 +23,10 @@ def test_another_is_named_before_anything_starts(stage, capsys) -> None:
     why = "nodelet image_proc/rectify: compiled code that nothing stands in for"
     assert why in capsys.readouterr().err
     found = find_node("nodelet", "nodelet", lambda _: None, env={}, arguments=words)
-    assert isinstance(found, Missing)
+    assert isinstance(found, MissingNode)
     assert found.why.startswith(why)
     for there in ("manager", "load pointcloud_to_laserscan/pointcloud_to_laserscan_nodelet m", "unload x m"):
-        assert isinstance(find_node("nodelet", "nodelet", lambda _: None, env={}, arguments=there), Replacement)
+        assert isinstance(find_node("nodelet", "nodelet", lambda _: None, env={}, arguments=there), BuiltinReplacement)
 
 
 def test_a_wrong_command_line_is_said(stage, capsys) -> None:

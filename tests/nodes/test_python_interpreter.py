@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.nodes import interpreter, lacks_rospy, module_of_ros
+from trundle.nodes import interpreter, lacks_rospy, missing_ros_module
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="only POSIX systems read a script's first line")
 
@@ -91,7 +91,7 @@ def test_where_there_is_no_python_this_one_runs_it(tmp_path: Path, first: str) -
     ],
 )
 def test_the_module_of_ros_that_a_script_died_for_is_found(output: str, module: str | None) -> None:
-    assert module_of_ros(f"Traceback:\n{output}\n") == module
+    assert missing_ros_module(f"Traceback:\n{output}\n") == module
 
 
 @pytest.mark.parametrize(("imports", "lacks"), [("rospy", True), ("math", False)])

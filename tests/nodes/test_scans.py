@@ -6,15 +6,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from trundle.nodes.depthimage_to_laserscan import Pinhole, depths_of, scan_of
-from trundle.nodes.pointcloud_to_laserscan import Slice, points_of
+from trundle.nodes.depthimage_to_laserscan import Pinhole, read_depths, scan_from_depths
+from trundle.nodes.pointcloud_to_laserscan import Slice, read_points
 
 WALL_M = 2.0
 CAMERA = Pinhole(focal_px=100.0, center_x_px=50.0, center_y_px=20.0)
 
 
 def scan(depths: Any, **more: Any) -> tuple[float, float, Any]:
-    return scan_of(depths, CAMERA, **{"rows": 1, "nearest_m": 0.45, "farthest_m": 10.0, **more})
+    return scan_from_depths(depths, CAMERA, **{"rows": 1, "nearest_m": 0.45, "farthest_m": 10.0, **more})
 
 
 def test_a_wall_ahead_reads_its_distance_over_the_cosine() -> None:
@@ -52,10 +52,10 @@ def image(messages: Any, encoding: str, pixels: Any, *, big: bool = False) -> An
 
 def test_millimetres_and_byte_orders_are_read(messages) -> None:
     pixels = np.array([[0, 1500]], dtype=">u2")
-    depths = depths_of(image(messages, "16UC1", pixels, big=True))
+    depths = read_depths(image(messages, "16UC1", pixels, big=True))
     assert math.isnan(depths[0, 0])
     assert depths[0, 1] == 1.5
-    assert depths_of(image(messages, "32FC1", np.array([[2.5]], dtype="<f4")))[0, 0] == 2.5
+    assert read_depths(image(messages, "32FC1", np.array([[2.5]], dtype="<f4")))[0, 0] == 2.5
 
 
 SLICE = Slice(
@@ -96,9 +96,9 @@ def cloud(messages: Any, points: Any) -> Any:
 
 
 def test_points_are_read_whatever_lies_between_them(messages) -> None:
-    assert points_of(cloud(messages, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]])).tolist() == [[1, 2, 3], [4, 5, 6]]
+    assert read_points(cloud(messages, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]])).tolist() == [[1, 2, 3], [4, 5, 6]]
     with pytest.raises(ValueError, match="no fields x, y, z"):
-        points_of(messages.new("sensor_msgs/PointCloud2", {}))
+        read_points(messages.new("sensor_msgs/PointCloud2", {}))
 
 
 def test_a_cloud_is_seen_from_another_frame(stage, messages) -> None:

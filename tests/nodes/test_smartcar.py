@@ -23,7 +23,7 @@ from tests.graphs import until
 from trundle.description import expand_xacro
 from trundle.diagnostics import Diagnostics
 from trundle.launch import LaunchNode, LaunchPlan, read_launch, resolve_params
-from trundle.nodes import NodeHost, Replacement, find_node, run_builtin_node
+from trundle.nodes import BuiltinReplacement, NodeHost, find_node, run_builtin_node
 from trundle.packages import Packages
 from trundle.ros import Core, GraphLoop, MasterProxy, Message, Node
 from trundle.supervisor import Event, Supervisor, TaskJob
@@ -68,9 +68,9 @@ async def set_up(plan: LaunchPlan, params: Any, loop: GraphLoop, uri: str, event
     supervisor = Supervisor(events.append)
     for planned in plan.nodes:
         found = find_node(planned.package, planned.type, lambda _: None, env={})
-        assert isinstance(found, Replacement), found
+        assert isinstance(found, BuiltinReplacement), found
 
-        async def run(planned: LaunchNode = planned, found: Replacement = found) -> int:
+        async def run(planned: LaunchNode = planned, found: BuiltinReplacement = found) -> int:
             node = Node(planned.name, loop=loop, master_uri=uri, namespace=planned.namespace)
             return await run_builtin_node(found, node, shlex.split(planned.arguments), NodeHost())
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 import pytest
 from tests.nodes.conftest import PATIENCE_S
 
-from trundle.nodes.topic_tools.throttle import ByteGate, MessageGate
+from trundle.nodes.topic_tools.throttle import BandwidthLimiter, MessageRateLimiter
 
 STRING = "std_msgs/String"
 
@@ -36,7 +36,7 @@ def test_drop_leaves_out_x_of_y(stage) -> None:
     source = stage.speak("/in", STRING)
     source.publish({"data": "0"})
     source.publish({"data": "unheard: the type becomes known"})
-    stage.until(lambda: "/in_drop" in dict(stage.loop.run(stage.client.ask("getTopicTypes"))))
+    stage.until(lambda: "/in_drop" in dict(stage.loop.run(stage.client.call_master("getTopicTypes"))))
     stage.until(lambda: stage.connected("/in_drop"))
     for number in range(2, 9):
         source.publish({"data": str(number)})
@@ -99,28 +99,28 @@ def test_a_wrong_command_line_is_said_and_ends_the_node(stage, capsys, command: 
 
 def test_throttled_messages_are_a_period_apart() -> None:
     now = [10_000_000_000]
-    gate = MessageGate(2.0, lambda: now[0])
+    gate = MessageRateLimiter(2.0, lambda: now[0])
     passed: list[int] = []
     for _ in range(100):
-        if gate.lets_through(1):
+        if gate.allows(1):
             passed.append(now[0])
         now[0] += 100_000_000
     assert {b - a for a, b in pairwise(passed)} == {600_000_000}  # more than 500 ms, not as much
 
     now[0] = 1_000_000_000
-    assert not gate.lets_through(1)  # time went back: a period counts from here
+    assert not gate.allows(1)  # time went back: a period counts from here
     now[0] += 500_000_001
-    assert gate.lets_through(1)
+    assert gate.allows(1)
 
 
 def test_bytes_are_throttled_as_the_original_counts_them() -> None:
     """A message passes while fewer bytes than allowed lie in the window, however long that is."""
     now = [10_000_000_000]
-    gate = ByteGate(100.0, 2.0, lambda: now[0])
-    assert [gate.lets_through(80) for _ in range(3)] == [True, True, False]
+    gate = BandwidthLimiter(100.0, 2.0, lambda: now[0])
+    assert [gate.allows(80) for _ in range(3)] == [True, True, False]
     now[0] += 2_000_000_001
-    assert gate.lets_through(200)
-    assert not gate.lets_through(1)
+    assert gate.allows(200)
+    assert not gate.allows(1)
 
 
 def test_a_lazy_mux_listens_to_the_selected_topic_while_it_is_listened_to(stage) -> None:
@@ -162,13 +162,13 @@ def test_a_hidden_relay_waits_for_its_first_message_however_long_it_takes(stage)
     looks: list[str] = []
     stage.start("topic_tools/relay", "in copy", stealth=True, monitor_topic="other", monitor_rate=0.1)
     (node,) = (node for _, node in stage._running)
-    ask = node.ask
+    ask = node.call_master
 
     def asked(method: str, *arguments: object):
         looks.append(method)
         return ask(method, *arguments)
 
-    node.ask = asked
+    node.call_master = asked
     stage.until(lambda: looks.count("getSystemState") >= 3)
     source = stage.speak("/in", STRING)
     source.publish({"data": "to learn the type"})

@@ -5,8 +5,8 @@ import math
 import pytest
 
 from trundle.nodes import NodeHost
-from trundle.nodes.turtlesim.picture import SIZE_M, SIZE_PX, Picture
 from trundle.nodes.turtlesim.turtle import Turtle
+from trundle.nodes.turtlesim.turtle_frame import SIZE_M, SIZE_PX, TurtleFrame
 from trundle.ros import Node
 
 
@@ -19,7 +19,7 @@ def test_a_command_holds_for_a_second() -> None:
     turtle = Turtle(1.0, 1.0, math.pi / 2.0, size=SIZE_M)
     turtle.command(1.0, 0.0, 0.0, now_ns=0)
     for pass_ in range(200):
-        turtle.move(0.016, now_ns=pass_ * 16_000_000)
+        turtle.update(0.016, now_ns=pass_ * 16_000_000)
 
     assert turtle.y == pytest.approx(1.0 + 63 * 0.016)  # passes 0 … 62 lie within the second
     assert turtle.x == pytest.approx(1.0)
@@ -31,14 +31,14 @@ def test_a_circle_closes() -> None:
     steps = 1000
     turtle.command(1.0, 0.0, math.tau, now_ns=0)
     for _ in range(steps):
-        turtle.move(1.0 / steps, now_ns=0)
+        turtle.update(1.0 / steps, now_ns=0)
     assert (turtle.x, turtle.y) == (pytest.approx(5.0, abs=1e-9), pytest.approx(5.0, abs=1e-9))
 
 
 def test_a_turtle_goes_sideways_and_tells_how_fast() -> None:
     turtle = Turtle(5.0, 5.0, 0.0, size=SIZE_M)
     turtle.command(-3.0, 4.0, 0.0, now_ns=0)
-    turtle.move(0.1, now_ns=0)
+    turtle.update(0.1, now_ns=0)
     assert (turtle.x, turtle.y, turtle.linear_velocity) == (pytest.approx(4.7), pytest.approx(5.4), 5.0)
 
 
@@ -47,19 +47,19 @@ def test_a_command_that_comes_late_does_not_change_what_was_before_it() -> None:
     turtle.command(1.0, 0.0, 0.0, now_ns=0)
     turtle.command(2.0, 0.0, 0.0, now_ns=400_000_000)
     for tick in range(10):
-        turtle.move(0.1, now_ns=tick * 100_000_000)
+        turtle.update(0.1, now_ns=tick * 100_000_000)
     assert turtle.x == pytest.approx(1.0 + 4 * 0.1 + 6 * 0.2)
 
 
 def test_walls_hold_a_turtle() -> None:
     turtle = Turtle(SIZE_M - 0.1, 1.0, 0.0, size=SIZE_M)
     turtle.command(5.0, 0.0, 0.0, now_ns=0)
-    turtle.move(0.1, now_ns=0)
+    turtle.update(0.1, now_ns=0)
     assert (turtle.x, turtle.hit_wall) == (SIZE_M, True)
 
 
 def test_a_path_is_drawn_where_the_turtle_went() -> None:
-    picture = Picture((0, 0, 0))
+    picture = TurtleFrame((0, 0, 0))
     picture.draw_line((1.0, 1.0), (2.0, 1.0), (255, 0, 0), 3)
     assert picture.colour_at(1.5, 1.0) == (255, 0, 0)
     assert picture.colour_at(1.5, 1.5) == (0, 0, 0)
@@ -132,7 +132,10 @@ def test_without_a_terminal_the_key_reader_says_so(stage, capsys) -> None:
     stage.start("turtlesim/turtle_teleop_key")
     stage.start("teleop_twist_keyboard/teleop_twist_keyboard.py")
     stage.until(
-        lambda: {"/turtle1/cmd_vel", "/cmd_vel"} <= {t for t, _ in stage.loop.run(stage.client.ask("getTopicTypes"))}
+        lambda: (
+            {"/turtle1/cmd_vel", "/cmd_vel"}
+            <= {t for t, _ in stage.loop.run(stage.client.call_master("getTopicTypes"))}
+        )
     )
     said = ""
 

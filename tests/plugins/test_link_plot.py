@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
-from trundle.bringup.page_layout import drawn_lines
+from trundle.bringup.page_scene import drawn_lines
 from trundle.spatial import Twist
 
 PLOT = """<link name="l">{body}</link><plugin name="p" filename="libLinkPlot3DPlugin.so"><frequency>100</frequency>

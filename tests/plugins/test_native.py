@@ -8,7 +8,7 @@ import pytest
 import trundle
 from trundle.bringup.plugins import load_plugins
 from trundle.model import Box, Cylinder, Link
-from trundle.plugins.gazebo.bounds import bounding_box
+from trundle.plugins.gazebo.bounding_box import bounding_box
 from trundle.simulation import Simulation
 from trundle.spatial import Twist, Vector3
 
@@ -174,7 +174,7 @@ def command(sim: Simulation, speed: float, turning: float) -> None:
     """What the topic's callback does."""
     hooks = sim._schedule.enabled(sim.steps)  # type: ignore[attr-defined]
     (plugin,) = (hook.before.__self__ for hook in hooks if hook.before is not None)  # type: ignore[attr-defined]
-    plugin._command.speed, plugin._command.turning = speed, turning
+    plugin._command.speed, plugin._command.yaw_rate = speed, turning
 
 
 def test_diff_drive_turns_against_ross_sense_as_in_gazebo(tmp_path: Path) -> None:

@@ -46,7 +46,7 @@ def _engage(sim: Simulation, *names: str) -> list[JointHardware]:
     joints = [JointHardware(sim["m"].joint(name), "PositionJointInterface", None, lag_s=0.005) for name in names]
     for joint in joints:
         joint.read()
-        joint.engage()
+        joint.start()
     return joints
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
-from trundle.bringup.page_layout import drawn_lines
+from trundle.bringup.page_scene import drawn_lines
 from trundle.bringup.plugins import attach_sensor_plugins
 from trundle.sensors import mount_sensors
 from trundle.simulation import Simulation

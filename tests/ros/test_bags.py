@@ -18,14 +18,14 @@ from trundle.ros import (
     Messages,
     MessageView,
     Player,
-    PlayOptions,
+    PlayerOptions,
     Recorder,
-    RecordOptions,
+    RecorderOptions,
     StepRecorder,
     UnindexedBagError,
     create_bag,
     open_bag,
-    recovered,
+    recover_messages,
 )
 
 FORMATS = [
@@ -67,7 +67,7 @@ def test_what_is_written_is_read(messages: Messages, tmp_path: Path, name: str, 
         assert len(bag.chunks) > 3
         some = bag.messages(lambda c: c.topic == "/b", start_ns=written[3].stamp_ns, end_ns=written[9].stamp_ns)
         assert list(some) == [written[3], written[6], written[9]]
-    assert list(recovered(tmp_path / name)) == written
+    assert list(recover_messages(tmp_path / name)) == written
 
 
 @pytest.mark.parametrize(("name", "compression"), FORMATS)
@@ -89,7 +89,7 @@ def test_a_bag_cut_off_anywhere_gives_what_was_flushed(
     for size in range(0, len(whole), 7):
         cut.write_bytes(whole[:size])
         try:
-            found = list(recovered(cut))
+            found = list(recover_messages(cut))
         except BagError:
             assert size < 13  # not even the format can be told
             continue
@@ -109,7 +109,7 @@ def test_one_wrong_byte_is_never_a_traceback(messages: Messages, tmp_path: Path,
     whole = path.read_bytes()
     for at in [*range(120), *range(max(120, len(whole) - 900), len(whole), 5)]:
         path.write_bytes(whole[:at] + bytes([whole[at] ^ 0xFF]) + whole[at + 1 :])
-        for read in (lambda: list(recovered(path)), lambda: _all_of(path)):
+        for read in (lambda: list(recover_messages(path)), lambda: _all_of(path)):
             with suppress(BagError):
                 read()
 
@@ -137,7 +137,7 @@ def test_a_graph_is_recorded_and_played(graph: Any, tmp_path: Path, name: str) -
     publisher = talker.advertise("/a", STRING, queue_size=None)
     fixed = talker.advertise("/fixed", "geometry_msgs/Point", latch=True)
     fixed.publish({"x": 1.5})
-    recorder = Recorder(node, RecordOptions(all_topics=True, path=tmp_path / name), say=lambda _: None)
+    recorder = Recorder(node, RecorderOptions(all_topics=True, path=tmp_path / name), say=lambda _: None)
     recorder.start()
     graph.until(lambda: publisher.has_subscribers and fixed.has_subscribers)
     for i in range(100):
@@ -154,7 +154,7 @@ def test_a_graph_is_recorded_and_played(graph: Any, tmp_path: Path, name: str) -
             ("/fixed", "/talker", True),
         }
         listener.subscribe("/again/a", STRING, lambda m: got.append(m.data), queue_size=None)
-        player = Player(graph.node("play"), [bag], PlayOptions(prefix="/again", immediate=True, queue_size=1000))
+        player = Player(graph.node("play"), [bag], PlayerOptions(prefix="/again", immediate=True, queue_size=1000))
         publishers = player.advertise()
         graph.until(lambda: any(p.has_subscribers for p in publishers))
         player.play(lambda: None)
@@ -167,7 +167,7 @@ def test_a_graph_is_recorded_and_played(graph: Any, tmp_path: Path, name: str) -
 
 def test_a_recording_splits_and_keeps_the_newest(graph: Any, tmp_path: Path) -> None:
     publisher = graph.node("talker").advertise("/a", "std_msgs/UInt8MultiArray", queue_size=None)
-    options = RecordOptions(
+    options = RecorderOptions(
         topics=("/a",), path=tmp_path / "x.bag", splits=True, max_bytes=100_000, max_splits=2, chunk_bytes=10_000
     )
     recorder = Recorder(graph.node("record"), options, say=lambda _: None)
@@ -184,7 +184,7 @@ def test_a_recording_splits_and_keeps_the_newest(graph: Any, tmp_path: Path) -> 
 
 def test_what_does_not_fit_the_buffer_is_dropped_and_said(graph: Any, tmp_path: Path, capfd: Any) -> None:
     publisher = graph.node("talker").advertise("/a", "std_msgs/UInt8MultiArray", queue_size=None)
-    options = RecordOptions(topics=("/a",), path=tmp_path / "x.bag", buffer_bytes=5_000)
+    options = RecorderOptions(topics=("/a",), path=tmp_path / "x.bag", buffer_bytes=5_000)
     recorder = Recorder(graph.node("record"), options, say=lambda _: None)
     recorder.start()
     graph.until(lambda: publisher.has_subscribers)
@@ -199,7 +199,7 @@ def test_what_does_not_fit_the_buffer_is_dropped_and_said(graph: Any, tmp_path: 
 def test_a_limit_ends_a_recording(graph: Any, tmp_path: Path) -> None:
     publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
     recorder = Recorder(
-        graph.node("record"), RecordOptions(topics=("/a",), path=tmp_path / "x.bag", limit=3), say=lambda _: None
+        graph.node("record"), RecorderOptions(topics=("/a",), path=tmp_path / "x.bag", limit=3), say=lambda _: None
     )
     recorder.start()
     graph.until(lambda: publisher.has_subscribers)
@@ -216,11 +216,11 @@ def test_a_limit_counts_latched_messages_and_takes_no_more_than_it_says(graph: A
     for number in range(5):
         graph.node(f"n{number}").advertise("/a", STRING, latch=True).publish({"data": str(number)})
     recorder = Recorder(
-        graph.node("record"), RecordOptions(topics=("/a",), path=tmp_path / "x.bag", limit=2), say=lambda _: None
+        graph.node("record"), RecorderOptions(topics=("/a",), path=tmp_path / "x.bag", limit=2), say=lambda _: None
     )
     recorder.start()
     assert recorder.done.wait(PATIENCE_S)
-    graph.loop.settle()
+    graph.loop.flush_deliveries()
     recorder.stop()
     with open_bag(tmp_path / "x.bag") as bag:
         assert sum(bag.counts) == 2
@@ -230,7 +230,7 @@ def test_latched_messages_are_repeated_in_each_new_file(graph: Any, tmp_path: Pa
     fixed = graph.node("mapper").advertise("/map", STRING, latch=True)
     fixed.publish({"data": "the map"})
     publisher = graph.node("talker").advertise("/a", "std_msgs/UInt8MultiArray", queue_size=None)
-    options = RecordOptions(
+    options = RecorderOptions(
         topics=("/a", "/map"),
         path=tmp_path / "x.bag",
         splits=True,
@@ -284,8 +284,8 @@ def test_playing_from_within_begins_with_a_message_and_with_what_was_latched(gra
         node.subscribe(topic, STRING, lambda m: got.append(m.data), queue_size=None)
     following = node.subscribe("/clock", "rosgraph_msgs/Clock", lambda m: clock.append(m.clock.sec))
     with open_bag(tmp_path / "x.bag") as bag:
-        assert Player(graph.node("late"), [bag], PlayOptions(start_s=900.0)).is_empty
-        player = Player(graph.node("play"), [bag], PlayOptions(start_s=5.0, rate=10.0, clock_hz=1000.0))
+        assert Player(graph.node("late"), [bag], PlayerOptions(start_s=900.0)).is_empty
+        player = Player(graph.node("play"), [bag], PlayerOptions(start_s=5.0, rate=10.0, clock_hz=1000.0))
         publishers = player.advertise()
         graph.until(lambda: following.publishers and all(p.has_subscribers for p in publishers))
         player.play(lambda: None)
@@ -302,7 +302,7 @@ def test_an_older_type_is_played_as_it_was_recorded(graph: Any, tmp_path: Path) 
     got: list[Any] = []
     graph.node("listener").subscribe("/a", "*", got.append)
     with open_bag(tmp_path / "x.bag") as bag:
-        player = Player(graph.node("play"), [bag], PlayOptions())
+        player = Player(graph.node("play"), [bag], PlayerOptions())
         publishers = player.advertise()
         graph.until(lambda: publishers[0].has_subscribers)
         player.play(lambda: None)
@@ -319,7 +319,7 @@ def test_a_pause_lets_single_messages_through_and_time_stands_still(
     clock: list[int] = []
     subscription = graph.node("n").subscribe("/clock", "rosgraph_msgs/Clock", lambda m: clock.append(m.clock.nanosec))
     with open_bag(tmp_path / "x.bag") as bag:
-        player = Player(graph.node("play"), [bag], PlayOptions(clock_hz=1000.0, rate=0.01))
+        player = Player(graph.node("play"), [bag], PlayerOptions(clock_hz=1000.0, rate=0.01))
         player.advertise()
         graph.until(lambda: subscription.publishers)
         player.is_paused = True
@@ -374,9 +374,9 @@ def test_a_publishers_own_definition_is_recorded_to_the_letter(graph: Any, far: 
     """`rosbag check` compares it with the one that is installed, comments included."""
     text = "# what it says\n\nstring   data # [ ]\n"
     node = far.node("talker")
-    publisher = node.advertise("/a", STRING, foreign=(node.messages.md5(STRING), text), latch=True)
+    publisher = node.advertise("/a", STRING, raw_type=(node.messages.md5(STRING), text), latch=True)
     publisher.publish(bytes(4))
-    recorder = Recorder(graph.node("record"), RecordOptions(topics=("/a",), path=tmp_path / name), say=lambda _: None)
+    recorder = Recorder(graph.node("record"), RecorderOptions(topics=("/a",), path=tmp_path / name), say=lambda _: None)
     recorder.start()
     graph.until(lambda: recorder.recorded == 1)
     recorder.stop()
@@ -401,7 +401,7 @@ def test_a_disk_that_fills_up_costs_nothing_that_is_on_it(graph: Any, tmp_path: 
     """What was written after the gap, once there was room again, made a bag that nobody could read."""
     complaints: list[str] = []
     publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
-    options = RecordOptions(topics=("/a",), path=tmp_path / name, chunk_bytes=10_000)
+    options = RecorderOptions(topics=("/a",), path=tmp_path / name, chunk_bytes=10_000)
     recorder = Recorder(graph.node("record"), options, say=lambda _: None, complain=complaints.append)
     with _largest_file(100_000):
         recorder.start()
@@ -415,7 +415,7 @@ def test_a_disk_that_fills_up_costs_nothing_that_is_on_it(graph: Any, tmp_path: 
     why = f"{active}: File too large; trundle bag reindex makes a bag of what it holds"
     assert (recorder.error, complaints) == (why, [f"recording broke off: {why}"])
     assert not (tmp_path / name).exists()
-    kept = [message.data[4:].partition(b".")[0] for message in recovered(active)]
+    kept = [message.data[4:].partition(b".")[0] for message in recover_messages(active)]
     assert kept == [b"%d" % i for i in range(len(kept))]
     assert len(kept) > 80
 
@@ -424,7 +424,7 @@ def test_a_disk_that_fills_up_costs_nothing_that_is_on_it(graph: Any, tmp_path: 
 def test_a_bag_that_cannot_be_finished_is_said_to_be_not(graph: Any, tmp_path: Path, name: str) -> None:
     """All that was recorded waited in memory when the disk was full: there was no word of it."""
     publisher = graph.node("talker").advertise("/a", STRING, latch=True)
-    recorder = Recorder(graph.node("record"), RecordOptions(topics=("/a",), path=tmp_path / name), say=lambda _: None)
+    recorder = Recorder(graph.node("record"), RecorderOptions(topics=("/a",), path=tmp_path / name), say=lambda _: None)
     recorder.start()
     publisher.publish({"data": 20_000 * "."})
     graph.until(lambda: recorder.recorded == 1)
@@ -443,7 +443,7 @@ def test_a_recording_in_step_that_broke_off_writes_no_more(graph: Any, tmp_path:
     with _largest_file(100_000):
         for step in range(9):
             publisher.publish({"data": f"{step}" + 400_000 * "."})
-            graph.loop.settle()
+            graph.loop.flush_deliveries()
             recorder.write(10**18 + step)
     recorder.write(2 * 10**18)
     recorder.close()
@@ -467,7 +467,7 @@ def test_the_first_record_is_as_long_as_rosbags(messages: Messages, tmp_path: Pa
     (padding,) = struct.unpack_from("<I", data, 17 + header)
     assert header + padding == 4096
     assert data[21 + header : 21 + 4096].strip() == b""
-    assert sum(1 for _ in recovered(path)) == count
+    assert sum(1 for _ in recover_messages(path)) == count
 
 
 def test_a_connection_that_is_named_twice_is_counted_twice(messages: Messages, tmp_path: Path) -> None:

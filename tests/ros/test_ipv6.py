@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from tests.ros.conftest import PATIENCE_S, Graph
 
-from trundle.ros import Core, GraphLoop, MasterProxy, Messages, Node, RosError, host_and_port, host_of
+from trundle.ros import Core, GraphLoop, MasterProxy, Messages, Node, RosError, host_and_port, uri_host
 
 
 @pytest.fixture
@@ -56,7 +56,7 @@ def test_light_commands_reach_it(six: Graph) -> None:
 def test_the_last_colon_separates_the_port(uri: str, host: str, port: int) -> None:
     """rospy writes IPv6 addresses without brackets."""
     assert host_and_port(uri) == (host, port)
-    assert host_of(uri) == host
+    assert uri_host(uri) == host
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_the_last_colon_separates_the_port(uri: str, host: str, port: int) -> No
 def test_what_is_no_address_is_refused(uri: str) -> None:
     with pytest.raises(RosError, match="not a node's address"):
         host_and_port(uri)
-    assert host_of(uri) == ""
+    assert uri_host(uri) == ""
 
 
 ROSPY = """

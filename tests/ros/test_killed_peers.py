@@ -34,7 +34,7 @@ with GraphLoop() as loop:
         case "client":
             loop.spawn(node.call_service("/ours", "std_srvs/Empty"))
         case "parameter":
-            loop.run(node.ready())
+            loop.run(node.wait_registered())
             loop.run(node.watch_param("/p", lambda *_: None))
             loop.run(node.set_param("/watched", True))
         case "action":
@@ -43,7 +43,7 @@ with GraphLoop() as loop:
         case "master":
             while True:
                 MasterProxy(sys.argv[1]).call("setParam", "/busy", ["x" * 1000] * 100)
-    loop.run(node.ready())
+    loop.run(node.wait_registered())
     input()
 """
 
@@ -166,7 +166,7 @@ def test_one_in_the_middle_of_a_call_to_the_master(graph: Any) -> None:
 
 
 def test_a_recorder(graph: Any, tmp_path: Path) -> None:
-    """What it wrote until then is in tests/cli/test_bag.py; here is what becomes of those it listened to."""
+    """What it wrote until then is in tests/cli/bag/test_bag.py; here is what becomes of those it listened to."""
     node = graph.node("n")
     publisher = node.advertise("/a", STRING, queue_size=None)
     with _killed(graph, "-m", "trundle", "bag", "record", "-q", "-O", str(tmp_path / "x.bag"), "/a"):

@@ -68,7 +68,7 @@ def test_a_core_writes_what_nodes_say_and_who_comes_and_goes(tmp_path: Path, mes
     with GraphLoop(messages=messages) as loop:
         core = Core(loop, port=0, log_folder=lambda _: tmp_path)
         loop.run(core.start())
-        loop.run(core.ready())
+        loop.run(core.wait_ready())
         node = _node(loop, core)
         loop.run(node.wait_registered())
         until(lambda: _says(node, "first") and "first" in _text(tmp_path / "rosout.log"))

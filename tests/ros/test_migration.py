@@ -24,7 +24,7 @@ OLD_STAMPED = f"Header header\nPoint point{OLD_HEADER}{BETWEEN}{POINT}\n{OLD_POI
 
 
 def _class(kind: str, text: str) -> MessageClass:
-    return MessageClasses.of_definition(kind, text).of(kind)
+    return MessageClasses.from_definition(kind, text).message_class(kind)
 
 
 @pytest.fixture

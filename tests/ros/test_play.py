@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from trundle.ros import BagConnection, BagMessage, Messages, Player, PlayOptions, create_bag, open_bag
+from trundle.ros import BagConnection, BagMessage, Messages, Player, PlayerOptions, create_bag, open_bag
 
 STRING = "std_msgs/String"
 _MADE = BagConnection(topic="/a", type=STRING, md5sum=Messages().md5(STRING), definition="string data\n")
@@ -42,7 +42,7 @@ def test_who_comes_late_gets_the_last_message_of_each_who_latched(graph: Any, tm
         ("/map", "/three", True, 4),
     ]
     with open_bag(_bag(tmp_path / "x.bag", content)) as bag:
-        player = Player(graph.node("play"), [bag], PlayOptions(immediate=True, start_s=start_s))
+        player = Player(graph.node("play"), [bag], PlayerOptions(immediate=True, start_s=start_s))
         player.advertise()
         player.play(lambda: None)
         for name in ("late", "later"):
@@ -63,7 +63,7 @@ def test_the_clock_stands_in_a_pause_is_told_with_each_step_and_goes_on_behind_t
         "/clock", "rosgraph_msgs/Clock", lambda m: clock.append(m.clock.sec * 10**9 + m.clock.nanosec), queue_size=None
     )
     with open_bag(_bag(tmp_path / "x.bag", content)) as bag:
-        player = Player(graph.node("play"), [bag], PlayOptions(clock_hz=200.0, rate=100.0))
+        player = Player(graph.node("play"), [bag], PlayerOptions(clock_hz=200.0, rate=100.0))
         player.advertise()
         graph.until(lambda: following.publishers)
         player.is_paused = True
@@ -81,7 +81,7 @@ def test_the_clock_stands_in_a_pause_is_told_with_each_step_and_goes_on_behind_t
                 raise _EnoughError
 
         with pytest.raises(_EnoughError):
-            player.linger(end)
+            player.keep_alive(end)
     assert clock == sorted(clock)
     assert [clock.count(second * 10**9) >= 3 for second in (1, 2)] == [True, True]
 
@@ -89,14 +89,14 @@ def test_the_clock_stands_in_a_pause_is_told_with_each_step_and_goes_on_behind_t
 def test_pauses_before_topics_can_be_switched_off(graph: Any, tmp_path: Path) -> None:
     content = [("/a", "", False, 1), ("/b", "", False, 2), ("/b", "", False, 3)]
     with open_bag(_bag(tmp_path / "x.bag", content)) as bag:
-        player = Player(graph.node("play"), [bag], PlayOptions(immediate=True, pause_topics=frozenset(["/b"])))
+        player = Player(graph.node("play"), [bag], PlayerOptions(immediate=True, pause_topics=frozenset(["/b"])))
         player.advertise()
         paused_at: list[int] = []
 
         def attend() -> None:
             if player.is_paused:
                 paused_at.append(player.played)
-                player.is_paused = player.heeds_pause_topics = False
+                player.is_paused = player.uses_pause_topics = False
 
         player.play(attend)
     assert (paused_at, player.played) == ([1], 3)
@@ -118,7 +118,7 @@ def test_playing_waits_for_whoever_controls_the_rate_but_not_in_a_silence(graph:
     follower.subscribe("/a", kind, lambda m: got.append(m.header.stamp.sec), queue_size=None)
     ahead: list[int] = []
     with open_bag(tmp_path / "x.bag") as bag:
-        options = PlayOptions(immediate=True, queue_size=0, rate_control_topic="/done", rate_control_s=10.0)
+        options = PlayerOptions(immediate=True, queue_size=0, rate_control_topic="/done", rate_control_s=10.0)
         player = Player(graph.node("play"), [bag], options)
         (publisher,) = player.advertise()
         graph.until(lambda: publisher.has_subscribers and done.has_subscribers)
@@ -138,5 +138,5 @@ def test_a_prefix_is_put_before_a_topic_as_it_is(graph: Any, tmp_path: Path) -> 
     content = [("/a", "", False, 1), ("b", "", False, 2)]
     with open_bag(_bag(tmp_path / "x.bag", content)) as bag:
         for prefix, topics in (("", ["/a", "/b"]), ("x", ["/x/a", "/xb"]), ("/y/", ["/y/a", "/y/b"])):
-            player = Player(graph.node(f"play_{len(prefix)}"), [bag], PlayOptions(prefix=prefix))
+            player = Player(graph.node(f"play_{len(prefix)}"), [bag], PlayerOptions(prefix=prefix))
             assert [publisher.topic for publisher in player.advertise()] == topics

@@ -27,11 +27,11 @@ time.sleep(600 * (sys.argv[1] == "stay"))
 
 STARTER = """
 import asyncio, os, sys
-from trundle.supervisor import Command, ProcessJob, ProcessTree
+from trundle.supervisor import ProcessCommand, ProcessJob, ProcessTree
 
 async def main():
     argv = (sys.executable, "-S", "-c", sys.argv[1], "stay")
-    command = Command(name="a", argv=argv, env=dict(os.environ), output="screen")
+    command = ProcessCommand(name="a", argv=argv, env=dict(os.environ), output="screen")
     job = ProcessJob(command, lambda _, line: print(line, flush=True), tree=ProcessTree())
     await job.start()
     await job.wait()

@@ -11,7 +11,16 @@ from typing import Any
 import pytest
 
 from trundle.diagnostics import UsageError
-from trundle.supervisor import Command, Event, Policy, ProcessJob, ProcessTree, StopTimeouts, Supervisor, TaskJob
+from trundle.supervisor import (
+    Event,
+    ProcessCommand,
+    ProcessJob,
+    ProcessTree,
+    RespawnPolicy,
+    StopTimeouts,
+    Supervisor,
+    TaskJob,
+)
 
 TIMEOUT_S = 60.0
 posix_only = pytest.mark.skipif(os.name != "posix", reason="signals and process groups are POSIX")
@@ -20,12 +29,12 @@ posix_only = pytest.mark.skipif(os.name != "posix", reason="signals and process 
 class Stage:
     """A supervisor whose events and lines are kept."""
 
-    def __init__(self, folder: Path, patience: StopTimeouts | None = None) -> None:
+    def __init__(self, folder: Path, timeouts: StopTimeouts | None = None) -> None:
         self.events: list[Event] = []
         self.lines: list[tuple[str, str]] = []
         self.folder = folder
         self.seen = asyncio.Event()
-        self.supervisor = Supervisor(self.events.append, patience=patience)
+        self.supervisor = Supervisor(self.events.append, timeouts=timeouts)
         self.tree = ProcessTree()
 
     def show(self, name: str, line: str) -> None:
@@ -33,7 +42,7 @@ class Stage:
         self.seen.set()
 
     async def python(self, name: str, code: str, *, screen: bool = True, **policy: Any) -> bool:
-        command = Command(
+        command = ProcessCommand(
             name=name,
             argv=(sys.executable, "-u", "-c", code),
             env=dict(os.environ),
@@ -41,7 +50,7 @@ class Stage:
             output="screen" if screen else "log",
             log_file=self.folder / f"{name}.log",
         )
-        return await self.supervisor.start(ProcessJob(command, self.show, tree=self.tree), Policy(**policy))
+        return await self.supervisor.start(ProcessJob(command, self.show, tree=self.tree), RespawnPolicy(**policy))
 
     async def line(self, text: str) -> None:
         while text not in [line for _, line in self.lines]:
@@ -53,10 +62,10 @@ class Stage:
 
 
 def on_stage(
-    folder: Path, play: Callable[[Stage], Coroutine[Any, Any, None]], patience: StopTimeouts | None = None
+    folder: Path, play: Callable[[Stage], Coroutine[Any, Any, None]], timeouts: StopTimeouts | None = None
 ) -> Stage:
     async def run() -> Stage:
-        stage = Stage(folder, patience)
+        stage = Stage(folder, timeouts)
         try:
             await asyncio.wait_for(play(stage), TIMEOUT_S)
         finally:
@@ -99,7 +108,7 @@ def test_a_death_is_told_with_code_and_last_output(tmp_path: Path) -> None:
 
 def test_a_program_that_is_not_there_is_told_and_the_rest_goes_on(tmp_path: Path) -> None:
     async def play(stage: Stage) -> None:
-        command = Command(name="a", argv=("/no/such/program",), env={})
+        command = ProcessCommand(name="a", argv=("/no/such/program",), env={})
         assert not await stage.supervisor.start(ProcessJob(command, stage.show, tree=stage.tree))
         assert await stage.python("b", "print('hi')")
         await stage.supervisor.wait()

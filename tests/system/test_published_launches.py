@@ -20,7 +20,7 @@ from pathlib import Path
 import pytest
 
 from trundle.packages.stock import STOCK
-from trundle.ros import GraphLoop, Message, Node, ns_of
+from trundle.ros import GraphLoop, Message, Node, to_nsec
 
 _RUN_S = 20
 """ROS time each of them runs; flat out where it is simulated."""
@@ -110,7 +110,7 @@ def _listen(process: "subprocess.Popen[bytes]", node: Node, topics: Sequence[str
     clock_ns = [0]
 
     def look(message: Message) -> None:
-        clock_ns[0] = ns_of(message.clock)
+        clock_ns[0] = to_nsec(message.clock)
 
     for topic in topics:
 

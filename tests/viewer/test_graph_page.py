@@ -121,7 +121,9 @@ def test_a_robot_appears_once_tf_says_where_it_is(scenery: Scenery, browser_page
     deadline = time.monotonic() + _PATIENCE_S
     while _blue_pixels(browser_page) < 5000:
         assert time.monotonic() < deadline, "the robot never appeared"
-        broadcaster.send(Transform(parent="odom", child="base_link", stamp_ns=time.time_ns(), translation=(3.0, 0, 0)))
+        broadcaster.send_transform(
+            Transform(parent="odom", child="base_link", stamp_ns=time.time_ns(), translation=(3.0, 0, 0))
+        )
         browser_page.wait_for_timeout(100)
 
     assert browser_page.get_by_text("does not exist").count() == 0

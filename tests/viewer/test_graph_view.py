@@ -23,9 +23,9 @@ def _moved(parent: str, child: str, x: float, stamp_ns: int = 1) -> Transform:
 @pytest.fixture
 def buffer() -> TransformBuffer:
     buffer = TransformBuffer()
-    buffer.insert(_moved("odom", "base_link", 1.0, stamp_ns=5))
-    buffer.insert(_moved("base_link", "wheel", 0.25, stamp_ns=3))
-    buffer.insert(_moved("elsewhere", "island", 9.0), static=True)
+    buffer.set_transform(_moved("odom", "base_link", 1.0, stamp_ns=5))
+    buffer.set_transform(_moved("base_link", "wheel", 0.25, stamp_ns=3))
+    buffer.set_transform(_moved("elsewhere", "island", 9.0), static=True)
     return buffer
 
 
@@ -75,7 +75,7 @@ def test_a_page_of_windows_alone_misses_no_frames(expects: bool, said: int) -> N
 
 
 def test_a_loop_in_tf_ends(buffer: TransformBuffer) -> None:
-    buffer.insert(_moved("wheel", "odom", 1.0))
+    buffer.set_transform(_moved("wheel", "odom", 1.0))
 
     state = graph_state(FrameTree.of(buffer, "odom"), buffer, _ROBOT, time_ns=7)
 
@@ -85,7 +85,7 @@ def test_a_loop_in_tf_ends(buffer: TransformBuffer) -> None:
 def test_many_missing_transforms_are_counted() -> None:
     robot = Scene(bodies=tuple(f"link_{i}" for i in range(10)), shapes=())
     buffer = TransformBuffer()
-    buffer.insert(_moved("odom", "base_link", 1.0))
+    buffer.set_transform(_moved("odom", "base_link", 1.0))
 
     status = graph_state(FrameTree.of(buffer, "odom"), buffer, robot, time_ns=0).status
 
@@ -104,7 +104,7 @@ def test_displays_that_are_off_are_not_drawn(buffer: TransformBuffer) -> None:
 
 def test_a_quarter_turn_arrives_as_wxyz(buffer: TransformBuffer) -> None:
     half = math.sqrt(0.5)
-    buffer.insert(Transform(parent="odom", child="base_link", stamp_ns=9, rotation=(half, 0.0, 0.0, half)))
+    buffer.set_transform(Transform(parent="odom", child="base_link", stamp_ns=9, rotation=(half, 0.0, 0.0, half)))
 
     state = graph_state(FrameTree.of(buffer, "odom"), buffer, _ROBOT, time_ns=7)
 

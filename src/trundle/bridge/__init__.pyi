@@ -1,4 +1,4 @@
-from .camera_info import camera_info_of as camera_info_of
+from .camera_info import camera_info_message as camera_info_message
 from .camera_topics import CameraTopics as CameraTopics
 from .camera_topics import camera_topics as camera_topics
 from .clock import ClockTopic as ClockTopic
@@ -7,11 +7,11 @@ from .frame_names import WORLD_FRAME as WORLD_FRAME
 from .frame_names import FrameNames as FrameNames
 from .frame_names import link_frames as link_frames
 from .frame_names import sensor_topic as sensor_topic
-from .image_messages import cloud_maker as cloud_maker
 from .image_messages import depth_image as depth_image
-from .image_messages import image_maker as image_maker
-from .joint_states import JointStates as JointStates
-from .link_transforms import SimulationFrames as SimulationFrames
+from .image_messages import image_encoder as image_encoder
+from .image_messages import point_cloud_encoder as point_cloud_encoder
+from .joint_states import JointStatesTopic as JointStatesTopic
+from .link_transforms import LinkTransforms as LinkTransforms
 from .sensor_messages import contacts_message as contacts_message
 from .sensor_messages import fix_message as fix_message
 from .sensor_messages import imu_message as imu_message

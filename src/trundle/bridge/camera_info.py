@@ -14,7 +14,7 @@ _TERMS = 4
 """Coefficients of ROS' model `equidistant`: θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸)."""
 
 
-def camera_info_of(camera: CameraSensor) -> dict[str, object]:
+def camera_info_message(camera: CameraSensor) -> dict[str, object]:
     """The picture's size, and D, K, R and P.
 
     A pinhole has gazebo_ros's principal point (w + 1)/2, (h + 1)/2 unless the file has <intrinsics>. Of a multicamera's

@@ -15,10 +15,10 @@ from trundle.sensors import (
 )
 from trundle.spatial import Pose, quaternion_from_rpy
 
-from .camera_info import camera_info_of
+from .camera_info import camera_info_message
 from .detection_messages import boxes_2d, boxes_3d
-from .frame_names import FrameNames, sensor_topic, topic_called
-from .image_messages import cloud_maker, depth_image, image_maker, labels_image, thermal_image
+from .frame_names import FrameNames, global_topic, sensor_topic
+from .image_messages import depth_image, image_encoder, labels_image, point_cloud_encoder, thermal_image
 
 _HALF_TURN = 1.5707963267948966
 CAMERA_FROM_OPTICAL = Pose(quaternion=quaternion_from_rpy(-_HALF_TURN, 0.0, -_HALF_TURN))
@@ -29,23 +29,25 @@ _Output: TypeAlias = tuple[str, str, _Make]
 
 
 def camera_topics(
-    node: Node, still: StaticTransformBroadcaster, cameras: Iterable[CameraSensor], names: FrameNames
+    node: Node, static_broadcaster: StaticTransformBroadcaster, cameras: Iterable[CameraSensor], names: FrameNames
 ) -> None:
     """Put everything that cameras see on topics of its own."""
     for camera in cameras:
-        CameraTopics(node, still, camera, names)
+        CameraTopics(node, static_broadcaster, camera, names)
 
 
 class CameraTopics:
     """`<model>/<link>/<sensor>/image_raw`, `camera_info` and more by the camera's kind, each made only for
     subscribers."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, camera: CameraSensor, names: FrameNames) -> None:
+    def __init__(
+        self, node: Node, static_broadcaster: StaticTransformBroadcaster, camera: CameraSensor, names: FrameNames
+    ) -> None:
         """Advertise, and place the optical frame.
 
         Args:
             node: publishes.
-            still: the node's one broadcaster for /tf_static.
+            static_broadcaster: the node's one broadcaster for /tf_static.
             camera: what to publish.
             names: of the frames.
         """
@@ -59,7 +61,7 @@ class CameraTopics:
         )
         optical = camera.link_from_camera @ CAMERA_FROM_OPTICAL
         if there is None:
-            still.send(
+            static_broadcaster.send_transform(
                 Transform(parent=carrier, child=self.frame, translation=optical.position, rotation=optical.quaternion)
             )
         outputs = _outputs(camera)
@@ -68,11 +70,11 @@ class CameraTopics:
         for output, type_, make in outputs:
             topic = sensor_topic(model, link.name, camera.sensor, output, main=main, part=camera.optics.name)
             if output == "camera_info" and camera.optics.info_topic:
-                topic = topic_called(camera.optics.info_topic)
+                topic = global_topic(camera.optics.info_topic)
             self._topics.append((node.advertise(topic, type_, queue_size=2), make))
         if camera.optics.triggered:
             own = sensor_topic(model, link.name, camera.sensor, "trigger", main=main, part=camera.optics.name)
-            topic = topic_called(camera.optics.trigger_topic) if camera.optics.trigger_topic else own
+            topic = global_topic(camera.optics.trigger_topic) if camera.optics.trigger_topic else own
             trigger = camera.await_trigger()
             node.subscribe(topic, "std_msgs/Bool", lambda _: trigger(), queue_size=1)
         camera.listen(self._publish, enabled=lambda: any(topic.has_subscribers for topic, _ in self._topics))
@@ -86,9 +88,9 @@ class CameraTopics:
 
 def _outputs(camera: CameraSensor) -> list[_Output]:
     """What a camera publishes; the first is what it is for."""
-    calibration = camera_info_of(camera)
+    calibration = camera_info_message(camera)
     info: _Output = ("camera_info", "sensor_msgs/CameraInfo", lambda _: calibration)
-    colours: _Output = ("image_raw", "sensor_msgs/Image", image_maker(camera.optics.format))
+    colours: _Output = ("image_raw", "sensor_msgs/Image", image_encoder(camera.optics.format))
     match camera:
         case DepthCameraSensor():
             return [
@@ -96,13 +98,13 @@ def _outputs(camera: CameraSensor) -> list[_Output]:
                 info,
                 ("depth/image_raw", "sensor_msgs/Image", depth_image),
                 ("depth/camera_info", "sensor_msgs/CameraInfo", lambda _: calibration),
-                ("points", "sensor_msgs/PointCloud2", cloud_maker(camera)),
+                ("points", "sensor_msgs/PointCloud2", point_cloud_encoder(camera)),
             ]
         case SegmentationCameraSensor():
             return [
                 ("labels_map", "sensor_msgs/Image", labels_image),
                 info,
-                ("colored_map", "sensor_msgs/Image", image_maker("R8G8B8")),
+                ("colored_map", "sensor_msgs/Image", image_encoder("R8G8B8")),
             ]
         case BoundingBoxCameraSensor() if camera.optics.box_type == "3d":
             return [("boxes", "vision_msgs/Detection3DArray", boxes_3d), info, colours]

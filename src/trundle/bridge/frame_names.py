@@ -26,7 +26,7 @@ class LinkFrame:
     """Index into `Snapshot.poses`."""
     parent_link: int | None
     """None: the parent is the world."""
-    moves: bool
+    is_moving: bool
     """Whether the transform from the parent changes as time passes."""
 
 
@@ -40,12 +40,12 @@ class FrameNames:
     """Links of the URDF, which are on the graph though some are not simulated."""
 
     @classmethod
-    def of(cls, world: World, robot: Robot | None = None) -> Self:
+    def from_world(cls, world: World, robot: Robot | None = None) -> Self:
         """Those of a world that `run` was given, or of the robot in it."""
         return cls(plain=_has_plain_frames(world), lumped=_links_of(robot))
 
     @classmethod
-    def of_robot(cls, robot: Robot) -> Self:
+    def from_robot(cls, robot: Robot) -> Self:
         """Those of the one URDF of a launch, whose links robot_state_publisher sends."""
         return cls(plain=True, lumped=_links_of(robot))
 
@@ -100,7 +100,7 @@ def sensor_topic(model: Model, place: str, sensor: Sensor, output: str, *, main:
     given = sensor.topic.strip().removeprefix("~").strip("/")
     if not given or given in _NO_TOPIC:
         return "/" + "/".join(ros_name(name) for name in (model.name, place, sensor.name, *parts, output))
-    topic = topic_called("/".join((given, *parts)))
+    topic = global_topic("/".join((given, *parts)))
     if output == main and not part:
         return topic
     if output == "camera_info" and not part:
@@ -108,7 +108,7 @@ def sensor_topic(model: Model, place: str, sensor: Sensor, output: str, *, main:
     return f"{topic}/{output}"
 
 
-def topic_called(name: str) -> str:
+def global_topic(name: str) -> str:
     """The topic of a name in a file: global, whether it begins with a slash or not."""
     return f"/{ros_name(name.strip().removeprefix('~').strip('/'))}"
 
@@ -120,7 +120,7 @@ def _has_plain_frames(world: World) -> bool:
 
 def link_frames(world: World) -> list[LinkFrame]:
     """Every link of the world as a frame, in the order of `Snapshot.poses`."""
-    names = FrameNames.of(world)
+    names = FrameNames.from_world(world)
     frames: list[LinkFrame] = []
     for model in world.models:
         start = len(frames)
@@ -139,7 +139,7 @@ def link_frames(world: World) -> list[LinkFrame]:
                     parent=parent,
                     link=index[link.name],
                     parent_link=parent_link,
-                    moves=not (rigid or model.static),
+                    is_moving=not (rigid or model.static),
                 )
             )
     return frames

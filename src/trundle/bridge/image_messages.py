@@ -14,7 +14,7 @@ _KELVIN_STEP = 0.01
 """[K] What gz's thermal cameras count in."""
 
 
-def image_maker(format_: str) -> Callable[[CameraReading], dict[str, object]]:
+def image_encoder(format_: str) -> Callable[[CameraReading], dict[str, object]]:
     """What makes sensor_msgs/Image of colours in one of SDF's formats."""
     return lambda reading: _image(*pixels_in(format_, reading.rgb))
 
@@ -44,7 +44,7 @@ def _image(pixels: NDArray[np.generic], encoding: str) -> dict[str, object]:
     return {"height": height, "width": width, "encoding": encoding, "step": data.size // height, "data": data}
 
 
-def cloud_maker(camera: CameraSensor) -> Callable[[CameraReading], dict[str, object]]:
+def point_cloud_encoder(camera: CameraSensor) -> Callable[[CameraReading], dict[str, object]]:
     """What makes sensor_msgs/PointCloud2: a point for each pixel, in its colour, in the optical frame; one without
     depth is not a number."""
     right, down = (np.ascontiguousarray(slopes, dtype=np.float32) for slopes in camera.projection.slopes())

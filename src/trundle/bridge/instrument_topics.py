@@ -20,7 +20,7 @@ from trundle.sensors import (
 )
 
 from .frame_names import WORLD_FRAME, FrameNames
-from .sensor_frames import place_sensor, topic_of
+from .sensor_frames import output_topic, send_sensor_frame
 
 _ULTRASOUND = 0
 """sensor_msgs/Range's number for it."""
@@ -32,13 +32,15 @@ class PressureTopic:
     def __init__(
         self,
         node: Node,
-        still: StaticTransformBroadcaster,
+        static_broadcaster: StaticTransformBroadcaster,
         sensor: AirPressureSensor | AirSpeedSensor,
         names: FrameNames,
     ) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
-        self._topic = node.advertise(topic_of(sensor, sensor.sensor.type), "sensor_msgs/FluidPressure", queue_size=10)
+        self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
+        self._topic = node.advertise(
+            output_topic(sensor, sensor.sensor.type), "sensor_msgs/FluidPressure", queue_size=10
+        )
         sensor.listen(self._publish, enabled=lambda: self._topic.has_subscribers)
 
     def _publish(self, reading: PressureReading) -> None:
@@ -52,8 +54,8 @@ class AltimeterTopics:
 
     def __init__(self, node: Node, sensor: AltimeterSensor) -> None:
         """Advertise."""
-        self._height = node.advertise(topic_of(sensor, "altitude"), "geometry_msgs/Vector3Stamped", queue_size=10)
-        speed = topic_of(sensor, "vertical_velocity", main="altitude")
+        self._height = node.advertise(output_topic(sensor, "altitude"), "geometry_msgs/Vector3Stamped", queue_size=10)
+        speed = output_topic(sensor, "vertical_velocity", main="altitude")
         self._speed = node.advertise(speed, "geometry_msgs/Vector3Stamped", queue_size=10)
         sensor.listen(self._publish, enabled=lambda: self._height.has_subscribers or self._speed.has_subscribers)
 
@@ -68,11 +70,11 @@ class MagnetometerTopic:
     """sensor_msgs/MagneticField on `…/magnetic_field`."""
 
     def __init__(
-        self, node: Node, still: StaticTransformBroadcaster, sensor: MagnetometerSensor, names: FrameNames
+        self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: MagnetometerSensor, names: FrameNames
     ) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
-        self._topic = node.advertise(topic_of(sensor, "magnetic_field"), "sensor_msgs/MagneticField", queue_size=10)
+        self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
+        self._topic = node.advertise(output_topic(sensor, "magnetic_field"), "sensor_msgs/MagneticField", queue_size=10)
         sensor.listen(self._publish, enabled=lambda: self._topic.has_subscribers)
 
     def _publish(self, reading: MagnetometerReading) -> None:
@@ -84,10 +86,12 @@ class MagnetometerTopic:
 class SonarTopic:
     """sensor_msgs/Range on `…/range`, in a frame whose x axis is the sonar's."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: SonarSensor, names: FrameNames) -> None:
+    def __init__(
+        self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: SonarSensor, names: FrameNames
+    ) -> None:
         """Advertise, and place the beam's frame."""
-        self._frame = place_sensor(sensor, sensor.link_from_beam, still, names)
-        self._topic = node.advertise(topic_of(sensor, "range"), "sensor_msgs/Range", queue_size=5)
+        self._frame = send_sensor_frame(sensor, sensor.link_from_beam, static_broadcaster, names)
+        self._topic = node.advertise(output_topic(sensor, "range"), "sensor_msgs/Range", queue_size=5)
         self._sensor = sensor
         sensor.listen(self._publish, enabled=lambda: self._topic.has_subscribers)
 
@@ -104,15 +108,15 @@ class SonarTopic:
         )
 
 
-class ModelsTopic:
+class LogicalCameraTopic:
     """tf2_msgs/TFMessage on `…/models`: each model in view by its name, placed in the logical camera's frame."""
 
     def __init__(
-        self, node: Node, still: StaticTransformBroadcaster, sensor: LogicalCameraSensor, names: FrameNames
+        self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: LogicalCameraSensor, names: FrameNames
     ) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
-        self._topic = node.advertise(topic_of(sensor, "models"), "tf2_msgs/TFMessage", queue_size=5)
+        self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
+        self._topic = node.advertise(output_topic(sensor, "models"), "tf2_msgs/TFMessage", queue_size=5)
         sensor.listen(self._publish, enabled=lambda: self._topic.has_subscribers)
 
     def _publish(self, reading: LogicalCameraReading) -> None:
@@ -128,21 +132,25 @@ class ModelsTopic:
         self._topic.publish({"transforms": transforms})
 
 
-class RadioTopic:
+class WirelessTopics:
     """diagnostic_msgs/DiagnosticArray: the transmitters heard on `…/nodes`, the tags that are near on `…/tags`."""
 
     def __init__(
-        self, node: Node, still: StaticTransformBroadcaster, sensor: WirelessSensor | RfidSensor, names: FrameNames
+        self,
+        node: Node,
+        static_broadcaster: StaticTransformBroadcaster,
+        sensor: WirelessSensor | RfidSensor,
+        names: FrameNames,
     ) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
+        self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
         type_ = "diagnostic_msgs/DiagnosticArray"
         match sensor:
             case WirelessSensor():
-                topic = self._topic = node.advertise(topic_of(sensor, "nodes"), type_, queue_size=5)
+                topic = self._topic = node.advertise(output_topic(sensor, "nodes"), type_, queue_size=5)
                 sensor.listen(self._publish_nodes, enabled=lambda: topic.has_subscribers)
             case RfidSensor():
-                topic = self._topic = node.advertise(topic_of(sensor, "tags"), type_, queue_size=5)
+                topic = self._topic = node.advertise(output_topic(sensor, "tags"), type_, queue_size=5)
                 sensor.listen(self._publish_tags, enabled=lambda: topic.has_subscribers)
 
     def _publish_nodes(self, reading: WirelessReading) -> None:

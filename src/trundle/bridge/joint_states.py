@@ -10,7 +10,7 @@ from trundle.simulation import ModelHandle, Snapshot
 _MOVABLE = frozenset({JointType.REVOLUTE, JointType.PRISMATIC, JointType.SCREW})
 
 
-class JointStates:
+class JointStatesTopic:
     """Publishes `joint_states` for every joint of one degree of freedom, in file order."""
 
     period_ns = 20_000_000
@@ -23,7 +23,7 @@ class JointStates:
         self._joints = np.array([handle.index for handle in movable], dtype=np.intp)
         self._publisher = node.advertise(topic, "sensor_msgs/JointState", queue_size=5)
 
-    def wanted(self) -> bool:
+    def has_subscribers(self) -> bool:
         """Whether anybody listens."""
         return self._publisher.has_subscribers
 

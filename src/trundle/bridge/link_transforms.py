@@ -10,38 +10,40 @@ from trundle.simulation import Snapshot
 from .frame_names import LinkFrame, link_frames
 
 
-class SimulationFrames:
+class LinkTransforms:
     """Broadcasts each link relative to its parent; what cannot move goes out once, on /tf_static."""
 
     period_ns = 20_000_000
     """50 Hz, robot_state_publisher's default."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, world: World, start: Snapshot) -> None:
+    def __init__(
+        self, node: Node, static_broadcaster: StaticTransformBroadcaster, world: World, start: Snapshot
+    ) -> None:
         """Send what cannot move, and get ready for the rest.
 
         Args:
             node: publishes.
-            still: the node's one broadcaster for /tf_static.
+            static_broadcaster: the node's one broadcaster for /tf_static.
             world: names the frames.
             start: where everything is now.
         """
         frames = link_frames(world)
-        self._moving = [frame for frame in frames if frame.moves]
+        self._moving = [frame for frame in frames if frame.is_moving]
         self._children = _children(self._moving)
         self._parents = _parents(self._moving)
         self._broadcaster = TransformBroadcaster(node)
-        fixed = [frame for frame in frames if not frame.moves]
+        fixed = [frame for frame in frames if not frame.is_moving]
         poses = relative_poses(start.poses, _parents(fixed), _children(fixed))
-        still.send(*_transforms(fixed, poses, start.time_ns))
+        static_broadcaster.send_transform(*_transforms(fixed, poses, start.time_ns))
 
-    def wanted(self) -> bool:
+    def enabled(self) -> bool:
         """Whether anything moves and anybody listens."""
         return bool(self._moving) and self._broadcaster.has_subscribers
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Send every frame that moves."""
         poses = relative_poses(snapshot.poses, self._parents, self._children)
-        self._broadcaster.send(*_transforms(self._moving, poses, snapshot.time_ns))
+        self._broadcaster.send_transform(*_transforms(self._moving, poses, snapshot.time_ns))
 
 
 def _children(frames: list[LinkFrame]) -> NDArray[np.intp]:

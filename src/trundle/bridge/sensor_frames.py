@@ -7,17 +7,17 @@ from trundle.spatial import Pose
 from .frame_names import FrameNames, sensor_topic
 
 
-def place_sensor(
-    sensor: InstrumentSensor, link_from_sensor: Pose, still: StaticTransformBroadcaster, names: FrameNames
+def send_sensor_frame(
+    sensor: InstrumentSensor, link_from_sensor: Pose, static_broadcaster: StaticTransformBroadcaster, names: FrameNames
 ) -> str:
     """Put the sensor's own frame on its link; return its name."""
     frame = names.sensor(sensor.model, sensor.parent_name, sensor.sensor)
     carrier = names.link(sensor.model, sensor.link.name)
     place, turn = link_from_sensor.position, link_from_sensor.quaternion
-    still.send(Transform(parent=carrier, child=frame, translation=place, rotation=turn))
+    static_broadcaster.send_transform(Transform(parent=carrier, child=frame, translation=place, rotation=turn))
     return frame
 
 
-def topic_of(sensor: InstrumentSensor, output: str, *, main: str | None = None) -> str:
+def output_topic(sensor: InstrumentSensor, output: str, *, main: str | None = None) -> str:
     """The topic of one of its outputs; see `sensor_topic`."""
     return sensor_topic(sensor.model, sensor.parent_name, sensor.sensor, output, main=main or output)

@@ -27,51 +27,60 @@ from trundle.sensors import (
 )
 
 from .frame_names import WORLD_FRAME, FrameNames
-from .instrument_topics import AltimeterTopics, MagnetometerTopic, ModelsTopic, PressureTopic, RadioTopic, SonarTopic
-from .sensor_frames import place_sensor, topic_of
+from .instrument_topics import (
+    AltimeterTopics,
+    LogicalCameraTopic,
+    MagnetometerTopic,
+    PressureTopic,
+    SonarTopic,
+    WirelessTopics,
+)
+from .sensor_frames import output_topic, send_sensor_frame
 from .sensor_messages import contacts_message, fix_message, imu_message, points_message, scan_message, wrench_message
 
-_LONGEST_S = 1e30
+_MAX_S = 1e30
 """Between two scans, in a message."""
 
 
 def sensor_topics(
-    node: Node, still: StaticTransformBroadcaster, sensors: Iterable[InstrumentSensor], names: FrameNames
+    node: Node, static_broadcaster: StaticTransformBroadcaster, sensors: Iterable[InstrumentSensor], names: FrameNames
 ) -> None:
     """Put every sensor's readings on topics of its own."""
     for sensor in sensors:
         match sensor:
             case ImuSensor():
-                ImuTopic(node, still, sensor, names)
+                ImuTopic(node, static_broadcaster, sensor, names)
             case RangeSensor():
-                ScanTopic(node, still, sensor, names)
+                ScanTopic(node, static_broadcaster, sensor, names)
             case GpsSensor():
-                FixTopic(node, still, sensor, names)
+                FixTopic(node, static_broadcaster, sensor, names)
             case ForceTorqueSensor():
-                WrenchTopic(node, still, sensor, names)
+                WrenchTopic(node, static_broadcaster, sensor, names)
             case ContactSensor():
                 ContactsTopic(node, sensor)
             case AirPressureSensor() | AirSpeedSensor():
-                PressureTopic(node, still, sensor, names)
+                PressureTopic(node, static_broadcaster, sensor, names)
             case AltimeterSensor():
                 AltimeterTopics(node, sensor)
             case LogicalCameraSensor():
-                ModelsTopic(node, still, sensor, names)
+                LogicalCameraTopic(node, static_broadcaster, sensor, names)
             case MagnetometerSensor():
-                MagnetometerTopic(node, still, sensor, names)
+                MagnetometerTopic(node, static_broadcaster, sensor, names)
             case SonarSensor():
-                SonarTopic(node, still, sensor, names)
+                SonarTopic(node, static_broadcaster, sensor, names)
             case WirelessSensor() | RfidSensor():
-                RadioTopic(node, still, sensor, names)
+                WirelessTopics(node, static_broadcaster, sensor, names)
 
 
 class ImuTopic:
     """sensor_msgs/Imu on `…/imu`."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: ImuSensor, names: FrameNames) -> None:
+    def __init__(
+        self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: ImuSensor, names: FrameNames
+    ) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
-        self._imu = node.advertise(topic_of(sensor, "imu"), "sensor_msgs/Imu", queue_size=10)
+        self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
+        self._imu = node.advertise(output_topic(sensor, "imu"), "sensor_msgs/Imu", queue_size=10)
         sensor.listen(self._publish, enabled=lambda: self._imu.has_subscribers)
 
     def _publish(self, reading: ImuReading) -> None:
@@ -81,15 +90,17 @@ class ImuTopic:
 class ScanTopic:
     """sensor_msgs/LaserScan on `…/scan` for one row of rays, sensor_msgs/PointCloud2 on `…/points` for several."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: RangeSensor, names: FrameNames) -> None:
+    def __init__(
+        self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: RangeSensor, names: FrameNames
+    ) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
-        self._period_s = min(1.0 / sensor.rate_hz, _LONGEST_S)
+        self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
+        self._period_s = min(1.0 / sensor.rate_hz, _MAX_S)
         if sensor.scan.vertical.values == 1:
-            self._topic = node.advertise(topic_of(sensor, "scan"), "sensor_msgs/LaserScan", queue_size=5)
+            self._topic = node.advertise(output_topic(sensor, "scan"), "sensor_msgs/LaserScan", queue_size=5)
             sensor.listen(self._publish_scan, enabled=lambda: self._topic.has_subscribers)
         else:
-            self._topic = node.advertise(topic_of(sensor, "points"), "sensor_msgs/PointCloud2", queue_size=2)
+            self._topic = node.advertise(output_topic(sensor, "points"), "sensor_msgs/PointCloud2", queue_size=2)
             sensor.listen(self._publish_points, enabled=lambda: self._topic.has_subscribers)
 
     def _publish_scan(self, reading: RangeReading) -> None:
@@ -103,11 +114,13 @@ class ScanTopic:
 class FixTopic:
     """sensor_msgs/NavSatFix on `…/fix`."""
 
-    def __init__(self, node: Node, still: StaticTransformBroadcaster, sensor: GpsSensor, names: FrameNames) -> None:
+    def __init__(
+        self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: GpsSensor, names: FrameNames
+    ) -> None:
         """Advertise, and place the sensor's frame."""
-        self._frame = place_sensor(sensor, sensor.sensor.link_from_sensor, still, names)
+        self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
         self._sensor = sensor
-        self._fix = node.advertise(topic_of(sensor, "fix"), "sensor_msgs/NavSatFix", queue_size=5)
+        self._fix = node.advertise(output_topic(sensor, "fix"), "sensor_msgs/NavSatFix", queue_size=5)
         sensor.listen(self._publish, enabled=lambda: self._fix.has_subscribers)
 
     def _publish(self, reading: GpsReading) -> None:
@@ -119,16 +132,16 @@ class WrenchTopic:
     """geometry_msgs/WrenchStamped on `<model>/<joint>/<sensor>/wrench`, in the frame that the sensor names."""
 
     def __init__(
-        self, node: Node, still: StaticTransformBroadcaster, sensor: ForceTorqueSensor, names: FrameNames
+        self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: ForceTorqueSensor, names: FrameNames
     ) -> None:
         """Advertise, and place the sensor's frame."""
-        own = place_sensor(sensor, sensor.link_from_sensor, still, names)
+        own = send_sensor_frame(sensor, sensor.link_from_sensor, static_broadcaster, names)
         parent = sensor.joint.parent
         self._frame = {
             "child": names.link(sensor.model, sensor.link.name),
             "parent": WORLD_FRAME if parent == "world" else names.link(sensor.model, parent),
         }.get(sensor.settings.frame, own)
-        self._topic = node.advertise(topic_of(sensor, "wrench"), "geometry_msgs/WrenchStamped", queue_size=10)
+        self._topic = node.advertise(output_topic(sensor, "wrench"), "geometry_msgs/WrenchStamped", queue_size=10)
         sensor.listen(self._publish, enabled=lambda: self._topic.has_subscribers)
 
     def _publish(self, reading: ForceTorqueReading) -> None:
@@ -140,7 +153,7 @@ class ContactsTopic:
 
     def __init__(self, node: Node, sensor: ContactSensor) -> None:
         """Advertise."""
-        self._contacts = node.advertise(topic_of(sensor, "contacts"), "gazebo_msgs/ContactsState", queue_size=5)
+        self._contacts = node.advertise(output_topic(sensor, "contacts"), "gazebo_msgs/ContactsState", queue_size=5)
         sensor.listen(self._publish, enabled=lambda: self._contacts.has_subscribers)
 
     def _publish(self, reading: ContactReading) -> None:

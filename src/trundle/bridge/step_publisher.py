@@ -5,7 +5,7 @@ from collections.abc import Callable
 from trundle.ros import Publisher
 from trundle.simulation import Simulation, Snapshot
 
-_SPARING_NS = 10_000_000
+_MIN_PERIOD_NS = 10_000_000
 """Ours: every tenth step of Gazebo's. Time as it steps costs Python at each, and stand-ins take only the newest."""
 
 
@@ -21,12 +21,12 @@ class StepPublisher:
 
     def __init__(self, topic: Publisher, tell: Callable[[Snapshot], None]) -> None:
         self._topic = topic
-        self._tell = tell
+        self._publish = tell
 
     def attach(self, simulation: Simulation) -> None:
         """Begin; what nobody listens to costs no stride."""
-        simulation.add_hook(_Tick(self._tell), period_ns=_SPARING_NS, enabled=self._is_sparing)
-        simulation.add_hook(_Tick(self._tell), enabled=lambda: self._topic.needs_every_message)
+        simulation.add_hook(_Tick(self._publish), period_ns=_MIN_PERIOD_NS, enabled=self._is_sparing)
+        simulation.add_hook(_Tick(self._publish), enabled=lambda: self._topic.needs_every_message)
 
     def _is_sparing(self) -> bool:
         return self._topic.has_subscribers and not self._topic.needs_every_message

@@ -16,9 +16,9 @@ class CallQueue:
 
     def post(self, call: Callable[[], None]) -> None:
         """Have a function called; from any thread."""
-        self._waiting.append((call, self._loop.work.begin()))
+        self._waiting.append((call, self._loop.work.start()))
 
-    def any(self) -> bool:
+    def has_pending(self) -> bool:
         """Whether one waits."""
         return bool(self._waiting)
 
@@ -30,9 +30,9 @@ class CallQueue:
                 call()
             finally:
                 self._loop.end_batch()
-                self._loop.work.end(token)
+                self._loop.work.finish(token)
 
-    def drop(self) -> None:
+    def clear(self) -> None:
         """Forget those that wait: nobody is left to call them."""
         while self._waiting:
-            self._loop.work.end(self._waiting.popleft()[1])
+            self._loop.work.finish(self._waiting.popleft()[1])

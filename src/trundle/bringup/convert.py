@@ -47,7 +47,7 @@ def convert(
     if output is None:
         return _written(loaded, to, written_uri, lambda _: None, report)
     copies = FileCopies(output, report)
-    text = _written(loaded, to, copies.uri_of, copies.picture_of, report)
+    text = _written(loaded, to, copies.relative_uri, copies.png_path, report)
     copies.copy()
     write_atomically(output, text)
     return text

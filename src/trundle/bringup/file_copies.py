@@ -28,7 +28,7 @@ class FileCopies:
         self._pictures: dict[Texture, tuple[Path, bytes] | None] = {}
         """The same of images, and what is in them."""
 
-    def uri_of(self, path: Path | None, uri: str) -> str:
+    def relative_uri(self, path: Path | None, uri: str) -> str:
         """A relative URI; that of a file that was not found stays as written."""
         if path is None:
             return written_uri(path, uri)
@@ -43,7 +43,7 @@ class FileCopies:
             self._places[path] = place
         return self._places[path].as_posix()
 
-    def picture_of(self, texture: Texture) -> str | None:
+    def png_path(self, texture: Texture) -> str | None:
         """A relative path of an image as PNG, which is all that MuJoCo reads; None: it cannot be decoded."""
         if texture not in self._pictures:
             data = png_of(texture)

@@ -86,7 +86,7 @@ class Graph:
         self.close()
 
 
-def named_master(environment: Mapping[str, str]) -> str | None:
+def master_notice(environment: Mapping[str, str]) -> str | None:
     """Say which graph ROS_MASTER_URI has `Graph.open` join, if a master answers there."""
     uri = environment.get("ROS_MASTER_URI")
     try:

@@ -36,7 +36,7 @@ def read_piped(file: str) -> Piped | None:
         raise DescriptionError(Source(name if is_standard else file), f"cannot be read: {error.strerror}") from None
 
 
-def name_workspace(file: str, packages: Packages, say: Callable[[str], None]) -> None:
+def report_workspace(file: str, packages: Packages, say: Callable[[str], None]) -> None:
     """Say which workspace a package:// leads into, where ROS_PACKAGE_PATH does not name it."""
     scheme, _, rest = file.partition("://")
     folder = packages.find_package(rest.partition("/")[0]) if scheme == "package" else None
@@ -64,5 +64,5 @@ def load_input(
     piped = piped or read_piped(file)
     if piped is not None:
         return load_text(piped.data, name=piped.name, folder=start, packages=packages, report=report)
-    name_workspace(file, packages, lambda what: report.info(Source(file), what))
+    report_workspace(file, packages, lambda what: report.info(Source(file), what))
     return load(file, report, packages=packages)

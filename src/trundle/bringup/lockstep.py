@@ -38,7 +38,7 @@ class Lockstep:
         self.over = threading.Event()
         """Set when the end is reached and everything up to it is written."""
 
-    async def let_start(self, is_ending: Callable[[], bool]) -> None:
+    async def wait_started(self, is_ending: Callable[[], bool]) -> None:
         """Wait, on the loop, until what was started so far has come to rest; in all, for half a minute at most.
 
         Args:
@@ -49,12 +49,12 @@ class Lockstep:
         if not has_rested and not is_ending():
             self._give_up()
 
-    def begin(self) -> None:
+    def start(self) -> None:
         """Let time pass."""
         self._begun.set()
 
     @property
-    def may_pass(self) -> bool:
+    def is_ready(self) -> bool:
         """Whether time may pass now."""
         return self._begun.is_set() and not self.over.is_set()
 
@@ -62,7 +62,9 @@ class Lockstep:
         """How far time may go [ns]."""
         return wanted_ns if self._end_ns is None else min(wanted_ns, self._end_ns)
 
-    def settle(self, obey: Callable[[], None], is_called: Callable[[], bool], is_ending: Callable[[], bool]) -> None:
+    def wait_settled(
+        self, obey: Callable[[], None], is_called: Callable[[], bool], is_ending: Callable[[], bool]
+    ) -> None:
         """Wait until the nodes have done what there was to do.
 
         Args:
@@ -79,7 +81,7 @@ class Lockstep:
                 self._give_up()
                 return
 
-    def stepped(self, time_ns: int) -> None:
+    def record_step(self, time_ns: int) -> None:
         """Write what was said up to a time [ns] at which all is settled."""
         if self._recorder is not None:
             self._recorder.write(time_ns)

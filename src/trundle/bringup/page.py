@@ -11,7 +11,7 @@ from trundle.sensors import CameraReading, CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 from trundle.viewer import Drive, Pause, Play, Reset, SetJoint, SetSpeed, Step, Viewer, ViewerState
 
-from .page_layout import drawn_lines, joint_indices, lay_out, slider_names
+from .page_scene import build_page_scene, drawn_lines, joint_indices, slider_names
 from .ray_overlay import RayOverlay
 from .realtime_pacer import RealtimePacer
 
@@ -31,7 +31,7 @@ class Driver(Protocol):
         ...
 
 
-class Page:
+class SimulationPage:
     """Feeds a viewer from one simulation, and does what its buttons ask."""
 
     def __init__(
@@ -39,12 +39,12 @@ class Page:
     ) -> None:
         self._viewer = viewer
         self._driver = driver
-        self._sight = RayOverlay(lambda: viewer.alive)
+        self._ray_overlay = RayOverlay(lambda: viewer.alive)
         self._numbers: dict[CameraSensor, int] = {}
         """Of the cameras, as the page shows them."""
         self._heard: set[CameraSensor] = set()
         self._follow(simulation, joints)
-        self._fed_ns = 0
+        self._updated_ns = 0
         self._command = (0.0, 0.0)
         self._drive_due_ns: int | None = None
 
@@ -61,15 +61,15 @@ class Page:
         Raises:
             UsageError: the port asked for is taken.
         """
-        layout = lay_out(simulation, _cameras(sensors), drive=driver is not None)
+        layout = build_page_scene(simulation, _cameras(sensors), drive=driver is not None)
         viewer = Viewer.start(layout.scene, host=at.host, port=at.port, allowed=at.allowed, state=layout.first)
         page = cls(viewer, simulation, driver, layout.joints)
         page._listen(sensors)
         return page
 
-    def replace(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
+    def reload(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
         """Show it anew: models came or went."""
-        layout = lay_out(simulation, _cameras(sensors), drive=self._driver is not None)
+        layout = build_page_scene(simulation, _cameras(sensors), drive=self._driver is not None)
         self._viewer.replace(layout.scene, state=layout.first)
         self._follow(simulation, layout.joints)
         self._listen(sensors)
@@ -81,7 +81,7 @@ class Page:
         self._slider_indices = joint_indices(simulation, joints)
 
     def _listen(self, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
-        self._sight.follow(sensors)
+        self._ray_overlay.set_sensors(sensors)
         cameras = _cameras(sensors)
         new = [camera for camera in cameras if camera not in self._heard]
         self._numbers = {camera: number for number, camera in enumerate(cameras)}
@@ -103,9 +103,9 @@ class Page:
     def update(self, pacer: RealtimePacer, *, paused: bool, at_once: bool = False) -> None:
         """Show where everything is now, if the page has not been fed just before."""
         now = time.monotonic_ns()
-        if not at_once and now - self._fed_ns < _FRAME_NS:
+        if not at_once and now - self._updated_ns < _FRAME_NS:
             return
-        self._fed_ns = now
+        self._updated_ns = now
         snapshot = self._simulation.snapshot()
         self._viewer.show(
             ViewerState(
@@ -114,7 +114,7 @@ class Page:
                 joint_positions=snapshot.joint_positions[self._slider_indices],
                 real_time_factor=None if paused else pacer.real_time_factor,
                 paused=paused,
-                lines=(*drawn_lines(self._simulation), *self._sight.lines(snapshot)),
+                lines=(*drawn_lines(self._simulation), *self._ray_overlay.lines(snapshot)),
             )
         )
 
@@ -146,10 +146,10 @@ class Page:
                     self._drive_due_ns = 0
                 case _:
                     pass
-        self._keep_driving()
+        self._repeat_command()
         return paused
 
-    def _keep_driving(self) -> None:
+    def _repeat_command(self) -> None:
         """Repeat a velocity that is not zero: many controllers stop a robot that hears no more."""
         now = time.monotonic_ns()
         if self._driver is None or self._drive_due_ns is None or now < self._drive_due_ns:

@@ -19,7 +19,7 @@ from trundle.simulation import Simulation, StateLog, read_state_log
 from trundle.viewer import Pause, Play, Reset, SetSpeed, Step, Viewer, ViewerState
 
 from .console import Console
-from .page_layout import joint_indices, lay_out
+from .page_scene import build_page_scene, joint_indices
 from .signals import StopFlag, stop_flag
 
 _FRAME_S = 1 / 30
@@ -53,7 +53,7 @@ def play(file: Path, options: PlayOptions) -> int:
     simulation = Simulation(flattened(loaded.world), report)
     if simulation.engine.compiled.link_names != log.links:
         raise DescriptionError(Source(str(file), 1), "the world in this log has other links than were recorded")
-    layout = lay_out(simulation, [], drive=False)
+    layout = build_page_scene(simulation, [], drive=False)
     show = Console(sys.stderr, report)
     show.findings()
     with stop_flag() as stop, ExitStack() as open_things:
@@ -80,7 +80,7 @@ class _Player:
         then = time.monotonic()
         while not stop.wait(_FRAME_S):
             now = time.monotonic()
-            self._obey()
+            self._handle_requests()
             if not self._paused:
                 self._at_s += (now - then) * self._speed
                 if self._at_s > self._log.times[-1]:
@@ -88,7 +88,7 @@ class _Player:
             then = now
             self._show()
 
-    def _obey(self) -> None:
+    def _handle_requests(self) -> None:
         for request in self._viewer.requests():
             match request:
                 case Play():

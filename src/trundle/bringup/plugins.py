@@ -11,12 +11,12 @@ from trundle.plugins import (
     Hooks,
     Plugin,
     VisualPlugin,
-    alters_looks_alone,
     find_model_sensor_plugin,
     find_plugin,
     find_sensor_plugin,
     find_visual_plugin,
     find_world_plugin,
+    is_cosmetic,
 )
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
 
@@ -75,7 +75,7 @@ def _load_visual_plugins(
         asked = [(visual, tag) for visual in link.link.visuals for tag in visual.plugins]
         named = _named(f"/{ros_name(model.name)}/{ros_name(link.name)}", [tag for _, tag in asked])
         for (visual, tag), (_, node_name) in zip(asked, named, strict=True):
-            if alters_looks_alone(tag):
+            if is_cosmetic(tag):
                 what = f"plugin {tag.name!r}: {tag.filename} alters only how Gazebo draws a visual; it is not run"
                 report.info(tag.at, what)
                 continue

@@ -31,7 +31,7 @@ class RayOverlay:
         """(rays, 3) in the sensor's frame [m]; of a sonar in its beam's."""
         self._heard: set[int] = set()
 
-    def follow(self, sensors: Iterable[CameraSensor | InstrumentSensor]) -> None:
+    def set_sensors(self, sensors: Iterable[CameraSensor | InstrumentSensor]) -> None:
         """Draw these, and no others."""
         seen = [each for each in sensors if isinstance(each, RangeSensor | SonarSensor) and each.sensor.visualize]
         self._ends = {sensor: self._ends.get(sensor, np.zeros((0, 3))) for sensor in seen}

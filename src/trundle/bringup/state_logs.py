@@ -9,7 +9,7 @@ from trundle.model import World
 from trundle.simulation import Simulation, Snapshot, StateRecorder
 
 
-def begin_state_log(path: Path, simulation: Simulation, world: World, report: Diagnostics) -> StateRecorder:
+def start_state_log(path: Path, simulation: Simulation, world: World, report: Diagnostics) -> StateRecorder:
     """Begin a log with where everything is now; `world` is what whoever plays it sees.
 
     Raises:
@@ -30,18 +30,18 @@ class RunRecorder:
     def __init__(self, recorder: StateRecorder, say: Callable[[str], None]) -> None:
         self._recorder = recorder
         self._say = say
-        self.broke_off = False
+        self.has_failed = False
         """Whether it could not be written; nothing is written any more."""
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Write where everything is, up to the first time that it cannot be."""
-        if self.broke_off:
+        if self.has_failed:
             return
         try:
             self._recorder.after_step(snapshot)
         except OSError as error:
             self._say(f"recording broke off: {error.filename}: {error.strerror}; trundle play shows what it holds")
-            self.broke_off = True
+            self.has_failed = True
 
     def close(self) -> None:
         """End the file."""
@@ -94,5 +94,5 @@ class WorldRecorder:
         self._folder.mkdir(parents=True, exist_ok=True)
         path = self._folder / ("state.log" if self._files == 1 else f"state-{self._files}.log")
         simulation = self._simulation
-        self._recorder = begin_state_log(path, simulation, simulation.world, simulation.report)
+        self._recorder = start_state_log(path, simulation, simulation.world, simulation.report)
         self._say(f"recording into {path}; trundle play shows it")

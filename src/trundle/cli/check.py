@@ -55,7 +55,7 @@ def _check(args: argparse.Namespace) -> int:
         json.dump(outcome.as_json(), sys.stdout, allow_nan=False)
         print()
     else:
-        if args.tree and not outcome.refused:
+        if args.tree and not outcome.is_refused:
             from trundle.drawing.tree import tree_text
 
             print(tree_text(outcome.trees()))

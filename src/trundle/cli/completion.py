@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from trundle.names import anonymous_name
-from trundle.ros import MasterProxy, Messages, RosError, host_of
+from trundle.ros import MasterProxy, Messages, RosError, uri_host
 
-_PATIENCE_S = 0.5
+_TIMEOUT_S = 0.5
 """Somebody waits with a finger on the key."""
 _FRAMES_S = 5.0
 """The same, where transforms are to be heard and none has come."""
@@ -44,7 +44,7 @@ def _state(table: int) -> set[str]:
 
 
 def _ask(method: str) -> Any:
-    return MasterProxy(caller_id="/completion", timeout_s=_PATIENCE_S).call(method)
+    return MasterProxy(caller_id="/completion", timeout_s=_TIMEOUT_S).call(method)
 
 
 def _topics() -> set[str]:
@@ -56,8 +56,8 @@ def _nodes() -> set[str]:
 
 
 def _machines() -> set[str]:
-    proxy = MasterProxy(caller_id="/completion", timeout_s=_PATIENCE_S)
-    hosts = {host_of(str(proxy.call("lookupNode", node))) for node in _nodes()}
+    proxy = MasterProxy(caller_id="/completion", timeout_s=_TIMEOUT_S)
+    hosts = {uri_host(str(proxy.call("lookupNode", node))) for node in _nodes()}
     return {host for host in hosts if host}
 
 
@@ -75,9 +75,9 @@ def _frames() -> set[str]:
 
         async def frames() -> set[str]:
             await node.wait_connected()
-            await asyncio.sleep(_PATIENCE_S)
+            await asyncio.sleep(_TIMEOUT_S)
             while not listener.buffer.frames():
-                await asyncio.sleep(_PATIENCE_S)
+                await asyncio.sleep(_TIMEOUT_S)
             return set(listener.buffer.frames())
 
         with suppress(TimeoutError):

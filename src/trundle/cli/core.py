@@ -58,7 +58,7 @@ def main(args: argparse.Namespace) -> int:
         if args.host is not None:
             warn_of_network(args.host, lambda line: print(line, file=sys.stderr, flush=True))
         try:
-            loop.run(core.ready(), timeout_s=_READY_S)
+            loop.run(core.wait_ready(), timeout_s=_READY_S)
         except TimeoutError:
             raise RosError(
                 f"nothing answers at {core.uri}, the address that this master gives out; "

@@ -59,7 +59,7 @@ class _Types:
         """All of them."""
         return self._messages.service_names() if self._is_service else self._messages.type_names()
 
-    def named(self, name: str) -> list[str]:
+    def full_names(self, name: str) -> list[str]:
         """Full names of a type written with or without its package.
 
         Raises:
@@ -102,7 +102,7 @@ def _show(args: argparse.Namespace, types: _Types) -> int:
     if getattr(args, "bag", None):
         return _show_from_bag(args.bag, name, raw=args.raw)
     try:
-        names = types.named(name)
+        names = types.full_names(name)
     except UsageError as error:
         return args.refuse(str(error))
     for found in names:
@@ -123,7 +123,7 @@ def _show_from_bag(path: str, name: str, *, raw: bool) -> int:
 
 def _md5(args: argparse.Namespace, types: _Types) -> int:
     name = args.type or _piped()
-    for found in types.named(name):
+    for found in types.full_names(name):
         print(types.md5(found) if "/" in name else f"[{found}]: {types.md5(found)}")
     return 0
 

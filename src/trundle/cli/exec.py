@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING
 from trundle.diagnostics import UsageError
 
 from .graph_command import interrupted_by_signals
-from .prompt import typed_number
+from .prompt import read_number
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Sequence
 
     from trundle.bringup.console import Console
     from trundle.bringup.gazebo.world import GazeboWorld
-    from trundle.nodes import Replacement
+    from trundle.nodes import BuiltinReplacement
     from trundle.ros import Node
     from trundle.viewer import GraphPage
 
@@ -31,7 +31,7 @@ EXAMPLES = """
 """
 _NO_PACKAGE, _NO_PROGRAM = 2, 3
 """Exit codes, as rosrun's."""
-_LOOK_S = 0.5
+_POLL_S = 0.5
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -47,14 +47,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Become the program; or run the stand-in for a stock node here, until Ctrl-C."""
     from trundle.nodes import (
+        BuiltinReplacement,
         Executable,
-        Missing,
-        Replacement,
+        MissingNode,
         find_node,
         interpreter,
         lacks_rospy,
-        namesakes,
-        without_rospy,
+        missing_rospy_advice,
+        same_named_programs,
     )
     from trundle.packages import Packages
 
@@ -66,23 +66,23 @@ def main(args: argparse.Namespace) -> int:
     if args.debug:
         print(f"[rosrun] Looking in rospack dir: {folder or 'none'}")
     match find_node(args.package, args.executable, packages.find_package, env=os.environ):
-        case Missing(why):
+        case MissingNode(why):
             print(f"trundle exec: error: {why}", file=sys.stderr)
             return _NO_PACKAGE if folder is None else _NO_PROGRAM
         case Executable(path):
             if folder is not None and "/" not in args.executable:
-                path = _chosen(path, namesakes(folder, path))
+                path = _chosen(path, same_named_programs(folder, path))
             command = [*shlex.split(args.prefix), *interpreter(path, os.environ), str(path), *args.arguments]
             if args.debug:
                 print(f"[rosrun] Running {args.prefix} {path}")
             sys.stdout.flush()
             if lacks_rospy(path, os.environ):
-                print(f"trundle exec: {path}: {without_rospy('rospy')}", file=sys.stderr, flush=True)
+                print(f"trundle exec: {path}: {missing_rospy_advice('rospy')}", file=sys.stderr, flush=True)
             try:
                 os.execvp(command[0], command)
             except OSError as error:
                 raise UsageError(f"{command[0]} cannot be run: {error.strerror}") from None
-        case Replacement() as stand_in:
+        case BuiltinReplacement() as stand_in:
             if args.prefix:
                 raise UsageError(f"--prefix is for programs; {args.package}/{args.executable} runs in this process")
             command = stand_in.command
@@ -100,7 +100,7 @@ def _chosen(first: Path, programs: list[Path]) -> Path:
     print("[rosrun] You have chosen a non-unique executable, please pick one of the following:")
     print("\n".join(f"{i}) {path}" for i, path in enumerate(programs, 1)))
     print("#? ", end="", flush=True)
-    return programs[typed_number(len(programs)) - 1]
+    return programs[read_number(len(programs)) - 1]
 
 
 class _List(argparse.Action):
@@ -127,7 +127,7 @@ def _tool(command: "Sequence[str]", arguments: list[str]) -> int:
     return run_command([*command, *words])
 
 
-def _stand_in(args: argparse.Namespace, stand_in: "Replacement") -> int:
+def _stand_in(args: argparse.Namespace, stand_in: "BuiltinReplacement") -> int:
     import yaml
 
     from trundle.names import parse_arguments
@@ -147,7 +147,7 @@ def _stand_in(args: argparse.Namespace, stand_in: "Replacement") -> int:
             host=words.host,
         )
         if what in ROSCPP:
-            node.loggers = Loggers.of_roscpp(args.package)
+            node.loggers = Loggers.for_roscpp(args.package)
         with ExitStack() as stack:
             page = stack.enter_context(closing(_page())) if what in WINDOWS else None
             world = stack.enter_context(_world(node, with_window=what in CLIENTS)) if what in WORLDS else None
@@ -189,7 +189,7 @@ def _world(node: "Node", *, with_window: bool) -> "Generator[GazeboWorld]":
 async def _tell(show: "Console") -> None:
     while True:
         show.findings()
-        await asyncio.sleep(_LOOK_S)
+        await asyncio.sleep(_POLL_S)
 
 
 def _page() -> "GraphPage":

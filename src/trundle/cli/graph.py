@@ -8,7 +8,7 @@ from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 from trundle.drawing import graph_dot, graph_svg, node_graph
 
-from .graph_command import master, original_errors
+from .graph_command import master, ros_errors
 
 EXAMPLES = """
   trundle graph                   as text for Graphviz
@@ -23,7 +23,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="nodes, topics and services as one JSON object")
 
 
-@original_errors
+@ros_errors
 def main(args: argparse.Namespace) -> int:
     """Draw the graph as it is now."""
     publishers, subscribers, services = master("rosgraph").call("getSystemState")

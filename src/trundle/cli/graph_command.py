@@ -35,7 +35,7 @@ class IntermixedParser(argparse.ArgumentParser):
             self._is_inside = False
 
 
-def original_errors(function: Callable[[Namespace], int]) -> Callable[[Namespace], int]:
+def ros_errors(function: Callable[[Namespace], int]) -> Callable[[Namespace], int]:
     """Report what a graph command cannot do as rostopic and its kin do, on stderr and with `failure` or 1.
 
     Where no master answers, with `alone` or 1.

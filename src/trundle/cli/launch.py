@@ -129,6 +129,6 @@ def _child(args: argparse.Namespace, options: "LaunchOptions") -> int:
     if args.words or args.core or args.port is not None:
         args.refuse("a child launches what its parent sends, at the parent's master: no files, --core or --port")
     from trundle.bringup.launch.child import run_child
-    from trundle.bringup.launch.parent import Parent
+    from trundle.bringup.launch.parent import ParentLaunch
 
-    return run_child(Parent(args.child, args.server_uri, args.run_id), options)
+    return run_child(ParentLaunch(args.child, args.server_uri, args.run_id), options)

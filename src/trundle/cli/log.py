@@ -10,7 +10,7 @@ from typing import Any
 from trundle.diagnostics import UsageError
 from trundle.ros import LEVELS, coloured
 
-from .graph_command import original_errors, running_node
+from .graph_command import ros_errors, running_node
 
 EXAMPLES = """
   trundle log
@@ -32,7 +32,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="one JSON object a line")
 
 
-@original_errors
+@ros_errors
 def main(args: argparse.Namespace) -> int:
     """Print until enough lines came or Ctrl-C."""
     node_name, found, excluded = (_pattern(text) for text in (args.node, args.grep, args.exclude))

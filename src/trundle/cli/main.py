@@ -1,6 +1,6 @@
 """Finds the command, reads its arguments and turns what went wrong into one sentence and an exit code.
 
-A command is a module `trundle.cli.<name>`: the first line of its docstring is its help, `EXAMPLES` opens
+A command is a module or a package `trundle.cli.<name>`: the first line of its docstring is its help, `EXAMPLES` opens
 `--help`, `configure(parser)` declares the arguments and `main(args)` does the work and returns the exit code.
 """
 
@@ -56,12 +56,12 @@ _OF_ROS = ("core", "topic", "node", "param", "service", "bag", "msg", "srv", "tf
 """Ctrl-C is how their work ends, not how it fails: exit code 0, as of the originals."""
 _INTERMIXED = ("launch", "test", "xacro")
 """Take options between their words, as roslaunch does: `trundle launch robot.launch --headless gui:=false`."""
-_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+_DISK_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 """Why a file that was opened cannot be written."""
 EXIT_OK, EXIT_INPUT, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
-class Command(Protocol):
+class CommandModule(Protocol):
     """What a command's module holds."""
 
     EXAMPLES: str
@@ -77,7 +77,7 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code: 0 success, 1 bad input, 2 wrong usage, 130 (ROS' tools 0) on Ctrl-C."""
     arguments = list(sys.argv[1:] if argv is None else argv)
-    _print_whatever(as_xml=arguments[:1] in (["convert"], ["xacro"]))
+    _set_error_handler(as_xml=arguments[:1] in (["convert"], ["xacro"]))
     try:
         return _main(arguments)
     except KeyboardInterrupt:
@@ -100,7 +100,7 @@ def _main(arguments: list[str]) -> int:
     parser = _parser(name)
     try:
         words = parse_arguments(arguments[1:]) if name in REMAPPED else Arguments(rest=tuple(arguments[1:]))
-        _heed(words)
+        _apply_remap_arguments(words)
         parse = parser.parse_intermixed_args if name in _INTERMIXED else parser.parse_args
         parsed = parse(words.rest, argparse.Namespace(words=words))
         _set_variables(parsed)
@@ -111,35 +111,35 @@ def _main(arguments: list[str]) -> int:
     except SystemExit as stop:  # argparse's own way to end: 0 after --help, 2 for wrong usage
         return int(stop.code or 0)
     except TrundleError as error:
-        print(error if _names_a_place(str(error)) else f"trundle {name}: error: {error}", file=sys.stderr)
+        print(error if _has_location(str(error)) else f"trundle {name}: error: {error}", file=sys.stderr)
         return EXIT_INPUT
     except BrokenPipeError:  # `trundle topic echo … | head`
-        _leave_stdout()
+        _discard_stdout()
         return EXIT_OK
     except OSError as error:  # above all a file that cannot be written
         if error.filename is not None:
             print(f"trundle {name}: error: {error.filename}: {error.strerror}", file=sys.stderr)
-        elif error.errno in _FULL:
+        elif error.errno in _DISK_ERRORS:
             print(f"trundle {name}: error: the output cannot be written: {error.strerror}", file=sys.stderr)
-            _leave_stdout()
+            _discard_stdout()
         else:
             raise
         return EXIT_INPUT
 
 
-def _leave_stdout() -> None:
+def _discard_stdout() -> None:
     """Have what is still to be written, at the latest as Python ends, go nowhere."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _print_whatever(*, as_xml: bool) -> None:
+def _set_error_handler(*, as_xml: bool) -> None:
     """Have what stdout's encoding lacks written by number, as stderr has it: names of files are of any bytes."""
     out = sys.stdout
     if isinstance(out, TextIOWrapper) and (out.encoding.lower(), out.errors) != ("utf-8", "surrogateescape"):
         out.reconfigure(errors="xmlcharrefreplace" if as_xml else "backslashreplace")
 
 
-def _heed(words: Arguments) -> None:
+def _apply_remap_arguments(words: Arguments) -> None:
     """Have `__ns:=`, `__master:=`, `__ip:=` and `__hostname:=` mean what their environment variables do."""
     given = {"ROS_NAMESPACE": words.namespace, "ROS_MASTER_URI": words.master_uri, "ROS_HOSTNAME": words.host}
     os.environ.update({variable: value for variable, value in given.items() if value})
@@ -205,13 +205,13 @@ def quiet_imports() -> Generator[None]:
         signal.signal(signal.SIGINT, before)
 
 
-def _names_a_place(message: str) -> bool:
+def _has_location(message: str) -> bool:
     return ": error: " in message
 
 
-def _command(name: str) -> Command:
+def _command(name: str) -> CommandModule:
     with quiet_imports():
-        return cast(Command, importlib.import_module(f"trundle.cli.{name}"))
+        return cast(CommandModule, importlib.import_module(f"trundle.cli.{name}"))
 
 
 def _parser(name: str, parser: argparse.ArgumentParser | None = None) -> argparse.ArgumentParser:

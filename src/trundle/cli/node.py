@@ -8,10 +8,10 @@ import time
 from typing import Any
 
 from trundle.diagnostics import UsageError
-from trundle.ros import MasterError, MasterProxy, RosError, blocking_call, host_of
+from trundle.ros import MasterError, MasterProxy, RosError, blocking_call, uri_host
 
-from .graph_command import global_name, master, original_errors
-from .prompt import typed_line, typed_number
+from .graph_command import global_name, master, ros_errors
+from .prompt import read_line, read_number
 
 EXAMPLES = """
   trundle node list
@@ -52,7 +52,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.set_defaults(run=_machine)
 
 
-@original_errors
+@ros_errors
 def main(args: argparse.Namespace) -> int:
     """Run the subcommand."""
     return int(args.run(args))
@@ -234,7 +234,7 @@ def _chosen(nodes: list[str]) -> str:
     """Ask which one."""
     print("\n".join(f"{i}. {node}" for i, node in enumerate(nodes, 1)))
     print("\nPlease enter the number of the node you wish to kill.\n> ", end="", flush=True)
-    return nodes[typed_number(len(nodes)) - 1]
+    return nodes[read_number(len(nodes)) - 1]
 
 
 def _cleanup(_: argparse.Namespace) -> int:
@@ -248,7 +248,7 @@ def _cleanup(_: argparse.Namespace) -> int:
     print("Warning: these might include alive and functioning nodes, e.g. in unstable networks.")
     print("Cleanup will purge all information about these nodes from the master.")
     print("Please type y or n to continue:", flush=True)
-    while (answer := typed_line()) not in ("y", "n"):
+    while (answer := read_line()) not in ("y", "n"):
         pass
     if answer != "y":
         print("aborting")
@@ -280,7 +280,7 @@ def _forget(node: str, uri: str, state: Any, proxy: MasterProxy) -> None:
 
 def _machine(args: argparse.Namespace) -> int:
     proxy = master(_SCRIPT)
-    hosts = {node: host_of(_uri(proxy, node) or "") for node in _names(proxy.call("getSystemState"))}
+    hosts = {node: uri_host(_uri(proxy, node) or "") for node in _names(proxy.call("getSystemState"))}
     if args.machine:
         address = _address(args.machine)
         if address is None:

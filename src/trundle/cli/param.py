@@ -15,7 +15,7 @@ from trundle.files import read_input, read_standard_input
 from trundle.names import join_names
 from trundle.ros import set_leaves
 
-from .graph_command import global_name, master, original_errors
+from .graph_command import global_name, master, ros_errors
 
 if TYPE_CHECKING:
     from trundle.expressions import Interpreter
@@ -63,7 +63,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.set_defaults(run=_delete)
 
 
-@original_errors
+@ros_errors
 def main(args: argparse.Namespace) -> int:
     """Run the subcommand."""
     return int(args.run(args))

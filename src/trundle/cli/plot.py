@@ -11,20 +11,20 @@ from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 from trundle.drawing import Curve, curves_svg, curves_text
 from trundle.ros import (
-    Field,
     GraphLoop,
     Messages,
+    TopicField,
     TopicSeries,
-    curves_of,
-    follow_series,
     follow_time,
     open_bag,
+    recent_curves,
     split_topic,
     spread_fields,
+    subscribe_series,
 )
 
-from .graph_command import global_name, master, original_errors, running_node
-from .topic_field import wait_for_topic
+from .graph_command import global_name, master, ros_errors, running_node
+from .topic.wait import wait_for_topic
 
 EXAMPLES = """
   trundle plot /odom/twist/twist/linear/x              in the terminal, until Ctrl-C
@@ -43,7 +43,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--duration", type=float, metavar="SEC", help="of ROS time; with -o 10, else until Ctrl-C")
 
 
-@original_errors
+@ros_errors
 def main(args: argparse.Namespace) -> int:
     """Gather, then draw; or both at once in the terminal."""
     target = Path(args.output) if args.output else None
@@ -69,7 +69,7 @@ def _from_bag(names: Sequence[str], path: Path) -> list[Curve]:
             found = split_topic(global_name(name, "plot"), types)
             if found is None:
                 raise UsageError(f"no topic of {name} in {path}; topics there: {', '.join(sorted(types))}")
-            traces.append(TopicSeries(name, Field(topic=found[0], type=types[found[0]], path=found[1])))
+            traces.append(TopicSeries(name, TopicField(topic=found[0], type=types[found[0]], path=found[1])))
         checked: set[str] = set()
         for message in bag.messages(lambda c: any(c.topic == trace.where.topic for trace in traces)):
             kind = message.connection.type
@@ -80,8 +80,8 @@ def _from_bag(names: Sequence[str], path: Path) -> list[Curve]:
                     if trace.name not in checked:
                         trace.check(messages)
                         checked.add(trace.name)
-                    trace.take(value, message.stamp_ns / 1e9)
-    return curves_of(traces)
+                    trace.add_message(value, message.stamp_ns / 1e9)
+    return recent_curves(traces)
 
 
 def _from_graph(names: Sequence[str], duration_s: float | None, *, draws: bool) -> list[Curve]:
@@ -92,10 +92,10 @@ def _from_graph(names: Sequence[str], duration_s: float | None, *, draws: bool) 
             for name in names
         ]
         for trace in traces:
-            follow_series(trace, node, clock)
+            subscribe_series(trace, node, clock)
         until_s = duration_s if duration_s is not None else None if draws else 10.0
         try:
-            for curves in _gathering(loop, traces):
+            for curves in _subscribed_series(loop, traces):
                 end = max((curve.points[-1][0] for curve in curves), default=0.0)
                 if until_s is not None and end >= until_s:
                     return curves
@@ -106,7 +106,7 @@ def _from_graph(names: Sequence[str], duration_s: float | None, *, draws: bool) 
         return loop.run(_snapshot(traces))
 
 
-def _gathering(loop: GraphLoop, traces: Sequence[TopicSeries]) -> Iterator[list[Curve]]:
+def _subscribed_series(loop: GraphLoop, traces: Sequence[TopicSeries]) -> Iterator[list[Curve]]:
     """What there is, again and again."""
     while True:
         time.sleep(_REDRAWN_S)
@@ -114,7 +114,7 @@ def _gathering(loop: GraphLoop, traces: Sequence[TopicSeries]) -> Iterator[list[
 
 
 async def _snapshot(traces: Sequence[TopicSeries]) -> list[Curve]:
-    return curves_of(traces)
+    return recent_curves(traces)
 
 
 def _terminal(curves: Sequence[Curve]) -> str:

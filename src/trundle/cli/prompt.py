@@ -5,7 +5,7 @@ import sys
 from trundle.diagnostics import UsageError
 
 
-def typed_line() -> str:
+def read_line() -> str:
     """Read a line.
 
     Raises:
@@ -16,9 +16,9 @@ def typed_line() -> str:
     raise UsageError("standard input ended before there was an answer; nothing was done")
 
 
-def typed_number(most: int) -> int:
+def read_number(most: int) -> int:
     """Read a number from 1 to `most`, again until it is one."""
     numbers = {str(number): number for number in range(1, most + 1)}
-    while (answer := typed_line()) not in numbers:
+    while (answer := read_line()) not in numbers:
         print(f"ERROR: please enter a number from 1 to {most} (ctrl-C to cancel)", flush=True)
     return numbers[answer]

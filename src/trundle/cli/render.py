@@ -16,7 +16,7 @@ EXAMPLES = """
   trundle render model://rp2w --orbit -o around.mp4   once around it (.webp and .gif too)
   trundle render world.sdf --duration 10 -o run.mp4   what happens in 10 s
 """
-_FILM_S = 5.0
+_VIDEO_S = 5.0
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -32,7 +32,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     content.add_argument("--seg", action="store_true", help="a colour for each visual instead")
     parser.add_argument("--at", type=_seconds, default=0.0, metavar="S", help="after so much simulated time (0)")
     parser.add_argument("--orbit", action="store_true", help="a film once around everything")
-    parser.add_argument("--duration", type=_seconds, metavar="S", help=f"how long a film lasts ({_FILM_S:g})")
+    parser.add_argument("--duration", type=_seconds, metavar="S", help=f"how long a film lasts ({_VIDEO_S:g})")
     add_renderer(parser)
     add_allow_outside(parser)
     add_lenient(parser)
@@ -40,7 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Draw one picture, or many."""
-    from trundle.bringup.picture.picture import PictureOptions, Studio
+    from trundle.bringup.picture.render import PictureOptions, PictureRenderer
     from trundle.bringup.picture.video import MOVING, simulated_frames, turntable, write_video
     from trundle.diagnostics import Diagnostics, UsageError
 
@@ -55,28 +55,28 @@ def main(args: argparse.Namespace) -> int:
     content = "depth" if args.depth else "segmentation" if args.seg else "colour"
     options = PictureOptions(camera=args.camera, size=args.size, content=content, at_s=args.at, renderer=args.renderer)
     try:
-        studio = Studio(args.file, dict(os.environ), report, start=Path.cwd(), options=options)
+        studio = PictureRenderer(args.file, dict(os.environ), report, start=Path.cwd(), options=options)
     finally:
         for warning in report.warnings:
             print(warning, file=sys.stderr)
-    if studio.unseen:
-        print(f"{args.file}: {studio.unseen}", file=sys.stderr)
+    if studio.empty_reason:
+        print(f"{args.file}: {studio.empty_reason}", file=sys.stderr)
     if moves:
         frames = (
             turntable(studio)
             if args.orbit
-            else simulated_frames(studio, _FILM_S if args.duration is None else args.duration)
+            else simulated_frames(studio, _VIDEO_S if args.duration is None else args.duration)
         )
-        write_video(frames, args.output, tell=_tell)
+        write_video(frames, args.output, tell=_print_progress)
         return 0
     try:
-        studio.picture().save(args.output)
+        studio.render().save(args.output)
     except (OSError, ValueError) as error:
         raise UsageError(f"cannot write {args.output}: {error}") from None
     return 0
 
 
-def _tell(done: int) -> None:
+def _print_progress(done: int) -> None:
     if sys.stderr.isatty():
         print(f"\r{done} pictures", end="", file=sys.stderr, flush=True)
 

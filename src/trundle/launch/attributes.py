@@ -18,14 +18,14 @@ class Attributes:
         self.at: Source = node.at
         self._scope = scope
         self._substitution = substitution
-        self.apply = self._decide()
+        self.is_active = self._evaluate_if_unless()
         """Whether `if` and `unless` let the element count; nothing else of it may be looked at where they do not."""
-        if self.apply:
+        if self.is_active:
             for name in node.attributes():
                 if name not in known and name not in ("if", "unless"):
                     report.warn(self.at, f"attribute {name!r} of <{node.tag}> is not known; it is ignored")
 
-    def _decide(self) -> bool:
+    def _evaluate_if_unless(self) -> bool:
         wanted, unwanted = self.text("if"), self.text("unless")
         if wanted is not None and unwanted is not None:
             raise DescriptionError(self.at, f"<{self.node.tag}>: either 'if' or 'unless', not both")

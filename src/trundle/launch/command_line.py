@@ -16,11 +16,11 @@ class CommandLine:
         self.arguments = arguments
         self._files: list[XmlNode] = []
 
-    def shown_to(self, root: XmlNode) -> None:
+    def apply_to(self, root: XmlNode) -> None:
         """Have a file see the arguments."""
         self._files.append(root)
 
-    def refuse_unknown(self) -> None:
+    def check_unused(self) -> None:
         """Refuse an argument that no file declares or uses; roslaunch lets a misspelt one do nothing in silence.
 
         Raises:

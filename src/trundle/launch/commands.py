@@ -11,9 +11,9 @@ from typing import Protocol
 from trundle.diagnostics import DescriptionError, Diagnostics
 
 from .plan import LaunchParam, LaunchPlan, ParamCommand
-from .programs import run_command
+from .run_command import run_command
 from .values import convert_value
-from .xacro_shim import XACRO, with_xacro
+from .xacro_shim import XACRO, provide_xacro
 
 _TIMEOUT_S = 60.0
 
@@ -81,7 +81,7 @@ def _output(
         raise ValueError("its command is empty")
     rest = _xacro_arguments(argv)
     if rest is None:
-        with with_xacro(argv, env) as (words, variables):
+        with provide_xacro(argv, env) as (words, variables):
             return run(words, env=variables, timeout_s=timeout_s)
     words = [word for word in rest if not word.startswith("-")]
     arguments = dict(word.split(":=", 1) for word in words if ":=" in word)

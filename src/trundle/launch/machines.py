@@ -14,7 +14,7 @@ _DEFAULTS = ("true", "false", "never")
 
 
 def read_machine(
-    node: XmlNode, scope: Scope, substitution: Substitution, draft: PlanBuilder, report: Diagnostics
+    node: XmlNode, scope: Scope, substitution: Substitution, builder: PlanBuilder, report: Diagnostics
 ) -> None:
     """Read a machine; one that is the default is that of the nodes that follow.
 
@@ -22,7 +22,7 @@ def read_machine(
         DescriptionError: where roslaunch refuses it.
     """
     attributes = Attributes(node, scope, substitution, report, (*_KNOWN, *_OLD))
-    if not attributes.apply:
+    if not attributes.is_active:
         return
     old = [name for name in _OLD if node.attribute(name)] + ["<env>" for child in node.children if child.tag == "env"]
     if old:
@@ -40,6 +40,6 @@ def read_machine(
     for child in node.children:
         report.warn(child.at, f"<{child.tag}> in <machine> is not known; it is ignored")
     login = tuple(attributes.text(word) for word in ("env-loader", "user", "password"))
-    draft.add_machine(name, (address, *login, int(port), timeout_s, default == "never"), node.at)
+    builder.add_machine(name, (address, *login, int(port), timeout_s, default == "never"), node.at)
     if default == "true":
-        draft.default_machine = name
+        builder.default_machine = name

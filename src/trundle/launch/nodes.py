@@ -10,8 +10,8 @@ from .attributes import Attributes
 from .params import PARAM_ATTRIBUTES, read_param, read_rosparam
 from .plan import LaunchNode, LaunchTest
 from .plan_builder import PlanBuilder
+from .remap_env import read_env, read_remap
 from .scope import PrivateParam, Scope
-from .settings import read_env, read_remap
 from .substitution import Substitution
 
 _NODE = (
@@ -33,7 +33,9 @@ _TEST_ONLY = ("test-name", "time-limit", "retry")
 _NODE_ONLY = ("respawn", "respawn_delay", "output")
 
 
-def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: PlanBuilder, report: Diagnostics) -> None:
+def read_node(
+    node: XmlNode, scope: Scope, substitution: Substitution, builder: PlanBuilder, report: Diagnostics
+) -> None:
     """Read a node or a test; its parameters are set, it goes into the draft.
 
     Raises:
@@ -42,7 +44,7 @@ def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: Pl
     is_test = node.tag == "test"
     known = (*_NODE, *_TEST_ONLY) if is_test else _NODE
     attributes = Attributes(node, scope, substitution, report, known)
-    if not attributes.apply:
+    if not attributes.is_active:
         return
     if is_test:
         for name in _NODE_ONLY:
@@ -59,11 +61,11 @@ def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: Pl
     own = scope.child(attributes.namespace())
     inside = own.child(name)
     if attributes.flag("clear_params"):
-        draft.clear(inside.namespace)
-    private = _read_children(node, inside, own, substitution, draft, report)
+        builder.clear(inside.namespace)
+    private = _read_children(node, inside, own, substitution, builder, report)
     # ~params of the scope first, so that the node's own win.
     for key, (value, at) in [*scope.private_params.items(), *private.items()]:
-        draft.set_param(f"{inside.namespace}/{key}", value, at)
+        builder.set_param(f"{inside.namespace}/{key}", value, at)
 
     respawn, required = attributes.flag("respawn"), attributes.flag("required")
     if respawn and required:
@@ -82,7 +84,7 @@ def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: Pl
         required=required,
         cwd=_cwd(attributes),
         launch_prefix=attributes.text("launch-prefix") or "",
-        machine=attributes.text("machine") or draft.default_machine,
+        machine=attributes.text("machine") or builder.default_machine,
         at=node.at,
     )
     if is_test:
@@ -90,14 +92,14 @@ def read_node(node: XmlNode, scope: Scope, substitution: Substitution, draft: Pl
         if not limit_s > 0.0:
             raise DescriptionError(node.at, f"time-limit must be > 0 s, got {limit_s:g}")
         test_name, retries = attributes.required("test-name"), _retries(attributes)
-        draft.add_test(LaunchTest(name=test_name, node=read, time_limit_s=limit_s, retries=retries))
+        builder.add_test(LaunchTest(name=test_name, node=read, time_limit_s=limit_s, retries=retries))
         report.info(node.at, f"test {name!r} is not run: only `trundle test` runs tests")
     else:
-        draft.add_node(read)
+        builder.add_node(read)
 
 
 def _read_children(
-    node: XmlNode, inside: Scope, own: Scope, substitution: Substitution, draft: PlanBuilder, report: Diagnostics
+    node: XmlNode, inside: Scope, own: Scope, substitution: Substitution, builder: PlanBuilder, report: Diagnostics
 ) -> dict[str, PrivateParam]:
     """Read what stands inside: remappings and environment go into `own`, ~params are handed back."""
     private: dict[str, PrivateParam] = {}
@@ -105,13 +107,13 @@ def _read_children(
         match child.tag.lower():  # roslaunch hears capitals here, and nowhere above
             case "param":
                 attributes = Attributes(child, inside, substitution, report, PARAM_ATTRIBUTES)
-                if attributes.apply:
+                if attributes.is_active:
                     key, value = read_param(attributes)
                     key = canonical_name(key.removeprefix("~")).removeprefix("/")
                     private.pop(key, None)
                     private[key] = (value, child.at)
             case "rosparam":
-                read_rosparam(child, inside, substitution, draft, report)
+                read_rosparam(child, inside, substitution, builder, report)
             case "remap":
                 read_remap(child, inside, own, substitution, report)
             case "env":

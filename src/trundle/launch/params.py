@@ -63,7 +63,7 @@ def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
 
 
 def read_rosparam(
-    node: XmlNode, scope: Scope, substitution: Substitution, draft: PlanBuilder, report: Diagnostics
+    node: XmlNode, scope: Scope, substitution: Substitution, builder: PlanBuilder, report: Diagnostics
 ) -> None:
     """Read a <rosparam>; YAML is loaded here, `dump` and `delete` become steps.
 
@@ -71,7 +71,7 @@ def read_rosparam(
         DescriptionError: unreadable YAML, a missing file, or attributes that do not go together.
     """
     attributes = Attributes(node, scope, substitution, report, ("command", "ns", "file", "param", "subst_value"))
-    if not attributes.apply:
+    if not attributes.is_active:
         return
     # `ns` is an old alias, joined before `param`.
     below = join_names(attributes.text("ns") or "", attributes.text("param") or "")
@@ -80,24 +80,24 @@ def read_rosparam(
     file = attributes.text("file")
     match command:
         case "load":
-            _load(attributes, draft, name, file, needs_mapping=not below or name == "/")
+            _load(attributes, builder, name, file, needs_mapping=not below or name == "/")
         case "dump" | "delete":
-            _step(attributes, draft, command, name, file)
+            _step(attributes, builder, command, name, file)
         case _:
             raise DescriptionError(node.at, f"rosparam command {command!r}; there are 'load', 'dump', 'delete'")
 
 
 def _step(
-    attributes: Attributes, draft: PlanBuilder, command: Literal["dump", "delete"], name: str, file: str | None
+    attributes: Attributes, builder: PlanBuilder, command: Literal["dump", "delete"], name: str, file: str | None
 ) -> None:
     if command == "delete" and file is not None:
         raise DescriptionError(attributes.at, "rosparam delete takes no 'file'")
     if command == "dump" and not file:
         raise DescriptionError(attributes.at, "rosparam dump needs the attribute 'file'")
-    draft.add_step(ParamStep(command=command, name=name, file=file or "", at=attributes.at))
+    builder.add_step(ParamStep(command=command, name=name, file=file or "", at=attributes.at))
 
 
-def _load(attributes: Attributes, draft: PlanBuilder, name: str, file: str | None, *, needs_mapping: bool) -> None:
+def _load(attributes: Attributes, builder: PlanBuilder, name: str, file: str | None, *, needs_mapping: bool) -> None:
     at = attributes.at
     try:
         text = read_file(file).decode() if file is not None else attributes.node.raw_text
@@ -110,13 +110,13 @@ def _load(attributes: Attributes, draft: PlanBuilder, name: str, file: str | Non
         data = {}
     if needs_mapping and not isinstance(data, dict):
         raise DescriptionError(at, "rosparam needs the attribute 'param' where its YAML is not a mapping")
-    _set(draft, name, data, attributes)
+    _set(builder, name, data, attributes)
 
 
-def _set(draft: PlanBuilder, name: str, value: ParamValue, attributes: Attributes) -> None:
+def _set(builder: PlanBuilder, name: str, value: ParamValue, attributes: Attributes) -> None:
     """Set a value; a mapping becomes one parameter for each of its leaves."""
     if not isinstance(value, dict):
-        draft.set_param(name, value, attributes.at)
+        builder.set_param(name, value, attributes.at)
         return
     for key, item in value.items():
-        _set(draft, join_names(name, key), item, attributes)
+        _set(builder, join_names(name, key), item, attributes)

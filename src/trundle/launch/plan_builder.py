@@ -71,9 +71,9 @@ class PlanBuilder:
             raise DescriptionError(at, f"more than {_MAX_PARAMS} parameters; the launch cannot mean that")
         self._params[name] = LaunchParam(name=name, value=value, at=at)
 
-    def plan(self) -> LaunchPlan:
+    def build(self) -> LaunchPlan:
         return LaunchPlan(
-            nodes=tuple(map(self._placed, self._nodes.values())),
+            nodes=tuple(map(self._with_machine, self._nodes.values())),
             params=tuple(self._params.values()),
             clear_params=tuple(self._clear),
             steps=tuple(self._steps),
@@ -82,7 +82,7 @@ class PlanBuilder:
             tests=tuple(self._tests),
         )
 
-    def _placed(self, node: LaunchNode) -> LaunchNode:
+    def _with_machine(self, node: LaunchNode) -> LaunchNode:
         """With its machine's address, which may come after it."""
         if node.machine not in self._machines:
             there = ", ".join(repr(name) for name in self._machines if name not in ("", "localhost")) or "none"

@@ -13,14 +13,14 @@ from .attributes import Attributes
 from .command_line import CommandLine
 from .launch_file import parse_launch_text, read_launch_file
 from .machines import read_machine
-from .missing import MissingPackageError, MissingPackages
+from .missing_packages import MissingPackageError, MissingPackages
 from .nodes import read_node
 from .packages import PackageFinder
 from .params import read_param, read_rosparam
 from .plan import LaunchArgument, LaunchPlan
 from .plan_builder import PlanBuilder
+from .remap_env import read_env, read_remap
 from .scope import Scope
-from .settings import read_env, read_remap
 from .substitution import Substitution
 
 _MAX_INCLUDE_DEPTH = 64
@@ -62,7 +62,7 @@ def read_launch(
             reader.read_root(read_launch_file(file, report), file, namespace)
         for name, text in texts:
             reader.read_root(parse_launch_text(text, name), Path(name), namespace)
-        return reader.draft.plan()
+        return reader.builder.build()
 
     try:
         plan = read(report)
@@ -70,8 +70,8 @@ def read_launch(
         missing = MissingPackages()
         with suppress(DescriptionError):
             missing.add_nodes(read(Diagnostics(), missing).nodes, packages)
-        raise missing.after(error) from None
-    command_line.refuse_unknown()
+        raise missing.combined_error(error) from None
+    command_line.check_unused()
     return plan
 
 
@@ -111,7 +111,7 @@ def read_arguments(
     command_line = CommandLine(arguments or {})
     reader = _Reader(packages=packages, report=report, env=env or {}, command_line=command_line)
     reader.read_declared(read_launch_file(file, Diagnostics()), file)
-    return tuple(reader.draft.arguments)
+    return tuple(reader.builder.arguments)
 
 
 class _Reader:
@@ -127,7 +127,7 @@ class _Reader:
         missing: MissingPackages | None = None,
     ) -> None:
         """With `missing`, go on behind whatever cannot be read: only what is missing is of interest."""
-        self.draft = PlanBuilder(report)
+        self.builder = PlanBuilder(report)
         self._report = report
         self._command_line = command_line
         self._goes_on = missing is not None
@@ -150,8 +150,8 @@ class _Reader:
     def _launch(self, root: XmlNode, scope: Scope, *, depth: int) -> None:
         root = _launch_of(root)
         if depth == 0 or scope.lenient_arguments:
-            self._command_line.shown_to(root)
-        self.draft.add_file(Path(scope.file))
+            self._command_line.apply_to(root)
+        self.builder.add_file(Path(scope.file))
         for name in root.attributes():
             if name != "deprecated":
                 self._report.warn(root.at, f"attribute {name!r} of <launch> is not known; it is ignored")
@@ -179,23 +179,23 @@ class _Reader:
             case "include":
                 self._include(node, scope, depth=depth)
             case "node" | "test":
-                read_node(node, scope, self._substitution, self.draft, self._report)
+                read_node(node, scope, self._substitution, self.builder, self._report)
             case "param":
                 attributes = self._attributes(node, scope, "name", "value", "type", "textfile", "binfile", "command")
-                if attributes.apply:
+                if attributes.is_active:
                     name, value = read_param(attributes)
                     if name.startswith("~"):
                         scope.set_private_param(name[1:], (value, node.at))
                     else:
-                        self.draft.set_param(scope.join(name), value, node.at)
+                        self.builder.set_param(scope.join(name), value, node.at)
             case "rosparam":
-                read_rosparam(node, scope, self._substitution, self.draft, self._report)
+                read_rosparam(node, scope, self._substitution, self.builder, self._report)
             case "remap":
                 read_remap(node, scope, scope, self._substitution, self._report)
             case "env":
                 read_env(node, scope, scope, self._substitution, self._report)
             case "machine":
-                read_machine(node, scope, self._substitution, self.draft, self._report)
+                read_machine(node, scope, self._substitution, self.builder, self._report)
             case "launch":
                 raise DescriptionError(node.at, "<launch> within <launch>; a file has one")
             case "master":
@@ -205,7 +205,7 @@ class _Reader:
 
     def _group(self, node: XmlNode, scope: Scope, *, depth: int) -> None:
         attributes = self._attributes(node, scope, "ns", "clear_params")
-        if attributes.apply:
+        if attributes.is_active:
             child = scope.child(attributes.namespace())
             if attributes.flag("clear_params"):
                 self._clear(attributes, child)
@@ -214,12 +214,12 @@ class _Reader:
     def _clear(self, attributes: Attributes, scope: Scope) -> None:
         if attributes.text("ns") is None:
             raise DescriptionError(attributes.at, "clear_params needs the attribute 'ns', which names what to clear")
-        self.draft.clear(scope.namespace)
+        self.builder.clear(scope.namespace)
 
     def _arg(self, node: XmlNode, scope: Scope, target: Scope, *, top: bool = False) -> None:
         """Declare an argument in `target`; its value is resolved in `scope`."""
         attributes = self._attributes(node, scope, "name", "value", "default", "doc")
-        if not attributes.apply:
+        if not attributes.is_active:
             return
         name = attributes.required("name")
         value, default = attributes.text("value"), attributes.text("default")
@@ -231,7 +231,7 @@ class _Reader:
         if top:
             required = value is None and default is None
             doc = attributes.text("doc") or ""
-            self.draft.arguments.append(LaunchArgument(name=name, default=default, doc=doc, required=required))
+            self.builder.arguments.append(LaunchArgument(name=name, default=default, doc=doc, required=required))
         if value is not None:
             if name in target.arguments and not target.lenient_arguments:
                 raise DescriptionError(node.at, f"argument {name!r} has a fixed value, {value!r}; it cannot be set")
@@ -241,7 +241,7 @@ class _Reader:
 
     def _include(self, node: XmlNode, scope: Scope, *, depth: int) -> None:
         attributes = self._attributes(node, scope, "file", "ns", "clear_params", "pass_all_args")
-        if not attributes.apply:
+        if not attributes.is_active:
             return
         file = attributes.required("file")
         if depth >= _MAX_INCLUDE_DEPTH:

@@ -11,7 +11,7 @@ from trundle.diagnostics import DescriptionError, Source
 from trundle.expressions import MATH_NAMES, PYTHON_NAMES, ExpressionError, Interpreter, wrap_function
 
 from .command_line import nearest
-from .missing import MissingPackageError, MissingPackages
+from .missing_packages import MissingPackageError, MissingPackages
 from .packages import PackageFinder
 from .scope import Scope
 from .values import convert_value

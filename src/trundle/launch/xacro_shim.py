@@ -13,7 +13,7 @@ XACRO = ("xacro", "xacro.py")
 
 
 @contextmanager
-def with_xacro(argv: Sequence[str], env: Mapping[str, str]) -> Generator[tuple[list[str], dict[str, str]]]:
+def provide_xacro(argv: Sequence[str], env: Mapping[str, str]) -> Generator[tuple[list[str], dict[str, str]]]:
     """Yield a command and its environment in which ours is the xacro that is named and not installed.
 
     Args:
@@ -28,10 +28,10 @@ def with_xacro(argv: Sequence[str], env: Mapping[str, str]) -> Generator[tuple[l
             program = Path(folder, name)
             program.write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -P -m trundle xacro "$@"\n')
             program.chmod(0o755)
-        words = [str(Path(folder, PurePath(word).name)) if _leads_nowhere(word) else word for word in argv[1:]]
+        words = [str(Path(folder, PurePath(word).name)) if _is_missing(word) else word for word in argv[1:]]
         path = os.pathsep.join([env.get("PATH", os.defpath), folder])
         yield [argv[0], *words], {**env, "PATH": path}
 
 
-def _leads_nowhere(word: str) -> bool:
+def _is_missing(word: str) -> bool:
     return "/" in word and PurePath(word).name in XACRO and not os.path.exists(word)

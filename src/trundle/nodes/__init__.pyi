@@ -3,12 +3,12 @@ from .catalog import CLIENTS as CLIENTS
 from .catalog import ROSCPP as ROSCPP
 from .catalog import WINDOWS as WINDOWS
 from .catalog import WORLDS as WORLDS
+from .find import BuiltinReplacement as BuiltinReplacement
 from .find import Executable as Executable
-from .find import Missing as Missing
-from .find import Replacement as Replacement
+from .find import MissingNode as MissingNode
 from .find import find_node as find_node
-from .find import namesakes as namesakes
 from .find import program_names as program_names
+from .find import same_named_programs as same_named_programs
 from .host import BuiltinNode as BuiltinNode
 from .host import Display as Display
 from .host import NodeHost as NodeHost
@@ -17,6 +17,6 @@ from .host import Slider as Slider
 from .node_names import default_name as default_name
 from .python_interpreter import interpreter as interpreter
 from .python_interpreter import lacks_rospy as lacks_rospy
-from .python_interpreter import module_of_ros as module_of_ros
-from .python_interpreter import without_rospy as without_rospy
+from .python_interpreter import missing_ros_module as missing_ros_module
+from .python_interpreter import missing_rospy_advice as missing_rospy_advice
 from .run import run_builtin_node as run_builtin_node

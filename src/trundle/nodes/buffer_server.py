@@ -16,7 +16,7 @@ from trundle.ros import (
     TransformBuffer,
     TransformError,
     TransformListener,
-    ns_of,
+    to_nsec,
 )
 from trundle.spatial import Pose
 
@@ -24,7 +24,7 @@ from .host import NodeHost
 
 _ACTION = "tf2_buffer_server"
 _NO_ERROR, _LOOKUP_ERROR, _CONNECTIVITY_ERROR, _EXTRAPOLATION_ERROR, _INVALID_ARGUMENT_ERROR = 0, 1, 2, 3, 4
-_LOOK_S = 0.02
+_POLL_S = 0.02
 
 
 class BufferServer:
@@ -45,37 +45,37 @@ class BufferServer:
         buffer = TransformBuffer(settings.number("buffer_size", 120.0))
         self._buffer = TransformListener(node, buffer).buffer
         action = node.name if settings.flag("use_node_namespace", default=False) else _ACTION
-        ActionServer(node, action, "tf2_msgs/LookupTransform", self._look_up, side_by_side=True)
+        ActionServer(node, action, "tf2_msgs/LookupTransform", self._on_goal, side_by_side=True)
         if settings.flag("publish_frame_service", default=False):
             node.advertise_service("~tf2_frames", "tf2_msgs/FrameGraph", self._frames)
         await node.closed.wait()
         return 0
 
-    async def _look_up(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
+    async def _on_goal(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
         """Look until it is found or the time is over; to have an answer, be it an error, is a success."""
         accept()
         clock = self._node.clock
-        end_ns = clock.now_ns() + ns_of(goal.timeout)
+        end_ns = clock.now_ns() + to_nsec(goal.timeout)
         while True:
             try:
-                found = self._ask(goal)
+                found = self._lookup(goal)
             except TransformError as error:
                 if clock.now_ns() >= end_ns:
                     return ActionOutcome(result={"error": _error(error)})
             else:
                 return ActionOutcome(result={"transform": _stamped(found), "error": {"error": _NO_ERROR}})
-            await asyncio.sleep(_LOOK_S)
+            await asyncio.sleep(_POLL_S)
 
-    def _ask(self, goal: Message) -> Transform:
-        buffer, source_ns = self._buffer, ns_of(goal.source_time)
+    def _lookup(self, goal: Message) -> Transform:
+        buffer, source_ns = self._buffer, to_nsec(goal.source_time)
         for what in ("target_frame", "source_frame", "fixed_frame")[: 3 if goal.advanced else 2]:
             _check_frame(getattr(goal, what), what)
         if not goal.advanced and goal.target_frame == goal.source_frame:
-            return self._itself(goal.source_frame, source_ns)
+            return self._identity(goal.source_frame, source_ns)
         if not goal.advanced:
-            return buffer.lookup(goal.target_frame, goal.source_frame, source_ns)
-        then = buffer.lookup(goal.fixed_frame, goal.source_frame, source_ns)
-        now = buffer.lookup(goal.target_frame, goal.fixed_frame, ns_of(goal.target_time))
+            return buffer.lookup_transform(goal.target_frame, goal.source_frame, source_ns)
+        then = buffer.lookup_transform(goal.fixed_frame, goal.source_frame, source_ns)
+        now = buffer.lookup_transform(goal.target_frame, goal.fixed_frame, to_nsec(goal.target_time))
         pose = now.pose @ then.pose
         return Transform(
             parent=now.parent,
@@ -85,7 +85,7 @@ class BufferServer:
             rotation=pose.quaternion,
         )
 
-    def _itself(self, frame: str, stamp_ns: int) -> Transform:
+    def _identity(self, frame: str, stamp_ns: int) -> Transform:
         """A frame in itself, known or not."""
         latest = None if self._buffer.is_static(frame) else self._buffer.latest(frame)
         stamp_ns = stamp_ns or (latest.stamp_ns if latest is not None else 0)

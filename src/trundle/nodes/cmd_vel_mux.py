@@ -13,22 +13,22 @@ from .host import NodeHost
 
 _KIND = "geometry_msgs/Twist"
 _IDLE = "idle"
-_LOOK_S = 0.02
+_POLL_S = 0.02
 
 
 @dataclass(slots=True, eq=False)
-class Source:
+class CmdVelSubscriber:
     """A topic of commands."""
 
     name: str
     topic: str
     timeout_s: float
     priority: float
-    heard_ns: int = 0
+    received_ns: int = 0
 
-    def is_silent(self, now_ns: int) -> bool:
+    def is_expired(self, now_ns: int) -> bool:
         """Whether it was not heard within its timeout."""
-        return now_ns - self.heard_ns > self.timeout_s * 1e9
+        return now_ns - self.received_ns > self.timeout_s * 1e9
 
 
 class CmdVelMux:
@@ -41,7 +41,7 @@ class CmdVelMux:
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
-        self._allowed: Source | None = None
+        self._allowed: CmdVelSubscriber | None = None
 
     async def run(self) -> int:
         """Mux until cancelled."""
@@ -56,28 +56,28 @@ class CmdVelMux:
         self._active.publish({"data": _IDLE})
         self._output = node.advertise(f"~{output}", _KIND, queue_size=10)
         for source in sources:
-            node.subscribe(f"~{source.topic}", _KIND, lambda message, s=source: self._take(s, message))
+            node.subscribe(f"~{source.topic}", _KIND, lambda message, s=source: self._on_command(s, message))
         while not node.closed.is_set():
-            await node.clock.sleep(_LOOK_S)
-            if self._allowed is not None and self._allowed.is_silent(node.clock.now_ns()):
+            await node.clock.sleep(_POLL_S)
+            if self._allowed is not None and self._allowed.is_expired(node.clock.now_ns()):
                 self._allow(None)
         return 0
 
-    def _take(self, source: Source, message: Message) -> None:
-        now = source.heard_ns = self._node.clock.now_ns()
+    def _on_command(self, source: CmdVelSubscriber, message: Message) -> None:
+        now = source.received_ns = self._node.clock.now_ns()
         allowed = self._allowed
-        is_free = allowed is None or allowed.is_silent(now) or source.priority > allowed.priority
+        is_free = allowed is None or allowed.is_expired(now) or source.priority > allowed.priority
         if source is not allowed and is_free:
             self._allow(source)
         if self._allowed is source:
             self._output.publish(message)
 
-    def _allow(self, source: Source | None) -> None:
+    def _allow(self, source: CmdVelSubscriber | None) -> None:
         self._allowed = source
         self._active.publish({"data": _IDLE if source is None else source.name})
 
 
-def _read(path: str) -> tuple[list[Source], str]:
+def _read(path: str) -> tuple[list[CmdVelSubscriber], str]:
     """Read a configuration.
 
     Raises:
@@ -88,10 +88,12 @@ def _read(path: str) -> tuple[list[Source], str]:
     except (OSError, ValueError, yaml.YAMLError) as error:
         raise ParamError(f"yaml_cfg_file {path!r} cannot be read: {error}") from None
     settings = NodeParams(tree, path)
-    sources: list[Source] = []
+    sources: list[CmdVelSubscriber] = []
     for number, item in enumerate(settings.items("subscribers") or []):
         each = NodeParams(item, f"{path}/subscribers[{number}]")
-        sources.append(Source(each.text("name"), each.text("topic"), each.number("timeout"), each.number("priority")))
+        sources.append(
+            CmdVelSubscriber(each.text("name"), each.text("topic"), each.number("timeout"), each.number("priority"))
+        )
     if not sources:
         raise ParamError(f"{path}: no subscribers")
     return sources, settings.text("publisher", "output")

@@ -19,14 +19,14 @@ _FAREWELL_S = 1.0
 _BEST_EFFORT, _STRICT = 1, 2
 
 
-class _Words(argparse.ArgumentParser):
+class _ArgumentParser(argparse.ArgumentParser):
     """Says what is wrong with the words instead of ending the program."""
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f"{message}; {self.format_usage().strip()}")
 
 
-class _Manager:
+class _ControllerManagerClient:
     """The services of one robot's controller_manager."""
 
     def __init__(self, node: Node, namespace: str = "") -> None:
@@ -91,7 +91,7 @@ class Spawner:
     async def run(self) -> int:
         """Stay until cancelled."""
         node = self._node
-        words = _Words(prog="spawner", add_help=False)
+        words = _ArgumentParser(prog="spawner", add_help=False)
         words.add_argument("--stopped", action="store_true")
         words.add_argument("--wait-for", metavar="topic")
         words.add_argument("--namespace", default="")
@@ -101,7 +101,7 @@ class Spawner:
         words.add_argument("controllers", nargs="+")
         try:
             given = words.parse_args(self._arguments)
-            manager = _Manager(node, given.namespace)
+            manager = _ControllerManagerClient(node, given.namespace)
             node.log_info("Controller Spawner: Waiting for service controller_manager/load_controller")
             await manager.wait(None if given.no_timeout else given.timeout)
             if given.wait_for:
@@ -118,7 +118,7 @@ class Spawner:
                     await manager.unload(name)
         return 0
 
-    async def _spawn(self, manager: _Manager, names: list[str], *, stopped: bool) -> None:
+    async def _spawn(self, manager: _ControllerManagerClient, names: list[str], *, stopped: bool) -> None:
         node = self._node
         for name in names:
             node.log_info(f"Loading controller: {name}")
@@ -159,12 +159,12 @@ class Unspawner:
     async def run(self) -> int:
         """Stay until cancelled."""
         node = self._node
-        words = _Words(prog="unspawner", add_help=False)
+        words = _ArgumentParser(prog="unspawner", add_help=False)
         words.add_argument("--namespace", default="")
         words.add_argument("controllers", nargs="+")
         try:
             given = words.parse_args(self._arguments)
-            manager = _Manager(node, given.namespace)
+            manager = _ControllerManagerClient(node, given.namespace)
             await manager.wait(_WAIT_S)
             if not await manager.switch(stop=given.controllers):
                 raise UsageError(f"could not stop {', '.join(given.controllers)}")
@@ -189,20 +189,20 @@ class ControllerManagerTool:
 
     async def run(self) -> int:
         """Do one thing and end."""
-        words = _Words(prog="controller_manager", add_help=False)
+        words = _ArgumentParser(prog="controller_manager", add_help=False)
         commands = ("list", "list-types", "load", "unload", "start", "stop", "spawn", "kill", "reload-libraries")
         words.add_argument("command", choices=commands)
         words.add_argument("controllers", nargs="*")
         try:
             given = words.parse_args(self._arguments)
-            manager = _Manager(self._node)
+            manager = _ControllerManagerClient(self._node)
             await manager.wait(_WAIT_S)
             return 0 if await self._do(manager, given.command, given.controllers) else 1
         except (UsageError, RosError) as error:
             self._node.log_error(f"controller_manager: {error}")
             return 1
 
-    async def _do(self, manager: _Manager, command: str, names: list[str]) -> bool:
+    async def _do(self, manager: _ControllerManagerClient, command: str, names: list[str]) -> bool:
         match command:
             case "list":
                 for each in await manager.loaded():
@@ -217,7 +217,7 @@ class ControllerManagerTool:
             case _:
                 return all([await self._one(manager, command, name) for name in names])
 
-    async def _one(self, manager: _Manager, command: str, name: str) -> bool:
+    async def _one(self, manager: _ControllerManagerClient, command: str, name: str) -> bool:
         done = True
         if command in ("load", "spawn"):
             done = await manager.load(name)

@@ -28,7 +28,7 @@ class Pinhole:
     center_y_px: float
 
 
-def scan_of(
+def scan_from_depths(
     depths: NDArray[np.float64], camera: Pinhole, *, rows: int, nearest_m: float, farthest_m: float
 ) -> tuple[float, float, NDArray[np.float32]]:
     """Make a scan: angle_min, angle_max [rad] and one range [m] for each column, from right to left.
@@ -80,8 +80,8 @@ class DepthImageToLaserScan:
         ReconfigureServer(node, self._options(), self._reconfigure)
         topic = node.resolve("image")
         info = f"{topic.rpartition('/')[0]}/camera_info"
-        node.subscribe(info, "sensor_msgs/CameraInfo", self._calibrate, queue_size=1)
-        node.subscribe("image", "sensor_msgs/Image", self._take, queue_size=1)
+        node.subscribe(info, "sensor_msgs/CameraInfo", self._on_camera_info, queue_size=1)
+        node.subscribe("image", "sensor_msgs/Image", self._on_image, queue_size=1)
         await node.closed.wait()
         return 0
 
@@ -101,11 +101,11 @@ class DepthImageToLaserScan:
         self._frame = str(values["output_frame_id"])
         return values
 
-    def _calibrate(self, info: Message) -> None:
+    def _on_camera_info(self, info: Message) -> None:
         k = [float(value) for value in info.K]
         self._camera = Pinhole(focal_px=k[0], center_x_px=k[2], center_y_px=k[5]) if k[0] > 0.0 else None
 
-    def _take(self, image: Message) -> None:
+    def _on_image(self, image: Message) -> None:
         if self._camera is None or not self._scan.has_subscribers:
             return
         if image.encoding not in _ENCODINGS:
@@ -117,8 +117,8 @@ class DepthImageToLaserScan:
 
     def _fields(self, image: Message, camera: Pinhole) -> dict[str, Any]:
         nearest, farthest = self._nearest_m, self._farthest_m
-        depths = depths_of(image)
-        low, high, ranges = scan_of(depths, camera, rows=self._rows, nearest_m=nearest, farthest_m=farthest)
+        depths = read_depths(image)
+        low, high, ranges = scan_from_depths(depths, camera, rows=self._rows, nearest_m=nearest, farthest_m=farthest)
         return {
             "header": {"stamp": image.header.stamp, "frame_id": self._frame},
             "angle_min": low,
@@ -131,7 +131,7 @@ class DepthImageToLaserScan:
         }
 
 
-def depths_of(image: Message) -> NDArray[np.float64]:
+def read_depths(image: Message) -> NDArray[np.float64]:
     """(height, width) of a depth image [m]; zero of an integer encoding means nothing was measured."""
     kind, unit_m = _ENCODINGS[image.encoding]
     stored = np.dtype(kind).newbyteorder(">" if image.is_bigendian else "<")

@@ -12,8 +12,8 @@ from trundle.ros import Node
 
 from .catalog import BUILTIN_NODES, NODELETS, OURS_ALWAYS
 from .host import BuiltinNode, NodeHost
-from .missing import WAYS_OUT
 from .python_interpreter import can_run
+from .unsupported_nodes import ALTERNATIVES
 
 _NOT_SEARCHED = frozenset({"__pycache__", "node_modules", "build"})
 _SOURCES_NAMED = 2
@@ -29,7 +29,7 @@ class Executable:
 
 
 @dataclass(frozen=True, slots=True)
-class Replacement:
+class BuiltinReplacement:
     """A stand-in of ours, to be run in this process."""
 
     target: str
@@ -47,7 +47,7 @@ class Replacement:
 
 
 @dataclass(frozen=True, slots=True)
-class Missing:
+class MissingNode:
     """Neither; the launch goes on without."""
 
     why: str
@@ -55,7 +55,7 @@ class Missing:
 
 def find_node(
     package: str, type_name: str, find_package: FindPackage, *, env: Mapping[str, str], arguments: str = ""
-) -> Executable | Replacement | Missing:
+) -> Executable | BuiltinReplacement | MissingNode:
     """Find a node: an executable in the package's folder, a stand-in, a program built elsewhere; or what is missing.
 
     Where a package's sources lie in the workspace, its program is a script for a ROS that need not be installed:
@@ -71,7 +71,7 @@ def find_node(
     """
     target = BUILTIN_NODES.get((package, type_name))
     if target is not None and package in OURS_ALWAYS:
-        return Replacement(target)
+        return BuiltinReplacement(target)
     folder = find_package(package)
     plain: Path | None = None
     if folder is not None:
@@ -81,19 +81,21 @@ def find_node(
             elif target is None or (folder.parent.name != "share" and can_run(path, env)):
                 return Executable(path)
     if target is not None:
-        return _nodelet(arguments) or Replacement(target) if type_name == "nodelet" else Replacement(target)
+        return (
+            _nodelet(arguments) or BuiltinReplacement(target) if type_name == "nodelet" else BuiltinReplacement(target)
+        )
     built = None if folder is None else _built(package, type_name, folder, env)
     if built is not None:
         return Executable(built)
     if plain is not None:
-        return Missing(f"{plain} is not executable; run chmod +x on it")
-    way_out = f"; {WAYS_OUT[package]}" if package in WAYS_OUT else ""
+        return MissingNode(f"{plain} is not executable; run chmod +x on it")
+    way_out = f"; {ALTERNATIVES[package]}" if package in ALTERNATIVES else ""
     if folder is not None:
         why = f"no executable {type_name!r} in {folder}, and no stand-in for {package}/{type_name}"
-        return Missing(f"{why}{_to_compile(folder, type_name)}{way_out}")
+        return MissingNode(f"{why}{_to_compile(folder, type_name)}{way_out}")
     known = sorted(name for owner, name in BUILTIN_NODES if owner == package)
     there_is = f"; stand-ins of that package: {', '.join(known)}" if known else way_out
-    return Missing(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
+    return MissingNode(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
 
 
 def _to_compile(folder: Path, name: str) -> str:
@@ -112,11 +114,11 @@ def missing_nodelet(name: str) -> str:
     return f"nodelet {name}: compiled code that nothing stands in for; there are: {', '.join(NODELETS)}"
 
 
-def _nodelet(arguments: str) -> Missing | None:
+def _nodelet(arguments: str) -> MissingNode | None:
     """What a nodelet's command line asks for in vain; None: there is what it asks for."""
     match arguments.split():
         case ["load" | "standalone", name, *_] if name not in NODELETS:
-            return Missing(missing_nodelet(name))
+            return MissingNode(missing_nodelet(name))
         case _:
             return None
 
@@ -137,7 +139,7 @@ def program_names(package: str, folder: Path | None, *, env: Mapping[str, str]) 
     return found
 
 
-def namesakes(folder: Path, program: Path) -> list[Path]:
+def same_named_programs(folder: Path, program: Path) -> list[Path]:
     """All programs of a package that have the name of the one given, which is among them."""
     return [path for path in _files(folder, program.name) if os.access(path, os.X_OK)]
 

@@ -86,7 +86,7 @@ class Simulator(Protocol):
     def paused(self) -> bool: ...
 
     @property
-    def in_step(self) -> bool:
+    def is_lockstep(self) -> bool:
         """Whether time waits for nodes, as it does flat out; they then act by it alone, that runs repeat."""
         ...
 

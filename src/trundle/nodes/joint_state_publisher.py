@@ -39,21 +39,21 @@ class FreeJoint:
     """None is not published."""
     velocity: float | None = None
     effort: float | None = None
-    rising: bool = True
+    is_rising: bool = True
 
     def sweep(self, delta: float) -> None:
         """Move by `delta` up to a limit, then back; a continuous joint starts again at its lower limit."""
         if self.position is None:
             return
-        if self.rising:
+        if self.is_rising:
             self.position += delta
             if self.position > self.upper:
                 self.position = self.lower if self.continuous else self.upper
-                self.rising = self.continuous
+                self.is_rising = self.continuous
         else:
             self.position -= delta
             if self.position < self.lower:
-                self.position, self.rising = self.lower, True
+                self.position, self.is_rising = self.lower, True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,7 +117,7 @@ class JointSet:
             effort=0.0 if self._options.flag("publish_default_efforts", default=False) else None,
         )
 
-    def hear(self, message: Message) -> None:
+    def update(self, message: Message) -> None:
         """Take over what another publisher says about free joints."""
         for index, name in enumerate(message.name):
             joint = self.free.get(name)
@@ -191,7 +191,7 @@ class JointStatePublisher:
             node.log_error(str(error))
             return 1
         for source in options.texts("source_list"):
-            node.subscribe(source, "sensor_msgs/JointState", joints.hear)
+            node.subscribe(source, "sensor_msgs/JointState", joints.update)
         publisher = node.advertise("joint_states", "sensor_msgs/JointState", queue_size=5)
         while True:
             stamp_ns = node.clock.now_ns()

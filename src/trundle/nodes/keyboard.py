@@ -21,12 +21,12 @@ class Keyboard:
         self._keys: asyncio.Queue[str] = asyncio.Queue(maxsize=100)
 
     @property
-    def there(self) -> bool:
+    def is_available(self) -> bool:
         """Whether there is a terminal that nobody else reads."""
         return os.name == "posix" and sys.stdin.isatty() and not Keyboard._taken
 
     @contextmanager
-    def held(self) -> Generator[None]:
+    def cbreak(self) -> Generator[None]:
         """Have the terminal hand over every key at once, until this ends."""
         import termios
         import tty
@@ -44,7 +44,7 @@ class Keyboard:
             termios.tcsetattr(descriptor, termios.TCSADRAIN, before)
             Keyboard._taken = False
 
-    async def key(self, timeout_s: float | None = None) -> str | None:
+    async def read_key(self, timeout_s: float | None = None) -> str | None:
         """The next key: a character, 'up', 'down', 'left' or 'right'; None when none comes in time."""
         try:
             async with asyncio.timeout(timeout_s):

@@ -3,7 +3,7 @@
 from trundle.ros import Node
 
 from .catalog import NODELETS
-from .find import Replacement, missing_nodelet
+from .find import BuiltinReplacement, missing_nodelet
 from .host import NodeHost
 
 
@@ -24,7 +24,7 @@ class Nodelet:
                 return 0
             case ["load", name, _, *rest] | ["standalone", name, *rest]:
                 if name in NODELETS:
-                    return await Replacement(NODELETS[name]).load()(node, rest, self._host).run()
+                    return await BuiltinReplacement(NODELETS[name]).load()(node, rest, self._host).run()
                 node.log_error(missing_nodelet(name))
                 return 1
             case ["unload", *_]:

@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.ros import Message, Node, NodeParams, Subscription, TransformError, TransformListener, ns_of
+from trundle.ros import Message, Node, NodeParams, Subscription, TransformError, TransformListener, to_nsec
 from trundle.spatial import Pose
 
 from .host import NodeHost
-from .rate import Throttle
+from .rate import LogThrottle
 
 _HUGE, _LEAST = sys.float_info.max, sys.float_info.min
 """The original's defaults are C++'s limits of numbers; what it takes for the lowest is the smallest above zero."""
-_LOOK_S = 0.02
+_POLL_S = 0.02
 _FLOATS = {7: "f4", 8: "f8"}
 """sensor_msgs/PointField's numbers of floating types."""
 
@@ -80,21 +80,21 @@ class PointCloudToLaserScan:
         self._scan_time_s = settings.number("scan_time", 1.0 / 30.0)
         self._frame = settings.text("target_frame", "")
         self._listener = TransformListener(node) if self._frame else None
-        self._complaints = Throttle(node, 5.0)
+        self._complaints = LogThrottle(node, 5.0)
         self._scan = node.advertise("scan", "sensor_msgs/LaserScan", queue_size=10)
         clouds: Subscription | None = None
         while not node.closed.is_set():
             if self._scan.has_subscribers and clouds is None:
-                clouds = node.subscribe("cloud_in", "sensor_msgs/PointCloud2", self._take, queue_size=1)
+                clouds = node.subscribe("cloud_in", "sensor_msgs/PointCloud2", self._on_cloud, queue_size=1)
             elif not self._scan.has_subscribers and clouds is not None:
                 clouds.unregister()
                 clouds = None
             if self._waiting is not None:
                 self._convert(self._waiting)
-            await asyncio.sleep(_LOOK_S)
+            await asyncio.sleep(_POLL_S)
         return 0
 
-    def _take(self, cloud: Message) -> None:
+    def _on_cloud(self, cloud: Message) -> None:
         if self._waiting is not None:
             self._complaints.warn(f"a cloud is left out: {self._why}")
         self._convert(cloud)
@@ -103,10 +103,12 @@ class PointCloudToLaserScan:
         """Publish its scan; where it is not known yet where it was, it waits, until the next one comes."""
         self._waiting = None
         try:
-            points = points_of(cloud)
+            points = read_points(cloud)
             if self._listener is not None and self._frame != cloud.header.frame_id:
-                stamp = ns_of(cloud.header.stamp)
-                points = _moved(points, self._listener.buffer.lookup(self._frame, cloud.header.frame_id, stamp).pose)
+                stamp = to_nsec(cloud.header.stamp)
+                points = _moved(
+                    points, self._listener.buffer.lookup_transform(self._frame, cloud.header.frame_id, stamp).pose
+                )
         except TransformError as error:
             self._waiting, self._why = cloud, str(error)
         except ValueError as error:
@@ -128,7 +130,7 @@ class PointCloudToLaserScan:
         }
 
 
-def points_of(cloud: Message) -> NDArray[np.float64]:
+def read_points(cloud: Message) -> NDArray[np.float64]:
     """(n, 3) x, y, z of a PointCloud2 [m].
 
     Raises:

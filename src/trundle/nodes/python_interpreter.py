@@ -49,13 +49,13 @@ def lacks_rospy(program: Path, env: Mapping[str, str]) -> bool:
     return done.returncode == _NO_ROSPY
 
 
-def module_of_ros(output: str) -> str | None:
+def missing_ros_module(output: str) -> str | None:
     """The module of ROS for want of which a Python program died, as its last output says; None: it did not."""
     found = _NOT_FOUND.findall(output)
     return found[-1] if found else None
 
 
-def without_rospy(module: str) -> str:
+def missing_rospy_advice(module: str) -> str:
     """Say what can be done about a Python that has none of ROS' modules."""
     return (
         f"its Python has no {module}, which a ROS has, or a workspace that was built: where one is installed (Debian's "

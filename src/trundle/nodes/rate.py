@@ -33,7 +33,7 @@ class Rate:
             self._last_ns = now
 
 
-class Cadence:
+class RateDivider:
     """arbotix_python's way of doing something at a lower rate inside a faster loop.
 
     The next time counts from when it was last done, not from when it was due, so that the actual rate falls short:
@@ -56,7 +56,7 @@ class Cadence:
         return True
 
 
-class Throttle:
+class LogThrottle:
     """Lets something be said at most once in a while."""
 
     def __init__(self, node: Node, every_s: float) -> None:

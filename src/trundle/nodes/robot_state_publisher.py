@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.robot import Robot, RobotJoint, parent_from_child, read_robot
-from trundle.ros import Message, Node, NodeParams, StaticTransformBroadcaster, Transform, TransformBroadcaster, ns_of
+from trundle.ros import Message, Node, NodeParams, StaticTransformBroadcaster, Transform, TransformBroadcaster, to_nsec
 from trundle.xmlnode import parse_xml
 
 from .host import NodeHost
-from .rate import Throttle, period_ns
+from .rate import LogThrottle, period_ns
 
 _NS = 1_000_000_000
 _OLD_NS = 30 * _NS
@@ -27,7 +27,7 @@ class RobotFrames:
     prefix: str = ""
 
     @staticmethod
-    def of(robot: Robot, prefix: str) -> "RobotFrames":
+    def from_robot(robot: Robot, prefix: str) -> "RobotFrames":
         """Sort joints; one number cannot place a planar one, so KDL holds it; floating ones are others' affair."""
         joints = sorted(robot.joints, key=lambda joint: joint.name)  # std::map's order, which is the messages' too
         moving = {j.name: j for j in joints if j.type not in ("fixed", "planar", "floating")}
@@ -72,9 +72,9 @@ class RobotStatePublisher:
         self._node = node
         self._last_published_ns: dict[str, int] = {}
         self._last_heard_ns = 0
-        self._no_position = Throttle(node, 300.0)
-        self._unknown = Throttle(node, 10.0)
-        self._old = Throttle(node, 10.0)
+        self._no_position = LogThrottle(node, 300.0)
+        self._unknown = LogThrottle(node, 10.0)
+        self._old = LogThrottle(node, 10.0)
 
     async def run(self) -> int:
         """Read the robot once, then publish until cancelled."""
@@ -86,7 +86,7 @@ class RobotStatePublisher:
             self._ignores_stamps = settings.flag("ignore_timestamp", default=False)
             use_tf_static = settings.flag("use_tf_static", default=node.profile.use_tf_static)
             robot, prefix = await self._robot(), await self._prefix()
-            self._frames = RobotFrames.of(robot, prefix)
+            self._frames = RobotFrames.from_robot(robot, prefix)
         except TrundleError as error:
             node.log_error(str(error))
             return 1
@@ -94,18 +94,18 @@ class RobotStatePublisher:
             if joint.type == "floating":
                 node.log_info(f"Floating joint. Not adding segment from {joint.parent} to {joint.child}.")
         self._broadcaster = TransformBroadcaster(node)
-        node.subscribe("joint_states", "sensor_msgs/JointState", self._hear, queue_size=1)
+        node.subscribe("joint_states", "sensor_msgs/JointState", self._on_joint_states, queue_size=1)
         static = StaticTransformBroadcaster(node)
         if use_tf_static:
             await node.clock.sleep(self._interval_ns / _NS)
             if fixed := self._fixed(node.clock.now_ns()):
-                static.send(*fixed)
+                static.send_transform(*fixed)
             await node.closed.wait()
             return 0
         while True:
             await node.clock.sleep(self._interval_ns / _NS)
             if fixed := self._fixed(node.clock.now_ns() + _FIXED_AHEAD_NS):
-                self._broadcaster.send(*fixed)
+                self._broadcaster.send_transform(*fixed)
 
     async def _robot(self) -> Robot:
         """Read the description from the nearest parameter upwards."""
@@ -125,7 +125,7 @@ class RobotStatePublisher:
     def _fixed(self, stamp_ns: int) -> list[Transform]:
         return [self._frames.transform(joint, 0.0, stamp_ns) for joint in self._frames.fixed.values()]
 
-    def _hear(self, message: Message) -> None:
+    def _on_joint_states(self, message: Message) -> None:
         node = self._node
         if len(message.name) != len(message.position):
             if len(message.position) == 0:
@@ -137,7 +137,7 @@ class RobotStatePublisher:
             else:
                 node.log_error("Robot state publisher ignored an invalid JointState message")
             return
-        now, stamp_ns = node.clock.now_ns(), ns_of(message.header.stamp)
+        now, stamp_ns = node.clock.now_ns(), to_nsec(message.header.stamp)
         if now < self._last_heard_ns:
             node.log_warn(
                 "Moved backwards in time (probably because ROS clock was reset), re-publishing joint transforms!"
@@ -162,7 +162,7 @@ class RobotStatePublisher:
             elif name not in self._frames.fixed:
                 self._unknown.warn(f'Joint state with name: "{name}" was received but not found in URDF')
         if transforms:
-            self._broadcaster.send(*transforms)
+            self._broadcaster.send_transform(*transforms)
 
 
 class StatePublisher(RobotStatePublisher):

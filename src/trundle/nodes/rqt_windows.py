@@ -35,14 +35,14 @@ class ImageView(Window):
 
     async def run(self) -> int:
         """Look until the page is closed for good."""
-        images = self._node.subscribe("image", "sensor_msgs/Image", self._take, queue_size=1)
+        images = self._node.subscribe("image", "sensor_msgs/Image", self._on_image, queue_size=1)
         self._node.log_info(f"listening to {images.topic}")
         return await super().run()
 
     def _prepare(self, display: Display) -> None:
         display.show_image(self._node.resolve("image"))
 
-    def _take(self, image: Message) -> None:
+    def _on_image(self, image: Message) -> None:
         if not self._seen:
             self._node.log_info(f"images of {image.width} × {image.height} pixels, {image.encoding}")
         self._seen = True
@@ -89,7 +89,7 @@ class RqtPlot(Window):
         display.plot([self._node.resolve(word) for word in words if word])
 
 
-class ReconfigureWindow(Window):
+class RqtReconfigure(Window):
     """rqt_reconfigure and reconfigure_gui: the options of every node that has some."""
 
     def _prepare(self, display: Display) -> None:

@@ -4,11 +4,11 @@ import asyncio
 
 from trundle.ros import DISTROS, NOETIC, Node, follow_time
 
-from .find import Replacement
+from .find import BuiltinReplacement
 from .host import NodeHost
 
 
-async def run_builtin_node(replacement: Replacement, node: Node, arguments: list[str], host: NodeHost) -> int:
+async def run_builtin_node(replacement: BuiltinReplacement, node: Node, arguments: list[str], host: NodeHost) -> int:
     """Run a stand-in until it ends, is cancelled or its node is killed, and shut that down; return the exit code.
 
     Args:

@@ -45,7 +45,7 @@ class TfStaticTransformPublisher:
         period_s = max(period_ms, 1.0) / 1000.0
         broadcaster = TransformBroadcaster(node)
         while True:
-            broadcaster.send(
+            broadcaster.send_transform(
                 Transform(
                     parent=parent,
                     child=child,
@@ -82,7 +82,7 @@ class Tf2StaticTransformPublisher:
             frames = f"{transform.parent}, {transform.child}"
             node.log_fatal(f"target_frame and source frame are the same ({frames}) this cannot work")
             return 1
-        StaticTransformBroadcaster(node).send(transform)
+        StaticTransformBroadcaster(node).send_transform(transform)
         node.log_info(f"Spinning until killed publishing {transform.parent} to {transform.child}")
         await node.closed.wait()
         return 0

@@ -27,11 +27,11 @@ class TeleopTwistJoy:
             *_axes(settings, "angular", _TURNS, single=("yaw", 0)),
         ]
         self._commands = node.advertise("cmd_vel", "geometry_msgs/Twist", latch=True, queue_size=1)
-        node.subscribe("joy", "sensor_msgs/Joy", self._take, queue_size=1)
+        node.subscribe("joy", "sensor_msgs/Joy", self._on_joy, queue_size=1)
         await node.closed.wait()
         return 0
 
-    def _take(self, joy: Message) -> None:
+    def _on_joy(self, joy: Message) -> None:
         if self._turbo >= 0 and _pressed(joy, self._turbo):
             self._send(joy, turbo=True)
         elif _pressed(joy, self._enable):

@@ -93,7 +93,7 @@ class TeleopTwistKeyboard:
         if self._display is not None and not stamped:
             self._display.drive_on(commands.topic)
         keyboard = Keyboard(node)
-        if not keyboard.there:
+        if not keyboard.is_available:
             node.log_warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
             await node.closed.wait()
             return 0
@@ -101,11 +101,11 @@ class TeleopTwistKeyboard:
         move = (0, 0, 0, 0)
         now_s = asyncio.get_running_loop().time
         released_s = math.inf
-        with keyboard.held():
+        with keyboard.cbreak():
             try:
                 while True:
                     waits = [released_s - now_s()] + ([1.0 / repeat_hz] if repeat_hz > 0.0 else [])
-                    key = await keyboard.key(None if math.isinf(min(waits)) else max(0.0, min(waits)))
+                    key = await keyboard.read_key(None if math.isinf(min(waits)) else max(0.0, min(waits)))
                     if key in _SPEEDS:
                         faster, tighter = _SPEEDS[key]
                         speed, turn = speed * faster, turn * tighter

@@ -46,16 +46,16 @@ class Turtlebot3TeleopKey:
         fastest = _FASTEST.get(model, _OTHERS)
         commands = node.advertise("cmd_vel", "geometry_msgs/Twist", queue_size=10)
         keyboard = Keyboard(node)
-        if not keyboard.there:
+        if not keyboard.is_available:
             node.log_warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
             await node.closed.wait()
             return 0
         print(_HELP)
         wanted, told = (0.0, 0.0), (0.0, 0.0)
-        with keyboard.held():
+        with keyboard.cbreak():
             try:
                 while True:
-                    key = await keyboard.key(_PERIOD_S)
+                    key = await keyboard.read_key(_PERIOD_S)
                     if key in _STEPS:
                         pairs = zip(wanted, _STEPS[key], fastest, strict=True)
                         linear, angular = (min(max(now + step, -most), most) for now, step, most in pairs)

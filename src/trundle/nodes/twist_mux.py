@@ -14,29 +14,29 @@ _HIGHEST = 255
 
 
 @dataclass(slots=True)
-class Source:
+class TopicHandle:
     """A topic of commands, or a lock; the higher its priority the more it masks."""
 
     name: str
     topic: str
     timeout_s: float
     priority: int
-    heard_ns: int | None = None
-    closed: bool = False
+    received_ns: int | None = None
+    lock: bool = False
     """Of a lock: what it last said."""
 
-    def is_silent(self, now_ns: int) -> bool:
+    def is_expired(self, now_ns: int) -> bool:
         """Whether it was not heard within its timeout; with one of 0 it never is, even before it was heard at all."""
         if self.timeout_s <= 0.0:
             return False
-        return self.heard_ns is None or now_ns - self.heard_ns > self.timeout_s * 1e9
+        return self.received_ns is None or now_ns - self.received_ns > self.timeout_s * 1e9
 
-    def locks(self, now_ns: int) -> bool:
+    def is_locked(self, now_ns: int) -> bool:
         """Whether it masks what has a lower priority: it says so, or it fell silent."""
-        return self.closed or self.is_silent(now_ns)
+        return self.lock or self.is_expired(now_ns)
 
 
-def read_sources(value: object, what: str) -> list[Source]:
+def read_topic_handles(value: object, what: str) -> list[TopicHandle]:
     """Read a list of {name, topic, timeout, priority}.
 
     Raises:
@@ -44,11 +44,11 @@ def read_sources(value: object, what: str) -> list[Source]:
     """
     if not isinstance(value, list):
         raise ParamError(f"parameter {what} is not a list of topics")
-    sources: list[Source] = []
+    sources: list[TopicHandle] = []
     for number, item in enumerate(value):
         section = NodeParams(item, f"{what}[{number}]")
         sources.append(
-            Source(
+            TopicHandle(
                 section.text("name"),
                 section.text("topic"),
                 section.number("timeout", 0.0),
@@ -58,15 +58,15 @@ def read_sources(value: object, what: str) -> list[Source]:
     return sources
 
 
-def lock_priority(locks: Sequence[Source], now_ns: int) -> int:
+def lock_priority(locks: Sequence[TopicHandle], now_ns: int) -> int:
     """Below which nothing drives."""
-    return max((lock.priority for lock in locks if lock.locks(now_ns)), default=0)
+    return max((lock.priority for lock in locks if lock.is_locked(now_ns)), default=0)
 
 
-def find_driver(sources: Sequence[Source], locks: Sequence[Source], now_ns: int) -> Source | None:
+def find_active_topic(sources: Sequence[TopicHandle], locks: Sequence[TopicHandle], now_ns: int) -> TopicHandle | None:
     """The source that drives now: that of the highest priority, the first of equal ones; one of 0 never does."""
     lowest = max(lock_priority(locks, now_ns), 1)
-    driving = [source for source in sources if not source.is_silent(now_ns) and source.priority >= lowest]
+    driving = [source for source in sources if not source.is_expired(now_ns) and source.priority >= lowest]
     return max(driving, key=lambda source: source.priority, default=None)
 
 
@@ -76,23 +76,23 @@ class TwistMux:
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
-        self._sources: list[Source] = []
-        self._locks: list[Source] = []
+        self._sources: list[TopicHandle] = []
+        self._locks: list[TopicHandle] = []
 
     async def run(self) -> int:
         """Mux until cancelled."""
         node = self._node
         try:
-            self._sources = read_sources(await node.get_param("~topics", []), f"{node.name}/topics")
-            self._locks = read_sources(await node.get_param("~locks", []), f"{node.name}/locks")
+            self._sources = read_topic_handles(await node.get_param("~topics", []), f"{node.name}/topics")
+            self._locks = read_topic_handles(await node.get_param("~locks", []), f"{node.name}/locks")
         except ParamError as error:
             node.log_fatal(str(error))
             return 1
         self._output = node.advertise("cmd_vel_out", _KIND, queue_size=1)
         for source in self._sources:
-            node.subscribe(source.topic, _KIND, lambda message, s=source: self._take(s, message), queue_size=1)
+            node.subscribe(source.topic, _KIND, lambda message, s=source: self._on_command(s, message), queue_size=1)
         for lock in self._locks:
-            node.subscribe(lock.topic, "std_msgs/Bool", lambda message, s=lock: self._hear(s, message), queue_size=1)
+            node.subscribe(lock.topic, "std_msgs/Bool", lambda message, s=lock: self._on_lock(s, message), queue_size=1)
         for source in (*self._sources, *self._locks):
             node.log_info(f"{source.name}: {source.topic}, timeout {source.timeout_s:g} s, priority {source.priority}")
         diagnostics = node.advertise("/diagnostics", "diagnostic_msgs/DiagnosticArray", queue_size=1)
@@ -102,28 +102,28 @@ class TwistMux:
             diagnostics.publish({"header": {"stamp": now}, "status": [self._status(now)]})
         return 0
 
-    def _take(self, source: Source, message: Message) -> None:
-        now = source.heard_ns = self._node.clock.now_ns()
-        if find_driver(self._sources, self._locks, now) is source:
+    def _on_command(self, source: TopicHandle, message: Message) -> None:
+        now = source.received_ns = self._node.clock.now_ns()
+        if find_active_topic(self._sources, self._locks, now) is source:
             self._output.publish(message)
 
-    def _hear(self, lock: Source, message: Any) -> None:
-        lock.heard_ns = self._node.clock.now_ns()
-        lock.closed = bool(message.data)
+    def _on_lock(self, lock: TopicHandle, message: Any) -> None:
+        lock.received_ns = self._node.clock.now_ns()
+        lock.lock = bool(message.data)
 
     def _status(self, now_ns: int) -> dict[str, Any]:
         """As diagnostic_updater words it."""
         masking = lock_priority(self._locks, now_ns)
 
-        def value(kind: str, source: Source, state: str) -> dict[str, str]:
+        def value(kind: str, source: TopicHandle, state: str) -> dict[str, str]:
             listens = f"listening to {source.topic} @ {source.timeout_s:f}s with priority #{source.priority}"
             return {"key": f"{kind} {source.name}", "value": f" {state} ({listens})"}
 
         values = [
-            value("velocity", s, "masked" if s.is_silent(now_ns) or s.priority < masking else "unmasked")
+            value("velocity", s, "masked" if s.is_expired(now_ns) or s.priority < masking else "unmasked")
             for s in self._sources
         ]
-        values += [value("lock", lock, "locked" if lock.locks(now_ns) else "free") for lock in self._locks]
+        values += [value("lock", lock, "locked" if lock.is_locked(now_ns) else "free") for lock in self._locks]
         values.append({"key": "current priority", "value": str(masking)})
         name = f"{self._node.name.lstrip('/')}: Twist mux status"
         return {"name": name, "message": "ok", "hardware_id": "none", "values": values}

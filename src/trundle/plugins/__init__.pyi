@@ -1,11 +1,11 @@
 from .catalog import BUILTIN as BUILTIN
-from .catalog import OF_SENSORS as OF_SENSORS
-from .catalog import alters_looks_alone as alters_looks_alone
+from .catalog import SENSOR_PLUGINS as SENSOR_PLUGINS
 from .catalog import find_model_sensor_plugin as find_model_sensor_plugin
 from .catalog import find_plugin as find_plugin
 from .catalog import find_sensor_plugin as find_sensor_plugin
 from .catalog import find_visual_plugin as find_visual_plugin
 from .catalog import find_world_plugin as find_world_plugin
+from .catalog import is_cosmetic as is_cosmetic
 from .plugin import Hooks as Hooks
 from .plugin import Plugin as Plugin
 from .plugin import VisualPlugin as VisualPlugin

@@ -47,7 +47,7 @@ BUILTIN: dict[str, str] = {
     "libgazebo_ros_f3d.so": "trundle.plugins.gazebo_ros.f3d:F3D",
     "libgazebo_ros_force.so": "trundle.plugins.gazebo_ros.force:Force",
     "libgazebo_ros_force_based_move.so": "trundle.plugins.hector_gazebo.force_based_move:ForceBasedMove",
-    "libgazebo_ros_ft_sensor.so": "trundle.plugins.gazebo_ros.ft_sensor:ForceTorque",
+    "libgazebo_ros_ft_sensor.so": "trundle.plugins.gazebo_ros.ft_sensor:FtSensor",
     "libgazebo_ros_imu.so": "trundle.plugins.gazebo_ros.imu:Imu",
     "libgazebo_ros_joint_pose_trajectory.so": "trundle.plugins.gazebo_ros.joint_pose_trajectory:JointPoseTrajectory",
     "libgazebo_ros_joint_state_publisher.so": "trundle.plugins.gazebo_ros.joint_state_publisher:JointStatePublisher",
@@ -73,14 +73,14 @@ BUILTIN: dict[str, str] = {
     "librotors_gazebo_motor_model.so": "trundle.plugins.rotors.motor_model:MotorModel",
     "librotors_gazebo_multirotor_base_plugin.so": "trundle.plugins.rotors.multirotor_base:MultirotorBase",
     "librotors_gazebo_odometry_plugin.so": "trundle.plugins.rotors.odometry:Odometry",
-    "librotors_gazebo_ros_interface_plugin.so": "trundle.plugins.rotors.interfaces:RosInterface",
+    "librotors_gazebo_ros_interface_plugin.so": "trundle.plugins.rotors.interfaces:GazeboRosInterface",
     "libunitreeDrawForcePlugin.so": "trundle.plugins.unitree.draw_force:DrawForce",
     "libwarthog_suspension_plugin.so": "trundle.plugins.warthog_suspension:WarthogSuspension",
 }
 """File name → "module:Class", imported only when a model asks."""
 
 _SENSORS = "trundle.plugins.gazebo_ros"
-OF_SENSORS: dict[str, str] = {
+SENSOR_PLUGINS: dict[str, str] = {
     "libgazebo_ros_block_laser.so": f"{_SENSORS}.laser:attach_points",
     "libgazebo_ros_bumper.so": f"{_SENSORS}.bumper:attach",
     "libgazebo_ros_camera.so": f"{_SENSORS}.camera:attach",
@@ -102,7 +102,7 @@ OF_SENSORS: dict[str, str] = {
 }
 """File name → "module:function", of the plugins that publish what a sensor measures."""
 
-_OF_MODELS = {"librealsense_gazebo_plugin.so": "trundle.plugins.realsense:attach_of"}
+_OF_MODELS = {"librealsense_gazebo_plugin.so": "trundle.plugins.realsense:find_attach"}
 """File name → "module:function", of a model's plugins that publish what its sensors measure."""
 
 _LOOKS = frozenset(
@@ -137,7 +137,7 @@ def find_visual_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[
     return _find(tag, environment, VisualPlugin)
 
 
-def alters_looks_alone(tag: PluginTag) -> bool:
+def is_cosmetic(tag: PluginTag) -> bool:
     """Whether a visual's plugin is one of Gazebo's that is not run: it alters nothing but how the visual is drawn."""
     return _base_name(tag) in _LOOKS
 
@@ -149,7 +149,7 @@ def find_world_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[t
 
 def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, Node, PluginTag, Diagnostics], None] | None":
     """The function that publishes a sensor's readings as a plugin does; None: there is none of this name."""
-    target = OF_SENSORS.get(_base_name(tag))
+    target = SENSOR_PLUGINS.get(_base_name(tag))
     return None if target is None else _imported(target)
 
 
@@ -173,14 +173,14 @@ def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> 
         return _of_kind(guest.load(), kind, tag), f"{guest.value} ({guest.dist.name if guest.dist else 'installed'})"
     folders = _folders(tag, environment)
     for folder in folders:
-        path = folder / python_name(filename)
+        path = folder / python_file_name(filename)
         if os.path.isfile(path):
             return _load_file(path, kind), str(path)
-    if filename in OF_SENSORS:
+    if filename in SENSOR_PLUGINS:
         raise _misplaced(tag, "sensor")
     what = f"plugin {tag.name!r}: no {filename}; Trundle runs Python plugins"
     looked = ", ".join(map(str, folders))
-    raise DescriptionError(tag.at, f"{what}: looked for {python_name(filename)} in {looked}")
+    raise DescriptionError(tag.at, f"{what}: looked for {python_file_name(filename)} in {looked}")
 
 
 def _of_kind(found: type[Hooks], kind: type[_Kind], tag: PluginTag) -> type[_Kind]:
@@ -194,7 +194,7 @@ def _misplaced(tag: PluginTag, owner: str) -> DescriptionError:
     return DescriptionError(tag.at, what)
 
 
-def python_name(filename: str) -> str:
+def python_file_name(filename: str) -> str:
     """`librp2w.so` → `rp2w.py`, the file in which a user writes the plugin anew."""
     stem = PurePosixPath(filename).stem
     if filename.endswith(".so"):

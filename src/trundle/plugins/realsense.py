@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from trundle.bridge import cloud_maker, image_maker
+from trundle.bridge import image_encoder, point_cloud_encoder
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor, DepthCameraSensor
 from trundle.simulation import ModelHandle, Simulation
 
-from .gazebo_ros.namespaces import ignore
-from .gazebo_ros.sensor import Outlet
+from .gazebo_ros.namespaces import mark_read
+from .gazebo_ros.sensor_publisher import SensorPublisher
 from .plugin import Plugin
 
 if TYPE_CHECKING:
@@ -51,12 +51,12 @@ class RealSense(Plugin):
             names = ", ".join(map(repr, sorted(there))) or "none"
             sim.report.warn(tag.at, f"plugin {tag.name!r}: no sensor {missing[0]!r}; sensors here: {names}")
         names = [f"{start}{what}" for start in _STREAMS.values() for what in _PARAMETERS]
-        ignore(parameters, *_UNUSED, *_OF_POINTS, *names)
+        mark_read(parameters, *_UNUSED, *_OF_POINTS, *names)
         parameters.report_unread(sim.report)
         return cls()
 
 
-def attach_of(tag: PluginTag, sensor: str) -> "Callable[[CameraSensor, Node, PluginTag, Diagnostics], None] | None":
+def find_attach(tag: PluginTag, sensor: str) -> "Callable[[CameraSensor, Node, PluginTag, Diagnostics], None] | None":
     """What publishes a sensor of this name for the plugin of its model; None: it is none of a RealSense's."""
     ends = {f"{tag.node.string('prefix')}{end}" for end in _STREAMS}
     return attach if sensor in ends else None
@@ -65,21 +65,21 @@ def attach_of(tag: PluginTag, sensor: str) -> "Callable[[CameraSensor, Node, Plu
 def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
     """Publish one of the four; see `RealSense`."""
     stream = _STREAMS[sensor.name.removeprefix(tag.node.string("prefix"))]
-    image = image_maker(sensor.optics.format)
+    image = image_encoder(sensor.optics.format)
     if stream == "depth":
         if not isinstance(sensor, DepthCameraSensor):
             raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a depth sensor is needed")
         image = _depth_maker(tag, report)
     topic, frame = _topic(tag, tag.node.string(f"{stream}TopicName")), tag.node.string(f"{stream}OpticalframeName")
-    images = Outlet(node, topic, "sensor_msgs/Image", frame)
-    infos = Outlet(node, f"{topic.rpartition('/')[0]}/camera_info", "sensor_msgs/CameraInfo", frame)
+    images = SensorPublisher(node, topic, "sensor_msgs/Image", frame)
+    infos = SensorPublisher(node, f"{topic.rpartition('/')[0]}/camera_info", "sensor_msgs/CameraInfo", frame)
     outlets, calibration = [images, infos], _calibration(sensor)
 
     def publish(reading: CameraReading) -> None:
         images.publish(reading, lambda: _as_bytes(image(reading)))
         infos.publish(reading, lambda: calibration)
 
-    sensor.listen(publish, enabled=lambda: any(outlet.wanted() for outlet in outlets))
+    sensor.listen(publish, enabled=lambda: any(outlet.has_subscribers() for outlet in outlets))
     if stream == "depth" and tag.node.flag("pointCloud", default=False, report=report):
         _publish_points(sensor, node, tag, report, frame)
 
@@ -97,7 +97,7 @@ def _publish_points(sensor: CameraSensor, node: Node, tag: PluginTag, report: Di
     near = tag.node.number("pointCloudCutoff", default=0.0, report=report)
     far = tag.node.number("pointCloudCutoffMax", default=5.0, report=report)
     topic = _topic(tag, tag.node.string("pointCloudTopicName"))
-    points, cloud = Outlet(node, topic, "sensor_msgs/PointCloud2", frame), cloud_maker(sensor)
+    points, cloud = SensorPublisher(node, topic, "sensor_msgs/PointCloud2", frame), point_cloud_encoder(sensor)
 
     def cut(reading: CameraReading) -> CameraReading:
         depth = _depth(reading)
@@ -108,7 +108,7 @@ def _publish_points(sensor: CameraSensor, node: Node, tag: PluginTag, report: Di
     def publish(reading: CameraReading) -> None:
         points.publish(reading, lambda: cloud(cut(reading)))
 
-    sensor.listen(publish, enabled=points.wanted)
+    sensor.listen(publish, enabled=points.has_subscribers)
 
 
 def _depth_maker(tag: PluginTag, report: Diagnostics) -> Callable[[CameraReading], dict[str, object]]:

@@ -31,7 +31,7 @@ class LogFile:
         self._file: BinaryIO | None = None
         self.lost = 0
         """Lines that nothing has been said of yet."""
-        self._thread = threading.Thread(target=self._work, name=f"writes {path.name}", daemon=True)
+        self._thread = threading.Thread(target=self._run, name=f"writes {path.name}", daemon=True)
         self._thread.start()
 
     def write(self, text: str) -> None:
@@ -46,7 +46,7 @@ class LogFile:
         self._lines.put(None)
         self._thread.join(_CLOSING_S)
 
-    def _work(self) -> None:
+    def _run(self) -> None:
         while (text := self._lines.get()) is not None:
             lines = [text]
             is_last = False
@@ -84,14 +84,14 @@ class LogFile:
         if self._file.tell() > self._most_bytes:
             self._close()
             for number in range(self._backups - 1, -1, -1):
-                older = self._named(number)
+                older = self._backup_path(number)
                 if older.exists():
-                    older.replace(self._named(number + 1))
+                    older.replace(self._backup_path(number + 1))
 
     def _close(self) -> None:
         file, self._file = self._file, None
         if file is not None:
             file.close()
 
-    def _named(self, number: int) -> Path:
+    def _backup_path(self, number: int) -> Path:
         return self._path if number == 0 else self._path.with_name(f"{self._path.name}.{number}")

@@ -1,8 +1,8 @@
 from .job import Job as Job
 from .job import JobError as JobError
-from .job import Policy as Policy
+from .job import RespawnPolicy as RespawnPolicy
 from .job import StopTimeouts as StopTimeouts
-from .process import Command as Command
+from .process import ProcessCommand as ProcessCommand
 from .process import ProcessJob as ProcessJob
 from .process_tree import ProcessTree as ProcessTree
 from .supervisor import Event as Event

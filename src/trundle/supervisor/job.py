@@ -13,7 +13,7 @@ class StopTimeouts:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Policy:
+class RespawnPolicy:
     """What a job's end means."""
 
     respawn: bool = False
@@ -42,7 +42,7 @@ class Job(Protocol):
         """Return the exit code once it has ended; negative: the signal that ended it."""
         ...
 
-    async def stop(self, patience: StopTimeouts) -> None:
+    async def stop(self, timeouts: StopTimeouts) -> None:
         """Ask it to end, ever more firmly; afterwards nothing of it is left. Harmless when it does not run."""
         ...
 

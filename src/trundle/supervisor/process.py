@@ -24,7 +24,7 @@ _EXIT_GRACE_S = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Command:
+class ProcessCommand:
     """A program to run."""
 
     name: str
@@ -41,7 +41,7 @@ class Command:
 class ProcessJob:
     """Runs a program; its lines go to `show` or to its log file."""
 
-    def __init__(self, command: Command, show: Callable[[str, str], None], *, tree: ProcessTree) -> None:
+    def __init__(self, command: ProcessCommand, show: Callable[[str, str], None], *, tree: ProcessTree) -> None:
         """Prepare.
 
         Args:
@@ -93,13 +93,13 @@ class ProcessJob:
         self._tree.discard(self._process.pid)
         return code
 
-    async def stop(self, patience: StopTimeouts) -> None:
+    async def stop(self, timeouts: StopTimeouts) -> None:
         process = self._process
         if process is None or process.returncode is not None:
             return
         for number, timeout_s in (
-            (signal.SIGINT if _POSIX else signal.SIGTERM, patience.interrupt_s),
-            (signal.SIGTERM, patience.terminate_s),
+            (signal.SIGINT if _POSIX else signal.SIGTERM, timeouts.interrupt_s),
+            (signal.SIGTERM, timeouts.terminate_s),
         ):
             if process.returncode is not None:
                 break
@@ -133,11 +133,11 @@ class ProcessJob:
                 if len(rest) > _MAX_LINE:
                     lines, rest = [*lines, rest], ""
                 for line in lines:
-                    self._take(line, log, to_screen=to_screen)
+                    self._handle_line(line, log, to_screen=to_screen)
             if rest:
-                self._take(rest, log, to_screen=to_screen)
+                self._handle_line(rest, log, to_screen=to_screen)
 
-    def _take(self, line: str, log: IO[str] | None, *, to_screen: bool) -> None:
+    def _handle_line(self, line: str, log: IO[str] | None, *, to_screen: bool) -> None:
         line = line.rstrip("\r")
         self._last.append(line[:_MAX_LINE])
         if to_screen:

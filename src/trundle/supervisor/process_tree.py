@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Self
 
 from . import tree_watcher
-from .windows_job import join_windows_job
+from .windows_job import enter_job_object
 
 _POSIX = os.name == "posix"
 _KILL_S = 2.0
@@ -38,7 +38,7 @@ class ProcessTree:
     def watch(self) -> None:
         """Have the tree end with this process; before its first program starts."""
         if not _POSIX:
-            join_windows_job()
+            enter_job_object()
         elif self._watcher is None:
             env = {name: value for name, value in os.environ.items() if name != tree_watcher.VARIABLE}
             self._watcher = subprocess.Popen(
@@ -54,7 +54,7 @@ class ProcessTree:
     def add(self, group: int) -> None:
         """Take in a program that leads its process group."""
         self._groups.add(group)
-        self._tell_watcher()
+        self._notify_watcher()
 
     def discard(self, group: int) -> None:
         """Drop a program that has ended, unless it left processes in its group: its number may be given again."""
@@ -63,14 +63,14 @@ class ProcessTree:
                 os.killpg(group, 0)
         except (ProcessLookupError, PermissionError):
             self._groups.discard(group)
-            self._tell_watcher()
+            self._notify_watcher()
 
     def close(self) -> None:
         """End what programs have left behind; asked first, then killed."""
         if self._watcher is None:
             return
-        if not tree_watcher.end_tree(self._mark, self._groups, signal.SIGTERM, self._terminate_s):
-            tree_watcher.end_tree(self._mark, self._groups, signal.SIGKILL, _KILL_S)
+        if not tree_watcher.kill_tree(self._mark, self._groups, signal.SIGTERM, self._terminate_s):
+            tree_watcher.kill_tree(self._mark, self._groups, signal.SIGKILL, _KILL_S)
         self._watcher.kill()
         self._watcher.communicate()
         self._watcher = None
@@ -81,7 +81,7 @@ class ProcessTree:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _tell_watcher(self) -> None:
+    def _notify_watcher(self) -> None:
         assert self._watcher is None or self._watcher.stdin is not None
         if self._watcher is not None and self._watcher.stdin is not None:
             with contextlib.suppress(OSError):  # somebody killed it

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from .job import Job, JobError, Policy, StopTimeouts
+from .job import Job, JobError, RespawnPolicy, StopTimeouts
 
 EventKind: TypeAlias = Literal["started", "failed", "finished", "died", "respawning", "stopping", "required"]
 
@@ -29,9 +29,9 @@ class Event:
 
 
 @dataclass(slots=True)
-class _Watched:
+class _WatchedJob:
     job: Job
-    policy: Policy
+    policy: RespawnPolicy
     watch: asyncio.Task[None] | None = None
     starts: int = 0
     code: int | None = None
@@ -40,19 +40,19 @@ class _Watched:
 class Supervisor:
     """Watches over jobs on the running asyncio loop."""
 
-    def __init__(self, listener: Callable[[Event], None], *, patience: StopTimeouts | None = None) -> None:
+    def __init__(self, listener: Callable[[Event], None], *, timeouts: StopTimeouts | None = None) -> None:
         """`listener` is told what happens, on the loop's thread."""
         self._listener = listener
-        self._patience = patience or StopTimeouts()
-        self._watched: dict[str, _Watched] = {}
+        self._timeouts = timeouts or StopTimeouts()
+        self._watched: dict[str, _WatchedJob] = {}
         self._ended = asyncio.Event()
         self._required: str | None = None
         self._stop = asyncio.Event()
 
-    async def start(self, job: Job, policy: Policy | None = None) -> bool:
+    async def start(self, job: Job, policy: RespawnPolicy | None = None) -> bool:
         """Start a job; tell whether it runs. One that cannot be started is reported, never raised."""
         assert job.name not in self._watched, f"two jobs named {job.name!r}"
-        watched = _Watched(job, policy or Policy())
+        watched = _WatchedJob(job, policy or RespawnPolicy())
         self._watched[job.name] = watched
         if self._required is None:
             self._ended.clear()
@@ -73,8 +73,8 @@ class Supervisor:
         self._stop.set()
         running = [w for w in reversed(self._watched.values()) if w.watch is not None and not w.watch.done()]
         for watched in running:
-            self._tell("stopping", watched, "killing on exit")
-        await asyncio.gather(*(watched.job.stop(self._patience) for watched in running))
+            self._notify("stopping", watched, "killing on exit")
+        await asyncio.gather(*(watched.job.stop(self._timeouts) for watched in running))
         if watches := [watched.watch for watched in running if watched.watch is not None]:
             _, deaf = await asyncio.wait(watches, timeout=_LAST_WORDS_S)
             for watch in deaf:  # a task that does not obey its cancellation is left behind
@@ -85,18 +85,18 @@ class Supervisor:
         """Each job's last exit code; None while it runs."""
         return {name: watched.code for name, watched in self._watched.items()}
 
-    async def _start(self, watched: _Watched) -> bool:
+    async def _start(self, watched: _WatchedJob) -> bool:
         try:
             what = await watched.job.start()
         except JobError as error:
-            self._tell("failed", watched, f"cannot be started: {error}")
+            self._notify("failed", watched, f"cannot be started: {error}")
             return False
         watched.starts += 1
         watched.code = None
-        self._tell("started", watched, f"started {what}")
+        self._notify("started", watched, f"started {what}")
         return True
 
-    async def _watch(self, watched: _Watched) -> None:
+    async def _watch(self, watched: _WatchedJob) -> None:
         quick_deaths = 0
         while True:
             since = time.monotonic()
@@ -112,32 +112,32 @@ class Supervisor:
             quick_deaths = quick_deaths + 1 if time.monotonic() - since < _QUICK_DEATH_S else 0
             back_off_s = min(0.1 * 2**quick_deaths, _LONGEST_BACK_OFF_S) if quick_deaths else 0.0
             delay_s = max(watched.policy.respawn_delay_s, back_off_s)
-            self._tell("respawning", watched, f"respawning in {delay_s:.1f} s" if delay_s else "respawning")
+            self._notify("respawning", watched, f"respawning in {delay_s:.1f} s" if delay_s else "respawning")
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self._stop.wait(), delay_s)
             if self._stop.is_set() or not await self._start(watched):
                 self._end(watched, code)
                 return
             if self._stop.is_set():  # it began to run while everything was being stopped
-                await watched.job.stop(self._patience)
+                await watched.job.stop(self._timeouts)
 
-    def _report_end(self, watched: _Watched, code: int) -> None:
+    def _report_end(self, watched: _WatchedJob, code: int) -> None:
         if code == 0:
-            self._tell("finished", watched, "has finished cleanly", code)
+            self._notify("finished", watched, "has finished cleanly", code)
             return
         how = f"exit code {code}" if code > 0 else f"signal {-code}"
         last = watched.job.last_output()
         said = "; its last output:\n" + "\n".join(f"    {line}" for line in last) if last else ""
-        self._tell("died", watched, f"has died [{how}]{said}", code)
+        self._notify("died", watched, f"has died [{how}]{said}", code)
 
-    def _end(self, watched: _Watched, code: int) -> None:
+    def _end(self, watched: _WatchedJob, code: int) -> None:
         watched.code = code
         if watched.policy.required and self._required is None:
             self._required = watched.job.name
-            self._tell("required", watched, "is required; everything stops")
+            self._notify("required", watched, "is required; everything stops")
             self._ended.set()
         if all(w.code is not None for w in self._watched.values()):
             self._ended.set()
 
-    def _tell(self, kind: EventKind, watched: _Watched, text: str, code: int | None = None) -> None:
+    def _notify(self, kind: EventKind, watched: _WatchedJob, text: str, code: int | None = None) -> None:
         self._listener(Event(kind=kind, name=watched.job.name, text=text, code=code))

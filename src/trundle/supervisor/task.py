@@ -36,11 +36,11 @@ class TaskJob:
         self._last = (str(error) if isinstance(error, TrundleError) else _trace(error)).splitlines()
         return 1
 
-    async def stop(self, patience: StopTimeouts) -> None:
+    async def stop(self, timeouts: StopTimeouts) -> None:
         if self._task is None or self._task.done():
             return
         self._task.cancel()
-        await asyncio.wait([self._task], timeout=patience.terminate_s)
+        await asyncio.wait([self._task], timeout=timeouts.terminate_s)
 
     def last_output(self) -> list[str]:
         return self._last

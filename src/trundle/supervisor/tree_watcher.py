@@ -13,8 +13,8 @@ from collections.abc import Collection
 VARIABLE = "TRUNDLE_PROCESS_TREE"
 """Inherited by every process of the tree, with its mark as value; Linux alone shows another process's variables."""
 _PROC = "/proc"
-_LOOK_S = 0.02
-_LONGEST_S = 10.0
+_POLL_S = 0.02
+_MAX_S = 10.0
 """A process that hangs in the kernel is not waited for."""
 
 
@@ -48,7 +48,7 @@ def _members(mark: str, groups: Collection[int]) -> list[int]:
     return found
 
 
-def end_tree(mark: str, groups: Collection[int], number: int, timeout_s: float) -> bool:
+def kill_tree(mark: str, groups: Collection[int], number: int, timeout_s: float) -> bool:
     """Send a signal until no process is left or the time is over; tell whether none is."""
     end = time.monotonic() + timeout_s
     is_first = True
@@ -57,7 +57,7 @@ def end_tree(mark: str, groups: Collection[int], number: int, timeout_s: float) 
         is_first = False
         if time.monotonic() > end:
             return False
-        time.sleep(_LOOK_S)
+        time.sleep(_POLL_S)
     return True
 
 
@@ -65,7 +65,7 @@ def _main(mark: str) -> None:
     groups: list[int] = []
     for line in sys.stdin:
         groups = [int(word) for word in line.split()]
-    end_tree(mark, groups, signal.SIGKILL, _LONGEST_S)
+    kill_tree(mark, groups, signal.SIGKILL, _MAX_S)
 
 
 if __name__ == "__main__":

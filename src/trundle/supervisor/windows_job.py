@@ -35,7 +35,7 @@ class _ExtendedLimits(ctypes.Structure):
 
 
 @cache
-def join_windows_job() -> None:
+def enter_job_object() -> None:
     """Put this process, and so all that it starts from now on, into a job that ends with it."""
     if sys.platform != "win32":
         return

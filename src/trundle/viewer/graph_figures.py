@@ -5,7 +5,7 @@ import contextlib
 
 from trundle.diagnostics import TrundleError
 from trundle.drawing import NodeGraph, curves_svg, graph_svg, node_graph
-from trundle.ros import Field, Node, TopicSeries, curves_of, follow_series, split_topic, spread_fields
+from trundle.ros import Node, TopicField, TopicSeries, recent_curves, split_topic, spread_fields, subscribe_series
 
 _PERIOD_S = 1.0
 _SHOWN_S = 30.0
@@ -49,14 +49,14 @@ class GraphFigures:
         while True:
             with contextlib.suppress(TrundleError):  # a master that is gone may come back
                 if self._shows_graph:
-                    publishers, subscribers, _ = await self._node.ask("getSystemState")
+                    publishers, subscribers, _ = await self._node.call_master("getSystemState")
                     drawing = node_graph(dict(publishers), dict(subscribers), with_all=False)
                     if drawing != self._drawn:  # of a large graph it takes a while
                         self._drawn, self._picture = drawing, await asyncio.to_thread(graph_svg, drawing)
                     self.drawings[GRAPH] = self._picture
                 await self._find_topics()
             if self._traces:
-                curves = curves_of(self._traces, last_s=_SHOWN_S)
+                curves = recent_curves(self._traces, last_s=_SHOWN_S)
                 self.drawings[PLOT] = await asyncio.to_thread(curves_svg, curves)
             await asyncio.sleep(_PERIOD_S)
 
@@ -64,15 +64,15 @@ class GraphFigures:
         """Listen to what is there by now of what is asked for; what holds no number is said, once."""
         if not self._fields:
             return
-        types = {topic: kind for topic, kind in await self._node.ask("getTopicTypes") if kind != "*"}
+        types = {topic: kind for topic, kind in await self._node.call_master("getTopicTypes") if kind != "*"}
         for name in list(self._fields):
             found = split_topic(name, types)
             if found is None:
                 continue
             self._fields.remove(name)
-            trace = TopicSeries(name, Field(topic=found[0], type=types[found[0]], path=found[1]))
+            trace = TopicSeries(name, TopicField(topic=found[0], type=types[found[0]], path=found[1]))
             try:
-                follow_series(trace, self._node, self._node.clock)
+                subscribe_series(trace, self._node, self._node.clock)
             except TrundleError as error:
                 self._node.log_error(f"rqt_plot: {error}")
             else:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from trundle.bringup.picture.lowest_point import lowest_of
+from trundle.bringup.picture.lowest_point import lowest_point
 from trundle.meshes import Mesh
 from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
 from trundle.render import ShapeGeometry
@@ -32,4 +32,4 @@ CUBE = Mesh(
 )
 def test_a_shape_reaches_as_low_as_its_lowest_point(geometry: ShapeGeometry, roll: float, below: float) -> None:
     """Turned about x, and then about the vertical, which changes nothing."""
-    assert lowest_of(geometry, Pose.from_rpy(4.0, 5.0, 6.0, roll, 0.0, 0.8)) == pytest.approx(6.0 - below)
+    assert lowest_point(geometry, Pose.from_rpy(4.0, 5.0, 6.0, roll, 0.0, 0.8)) == pytest.approx(6.0 - below)

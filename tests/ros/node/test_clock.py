@@ -17,9 +17,9 @@ def test_sleepers_wake_when_their_time_has_come(graph: Any) -> None:
 
     for ns in (30, 10, 20):
         graph.loop.spawn(sleep_until(ns))
-    graph.loop.settle()
+    graph.loop.flush_deliveries()
     clock.set(5)
-    graph.loop.settle()
+    graph.loop.flush_deliveries()
     assert woken == []
     clock.set(20)
     graph.until(lambda: len(woken) == 2)
@@ -31,11 +31,11 @@ def test_sleepers_wake_when_their_time_has_come(graph: Any) -> None:
 def test_a_sleep_before_the_first_tick_starts_there(graph: Any) -> None:
     clock = SimClock(graph.loop)
     done = graph.loop.spawn(clock.sleep(1.0))
-    graph.loop.settle()
+    graph.loop.flush_deliveries()
     clock.set(50)
-    graph.loop.settle()
+    graph.loop.flush_deliveries()
     clock.set(1_000_000_049)
-    graph.loop.settle()
+    graph.loop.flush_deliveries()
     assert not done.done()
     clock.set(1_000_000_050)
     done.result(PATIENCE_S)
@@ -47,7 +47,7 @@ def test_time_going_back_wakes_everyone_and_is_told(graph: Any) -> None:
     told: list[int] = []
     clock.on_jump(lambda: told.append(clock.now_ns()))
     done = graph.loop.spawn(clock.sleep_until(10**12))
-    graph.loop.settle()
+    graph.loop.flush_deliveries()
     clock.set(3)
     done.result(PATIENCE_S)
     assert (told, clock.jumps) == ([3], 1)

@@ -6,7 +6,7 @@ from trundle.ros import Loggers
 
 
 def test_a_logger_has_the_level_of_the_nearest_above_it() -> None:
-    loggers = Loggers.of_roscpp("topic_tools")
+    loggers = Loggers.for_roscpp("topic_tools")
     assert loggers.level == "info"
     loggers.set("ros", "debug")
     levels = dict(loggers.levels())
@@ -17,7 +17,7 @@ def test_a_logger_has_the_level_of_the_nearest_above_it() -> None:
 
 
 def test_loggers_that_a_node_does_not_use_leave_it_alone() -> None:
-    loggers = Loggers.of_rospy()
+    loggers = Loggers.for_rospy()
     loggers.set("rospy", "fatal")
     loggers.set("mine.own", "debug")
     levels = dict(loggers.levels())
@@ -26,4 +26,4 @@ def test_loggers_that_a_node_does_not_use_leave_it_alone() -> None:
 
 def test_a_level_that_is_none_is_refused() -> None:
     with pytest.raises(ValueError, match="no level 'loud'; levels: debug, info"):
-        Loggers.of_rospy().set("rosout", "loud")  # type: ignore[arg-type]
+        Loggers.for_rospy().set("rosout", "loud")  # type: ignore[arg-type]

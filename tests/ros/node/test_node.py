@@ -65,7 +65,7 @@ def test_in_one_process_the_very_object_arrives(graph: Any) -> None:
     graph.until(lambda: publisher.has_subscribers)
     message = talker.new(STRING, {"data": "x"})
     publisher.publish(message)
-    graph.loop.settle()
+    graph.loop.flush_deliveries()
     assert got[0] is message
     (link,) = (link for link in talker.connections() if link[4] == "/chatter")
     assert link[1:6] == ["/listener", "o", "INTRAPROCESS", "/chatter", True]
@@ -184,7 +184,7 @@ def test_another_thread_can_run_the_callbacks_and_the_oldest_messages_go(graph: 
     graph.until(lambda: publisher.has_subscribers)
     for i in range(5):
         publisher.publish({"data": str(i)})
-    graph.loop.settle()
+    graph.loop.flush_deliveries()
     assert inbox.qsize() == 2
     while not inbox.empty():
         inbox.get()()

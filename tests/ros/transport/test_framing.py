@@ -13,7 +13,7 @@ def _put(cutter: FrameDecoder, data: bytes, most: int) -> list[bytes]:
     """Give the cutter at most so many bytes of a stream at a time, as a socket does."""
     frames: list[bytes] = []
     while data:
-        room = cutter.room()
+        room = cutter.get_buffer()
         count = min(len(room), len(data), most)
         room[:count] = data[:count]
         data = data[count:]
@@ -48,7 +48,7 @@ def test_a_long_frame_like_the_one_before_is_not_copied() -> None:
     cutter = FrameDecoder(10**6)
     data = _stream([b"x" * 50_000])
     assert _put(cutter, data, 10**9) == [b"x" * 50_000]
-    room = cutter.room()
+    room = cutter.get_buffer()
     room[:] = data
     (frame,) = cutter.decode(len(data))
     assert isinstance(frame, memoryview)
@@ -60,9 +60,9 @@ def test_a_long_frame_like_the_one_before_is_not_copied() -> None:
 def test_memory_grows_with_what_has_come_not_with_what_is_announced() -> None:
     cutter = FrameDecoder(10**9)
     assert _put(cutter, struct.pack("<I", 10**9) + b"x" * 1_000, 10**9) == []
-    assert len(cutter.room()) < 10**6
+    assert len(cutter.get_buffer()) < 10**6
     assert _put(cutter, b"x" * 3_000_000, 10**9) == []
-    assert len(cutter.room()) < 10**7
+    assert len(cutter.get_buffer()) < 10**7
 
 
 def test_a_frame_over_the_limit_is_refused_when_announced() -> None:

@@ -30,7 +30,7 @@ def test_frames_the_kernel_takes_in_parts_arrive_whole_and_in_order(
         out = SendQueue(ours, drained=drained.set, broken=lambda: None)
         for first in range(0, len(_FRAMES), at_a_time):
             out.send(_FRAMES[first : first + at_a_time], None)
-        assert out.is_behind
+        assert out.is_congested
         got = bytearray()
         while len(got) < sum(map(len, sent)):
             got += await asyncio.get_running_loop().sock_recv(theirs, 65536)
@@ -63,7 +63,7 @@ def test_a_peer_that_has_gone_is_told_once() -> None:
             theirs.close()
             out.send([(b"lost",)], None)
             await gone.wait()
-            assert not out.is_behind
+            assert not out.is_congested
             out.close()
         return told
 

@@ -49,9 +49,9 @@ def test_what_is_laid_there_is_taken_round_after_round(
 ) -> None:
     seed = random.Random(5)
     shelf = new_shelf(200_000)
-    reader = SharedRingReader(connected, _content(shelf.offer()))
+    reader = SharedRingReader(connected, _content(shelf.offer_note()))
     assert not shelf.has_room(200_000)
-    shelf.receive_note(_content(reader.seen()))
+    shelf.receive_note(_content(reader.seen_note()))
     laid: list[tuple[bytes, bytes]] = []
     rounds = refused = 0
     while rounds < 300:
@@ -79,8 +79,8 @@ def test_a_subscriber_answers_when_half_of_it_is_taken(
 ) -> None:
     """Each answer wakes the publisher."""
     shelf = new_shelf(128 * 1024)
-    reader = SharedRingReader(connected, _content(shelf.offer()))
-    shelf.receive_note(_content(reader.seen()))
+    reader = SharedRingReader(connected, _content(shelf.offer_note()))
+    shelf.receive_note(_content(reader.seen_note()))
     answered: list[bool] = []
     for _ in range(8):
         note = shelf.write(_framed(bytes(128 * 1024 - LENGTH.size)), 128 * 1024)
@@ -95,8 +95,8 @@ def test_clouds_of_depth_cameras_find_room(connected: socket.socket, new_shelf: 
     content = bytes(928 * 800 * 16 + 300)
     size = LENGTH.size + len(content)
     shelf = new_shelf(size)
-    reader = SharedRingReader(connected, _content(shelf.offer()))
-    shelf.receive_note(_content(reader.seen()))
+    reader = SharedRingReader(connected, _content(shelf.offer_note()))
+    shelf.receive_note(_content(reader.seen_note()))
 
     assert shelf.has_room(size)
     for _ in range(6):
@@ -119,7 +119,7 @@ def test_frames_too_short_or_too_long_go_over_the_socket(
     connected: socket.socket, new_shelf: Callable[[int], SharedRing], size: int
 ) -> None:
     shelf = new_shelf(100_000)
-    shelf.receive_note(_content(SharedRingReader(connected, _content(shelf.offer())).seen()))
+    shelf.receive_note(_content(SharedRingReader(connected, _content(shelf.offer_note())).seen_note()))
     assert shelf.has_room(100_000)
     assert not shelf.has_room(size)
 
@@ -151,7 +151,7 @@ def test_a_publisher_believes_no_impossible_answer(
 def test_a_subscriber_reads_nothing_outside(
     connected: socket.socket, new_shelf: Callable[[int], SharedRing], note: bytes, sentence: str
 ) -> None:
-    reader = SharedRingReader(connected, _content(new_shelf(100_000).offer()))
+    reader = SharedRingReader(connected, _content(new_shelf(100_000).offer_note()))
     with pytest.raises(WireError, match=sentence):
         reader.read(note)
 

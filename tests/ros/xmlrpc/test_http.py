@@ -10,7 +10,7 @@ import pytest
 from tests.ros.conftest import PATIENCE_S
 
 from trundle.ros import blocking_call
-from trundle.ros.xmlrpc.http import parse_head, refusal_of_browsers
+from trundle.ros.xmlrpc.http import browser_refusal, parse_head
 from trundle.ros.xmlrpc.xmlrpc import encode_call
 
 _ELECTRON = "Mozilla/5.0 (X11; Linux x86_64) AppleWebKit/537.36 foxglove/1.87 Chrome/120.0 Electron/28.1 Safari/537.36"
@@ -50,12 +50,12 @@ def _head(fields: tuple[str, ...], method: str = "POST") -> bytes:
 
 @pytest.mark.parametrize("fields", PROGRAMS.values(), ids=PROGRAMS)
 def test_programs_are_served(fields: tuple[str, ...]) -> None:
-    assert refusal_of_browsers(parse_head(_head(fields))) is None
+    assert browser_refusal(parse_head(_head(fields))) is None
 
 
 @pytest.mark.parametrize("fields", PAGES.values(), ids=PAGES)
 def test_web_pages_are_refused(fields: tuple[str, ...]) -> None:
-    assert refusal_of_browsers(parse_head(_head(fields)))
+    assert browser_refusal(parse_head(_head(fields)))
 
 
 def _exchange(port: int, sent: bytes) -> bytes:

@@ -44,23 +44,23 @@ class CheckResult:
     """What checking a file found."""
 
     file: str
-    found: Findings | None
+    findings: Findings | None
     """None: the file was refused."""
     report: Diagnostics
 
     def trees(self) -> "list[TreeNode]":
         """The kinematic trees of what was understood."""
-        return [] if self.found is None else self.found.trees()
+        return [] if self.findings is None else self.findings.trees()
 
     @property
-    def refused(self) -> bool:
+    def is_refused(self) -> bool:
         """Whether nothing sensible could be made of the file."""
-        return self.found is None
+        return self.findings is None
 
     def as_json(self) -> dict[str, object]:
         """The resolved description and every finding."""
         findings = [finding.as_json() for finding in self.report.findings]
-        understood = {"kind": None, "models": []} if self.found is None else self.found.as_json()
+        understood = {"kind": None, "models": []} if self.findings is None else self.findings.as_json()
         return {**understood, "diagnostics": findings}
 
     def text(self) -> str:
@@ -70,7 +70,7 @@ class CheckResult:
         plural = {"error": "errors", "warning": "warnings", "info": "notes"}
         singular = {"error": "error", "warning": "warning", "info": "note"}
         told = [f"{n} {(singular if n == 1 else plural)[s]}" for s in plural if (n := counts[s])]
-        verdict = "refused" if self.found is None else self.found.sentence()
+        verdict = "refused" if self.findings is None else self.findings.sentence()
         return "\n".join([*lines, f"{self.file}: {verdict}; {', '.join(told) or 'nothing to remark'}"])
 
 
@@ -102,7 +102,7 @@ def check(file: str, environment: Mapping[str, str], *, start: Path, collisions:
         report.error(error)
     except UsageError as error:
         report.error(DescriptionError(Source(file), str(error)))
-    return CheckResult(file=file, found=found, report=report)
+    return CheckResult(file=file, findings=found, report=report)
 
 
 def _is_launch(file: str, piped: Piped | None) -> bool:

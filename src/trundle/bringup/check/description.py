@@ -28,9 +28,9 @@ class DescriptionFindings:
 
     def as_json(self) -> dict[str, object]:
         """As `check --json` prints it."""
-        from .json_output import described
+        from .json_output import description_json
 
-        return described(self.loaded)
+        return description_json(self.loaded)
 
     def trees(self) -> "list[TreeNode]":
         """Of each model."""
@@ -77,12 +77,12 @@ def check_description(
     loaded = load_input(file, report, packages=packages, start=start, piped=piped)
     flat = flattened(loaded.world)
     lint_description(loaded, report)
-    _name_silent_sensors(flat, report)
-    _name_what_physics_does(flat, report, collisions=collisions)
+    _report_silent_sensors(flat, report)
+    _report_physics(flat, report, collisions=collisions)
     return DescriptionFindings(loaded, flat)
 
 
-def _name_what_physics_does(flat: World, report: Diagnostics, *, collisions: bool) -> None:
+def _report_physics(flat: World, report: Diagnostics, *, collisions: bool) -> None:
     try:
         if not physics_accepts(flat):
             from trundle.physics import compile_world  # slow to load, and most robots need none of its mending
@@ -93,7 +93,7 @@ def _name_what_physics_does(flat: World, report: Diagnostics, *, collisions: boo
         report.error(error)
 
 
-def _name_silent_sensors(flat: World, report: Diagnostics) -> None:
+def _report_silent_sensors(flat: World, report: Diagnostics) -> None:
     sensors = [sensor for model in flat.models for link in model.links for sensor in link.sensors]
     if not sensors:
         return

@@ -15,7 +15,7 @@ _WITHOUT_AXIS = frozenset({JointType.FIXED, JointType.BALL})
 _NO_AXIS: dict[str, object] = {"axis": None, "lower": None, "upper": None, "effort": None, "velocity": None}
 
 
-def described(loaded: LoadedDescription) -> dict[str, object]:
+def description_json(loaded: LoadedDescription) -> dict[str, object]:
     """A world, a model or a URDF."""
     world = loaded.world
     result: dict[str, object] = {

@@ -8,7 +8,7 @@ from trundle.ros import Node
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 
-from ..page import Page
+from ..page import SimulationPage
 from ..realtime_pacer import RealtimePacer
 
 
@@ -24,7 +24,7 @@ class GzclientPage:
         """
         self._at = at
         self._say = say
-        self._page: Page | None = None
+        self._page: SimulationPage | None = None
 
     @property
     def url(self) -> str | None:
@@ -47,17 +47,17 @@ class GzclientPage:
         if self._at is None or self._page is not None:
             return
         try:
-            self._page = Page.open(simulation, sensors, None, self._at)
+            self._page = SimulationPage.open(simulation, sensors, None, self._at)
         except TrundleError as error:
             node.log_error(str(error))
             self._at = None
         else:
             self._say(f"see the simulation at {self._page.url}")
 
-    def replace(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
+    def reload(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
         """Show it anew: models or lights came or went."""
         if self._page is not None:
-            self._page.replace(simulation, sensors)
+            self._page.reload(simulation, sensors)
 
     def update(self, pacer: RealtimePacer, *, paused: bool) -> bool:
         """Do what was pressed, and show where everything is; return whether the simulation is paused now."""

@@ -49,10 +49,10 @@ class GazeboPlugins:
     def load(self) -> None:
         """Load those of every model, and then the world's."""
         for model in self._simulation.models:
-            self.load_of(model)
+            self.load_model(model)
         load_world_plugins(self._simulation, lambda name: self._node(name, ""), self._env, say=self._say)
 
-    def load_of(self, model: ModelHandle) -> None:
+    def load_model(self, model: ModelHandle) -> None:
         """Load those of a model."""
         load_plugins(
             self._simulation, lambda name: self._node(name, model.name), self._env, say=self._say, models=[model]

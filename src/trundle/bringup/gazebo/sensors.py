@@ -18,11 +18,11 @@ class GazeboSensors:
         """Have nothing measure yet."""
         self._simulation = simulation
         self._node = node
-        self._still = StaticTransformBroadcaster(node)
+        self._static_broadcaster = StaticTransformBroadcaster(node)
         self._renderer: RendererName = renderer
         self._report = report
         self._around = RayScene(simulation)
-        self._ends: dict[str, list[Endpoint]] = {}
+        self._endpoints: dict[str, list[Endpoint]] = {}
         """Model → topics and services of its sensors."""
         self._robots: dict[str, Robot] = {}
         """Model → the URDF that it was spawned from."""
@@ -46,11 +46,11 @@ class GazeboSensors:
             sensor.start(simulation)
         self.all += [*cameras, *sensors]
         for owner in dict.fromkeys(sensor.model.name for sensor in (*cameras, *sensors)):
-            with self._node.recording_endpoints() as self._ends[owner]:
-                self._speak(
+            with self._node.recording_endpoints() as self._endpoints[owner]:
+                self._advertise(
                     [camera for camera in cameras if camera.model.name == owner],
                     [sensor for sensor in sensors if sensor.model.name == owner],
-                    FrameNames.of_robot(robot) if robot is not None and len(self._robots) == 1 else FrameNames(),
+                    FrameNames.from_robot(robot) if robot is not None and len(self._robots) == 1 else FrameNames(),
                 )
 
     def unmount(self, model: str) -> None:
@@ -60,12 +60,16 @@ class GazeboSensors:
         for sensor in gone:
             sensor.stop(self._simulation)
         self._robots.pop(model, None)
-        ends = self._ends.pop(model, [])
-        shared = {id(end) for others in self._ends.values() for end in others}
+        ends = self._endpoints.pop(model, [])
+        shared = {id(end) for others in self._endpoints.values() for end in others}
         for end in ends:
             if id(end) not in shared:
                 end.unregister()
 
-    def _speak(self, cameras: list[CameraSensor], sensors: list[InstrumentSensor], names: FrameNames) -> None:
-        camera_topics(self._node, self._still, attach_sensor_plugins(cameras, self._node, self._report), names)
-        sensor_topics(self._node, self._still, attach_sensor_plugins(sensors, self._node, self._report), names)
+    def _advertise(self, cameras: list[CameraSensor], sensors: list[InstrumentSensor], names: FrameNames) -> None:
+        camera_topics(
+            self._node, self._static_broadcaster, attach_sensor_plugins(cameras, self._node, self._report), names
+        )
+        sensor_topics(
+            self._node, self._static_broadcaster, attach_sensor_plugins(sensors, self._node, self._report), names
+        )

@@ -34,7 +34,7 @@ from .sensors import GazeboSensors
 
 _EMPTY_WORLD = "worlds/empty.world"
 _IDLE_S = 0.01
-_LOOK_S = 0.5
+_POLL_S = 0.5
 _END_S = 2.0
 
 
@@ -81,7 +81,7 @@ class GazeboWorld:
         self._ending = threading.Event()
         self._simulation: Simulation | None = None
         self._renderer: RendererName = renderer
-        self._steps = steps
+        self._lockstep = steps
         self._sensors: GazeboSensors | None = None
         self._plugins: GazeboPlugins | None = None
         self._clock = SimClock(graph.loop)
@@ -115,7 +115,7 @@ class GazeboWorld:
         loaded = await asyncio.to_thread(load, self._opened(world), self._report, packages=self._packages)
         if loaded.kind != "world":
             raise UsageError(f"{world} is a model; a world is needed")
-        self._thread = threading.Thread(target=self._work, name="trundle-gazebo", daemon=True)
+        self._thread = threading.Thread(target=self._run, name="trundle-gazebo", daemon=True)
         built = asyncio.get_running_loop().create_future()
 
         def build() -> None:
@@ -166,7 +166,7 @@ class GazeboWorld:
         while not node.closed.is_set():
             if self._window.is_wanted and self._simulation is not None:
                 self.post(lambda: self._window.open(self.simulation, self.sensors, node))
-            await asyncio.sleep(_LOOK_S)
+            await asyncio.sleep(_POLL_S)
         return 0
 
     def close(self) -> None:
@@ -176,7 +176,7 @@ class GazeboWorld:
             return
         self._ending.set()
         thread.join(_END_S)
-        self._calls.drop()
+        self._calls.clear()
         if self._plugins is not None:
             self._plugins.close()
         self._simulation = None
@@ -221,9 +221,9 @@ class GazeboWorld:
         return self._plugins
 
     @property
-    def in_step(self) -> bool:
+    def is_lockstep(self) -> bool:
         """Whether time waits for nodes, not they for it."""
-        return self._steps is not None
+        return self._lockstep is not None
 
     @property
     def paused(self) -> bool:
@@ -246,8 +246,8 @@ class GazeboWorld:
         pose = world_from_model @ model.world_from_model
         handle = simulation.spawn(replace(model, name=name, world_from_model=pose))
         self._measuring.mount(name, robot=robot)
-        self._show_anew()
-        self._loaded.load_of(handle)
+        self._reload_page()
+        self._loaded.load_model(handle)
 
     def delete(self, name: str) -> None:
         """Remove a model."""
@@ -255,14 +255,14 @@ class GazeboWorld:
         simulation.delete(name)
         self._loaded.unload(name)
         self._measuring.unmount(name)
-        self._show_anew()
+        self._reload_page()
 
     def edit(self, world: World) -> None:
         """Go on with other gravity, masses, limits or lights."""
         lights = self.simulation.world.lights
         self.simulation.edit(world)
         if world.lights != lights:
-            self._show_anew()
+            self._reload_page()
 
     def set_speed(self, speed: float | None) -> None:
         """Simulate so many seconds a second of the wall."""
@@ -276,8 +276,8 @@ class GazeboWorld:
 
     # -- inside
 
-    def _work(self) -> None:
-        if self._steps is not None:
+    def _run(self) -> None:
+        if self._lockstep is not None:
             self._graph.loop.begin_batch()
         try:
             while not self._ending.is_set():
@@ -286,15 +286,15 @@ class GazeboWorld:
                     time.sleep(_IDLE_S)
                     continue
                 self._paused = self._window.update(self._pacer, paused=self._paused)
-                self._go_on(self._simulation)
+                self._step(self._simulation)
         finally:
             self._window.close()
             if self._recorder is not None:
                 self._recorder.close()
                 self._recorder = None
 
-    def _go_on(self, simulation: Simulation) -> None:
-        if self._paused or not (self._steps is None or self._steps.may_pass):
+    def _step(self, simulation: Simulation) -> None:
+        if self._paused or not (self._lockstep is None or self._lockstep.is_ready):
             self._pacer.restart()
             simulation.advance(simulation.time_ns)
             self._graph.loop.end_batch()
@@ -302,30 +302,30 @@ class GazeboWorld:
             return
         try:
             target_ns = self._pacer.next_target(simulation.time_ns)
-            if self._steps is None:
+            if self._lockstep is None:
                 simulation.advance(target_ns)
             else:
-                self._go_in_step(simulation, self._steps, self._steps.target_ns(target_ns))
+                self._step_lockstep(simulation, self._lockstep, self._lockstep.target_ns(target_ns))
         except SimulationUnstableError as error:
-            self._stand_still(str(error))
+            self._stop_stepping(str(error))
         except Exception as error:  # a plugin's code may raise anything
-            self._stand_still(f"{type(error).__name__}: {error}")
+            self._stop_stepping(f"{type(error).__name__}: {error}")
         self._clock.set(simulation.time_ns)
-        if self._steps is None and self._pacer.speed is None:
+        if self._lockstep is None and self._pacer.speed is None:
             self._graph.loop.flush_deliveries()  # who hears what when does not depend on how fast the machine is
 
-    def _go_in_step(self, simulation: Simulation, steps: Lockstep, until_ns: int) -> None:
+    def _step_lockstep(self, simulation: Simulation, steps: Lockstep, until_ns: int) -> None:
         """Go from instant to instant, and at each let the nodes do what it brings."""
         end_ns = simulation.simulated_ns + until_ns - simulation.time_ns  # a node may have time reset amid this
         while (left_ns := end_ns - simulation.simulated_ns) > 0 and not self._paused and not self._ending.is_set():
             simulation.stride(simulation.time_ns + left_ns)
             self._clock.set(simulation.time_ns)
-            steps.settle(
-                self._calls.run_pending, lambda: self._calls.any() or self._ending.is_set(), self._ending.is_set
+            steps.wait_settled(
+                self._calls.run_pending, lambda: self._calls.has_pending() or self._ending.is_set(), self._ending.is_set
             )
-            steps.stepped(simulation.time_ns)
+            steps.record_step(simulation.time_ns)
 
-    def _stand_still(self, why: str) -> None:
+    def _stop_stepping(self, why: str) -> None:
         self._paused = True
         self._say(f"{why}; the simulation is paused (/gazebo/unpause_physics tries to go on)")
 
@@ -350,6 +350,6 @@ class GazeboWorld:
         )
         self._plugins.load()
 
-    def _show_anew(self) -> None:
-        self._window.replace(self.simulation, self.sensors)
+    def _reload_page(self) -> None:
+        self._window.reload(self.simulation, self.sensors)
         self._pacer.restart()

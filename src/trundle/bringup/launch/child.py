@@ -25,12 +25,12 @@ from ..signals import StopFlag, stop_flag
 from .loaded_launch import LoadedLaunch
 from .nodes import Launched
 from .options import LaunchOptions
-from .parent import Parent
+from .parent import ParentLaunch
 from .running_nodes import RunningNodes
 from .session import LaunchSession
 
 
-def run_child(parent: Parent, options: LaunchOptions, environment: Mapping[str, str] | None = None) -> int:
+def run_child(parent: ParentLaunch, options: LaunchOptions, environment: Mapping[str, str] | None = None) -> int:
     """Serve the parent until it ends us, every node has ended, or Ctrl-C; return 1 when a required node died.
 
     Raises:
@@ -52,13 +52,13 @@ def run_child(parent: Parent, options: LaunchOptions, environment: Mapping[str, 
             loop.run(server.stop())
         if child.required_died:
             return 1
-        return 130 if stop.is_set() and not child.was_told_to_end else 0
+        return 130 if stop.is_set() and not child.is_shutdown_requested else 0
 
 
 class _Child:
     """What the parent asks for, and the launches it had started."""
 
-    def __init__(self, parent: Parent, options: LaunchOptions, env: Mapping[str, str], stop: StopFlag) -> None:
+    def __init__(self, parent: ParentLaunch, options: LaunchOptions, env: Mapping[str, str], stop: StopFlag) -> None:
         self._parent = parent
         self._options = replace(options, summary=False)
         self._env = env
@@ -71,14 +71,14 @@ class _Child:
         self._codes: dict[str, int] = {}
         """Of processes that have ended and were not started again."""
         self._is_ending = False
-        self.was_told_to_end = False
+        self.is_shutdown_requested = False
 
     @property
     def is_over(self) -> bool:
         """Whether something was launched, and nothing of it is left, or nothing may be."""
         if self._busy.locked() or not self._running:
             return False
-        return self.required_died or (bool(self._starts) and all(nodes.over for nodes in self._running))
+        return self.required_died or (bool(self._starts) and all(nodes.is_over for nodes in self._running))
 
     @property
     def required_died(self) -> bool:
@@ -105,7 +105,7 @@ class _Child:
                 return await asyncio.to_thread(self._launch, xml)
             case "shutdown", []:
                 await asyncio.to_thread(self.stop_nodes)
-                self.was_told_to_end = True
+                self.is_shutdown_requested = True
                 self._stop.set()
                 return 1, "success", 1
             case _:
@@ -129,7 +129,7 @@ class _Child:
                 if self._is_ending:
                     raise UsageError("it is shutting down")
                 self._check_run()
-                session = opened.enter_context(LaunchSession(read, self._options, listener=self._tell))
+                session = opened.enter_context(LaunchSession(read, self._options, listener=self._notify_parent))
                 running = session.start(read.plan.nodes, is_ending=lambda: self._is_ending)
             except TrundleError as error:
                 return 0, f"ERROR: {error}", [[], []]
@@ -158,7 +158,7 @@ class _Child:
         if (theirs := master.call("getParam", "/run_id")) != self._parent.run_id:
             raise UsageError(f"the master at {master.uri} has the run_id {theirs}, not {self._parent.run_id}")
 
-    def _tell(self, event: Event, text: str) -> None:
+    def _notify_parent(self, event: Event, text: str) -> None:
         if event.kind == "started":
             self._starts[event.name] = self._starts.get(event.name, 0) + 1
             self._codes.pop(event.name, None)

@@ -36,10 +36,10 @@ class ClockPublisher:
     def _run(self) -> None:
         time_ns, steps = 0, self._steps
         while not self._ending.is_set():
-            if not steps.may_pass:
+            if not steps.is_ready:
                 self._ending.wait(_IDLE_S)
                 continue
             time_ns = steps.target_ns(time_ns + _TICK_NS)
             self._publisher.publish({"clock": time_ns})
-            steps.settle(lambda: None, lambda: False, self._ending.is_set)
-            steps.stepped(time_ns)
+            steps.wait_settled(lambda: None, lambda: False, self._ending.is_set)
+            steps.record_step(time_ns)

@@ -39,7 +39,7 @@ def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[st
     show = read.show
     warn_of_network(options.host, show.line)
     if options.verbose:
-        _tell_everything(read.plan, read.params, show.line)
+        _print_summary(read.plan, read.params, show.line)
         for folder, why in read.packages.skipped_folders().items():
             show.line(f"no package is looked for in {folder}: {why}")
     with stop_flag() as stop:
@@ -106,7 +106,7 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
 
 
 def _run(read: LoadedLaunch, options: LaunchOptions, stop: StopFlag) -> int:
-    from .session import LaunchSession, SilentClock
+    from .session import ClockWarning, LaunchSession
 
     with LaunchSession(read, options) as session:
         running, clock = session.start(read.plan.nodes, is_ending=stop.is_set), session.clock
@@ -115,16 +115,16 @@ def _run(read: LoadedLaunch, options: LaunchOptions, stop: StopFlag) -> int:
             duration = LaunchDuration(
                 clock,
                 options.duration_s,
-                in_step=session.in_step,
+                in_step=session.is_lockstep,
                 is_worldless=running.is_worldless,
                 say=read.show.line,
             )
         over = False
-        silent = SilentClock(clock, read.show.line)
+        silent = ClockWarning(clock, read.show.line)
         while not stop.wait(0.05) and not over and not (duration is not None and duration.is_over()):
             read.show.findings()
-            silent.look()
-            over = session.is_over or running.required_died or (running.over and not session.has_master)
+            silent.check()
+            over = session.is_over or running.required_died or (running.is_over and not session.has_master)
             over = over or session.recording_broke_off
         required_died = running.required_died
     if session.recording_broke_off:  # as the bag was closed, too
@@ -146,7 +146,7 @@ def _printed(options: LaunchOptions, plan: LaunchPlan, packages: Packages, env: 
             return printing.node_command(plan, options.node, packages, env)
 
 
-def _tell_everything(plan: LaunchPlan, params: Sequence[LaunchParam], say: Callable[[str], None]) -> None:
+def _print_summary(plan: LaunchPlan, params: Sequence[LaunchParam], say: Callable[[str], None]) -> None:
     for file in plan.files:
         say(f"... loading XML file [{file}]")
     for param in params:

@@ -13,10 +13,19 @@ import yaml
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.launch import LaunchNode
 from trundle.names import parse_arguments
-from trundle.nodes import ROSCPP, Executable, Missing, NodeHost, Replacement, find_node, interpreter, run_builtin_node
+from trundle.nodes import (
+    ROSCPP,
+    BuiltinReplacement,
+    Executable,
+    MissingNode,
+    NodeHost,
+    find_node,
+    interpreter,
+    run_builtin_node,
+)
 from trundle.packages import Packages
 from trundle.ros import Loggers, Node
-from trundle.supervisor import Command, Job, Policy, ProcessJob, ProcessTree, TaskJob
+from trundle.supervisor import Job, ProcessCommand, ProcessJob, ProcessTree, RespawnPolicy, TaskJob
 from trundle.yaml_loader import load_yaml
 
 from ..graph import Graph
@@ -83,7 +92,7 @@ class NodeStarter:
                 job = ProcessJob(self._command(node, label, path, env, more), show, tree=self.tree)
                 logs = f"{self.log_folder / name}*.log"
                 return Launched(node=node, kind="process", what=str(path), job=job, log_files=logs)
-            case Replacement() as stand_in:
+            case BuiltinReplacement() as stand_in:
                 if node.launch_prefix:
                     what = f"launch-prefix {node.launch_prefix!r} is not used; the stand-in runs within this process"
                     self.report.warn(node.at, f"node {node.full_name}: {what}")
@@ -91,7 +100,7 @@ class NodeStarter:
                 job = TaskJob(label, lambda: self._run(node, stand_in, log))
                 logs = "" if log is None else str(log)
                 return Launched(node=node, kind="stand-in", what=f"{node.package}/{node.type}", job=job, log_files=logs)
-            case Missing(why):
+            case MissingNode(why):
                 return self._missing(node, why)
 
     def _missing(self, node: LaunchNode, why: str) -> Launched:
@@ -101,12 +110,12 @@ class NodeStarter:
         self.report.warn(node.at, f"{what}; the launch goes on without it")
         return Launched(node=node, kind="missing", what=why)
 
-    def policy(self, node: LaunchNode) -> Policy:
+    def policy(self, node: LaunchNode) -> RespawnPolicy:
         """What the node's end means."""
         required = node.required or self.all_required
-        return Policy(respawn=node.respawn, respawn_delay_s=node.respawn_delay_s, required=required)
+        return RespawnPolicy(respawn=node.respawn, respawn_delay_s=node.respawn_delay_s, required=required)
 
-    async def _run(self, node: LaunchNode, stand_in: Replacement, log: Path | None) -> int:
+    async def _run(self, node: LaunchNode, stand_in: BuiltinReplacement, log: Path | None) -> int:
         given = parse_arguments(_split(node.arguments, node))
         ros_node = Node(
             given.name or node.name,
@@ -118,7 +127,7 @@ class NodeStarter:
             host=self.graph.host,
         )
         if (node.package, node.type) in ROSCPP:
-            ros_node.loggers = Loggers.of_roscpp(node.package)
+            ros_node.loggers = Loggers.for_roscpp(node.package)
         with contextlib.ExitStack() as files:
             if log is not None:
                 ros_node.quiet_log = files.enter_context(log.open("a", encoding="utf-8"))
@@ -127,9 +136,9 @@ class NodeStarter:
 
     def _command(
         self, node: LaunchNode, label: str, program: Path, env: Mapping[str, str], more: tuple[str, ...]
-    ) -> Command:
+    ) -> ProcessCommand:
         log = self.log_folder / label.replace("/", "-")
-        return Command(
+        return ProcessCommand(
             name=label,
             argv=(
                 *_split(node.launch_prefix, node),

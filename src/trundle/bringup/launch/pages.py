@@ -8,9 +8,9 @@ from trundle.nodes import CLIENTS, WINDOWS
 
 from .nodes import Launched
 
-_PATIENCE_S = 20.0
+_TIMEOUT_S = 20.0
 """A world may take longer to read; its page is then told of on a line of its own."""
-_LOOK_S = 0.05
+_POLL_S = 0.05
 
 
 class OpeningPage(Protocol):
@@ -22,7 +22,7 @@ class OpeningPage(Protocol):
     def is_over(self) -> bool: ...
 
 
-def pages_of(
+def opening_pages(
     launched: Sequence[Launched], graph: OpeningPage | None, world: OpeningPage | None
 ) -> Sequence[OpeningPage]:
     """Which pages the started nodes open.
@@ -39,9 +39,9 @@ def pages_of(
 
 def await_urls(pages: Sequence[OpeningPage], is_ending: Callable[[], bool]) -> list[str]:
     """Wait until each is served or will not be; return where they are."""
-    deadline = time.monotonic() + _PATIENCE_S
+    deadline = time.monotonic() + _TIMEOUT_S
     while not is_ending() and time.monotonic() < deadline:
         if all(page.url is not None or page.is_over for page in pages):
             break
-        time.sleep(_LOOK_S)
+        time.sleep(_POLL_S)
     return [page.url for page in pages if page.url is not None]

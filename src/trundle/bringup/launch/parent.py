@@ -12,12 +12,12 @@ from trundle.ros import MasterProxy, RosError, host_and_port
 _ANSWER_S = 10.0
 """How long it may take to answer; roslaunch gives its children as long to register."""
 _MAX_NEWS = 1000
-_LAST_NEWS_S = 2.0
+_CLOSING_S = 2.0
 _INFO, _ERROR = 2, 8
 """Levels of rosgraph_msgs/Log."""
 
 
-class Parent:
+class ParentLaunch:
     """Told in order what happens here; while it does not listen, nothing is held up. Also a context manager."""
 
     def __init__(self, name: str, uri: str, run_id: str) -> None:
@@ -88,4 +88,4 @@ class Parent:
 
     def __exit__(self, *_: object) -> None:
         self._put(None)
-        self._thread.join(_LAST_NEWS_S)
+        self._thread.join(_CLOSING_S)

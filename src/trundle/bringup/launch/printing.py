@@ -41,14 +41,14 @@ def node_command(plan: LaunchPlan, name: str, packages: Packages, env: Mapping[s
     node = _named(plan, name)
     variables = [] if node.namespace == "/" else [("ROS_NAMESPACE", node.namespace)]
     variables += [(key, value) for key, value in node.env if env.get(key) != value]
-    from trundle.nodes import Executable, Missing, Replacement, find_node
+    from trundle.nodes import BuiltinReplacement, Executable, MissingNode, find_node
 
     match find_node(node.package, node.type, packages.find_package, env=env):
         case Executable(path):
             program = str(path)
-        case Replacement():
+        case BuiltinReplacement():
             program = f"{node.package}/{node.type}"  # runs within trundle: there is no command line to copy
-        case Missing(why):
+        case MissingNode(why):
             raise UsageError(f"node {node.full_name}: {why}")
     words = [*shlex.split(node.launch_prefix), program, *shlex.split(node.arguments)]
     words += [f"{there}:={here}" for there, here in node.remappings]

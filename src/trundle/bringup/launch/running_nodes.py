@@ -5,7 +5,7 @@ from collections.abc import Awaitable, Callable, Sequence
 from typing import TypeAlias
 
 from trundle.launch import LaunchNode
-from trundle.nodes import WORLDS, module_of_ros, without_rospy
+from trundle.nodes import WORLDS, missing_ros_module, missing_rospy_advice
 from trundle.supervisor import Event, StopTimeouts, Supervisor
 
 from ..console import say
@@ -25,14 +25,14 @@ class RunningNodes:
         starter: NodeStarter,
         nodes: Sequence[LaunchNode],
         *,
-        patience: StopTimeouts,
+        timeouts: StopTimeouts,
         quiet: bool,
         listener: Listener,
     ) -> None:
         """`quiet`: say only what goes wrong."""
         self._starter = starter
         self._nodes = nodes
-        self._patience = patience
+        self._timeouts = timeouts
         self._listener = listener
         self._unsaid = {"started", "finished", "stopping"} if quiet else set[str]()
         self._supervisor: Supervisor | None = None
@@ -47,7 +47,7 @@ class RunningNodes:
         self, is_ending: Callable[[], bool], let_start: Callable[[Callable[[], bool]], Awaitable[None]] | None = None
     ) -> None:
         """Start everything that can be started, unless the end comes first; wait for `let_start` after each node."""
-        self._supervisor = Supervisor(self._tell, patience=self._patience)
+        self._supervisor = Supervisor(self._print_event, timeouts=self._timeouts)
         for number, node in enumerate(self._nodes, start=1):
             if is_ending():
                 break
@@ -70,20 +70,20 @@ class RunningNodes:
             await self._supervisor.stop()
 
     @property
-    def over(self) -> bool:
+    def is_over(self) -> bool:
         """Whether every node has ended, or a required one."""
         return self._waiting is not None and self._waiting.done()
 
     @property
     def required_died(self) -> bool:
         """Whether it was a required one's end that ended the launch."""
-        return self.over and self._waiting is not None and self._waiting.result() is not None
+        return self.is_over and self._waiting is not None and self._waiting.result() is not None
 
     def is_worldless(self) -> bool:
         """Whether a world was started, and every one that was has ended since."""
         return bool(self._worlds) and self._worlds <= self._ended
 
-    def _tell(self, event: Event) -> None:
+    def _print_event(self, event: Event) -> None:
         name = event.name
         if event.kind == "started":
             self._ended.discard(name)
@@ -95,8 +95,8 @@ class RunningNodes:
             case "finished" | "died":
                 log = self._logs[name]
                 text = f"[{name}] process {event.text}{log and f'{chr(10)}log file: {log}'}"
-                if module := module_of_ros(event.text):
-                    text = f"{text}\n[{name}] {without_rospy(module)}"
+                if module := missing_ros_module(event.text):
+                    text = f"{text}\n[{name}] {missing_rospy_advice(module)}"
             case "required":
                 text = f"{_RULE}\nREQUIRED process [{name}] has died!\nInitiating shutdown!\n{_RULE}"
             case _:

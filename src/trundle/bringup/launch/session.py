@@ -11,7 +11,7 @@ from trundle.garbage import no_garbage
 from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import WINDOWS, WORLDS, Executable, NodeHost, Simulator, find_node
 from trundle.page_address import PageAddress
-from trundle.ros import DISTROS, Clock, Node, Recorder, RecordOptions, StepRecorder, follow_time
+from trundle.ros import DISTROS, Clock, Node, Recorder, RecorderOptions, StepRecorder, follow_time
 from trundle.supervisor import Event, ProcessTree, StopTimeouts
 
 from ..console import say
@@ -23,7 +23,7 @@ from .loaded_launch import LoadedLaunch
 from .logs import LaunchLog, log_folder
 from .nodes import NodeStarter
 from .options import LaunchOptions
-from .pages import await_urls, pages_of
+from .pages import await_urls, opening_pages
 from .params import set_params
 from .running_nodes import Listener, RunningNodes, what_runs
 
@@ -67,7 +67,7 @@ class LaunchSession:
         self._open_things = ExitStack()
         self._running: RunningNodes | None = None
         self.recording_broke_off = False
-        self._steps: Lockstep | None = None
+        self._lockstep: Lockstep | None = None
         self._page: GraphPage | None = None
         self._world: GazeboWorld | None = None
         try:
@@ -100,7 +100,7 @@ class LaunchSession:
             self._say(printing.summary(read.plan, values))
         graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
         programs = self._programs()
-        tells_time = options.speed is None and not programs and self._may_tell_time(launcher)
+        tells_time = options.speed is None and not programs and self._may_publish_clock(launcher)
         in_step = tells_time or (options.speed is None and _has_world(read.plan))
         if tells_time or (in_step and not graph.loop.run(launcher.has_param("/use_sim_time"))):
             graph.loop.run(launcher.set_param("/use_sim_time", True))
@@ -108,10 +108,10 @@ class LaunchSession:
         recorder = None if options.record is None else self._record(options.record, in_step, programs)
         if in_step:
             end_ns = None if options.duration_s is None else round(options.duration_s * NS)
-            self._steps = Lockstep(graph.loop, end_ns=end_ns, recorder=recorder, say=show.line)
+            self._lockstep = Lockstep(graph.loop, end_ns=end_ns, recorder=recorder, say=show.line)
             if tells_time:
                 show.line("no simulation tells the time: /clock is told here, as fast as the nodes can follow")
-                self._open_things.callback(ClockPublisher(launcher, self._steps).close)
+                self._open_things.callback(ClockPublisher(launcher, self._lockstep).close)
         if not options.headless:
             from trundle.viewer import GraphPage  # a launch without a page does not wait for it
 
@@ -153,7 +153,7 @@ class LaunchSession:
         node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
         self._open_things.callback(lambda: graph.loop.run(node.shutdown(), timeout_s=_START_S))
         graph.loop.run(follow_time(node))
-        options = RecordOptions(all_topics=True, path=file)
+        options = RecorderOptions(all_topics=True, path=file)
         recorder = Recorder(node, options, say=node.log_debug, complain=self._complain)
         recorder.start()
         self._open_things.callback(recorder.stop)
@@ -163,7 +163,7 @@ class LaunchSession:
         self.recording_broke_off = True
         self._read.show.line(why)
 
-    def _may_tell_time(self, launcher: Node) -> bool:
+    def _may_publish_clock(self, launcher: Node) -> bool:
         """Whether nobody else does: a simulation, a graph that was there, or a bag that will be played."""
         graph = self.graph
         if _has_world(self._read.plan) or graph.core is None:
@@ -185,12 +185,12 @@ class LaunchSession:
     @property
     def is_over(self) -> bool:
         """Whether the time that a flat-out launch is given has passed, and all of it is recorded."""
-        return self._steps is not None and self._steps.over.is_set()
+        return self._lockstep is not None and self._lockstep.over.is_set()
 
     @property
-    def in_step(self) -> bool:
+    def is_lockstep(self) -> bool:
         """Whether time waits for nodes."""
-        return self._steps is not None
+        return self._lockstep is not None
 
     def _simulator(self, logs: Path) -> Simulator:
         from ..gazebo.world import GazeboWorld  # a launch without Gazebo does not wait for the physics
@@ -208,7 +208,7 @@ class LaunchSession:
             else PageAddress(host=options.host, port=self._window_port(), allowed=options.allowed),
             speed=options.speed,
             renderer=options.renderer,
-            steps=self._steps,
+            steps=self._lockstep,
         )
         self._open_things.callback(gazebo.close)
         return gazebo
@@ -222,18 +222,18 @@ class LaunchSession:
     def start(self, nodes: Sequence[LaunchNode], *, is_ending: Callable[[], bool] = lambda: False) -> RunningNodes:
         """Start nodes, unless the end comes first, and say what runs."""
         loop, options = self.graph.loop, self._options
-        patience = StopTimeouts(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
+        timeouts = StopTimeouts(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
         running = self._running = RunningNodes(
-            self.starter, nodes, patience=patience, quiet=options.quiet, listener=self._heard
+            self.starter, nodes, timeouts=timeouts, quiet=options.quiet, listener=self._heard
         )
-        steps = self._steps
-        loop.run(running.start(is_ending, None if steps is None else steps.let_start), timeout_s=_START_S + START_S)
+        steps = self._lockstep
+        loop.run(running.start(is_ending, None if steps is None else steps.wait_started), timeout_s=_START_S + START_S)
         if steps is not None:
-            steps.begin()
+            steps.start()
         self._read.show.findings()
         if running.launched and not options.quiet:
-            pages = pages_of(running.launched, self._page, self._world)
-            urls = await_urls(pages, lambda: is_ending() or running.over)
+            pages = opening_pages(running.launched, self._page, self._world)
+            urls = await_urls(pages, lambda: is_ending() or running.is_over)
             self._say(what_runs(running.launched, urls))
         return running
 
@@ -266,7 +266,7 @@ _SHOWN = ("/rosdistro", "/rosversion")
 """Parameters of the core that roslaunch's summary shows."""
 
 
-class SilentClock:
+class ClockWarning:
     """Says once that simulated time is waited for and nobody tells it, which makes every node stand still."""
 
     def __init__(self, clock: Clock, say: Callable[[str], None]) -> None:
@@ -274,7 +274,7 @@ class SilentClock:
         self._say: Callable[[str], None] | None = say
         self._due = time.monotonic() + _SILENCE_S
 
-    def look(self) -> None:
+    def check(self) -> None:
         """See whether there is a time by now."""
         if self._say is None or self._clock.now_ns() > 0:
             self._say = None

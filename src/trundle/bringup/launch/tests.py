@@ -118,7 +118,7 @@ def _attempt(
     if prepared.job is None:
         return did_not_run(prepared.what)
     try:
-        ended = _to_the_end(session.graph.loop, prepared.job, test.time_limit_s)
+        ended = _wait_for_exit(session.graph.loop, prepared.job, test.time_limit_s)
     except JobError as error:
         return did_not_run(str(error))
     if ended.code is None:
@@ -132,7 +132,7 @@ def _attempt(
     return True, [CaseResult(name=test.name, problem="" if ended.code == 0 else f"exit code {ended.code}")]
 
 
-def _to_the_end(loop: GraphLoop, job: Job, limit_s: float) -> _Ended:
+def _wait_for_exit(loop: GraphLoop, job: Job, limit_s: float) -> _Ended:
     loop.run(job.start())
     try:
         code = loop.run(job.wait(), limit_s)

@@ -8,7 +8,7 @@ from trundle.render import ShapeGeometry
 from trundle.spatial import Pose
 
 
-def lowest_of(geometry: ShapeGeometry, world_from_shape: Pose) -> float:
+def lowest_point(geometry: ShapeGeometry, world_from_shape: Pose) -> float:
     """The height of a shape's lowest point [m]; of an endless plane, infinity."""
     # How much of each of the shape's axes points up or down.
     x, y, z = world_from_shape.inverse().transform_vector((0.0, 0.0, 1.0))

@@ -9,12 +9,10 @@ from trundle.packages import Packages
 from trundle.render import Scene
 from trundle.robot import Robot, root_from_links
 
-from .lowest_point import lowest_of
+from .lowest_point import lowest_point
 
 
-def with_robot(
-    scene: Scene, robot: Robot, packages: Packages, report: Diagnostics
-) -> tuple[Scene, NDArray[np.float64]]:
+def add_robot(scene: Scene, robot: Robot, packages: Packages, report: Diagnostics) -> tuple[Scene, NDArray[np.float64]]:
     """Stand a robot on the ground of a scene, its joints at zero.
 
     Returns:
@@ -25,7 +23,7 @@ def with_robot(
     drawn = robot_scene(robot, packages, report)
     poses = root_from_links(robot, {})
     links = [poses[name] for name in drawn.bodies]
-    heights = [lowest_of(shape.geometry, links[shape.body] @ shape.body_from_shape) for shape in drawn.shapes]
+    heights = [lowest_point(shape.geometry, links[shape.body] @ shape.body_from_shape) for shape in drawn.shapes]
     rows = np.array([(*pose.position, *pose.quaternion) for pose in links])
     rows[:, 2] -= min(heights, default=0.0)
     first = len(scene.bodies)

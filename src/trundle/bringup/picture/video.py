@@ -9,7 +9,7 @@ from PIL import Image
 
 from trundle.diagnostics import UsageError
 
-from .picture import Studio
+from .render import PictureRenderer
 
 FRAMES_PER_S = 25
 _TURN_S = 8.0
@@ -19,21 +19,21 @@ MOVING = (".mp4", *_PILLOW)
 """How the names of films end."""
 
 
-def turntable(studio: Studio) -> Iterator[Image.Image]:
+def turntable(studio: PictureRenderer) -> Iterator[Image.Image]:
     """Once around what stands still."""
     count = int(_TURN_S * FRAMES_PER_S)
     for i in range(count):
-        yield studio.picture(turned_rad=2.0 * math.pi * i / count)
+        yield studio.render(turned_rad=2.0 * math.pi * i / count)
 
 
-def simulated_frames(studio: Studio, duration_s: float) -> Iterator[Image.Image]:
+def simulated_frames(studio: PictureRenderer, duration_s: float) -> Iterator[Image.Image]:
     """What happens from now on, in real time."""
     start_ns = studio.simulation.time_ns
     for i in range(max(round(duration_s * FRAMES_PER_S), 1)):
         behind_s = (start_ns - studio.simulation.time_ns) * 1e-9 + i / FRAMES_PER_S
         if behind_s > 0.0:
             studio.simulation.run(behind_s)
-        yield studio.picture()
+        yield studio.render()
 
 
 def write_video(frames: Iterator[Image.Image], output: Path, *, tell: Callable[[int], None]) -> None:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Self
 
-from trundle.bridge import ClockTopic, FrameNames, JointStates, SimulationFrames, camera_topics, sensor_topics
+from trundle.bridge import ClockTopic, FrameNames, JointStatesTopic, LinkTransforms, camera_topics, sensor_topics
 from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
@@ -15,7 +15,7 @@ from ..world_setup import LoadedWorld
 NODE_NAME = "/trundle"
 
 
-class RunningClock(SimClock):
+class SimulationClock(SimClock):
     """The simulation's own time, exact at every instant; who sleeps is woken when a stride is over."""
 
     def __init__(self, loop: GraphLoop, simulation: Simulation) -> None:
@@ -40,23 +40,23 @@ class RosInterface:
     ) -> None:
         self._graph = graph
         self._simulation = simulation
-        self.clock = RunningClock(graph.loop, simulation)
+        self.clock = SimulationClock(graph.loop, simulation)
         self.node = self.make_node(NODE_NAME)
         loop = graph.loop
         loop.run(self.node.wait_registered())
         loop.run(self.node.set_param("/use_sim_time", True))
         ClockTopic(self.node).attach(simulation)
-        still = StaticTransformBroadcaster(self.node)
-        frames = SimulationFrames(self.node, still, stage.world, simulation.snapshot())
-        simulation.add_hook(frames, period_ns=frames.period_ns, enabled=frames.wanted)
+        static_broadcaster = StaticTransformBroadcaster(self.node)
+        frames = LinkTransforms(self.node, static_broadcaster, stage.world, simulation.snapshot())
+        simulation.add_hook(frames, period_ns=frames.period_ns, enabled=frames.enabled)
         report = simulation.report
-        names = FrameNames.of(stage.world, stage.robot)
-        camera_topics(self.node, still, attach_sensor_plugins(cameras, self.node, report), names)
-        sensor_topics(self.node, still, attach_sensor_plugins(sensors, self.node, report), names)
+        names = FrameNames.from_world(stage.world, stage.robot)
+        camera_topics(self.node, static_broadcaster, attach_sensor_plugins(cameras, self.node, report), names)
+        sensor_topics(self.node, static_broadcaster, attach_sensor_plugins(sensors, self.node, report), names)
         if stage.urdf is not None:
             loop.run(self.node.set_param("/robot_description", stage.urdf))
-            states = JointStates(self.node, simulation.models[0])
-            simulation.add_hook(states, period_ns=states.period_ns, enabled=states.wanted)
+            states = JointStatesTopic(self.node, simulation.models[0])
+            simulation.add_hook(states, period_ns=states.period_ns, enabled=states.has_subscribers)
         self._cmd_vel = None
 
     @classmethod

@@ -18,7 +18,7 @@ from trundle.sensors import mount_cameras, mount_sensors
 from trundle.simulation import Simulation, with_actors
 
 from ..console import Console
-from ..load_input import name_workspace
+from ..load_input import report_workspace
 from ..network_warning import warn_of_network
 from ..plugins import load_plugins, load_world_plugins
 from ..realtime_pacer import NS, RealtimePacer, shorten_gil_interval
@@ -28,7 +28,7 @@ from ..world_setup import load_world
 from .run_result import RunResult
 
 if TYPE_CHECKING:  # a run without a page or a graph starts without their modules
-    from ..page import Page
+    from ..page import SimulationPage
     from ..state_logs import RunRecorder
     from .ros_interface import RosInterface
 
@@ -80,13 +80,13 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
     report = Diagnostics(strict=options.strict)
     show = Console(sys.stderr, report)
     if options.ros:
-        from ..graph import named_master
+        from ..graph import master_notice
 
-        if joined := named_master(env):
+        if joined := master_notice(env):
             show.line(f"{joined}: something else started it")
     warn_of_network(options.host, show.line)
     packages = Packages(env, start=Path.cwd())
-    name_workspace(file, packages, show.line)
+    report_workspace(file, packages, show.line)
     with no_garbage():
         stage = load_world(file, packages, report, seed=options.seed)
         simulation = Simulation(stage.world, report, seed=options.seed)  # nothing is open yet: Ctrl-C ends it at once
@@ -110,9 +110,9 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
                 show.line(ros.graph.summary)
         recorder = None
         if options.record is not None:
-            from ..state_logs import RunRecorder, begin_state_log
+            from ..state_logs import RunRecorder, start_state_log
 
-            log = begin_state_log(options.record, simulation, stage.written, report)
+            log = start_state_log(options.record, simulation, stage.written, report)
             recorder = RunRecorder(log, show.line)
             simulation.add_hook(recorder, period_ns=recorder.period_ns)
             open_things.callback(recorder.close)
@@ -122,13 +122,13 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         show.findings()
         page = None
         if not options.headless:
-            from ..page import Page
+            from ..page import SimulationPage
 
             shown = (*cameras, *sensors)
             at = PageAddress(host=options.host, port=options.port, allowed=options.allowed)
-            page = open_things.enter_context(Page.open(simulation, shown, ros, at))
+            page = open_things.enter_context(SimulationPage.open(simulation, shown, ros, at))
             show.line(f"see it at {page.url}")
-        wall_s = _drive(simulation, ros, page, options, stop, show.line, recorder=recorder)
+        wall_s = _simulate(simulation, ros, page, options, stop, show.line, recorder=recorder)
         show.findings()
         return RunResult(
             world=with_actors(stage.written, report),
@@ -139,14 +139,14 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             images=sum(camera.image_count for camera in cameras),
             report=report,
             interrupted=stop.is_set(),
-            recording_broke_off=recorder is not None and recorder.broke_off,
+            recording_broke_off=recorder is not None and recorder.has_failed,
         )
 
 
-def _drive(
+def _simulate(
     simulation: Simulation,
     ros: "RosInterface | None",
-    page: "Page | None",
+    page: "SimulationPage | None",
     options: RunOptions,
     stop: StopFlag,
     say: Callable[[str], None],
@@ -182,7 +182,7 @@ def _drive(
             continue
         if ros is not None:
             ros.tick(wait=pacer.speed is None)
-        if recorder is not None and recorder.broke_off:
+        if recorder is not None and recorder.has_failed:
             break
     return time.monotonic() - started
 

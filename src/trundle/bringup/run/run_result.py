@@ -139,7 +139,7 @@ class _State:
 
     def _link_state(self, link: Link) -> _LinkJson:
         index = next(self._link)
-        pose, twist = pose_of(self._snapshot.poses[index]), self._snapshot.twists[index]
+        pose, twist = pose_from_row(self._snapshot.poses[index]), self._snapshot.twists[index]
         return {"name": link.name, "pose": pose.as_list(), "twist": [float(v) for v in twist]}
 
     def _joint_state(self, joint: Joint) -> _JointJson:
@@ -155,7 +155,7 @@ def _one_or_all(axes: list[float]) -> float | list[float]:
     return axes[0] if axes else 0.0
 
 
-def pose_of(row: Sequence[float]) -> Pose:
+def pose_from_row(row: Sequence[float]) -> Pose:
     """One row of `Snapshot.poses`, x y z qw qx qy qz, as a Pose."""
     x, y, z, qw, qx, qy, qz = map(float, row)
     return Pose((x, y, z), (qw, qx, qy, qz))

@@ -37,7 +37,7 @@ class Context(Struct, frozen=True, kw_only=True):
     seed: int = 0
     """Of what is placed at random."""
     ignored: set[tuple[str, str, str]] = field(default_factory=set[tuple[str, str, str]])
-    """File, element and child of what `leave_out` has named."""
+    """File, element and child of what `warn_unsupported` has named."""
 
     def for_include(self, file: Path, version: Version) -> "Context":
         """The context of a file that this one includes."""

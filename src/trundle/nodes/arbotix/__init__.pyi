@@ -1,2 +1,2 @@
 from .driver import ArbotixDriver as ArbotixDriver
-from .gripper import GripperController as GripperController
+from .gripper_controller import GripperController as GripperController

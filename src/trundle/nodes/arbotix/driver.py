@@ -3,12 +3,12 @@
 from trundle.ros import Message, MessageError, Node, NodeParams, ParamError
 
 from ..host import NodeHost
-from ..rate import Cadence, Rate
-from .diff import DiffController
-from .follow import FollowController
-from .linear import LinearController, LinearJoint
-from .part import Controller, Joint, JointReading
-from .servos import DynamixelServo, HobbyServo, ServoController
+from ..rate import Rate, RateDivider
+from .controller import ArbotixController, ArbotixJoint, JointReading
+from .diff_controller import DiffController
+from .follow_controller import FollowController
+from .linear_controller import LinearController, LinearJoint
+from .servo_controller import DynamixelServo, HobbyServo, ServoController
 
 
 class ArbotixDriver:
@@ -17,8 +17,8 @@ class ArbotixDriver:
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
-        self._joints: dict[str, Joint] = {}
-        self._controllers: list[Controller] = []
+        self._joints: dict[str, ArbotixJoint] = {}
+        self._controllers: list[ArbotixController] = []
 
     async def run(self) -> int:
         """Read the parameters, then loop at `~rate`."""
@@ -37,9 +37,9 @@ class ArbotixDriver:
     async def _loop(self, settings: NodeParams) -> int:
         node = self._node
         rate_hz = settings.rate_hz("rate", 100.0)
-        diagnostics = Cadence(node.clock.now_ns, settings.rate_hz("diagnostic_rate", 1.0))
+        diagnostics = RateDivider(node.clock.now_ns, settings.rate_hz("diagnostic_rate", 1.0))
         self._diagnostics = node.advertise("diagnostics", "diagnostic_msgs/DiagnosticArray", queue_size=5)
-        joint_states = Cadence(node.clock.now_ns, settings.rate_hz("read_rate", 10.0))
+        joint_states = RateDivider(node.clock.now_ns, settings.rate_hz("read_rate", 10.0))
         self._joint_states = node.advertise("joint_states", "sensor_msgs/JointState", queue_size=5)
         node.log_info("ArbotiX being simulated.")
         self._add_joints(settings.section("joints"))

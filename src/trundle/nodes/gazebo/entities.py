@@ -61,7 +61,7 @@ def find_model(simulation: Simulation, name: str) -> ModelHandle:
     return simulation[name]
 
 
-def world_from(simulation: Simulation, entity: str) -> Pose:
+def world_from_entity(simulation: Simulation, entity: str) -> Pose:
     """Where an entity is: a model, a link, or the world by any of its names.
 
     Raises:

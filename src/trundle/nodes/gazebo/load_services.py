@@ -3,36 +3,38 @@
 from typing import Any
 
 from trundle.diagnostics import UsageError
-from trundle.ros import Message, Node, ns_of
+from trundle.ros import Message, Node, to_nsec
 from trundle.simulation import JointHandle, LinkHandle, expect_finite
 from trundle.spatial import Wrench, cross
 
 from ..host import Simulator
-from .entities import find_joint, find_link, is_world, world_from
-from .messages import provide, vector_of
+from .entities import find_joint, find_link, is_world, world_from_entity
+from .messages import advertise_status_service, read_vector
 from .timed_loads import TimedLoads
 
 
 def advertise_load_services(node: Node, simulator: Simulator) -> None:
     """Provide apply_body_wrench, clear_body_wrenches, apply_joint_effort and clear_joint_forces (old: efforts)."""
-    efforts = _Efforts(node, simulator)
-    provide(node, "apply_body_wrench", "ApplyBodyWrench", efforts.push, "")
-    provide(node, "apply_joint_effort", "ApplyJointEffort", efforts.turn, "ApplyJointEffort: effort set")
-    node.advertise_service("~clear_body_wrenches", "gazebo_msgs/BodyRequest", efforts.let_go_of_link)
-    node.advertise_service("~clear_joint_forces", "gazebo_msgs/JointRequest", efforts.let_go_of_joint)
-    node.advertise_service("~clear_joint_efforts", "gazebo_msgs/JointRequest", efforts.let_go_of_joint)
+    efforts = _LoadServices(node, simulator)
+    advertise_status_service(node, "apply_body_wrench", "ApplyBodyWrench", efforts.apply_body_wrench, "")
+    advertise_status_service(
+        node, "apply_joint_effort", "ApplyJointEffort", efforts.apply_joint_effort, "ApplyJointEffort: effort set"
+    )
+    node.advertise_service("~clear_body_wrenches", "gazebo_msgs/BodyRequest", efforts.clear_body_wrenches)
+    node.advertise_service("~clear_joint_forces", "gazebo_msgs/JointRequest", efforts.clear_joint_forces)
+    node.advertise_service("~clear_joint_efforts", "gazebo_msgs/JointRequest", efforts.clear_joint_forces)
 
 
-class _Efforts:
+class _LoadServices:
     def __init__(self, node: Node, simulator: Simulator) -> None:
         self._node = node
         self._simulator = simulator
         self._wrenches = TimedLoads[LinkHandle, Wrench](simulator.simulation, _push)
         self._efforts = TimedLoads[JointHandle, float](simulator.simulation, _turn)
         for schedule in (self._wrenches, self._efforts):
-            simulator.post(schedule.begin)
+            simulator.post(schedule.start)
 
-    def push(self, request: Message) -> dict[str, Any]:
+    def apply_body_wrench(self, request: Message) -> dict[str, Any]:
         """Hold a wrench for a time: its force acts at the centre of mass, and turns by the arm of its point.
 
         The arm is that of the reference point about the link's origin; where the reference is the world, that of the
@@ -41,9 +43,9 @@ class _Efforts:
         """
         simulation = self._simulator.simulation
         link = find_link(simulation, request.body_name)
-        frame = world_from(simulation, request.reference_frame)
-        force, torque = (frame.transform_vector(vector_of(v)) for v in (request.wrench.force, request.wrench.torque))
-        arm = frame.transform_point(vector_of(request.reference_point))
+        frame = world_from_entity(simulation, request.reference_frame)
+        force, torque = (frame.transform_vector(read_vector(v)) for v in (request.wrench.force, request.wrench.torque))
+        arm = frame.transform_point(read_vector(request.reference_point))
         if not is_world(request.reference_frame):
             x, y, z = link.pose.position
             arm = (arm[0] - x, arm[1] - y, arm[2] - z)
@@ -51,7 +53,7 @@ class _Efforts:
         self._wrenches.add(link, wrench, **_times(request))
         return {}
 
-    def turn(self, request: Message) -> dict[str, Any]:
+    def apply_joint_effort(self, request: Message) -> dict[str, Any]:
         """Hold an effort on a joint for a time."""
         joint = find_joint(self._simulator.simulation, request.joint_name)
         expect_finite(request.effort)
@@ -60,7 +62,7 @@ class _Efforts:
         self._efforts.add(joint, float(request.effort), **_times(request))
         return {}
 
-    def let_go_of_link(self, request: Message) -> dict[str, Any]:
+    def clear_body_wrenches(self, request: Message) -> dict[str, Any]:
         """Apply nothing any more; of what is not there, gazebo_ros says nothing either."""
         try:
             self._wrenches.clear(find_link(self._simulator.simulation, request.body_name))
@@ -68,7 +70,7 @@ class _Efforts:
             self._node.log_warn(str(error))
         return {}
 
-    def let_go_of_joint(self, request: Message) -> dict[str, Any]:
+    def clear_joint_forces(self, request: Message) -> dict[str, Any]:
         """Drive it no more than its controllers do."""
         try:
             self._efforts.clear(find_joint(self._simulator.simulation, request.joint_name))
@@ -88,4 +90,4 @@ def _turn(joint: JointHandle, efforts: list[float]) -> None:
 
 
 def _times(request: Message) -> dict[str, int]:
-    return {"start_ns": ns_of(request.start_time), "duration_ns": ns_of(request.duration)}
+    return {"start_ns": to_nsec(request.start_time), "duration_ns": to_nsec(request.duration)}

@@ -26,7 +26,7 @@ def twist_fields(twist: Twist) -> dict[str, Any]:
     return {"linear": vector_fields(twist.linear), "angular": vector_fields(twist.angular)}
 
 
-def vector_of(message: Message) -> Vector3:
+def read_vector(message: Message) -> Vector3:
     """Read a Vector3 or Point.
 
     Raises:
@@ -36,7 +36,7 @@ def vector_of(message: Message) -> Vector3:
     return (float(message.x), float(message.y), float(message.z))
 
 
-def pose_of(message: Message) -> Pose:
+def read_pose(message: Message) -> Pose:
     """Read a Pose; an orientation of zeros, which a request that leaves it out holds, is none.
 
     Raises:
@@ -46,19 +46,21 @@ def pose_of(message: Message) -> Pose:
     expect_finite(q.w, q.x, q.y, q.z)
     length = math.hypot(q.w, q.x, q.y, q.z)
     turn = (q.w / length, q.x / length, q.y / length, q.z / length) if length > 0.0 else IDENTITY_QUATERNION
-    return Pose(vector_of(message.position), turn)
+    return Pose(read_vector(message.position), turn)
 
 
-def twist_of(message: Message) -> Twist:
+def read_twist(message: Message) -> Twist:
     """Read a Twist.
 
     Raises:
         UsageError: a number is none, or endless.
     """
-    return Twist(vector_of(message.linear), vector_of(message.angular))
+    return Twist(read_vector(message.linear), read_vector(message.angular))
 
 
-def provide(node: Node, name: str, kind: str, work: Callable[[Message], dict[str, Any]], done: str) -> None:
+def advertise_status_service(
+    node: Node, name: str, kind: str, work: Callable[[Message], dict[str, Any]], done: str
+) -> None:
     """Provide a service that says in `status_message` how it went, as those of gazebo_ros do.
 
     Args:

@@ -6,25 +6,27 @@ from typing import Any
 from trundle.ros import Message, Node
 
 from ..host import Simulator
-from .entities import world_from
-from .messages import pose_of, provide
+from .entities import world_from_entity
+from .messages import advertise_status_service, read_pose
 
 
 def advertise_model_services(node: Node, simulator: Simulator) -> None:
     """Provide spawn_urdf_model, spawn_sdf_model and delete_model."""
     for name in ("spawn_urdf_model", "spawn_sdf_model"):
-        provide(node, name, "SpawnModel", _spawn(node, simulator), "SpawnModel: Successfully spawned entity")
+        advertise_status_service(
+            node, name, "SpawnModel", _spawn(node, simulator), "SpawnModel: Successfully spawned entity"
+        )
 
     def delete(request: Message) -> dict[str, Any]:
         simulator.delete(request.model_name)
         return {}
 
-    provide(node, "delete_model", "DeleteModel", delete, "DeleteModel: successfully deleted model")
+    advertise_status_service(node, "delete_model", "DeleteModel", delete, "DeleteModel: successfully deleted model")
 
 
 def _spawn(node: Node, simulator: Simulator) -> Callable[[Message], dict[str, Any]]:
     def spawn(request: Message) -> dict[str, Any]:
-        pose = world_from(simulator.simulation, request.reference_frame) @ pose_of(request.initial_pose)
+        pose = world_from_entity(simulator.simulation, request.reference_frame) @ read_pose(request.initial_pose)
         simulator.spawn(
             request.model_xml, name=request.model_name, world_from_model=pose, namespace=request.robot_namespace
         )

@@ -27,11 +27,11 @@ class OdeSettings:
     def __init__(self) -> None:
         self.values: dict[str, Setting] = {name: value for name, value, _, _ in _SETTINGS}
 
-    def put(self, config: Message) -> list[str]:
+    def update_config(self, config: Message) -> list[str]:
         """Keep those of a gazebo_msgs/ODEPhysics; return which are others now."""
-        return self.keep({name: getattr(config, name) for name in self.values})
+        return self.update({name: getattr(config, name) for name in self.values})
 
-    def keep(self, values: dict[str, Setting]) -> list[str]:
+    def update(self, values: dict[str, Setting]) -> list[str]:
         """Keep some; return which are others now."""
         changed = [name for name, value in values.items() if value != self.values[name]]
         self.values.update(values)

@@ -8,7 +8,7 @@ from trundle.ros import Message, Node
 
 from ..host import Simulator
 from .entities import find_joint, find_light, find_link, find_model
-from .messages import pose_fields, provide, vector_fields
+from .messages import advertise_status_service, pose_fields, vector_fields
 from .ode import OdeSettings
 
 _JOINT_TYPES = {
@@ -23,24 +23,24 @@ _CONTINUOUS = 1
 
 def advertise_property_getters(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
     """Provide the get_…_properties."""
-    properties = _Properties(simulator, ode)
+    properties = _PropertyGetters(simulator, ode)
     for name, kind, work in (
-        ("get_world_properties", "GetWorldProperties", properties.of_world),
-        ("get_model_properties", "GetModelProperties", properties.of_model),
-        ("get_link_properties", "GetLinkProperties", properties.of_link),
-        ("get_joint_properties", "GetJointProperties", properties.of_joint),
-        ("get_physics_properties", "GetPhysicsProperties", properties.of_physics),
-        ("get_light_properties", "GetLightProperties", properties.of_light),
+        ("get_world_properties", "GetWorldProperties", properties.get_world_properties),
+        ("get_model_properties", "GetModelProperties", properties.get_model_properties),
+        ("get_link_properties", "GetLinkProperties", properties.get_link_properties),
+        ("get_joint_properties", "GetJointProperties", properties.get_joint_properties),
+        ("get_physics_properties", "GetPhysicsProperties", properties.get_physics_properties),
+        ("get_light_properties", "GetLightProperties", properties.get_light_properties),
     ):
-        provide(node, name, kind, work, f"{kind}: got properties")
+        advertise_status_service(node, name, kind, work, f"{kind}: got properties")
 
 
-class _Properties:
+class _PropertyGetters:
     def __init__(self, simulator: Simulator, ode: OdeSettings) -> None:
         self._simulator = simulator
         self._ode = ode
 
-    def of_world(self, _request: Message) -> dict[str, Any]:
+    def get_world_properties(self, _request: Message) -> dict[str, Any]:
         simulation = self._simulator.simulation
         return {
             "sim_time": simulation.time_ns / 1e9,
@@ -48,7 +48,7 @@ class _Properties:
             "rendering_enabled": True,
         }
 
-    def of_model(self, request: Message) -> dict[str, Any]:
+    def get_model_properties(self, request: Message) -> dict[str, Any]:
         model = find_model(self._simulator.simulation, request.model_name)
         own = [link for link in model.links if "::" not in link.name]
         inner = [link for link in model.links if "::" in link.name]
@@ -61,7 +61,7 @@ class _Properties:
             "is_static": model.model.static,
         }
 
-    def of_link(self, request: Message) -> dict[str, Any]:
+    def get_link_properties(self, request: Message) -> dict[str, Any]:
         link = find_link(self._simulator.simulation, request.link_name).link
         inertial = link.inertial
         (ixx, iyy, izz), (ixy, ixz, iyz) = inertial.moments, inertial.products
@@ -77,7 +77,7 @@ class _Properties:
             "iyz": iyz,
         }
 
-    def of_joint(self, request: Message) -> dict[str, Any]:
+    def get_joint_properties(self, request: Message) -> dict[str, Any]:
         handle = find_joint(self._simulator.simulation, request.joint_name)
         joint = handle.joint
         endless = joint.type is JointType.REVOLUTE and joint.axis is not None and joint.axis.upper == math.inf
@@ -88,7 +88,7 @@ class _Properties:
             "rate": list(handle.velocities),
         }
 
-    def of_physics(self, _request: Message) -> dict[str, Any]:
+    def get_physics_properties(self, _request: Message) -> dict[str, Any]:
         physics = self._simulator.simulation.world.physics
         return {
             "time_step": physics.max_step_size_s,
@@ -98,7 +98,7 @@ class _Properties:
             "ode_config": self._ode.values,
         }
 
-    def of_light(self, request: Message) -> dict[str, Any]:
+    def get_light_properties(self, request: Message) -> dict[str, Any]:
         light = find_light(self._simulator.simulation.world, request.light_name)
         return {
             "diffuse": dict(zip("rgba", light.diffuse, strict=True)),

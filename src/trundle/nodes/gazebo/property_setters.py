@@ -13,7 +13,7 @@ from trundle.spatial import Vector3
 
 from ..host import Simulator
 from .entities import find_joint, find_light, find_link
-from .messages import pose_of, provide, vector_of
+from .messages import advertise_status_service, read_pose, read_vector
 from .ode import IGNORED, OdeSettings
 
 _NO_COUNTERPART = ("erp", "cfm", "stop_erp", "stop_cfm", "fudge_factor")
@@ -25,15 +25,25 @@ SHORTEST_S, LONGEST_S = 1e-6, 1.0
 
 def advertise_property_setters(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
     """Provide set_physics_, set_link_, set_joint_ and set_light_properties, and delete_light."""
-    changes = _Changes(simulator, ode)
+    changes = _PropertySetters(simulator, ode)
     for name, kind, work, done in (
-        ("set_physics_properties", "SetPhysicsProperties", changes.of_physics, _UPDATED),
-        ("set_link_properties", "SetLinkProperties", changes.of_link, "SetLinkProperties: properties set"),
-        ("set_joint_properties", "SetJointProperties", changes.of_joint, "SetJointProperties: properties set"),
-        ("set_light_properties", "SetLightProperties", changes.of_light, "SetLightProperties: properties set"),
+        ("set_physics_properties", "SetPhysicsProperties", changes.set_physics_properties, _UPDATED),
+        ("set_link_properties", "SetLinkProperties", changes.set_link_properties, "SetLinkProperties: properties set"),
+        (
+            "set_joint_properties",
+            "SetJointProperties",
+            changes.set_joint_properties,
+            "SetJointProperties: properties set",
+        ),
+        (
+            "set_light_properties",
+            "SetLightProperties",
+            changes.set_light_properties,
+            "SetLightProperties: properties set",
+        ),
         ("delete_light", "DeleteLight", changes.delete_light, "DeleteLight: successfully deleted light"),
     ):
-        provide(node, name, kind, work, done)
+        advertise_status_service(node, name, kind, work, done)
 
 
 def set_physics(simulator: Simulator, *, step_s: float, gravity: Vector3, rate_hz: float) -> None:
@@ -55,30 +65,30 @@ def set_physics(simulator: Simulator, *, step_s: float, gravity: Vector3, rate_h
         simulator.set_speed(speed or None)
 
 
-class _Changes:
+class _PropertySetters:
     def __init__(self, simulator: Simulator, ode: OdeSettings) -> None:
         self._simulator = simulator
         self._ode = ode
 
-    def of_physics(self, request: Message) -> dict[str, Any]:
+    def set_physics_properties(self, request: Message) -> dict[str, Any]:
         """The time step, gravity and the rate at which steps are taken; ODE's own settings are kept, and do nothing."""
         set_physics(
             self._simulator,
             step_s=float(request.time_step),
-            gravity=vector_of(request.gravity),
+            gravity=read_vector(request.gravity),
             rate_hz=float(request.max_update_rate),
         )
-        ignored = self._ode.put(request.ode_config)
+        ignored = self._ode.update_config(request.ode_config)
         note = f"{_UPDATED}; {IGNORED}{', '.join(ignored)}"
         return {"status_message": note} if ignored else {}
 
-    def of_link(self, request: Message) -> dict[str, Any]:
+    def set_link_properties(self, request: Message) -> dict[str, Any]:
         """Mass, centre of mass, inertia, and whether gravity pulls."""
         simulation = self._simulator.simulation
         handle = find_link(simulation, request.link_name)
         inertial = Inertial(
             mass=float(request.mass),
-            link_from_com=pose_of(request.com),
+            link_from_com=read_pose(request.com),
             moments=(float(request.ixx), float(request.iyy), float(request.izz)),
             products=(float(request.ixy), float(request.ixz), float(request.iyz)),
         )
@@ -89,7 +99,7 @@ class _Changes:
         self._put(replace(model, links=_with(model.links, link)))
         return {}
 
-    def of_joint(self, request: Message) -> dict[str, Any]:
+    def set_joint_properties(self, request: Message) -> dict[str, Any]:
         """Damping and limits of each axis, and the motor of ODE that fmax and vel are."""
         simulation = self._simulator.simulation
         handle = find_joint(simulation, request.joint_name)
@@ -111,11 +121,11 @@ class _Changes:
         note = f"SetJointProperties: properties set; without effect here: {', '.join(ignored)}"
         return {"status_message": note} if ignored else {}
 
-    def of_light(self, request: Message) -> dict[str, Any]:
+    def set_light_properties(self, request: Message) -> dict[str, Any]:
         """Colours, reach, and where it is."""
         world = self._simulator.simulation.world
         light = find_light(world, request.light_name)
-        direction = vector_of(request.direction)
+        direction = read_vector(request.direction)
         length = math.hypot(*direction)
         x, y, z = direction
         changed = replace(
@@ -127,7 +137,7 @@ class _Changes:
             linear=float(request.attenuation_linear),
             quadratic=float(request.attenuation_quadratic),
             direction=(x / length, y / length, z / length) if length > 0.0 else light.direction,
-            world_from_light=pose_of(request.pose),
+            world_from_light=read_pose(request.pose),
         )
         self._light(light, [changed])
         return {}

@@ -32,7 +32,7 @@ def advertise_options(node: Node, simulator: Simulator, ode: OdeSettings) -> Non
         step_s, rate_hz = float(values[step.name]), float(values[rate.name])
         set_physics(simulator, step_s=step_s, gravity=(x, y, z), rate_hz=rate_hz)
         kept = {name: value for name, value in values.items() if name in ode.values and not isinstance(value, str)}
-        ignored = ode.keep(kept)
+        ignored = ode.update(kept)
         if ignored:
             node.log_warn(f"{IGNORED}{', '.join(ignored)}")
         return values

@@ -8,10 +8,10 @@ from trundle.ros import Node
 
 from ..host import NodeHost, Simulator
 from .load_services import advertise_load_services
-from .metrics import MetricsTopic
 from .model_services import advertise_model_services
 from .ode import OdeSettings
 from .pause_services import advertise_pause_services
+from .performance_metrics import MetricsTopic
 from .property_getters import advertise_property_getters
 from .property_setters import advertise_property_setters
 from .reconfigure import advertise_options
@@ -70,11 +70,11 @@ class GazeboServer:
         topics, metrics = StateTopics(node, simulator), MetricsTopic(node, simulator)
         self._advertise(simulator)
         while not node.closed.is_set():
-            if simulator.paused and not simulator.in_step and topics.wanted():
+            if simulator.paused and not simulator.is_lockstep and topics.has_subscribers():
                 simulator.post(topics.publish)
             if metrics.due():
                 simulator.post(metrics.publish)
-            if simulator.in_step:
+            if simulator.is_lockstep:
                 await node.clock.sleep(topics.period_s)
             else:  # by the wall's clock: a paused world is still told of
                 await asyncio.sleep(topics.period_s)

@@ -44,7 +44,7 @@ class SpawnRequest:
         rest = _parted(words)
         try:
             for word in rest:
-                request._take(word, rest)
+                request._read_option(word, rest)
         except StopIteration:
             raise UsageError(f"{words[-1]} needs a value") from None
         except ValueError as error:
@@ -53,7 +53,7 @@ class SpawnRequest:
             raise UsageError("-model NAME is missing")
         return request
 
-    def _take(self, given: str, rest: Iterator[str]) -> None:
+    def _read_option(self, given: str, rest: Iterator[str]) -> None:
         word = "-" + given.lstrip("-")  # --x, which no distribution has, is a slip that is easily understood
         word = _OTHERWISE.get(word, word)
         if word in _KINDS:

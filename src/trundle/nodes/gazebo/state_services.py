@@ -8,36 +8,36 @@ from trundle.simulation import LinkHandle, Simulation, expect_finite
 from trundle.spatial import Pose, Twist
 
 from ..host import Simulator
-from .entities import find_link, find_model, is_world, world_from
-from .messages import pose_fields, pose_of, provide, twist_fields, twist_of
+from .entities import find_link, find_model, is_world, world_from_entity
+from .messages import advertise_status_service, pose_fields, read_pose, read_twist, twist_fields
 
 
 def advertise_state_services(node: Node, simulator: Simulator) -> None:
     """Provide get_ and set_model_state, get_ and set_link_state, set_model_configuration, and the two set_ topics."""
-    states = _States(simulator)
+    states = _StateServices(simulator)
     for name, kind, work, done in (
-        ("get_model_state", "GetModelState", states.get_model, "got properties"),
-        ("get_link_state", "GetLinkState", states.get_link, "got state"),
-        ("set_model_state", "SetModelState", states.set_model_asked, "set model state done"),
-        ("set_link_state", "SetLinkState", states.set_link_asked, "success"),
-        ("set_model_configuration", "SetModelConfiguration", states.configure, "success"),
+        ("get_model_state", "GetModelState", states.get_model_state, "got properties"),
+        ("get_link_state", "GetLinkState", states.get_link_state, "got state"),
+        ("set_model_state", "SetModelState", states.set_model_state, "set model state done"),
+        ("set_link_state", "SetLinkState", states.set_link_state, "success"),
+        ("set_model_configuration", "SetModelConfiguration", states.set_model_configuration, "success"),
     ):
-        provide(node, name, kind, work, f"{kind}: {done}")
+        advertise_status_service(node, name, kind, work, f"{kind}: {done}")
     for name, kind, work in (
-        ("set_model_state", "ModelState", states.set_model),
-        ("set_link_state", "LinkState", states.set_link),
+        ("set_model_state", "ModelState", states.on_model_state),
+        ("set_link_state", "LinkState", states.on_link_state),
     ):
         node.subscribe(f"~{name}", f"gazebo_msgs/{kind}", lambda message, work=work: _tried(node, work, message))
 
 
-class _States:
+class _StateServices:
     def __init__(self, simulator: Simulator) -> None:
         self._simulator = simulator
 
-    def get_model(self, request: Message) -> dict[str, Any]:
+    def get_model_state(self, request: Message) -> dict[str, Any]:
         simulation = self._simulator.simulation
         model = find_model(simulation, request.model_name)
-        frame = world_from(simulation, request.relative_entity_name)
+        frame = world_from_entity(simulation, request.relative_entity_name)
         twist = model.base.twist if model.links else Twist()
         return {
             "header": {"stamp": simulation.time_ns, "frame_id": request.relative_entity_name},
@@ -45,10 +45,10 @@ class _States:
             "twist": twist_fields(_seen_from(simulation, frame, request.relative_entity_name, model.pose, twist)),
         }
 
-    def get_link(self, request: Message) -> dict[str, Any]:
+    def get_link_state(self, request: Message) -> dict[str, Any]:
         simulation = self._simulator.simulation
         link = find_link(simulation, request.link_name)
-        frame = world_from(simulation, request.reference_frame)
+        frame = world_from_entity(simulation, request.reference_frame)
         twist = _seen_from(simulation, frame, request.reference_frame, link.pose, link.twist)
         return {
             "link_state": {
@@ -59,32 +59,32 @@ class _States:
             }
         }
 
-    def set_model_asked(self, request: Message) -> dict[str, Any]:
-        return self.set_model(request.model_state)
+    def set_model_state(self, request: Message) -> dict[str, Any]:
+        return self.on_model_state(request.model_state)
 
-    def set_link_asked(self, request: Message) -> dict[str, Any]:
-        return self.set_link(request.link_state)
+    def set_link_state(self, request: Message) -> dict[str, Any]:
+        return self.on_link_state(request.link_state)
 
-    def set_model(self, state: Message) -> dict[str, Any]:
+    def on_model_state(self, state: Message) -> dict[str, Any]:
         simulation = self._simulator.simulation
         model = find_model(simulation, state.model_name)
-        frame = world_from(simulation, state.reference_frame)
-        pose, twist = frame @ pose_of(state.pose), _turned(frame, twist_of(state.twist))
+        frame = world_from_entity(simulation, state.reference_frame)
+        pose, twist = frame @ read_pose(state.pose), _turned(frame, read_twist(state.twist))
         model.set_pose(pose)
         if not model.model.static:
             model.set_link_twists(twist)
         return {}
 
-    def set_link(self, state: Message) -> dict[str, Any]:
+    def on_link_state(self, state: Message) -> dict[str, Any]:
         simulation = self._simulator.simulation
         link = find_link(simulation, state.link_name)
-        frame = world_from(simulation, state.reference_frame)
-        pose, twist = frame @ pose_of(state.pose), _turned(frame, twist_of(state.twist))
+        frame = world_from_entity(simulation, state.reference_frame)
+        pose, twist = frame @ read_pose(state.pose), _turned(frame, read_twist(state.twist))
         link.set_pose(pose)
         link.set_twist(twist)
         return {}
 
-    def configure(self, request: Message) -> dict[str, Any]:
+    def set_model_configuration(self, request: Message) -> dict[str, Any]:
         model = find_model(self._simulator.simulation, request.model_name)
         if len(request.joint_names) != len(request.joint_positions):
             raise UsageError(f"{len(request.joint_names)} joints, but {len(request.joint_positions)} positions")

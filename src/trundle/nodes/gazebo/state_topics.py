@@ -34,7 +34,7 @@ class StateTopics:
         )
         self._topics = [_StateTopic(node, simulator, name, kind, rows) for name, kind, rows in kinds]
 
-    def wanted(self) -> bool:
+    def has_subscribers(self) -> bool:
         """Whether anybody listens."""
         return any(topic.publisher.has_subscribers for topic in self._topics)
 
@@ -69,7 +69,7 @@ class _StateTopic:
         self._publish_at_rest()
 
     def _publish_at_rest(self) -> None:
-        if self._simulator.in_step and self._simulator.paused:
+        if self._simulator.is_lockstep and self._simulator.paused:
             self.publish(self._simulator.simulation.snapshot())
 
     def publish(self, snapshot: Snapshot) -> None:

@@ -11,7 +11,7 @@ Load = TypeVar("Load")
 
 
 @dataclass(frozen=True, slots=True)
-class _Job(Generic[Target, Load]):
+class _ScheduledLoad(Generic[Target, Load]):
     target: Target
     load: Load
     start_ns: int
@@ -31,34 +31,34 @@ class TimedLoads(Generic[Target, Load]):
         """
         self._simulation = simulation
         self._put = put
-        self._jobs: list[_Job[Target, Load]] = []
+        self._jobs: list[_ScheduledLoad[Target, Load]] = []
         self._acting: dict[Target, list[Load]] = {}
         self._next_ns: int | None = None
         """When something begins or ends."""
 
-    def begin(self) -> None:
+    def start(self) -> None:
         """Follow the simulation's time."""
         self._simulation.add_hook(self, enabled=lambda: self._next_ns is not None)
-        self._simulation.on_reset(self._forget)
+        self._simulation.on_reset(self._on_reset)
 
     def add(self, target: Target, load: Load, *, start_ns: int, duration_ns: int) -> None:
         """Push from a time that is not over yet, for so long: one step at least; less than zero: for ever."""
         start_ns = max(start_ns, self._simulation.time_ns)
         end_ns = None if duration_ns < 0 else start_ns + max(duration_ns, self._simulation.step_ns)
-        self._jobs.append(_Job(target, load, start_ns, end_ns))
-        self._look()
+        self._jobs.append(_ScheduledLoad(target, load, start_ns, end_ns))
+        self._reschedule()
 
     def clear(self, target: Target) -> None:
         """Push it no more."""
         self._jobs = [job for job in self._jobs if job.target is not target]
-        self._look()
+        self._reschedule()
 
     def before_step(self, simulation: Simulation) -> None:
         """Begin and end what is due."""
         if self._next_ns is not None and simulation.time_ns >= self._next_ns:
-            self._look()
+            self._reschedule()
 
-    def _look(self) -> None:
+    def _reschedule(self) -> None:
         now = self._simulation.time_ns
         self._jobs = [job for job in self._jobs if job.target.is_valid and (job.end_ns is None or job.end_ns > now)]
         acting: dict[Target, list[Load]] = {}
@@ -73,7 +73,7 @@ class TimedLoads(Generic[Target, Load]):
         times = [time for job in self._jobs for time in (job.start_ns, job.end_ns) if time is not None and time > now]
         self._next_ns = min(times, default=None)
 
-    def _forget(self) -> None:
+    def _on_reset(self) -> None:
         """Time or the poses were reset, which takes away whatever pushed."""
         self._jobs.clear()
         self._acting.clear()

@@ -10,7 +10,7 @@ from trundle.diagnostics import UsageError
 from trundle.ros import Message, Node
 
 from ..host import NodeHost
-from .occupancy import OccupancyMap, write_map
+from .occupancy_grid import OccupancyGrid, write_map
 
 _USAGE = "usage: map_saver [--occ 1…100] [--free 0…100] [-f NAME]"
 
@@ -56,9 +56,9 @@ class MapSaver:
         return 0
 
 
-def _grid_of(message: Message) -> OccupancyMap:
+def _grid_of(message: Message) -> OccupancyGrid:
     info, turn = message.info, message.info.origin.orientation
     cells = np.asarray(message.data, dtype=np.int8).reshape(info.height, info.width)
     yaw = math.atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y**2 + turn.z**2))
     where = info.origin.position
-    return OccupancyMap(cells=cells, resolution_m=float(info.resolution), origin=(where.x, where.y, yaw))
+    return OccupancyGrid(cells=cells, resolution_m=float(info.resolution), origin=(where.x, where.y, yaw))

@@ -12,7 +12,7 @@ from trundle.diagnostics import UsageError
 from trundle.ros import Message, Node, NodeParams, ParamError
 
 from ..host import NodeHost
-from .occupancy import OccupancyMap, positive, read_cells, read_map
+from .occupancy_grid import OccupancyGrid, positive, read_cells, read_map
 
 _USAGE = "usage: map_server MAP.yaml"
 _SUCCESS, _DOES_NOT_EXIST, _INVALID = 0, 1, 2
@@ -46,12 +46,12 @@ class MapServer:
         except (ParamError, UsageError) as error:
             node.log_error(str(error))
             return 255
-        node.advertise_service("static_map", "nav_msgs/GetMap", self._give)
-        node.advertise_service("change_map", "nav_msgs/LoadMap", self._change)
+        node.advertise_service("static_map", "nav_msgs/GetMap", self._get_map)
+        node.advertise_service("change_map", "nav_msgs/LoadMap", self._change_map)
         await node.closed.wait()
         return 0
 
-    async def _load(self, read: Callable[[], OccupancyMap]) -> None:
+    async def _load(self, read: Callable[[], OccupancyGrid]) -> None:
         with self._node.loop.work.pending():
             grid = await asyncio.to_thread(read)
         self._fields = grid_fields(grid, frame=self._frame, stamp_ns=self._node.clock.now_ns())
@@ -60,10 +60,10 @@ class MapServer:
         self._metadata.publish(self._fields["info"])
         self._map.publish(self._fields)
 
-    def _give(self, _request: Message) -> dict[str, Any]:
+    def _get_map(self, _request: Message) -> dict[str, Any]:
         return {"map": self._fields}
 
-    async def _change(self, request: Message) -> dict[str, Any]:
+    async def _change_map(self, request: Message) -> dict[str, Any]:
         file = Path(request.map_url.removeprefix("file://"))
         try:
             await self._load(partial(read_map, file))
@@ -73,7 +73,7 @@ class MapServer:
         return {"map": self._fields, "result": _SUCCESS}
 
 
-def _read_picture(picture: Path, resolution: str, settings: NodeParams) -> OccupancyMap:
+def _read_picture(picture: Path, resolution: str, settings: NodeParams) -> OccupancyGrid:
     """Read a picture as the command line of old has it: thresholds are parameters, its corner is the origin."""
     try:
         resolution_m = positive(float(resolution), picture)
@@ -85,10 +85,10 @@ def _read_picture(picture: Path, resolution: str, settings: NodeParams) -> Occup
         occupied=settings.number("occupied_thresh", 0.65),
         free=settings.number("free_thresh", 0.196),
     )
-    return OccupancyMap(cells=cells, resolution_m=resolution_m, origin=(0.0, 0.0, 0.0))
+    return OccupancyGrid(cells=cells, resolution_m=resolution_m, origin=(0.0, 0.0, 0.0))
 
 
-def grid_fields(grid: OccupancyMap, *, frame: str, stamp_ns: int) -> dict[str, Any]:
+def grid_fields(grid: OccupancyGrid, *, frame: str, stamp_ns: int) -> dict[str, Any]:
     """A nav_msgs/OccupancyGrid."""
     x, y, yaw = grid.origin
     height, width = grid.cells.shape

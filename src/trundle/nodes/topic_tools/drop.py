@@ -23,16 +23,16 @@ class Drop:
         if not 3 <= len(words) <= 4 or len(counts) != 2 or counts[1] < 1:
             node.log_error(f"{_USAGE}; got {' '.join(words)!r}")
             return 1
-        outlet = RawPublisher(node, words[3] if len(words) > 3 else f"{words[0]}_drop")
+        output = RawPublisher(node, words[3] if len(words) > 3 else f"{words[0]}_drop")
         dropped, every = counts
         count = 0
 
         def take(message: RawMessage) -> None:
             nonlocal count
             if count >= dropped:
-                outlet.put(message)
+                output.publish(message)
             count = (count + 1) % every
 
-        RawSubscriber(node, words[0], take).open()
+        RawSubscriber(node, words[0], take).subscribe()
         await node.closed.wait()
         return 0

@@ -5,7 +5,7 @@ from typing import Any
 from trundle.ros import Message, Node, NodeParams, RawMessage, ServiceError
 
 from ..host import NodeHost
-from .raw_relay import RawPublisher, RawSubscriber, listen_lazily
+from .raw_relay import RawPublisher, RawSubscriber, subscribe_lazily
 
 _NONE = "__none"
 
@@ -17,7 +17,7 @@ class Mux:
         del host
         self._node = node
         self._arguments = arguments
-        self._inlets: dict[str, RawSubscriber] = {}
+        self._inputs: dict[str, RawSubscriber] = {}
         """Global name → its subscription, in the order given."""
         self._selected: str | None = None
 
@@ -28,19 +28,19 @@ class Mux:
             node.log_error(f"usage: mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 …]; got {' '.join(words)!r}")
             return 1
         settings = NodeParams(await node.get_param("~", {}), node.name)
-        self._outlet = RawPublisher(node, words[0], latch=settings.flag("latch", default=False))
+        self._output = RawPublisher(node, words[0], latch=settings.flag("latch", default=False))
         self._said = node.advertise("mux/selected", "std_msgs/String", latch=True, queue_size=1)
         for topic in words[1:]:
             self._add(topic)
         self._begin(settings.text("initial_topic", ""))
         node.advertise_service("mux/select", "topic_tools/MuxSelect", self._select)
-        node.advertise_service(f"{words[0]}_select", "topic_tools/MuxSelect", self._select_as_of_old)
-        node.advertise_service("mux/add", "topic_tools/MuxAdd", self._asked_to_add)
+        node.advertise_service(f"{words[0]}_select", "topic_tools/MuxSelect", self._select_legacy)
+        node.advertise_service("mux/add", "topic_tools/MuxAdd", self._add_service)
         node.advertise_service("mux/delete", "topic_tools/MuxDelete", self._delete)
         node.advertise_service("mux/list", "topic_tools/MuxList", self._list)
         if settings.flag("lazy", default=False):
-            await listen_lazily(
-                node, self._outlet, lambda: [(each, name == self._selected) for name, each in self._inlets.items()]
+            await subscribe_lazily(
+                node, self._output, lambda: [(each, name == self._selected) for name, each in self._inputs.items()]
             )
         await node.closed.wait()
         return 0
@@ -50,15 +50,15 @@ class Mux:
 
         def take(message: RawMessage) -> None:
             if self._selected == name:
-                self._outlet.put(message)
+                self._output.publish(message)
 
-        self._inlets[name] = RawSubscriber(self._node, name, take)
-        self._inlets[name].open()
+        self._inputs[name] = RawSubscriber(self._node, name, take)
+        self._inputs[name].subscribe()
 
     def _begin(self, topic: str) -> None:
         """Select the first input, or that of ~initial_topic; one that there is not is none."""
         try:
-            self._choose(topic or next(iter(self._inlets)))
+            self._choose(topic or next(iter(self._inputs)))
         except ServiceError as error:
             self._node.log_warn(f"~initial_topic: {error}; nothing is selected")
             self._choose(_NONE)
@@ -66,8 +66,8 @@ class Mux:
     def _choose(self, topic: str) -> str:
         """Select a topic; return what was selected before."""
         name = None if topic == _NONE else self._node.resolve(topic)
-        if name is not None and name not in self._inlets:
-            raise ServiceError(f"no input {name!r}; inputs: {', '.join(self._inlets) or 'none'}")
+        if name is not None and name not in self._inputs:
+            raise ServiceError(f"no input {name!r}; inputs: {', '.join(self._inputs) or 'none'}")
         before, self._selected = self._selected, name
         self._said.publish({"data": topic})
         return before or ""
@@ -75,13 +75,13 @@ class Mux:
     def _select(self, request: Message) -> dict[str, Any]:
         return {"prev_topic": self._choose(request.topic)}
 
-    def _select_as_of_old(self, request: Message) -> dict[str, Any]:
+    def _select_legacy(self, request: Message) -> dict[str, Any]:
         self._node.log_warn("the <topic>_select service is deprecated; use mux/select instead")
         return self._select(request)
 
-    def _asked_to_add(self, request: Message) -> dict[str, Any]:
+    def _add_service(self, request: Message) -> dict[str, Any]:
         name = self._node.resolve(request.topic)
-        if request.topic == _NONE or name in self._inlets:
+        if request.topic == _NONE or name in self._inputs:
             raise ServiceError(f"{request.topic!r} is an input already, or no name for one")
         self._add(name)
         return {}
@@ -90,11 +90,11 @@ class Mux:
         name = self._node.resolve(request.topic)
         if name == self._selected:
             raise ServiceError(f"{name!r} is selected; select another one first")
-        inlet = self._inlets.pop(name, None)
-        if inlet is None:
-            raise ServiceError(f"no input {name!r}; inputs: {', '.join(self._inlets) or 'none'}")
-        inlet.close()
+        source = self._inputs.pop(name, None)
+        if source is None:
+            raise ServiceError(f"no input {name!r}; inputs: {', '.join(self._inputs) or 'none'}")
+        source.unsubscribe()
         return {}
 
     def _list(self, _request: Message) -> dict[str, Any]:
-        return {"topics": list(self._inlets)}
+        return {"topics": list(self._inputs)}

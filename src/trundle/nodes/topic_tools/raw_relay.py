@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from trundle.ros import MessageError, Node, Publisher, RawMessage, Subscription
 
 _QUEUE = 100
-_LOOK_S = 0.1
+_POLL_S = 0.1
 
 
 class RawPublisher:
@@ -25,11 +25,11 @@ class RawPublisher:
         return self._publisher is not None
 
     @property
-    def wanted(self) -> bool:
+    def has_subscribers(self) -> bool:
         """Whether publishing reaches anybody; unknown until the type is."""
         return self._publisher is None or self._publisher.has_subscribers
 
-    def put(self, message: RawMessage) -> None:
+    def publish(self, message: RawMessage) -> None:
         """Publish bytes; a message of another type than the first is named and dropped."""
         node = self._node
         if self._publisher is None:
@@ -50,38 +50,38 @@ class RawPublisher:
 class RawSubscriber:
     """A subscription to messages of any type that can be let go and taken up again."""
 
-    def __init__(self, node: Node, topic: str, take: Callable[[RawMessage], None]) -> None:
+    def __init__(self, node: Node, topic: str, callback: Callable[[RawMessage], None]) -> None:
         self.topic = topic
         self._node = node
-        self._take = take
+        self._callback = callback
         self._subscription: Subscription | None = None
 
-    def open(self) -> None:
+    def subscribe(self) -> None:
         """Listen."""
         if self._subscription is None:
-            self._subscription = self._node.subscribe(self.topic, "*", self._take, queue_size=_QUEUE)
+            self._subscription = self._node.subscribe(self.topic, "*", self._callback, queue_size=_QUEUE)
 
-    def close(self) -> None:
+    def unsubscribe(self) -> None:
         """Stop listening."""
         if self._subscription is not None:
             self._subscription.unregister()
             self._subscription = None
 
 
-async def listen_lazily(
-    node: Node, outlet: RawPublisher, inlets: Callable[[], Iterable[tuple[RawSubscriber, bool]]]
+async def subscribe_lazily(
+    node: Node, output: RawPublisher, inputs: Callable[[], Iterable[tuple[RawSubscriber, bool]]]
 ) -> None:
     """Listen only while somebody listens to the outlet, and to everything until its type is known.
 
     Args:
         node: until it is closed.
-        outlet: what is listened to.
-        inlets: every one there is now, and whether it is the one that is passed on.
+        output: what is listened to.
+        inputs: every one there is now, and whether it is the one that is passed on.
     """
     while not node.closed.is_set():
-        for inlet, chosen in inlets():
-            if not outlet.is_typed or (chosen and outlet.wanted):
-                inlet.open()
+        for source, chosen in inputs():
+            if not output.is_typed or (chosen and output.has_subscribers):
+                source.subscribe()
             else:
-                inlet.close()
-        await asyncio.sleep(_LOOK_S)
+                source.unsubscribe()
+        await asyncio.sleep(_POLL_S)

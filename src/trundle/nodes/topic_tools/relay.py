@@ -5,7 +5,7 @@ import asyncio
 from trundle.ros import Node, NodeParams, RawMessage
 
 from ..host import NodeHost
-from .raw_relay import RawPublisher, RawSubscriber, listen_lazily
+from .raw_relay import RawPublisher, RawSubscriber, subscribe_lazily
 
 _USAGE = "usage: relay IN_TOPIC [OUT_TOPIC]"
 
@@ -27,36 +27,36 @@ class Relay:
         source, target = (*self._arguments, f"{self._arguments[0]}_relay")[:2]
         settings = NodeParams(await node.get_param("~", {}), node.name)
         is_stealthy = settings.flag("stealth", default=False)
-        outlet = RawPublisher(node, target)
+        output = RawPublisher(node, target)
 
         def relay(message: RawMessage) -> None:
-            learns = not outlet.is_typed
-            outlet.put(message)
+            learns = not output.is_typed
+            output.publish(message)
             if learns and is_stealthy:  # the next look decides; who subscribes meanwhile is sent nothing
-                inlet.close()
+                inlet.unsubscribe()
 
         inlet = RawSubscriber(node, source, relay)
-        inlet.open()
+        inlet.subscribe()
         if is_stealthy:
             monitored = node.resolve(settings.text("monitor_topic", source))
-            await self._hide(inlet, outlet, monitored, every_s=settings.number("monitor_rate", 1.0))
+            await self._hide(inlet, output, monitored, every_s=settings.number("monitor_rate", 1.0))
         elif settings.flag("lazy", default=False):
-            await listen_lazily(node, outlet, lambda: [(inlet, True)])
+            await subscribe_lazily(node, output, lambda: [(inlet, True)])
         await node.closed.wait()
         return 0
 
-    async def _hide(self, inlet: RawSubscriber, outlet: RawPublisher, monitored: str, *, every_s: float) -> None:
+    async def _hide(self, inlet: RawSubscriber, output: RawPublisher, monitored: str, *, every_s: float) -> None:
         """Listen only while another node subscribes to a topic; looks every so often: the original calls it a rate.
 
         The output is advertised once the type is known: the first message is waited for.
         """
         node = self._node
         while not node.closed.is_set():
-            _, subscribers, _ = await node.ask("getSystemState")
-            if not outlet.is_typed or any(
+            _, subscribers, _ = await node.call_master("getSystemState")
+            if not output.is_typed or any(
                 topic == monitored and set(nodes) - {node.name} for topic, nodes in subscribers
             ):
-                inlet.open()
+                inlet.subscribe()
             else:
-                inlet.close()
+                inlet.unsubscribe()
             await asyncio.sleep(max(every_s, 0.1))

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from trundle.ros import Node, NodeParams, RawMessage
 
 from ..host import NodeHost
-from .raw_relay import RawPublisher, RawSubscriber, listen_lazily
+from .raw_relay import RawPublisher, RawSubscriber, subscribe_lazily
 
 _USAGE = (
     "usage: throttle messages IN_TOPIC MSGS_PER_SEC [OUT_TOPIC], "
@@ -16,7 +16,7 @@ _USAGE = (
 _NS = 1_000_000_000
 
 
-class MessageGate:
+class MessageRateLimiter:
     """Lets a message through when the last one is more than a period ago."""
 
     def __init__(self, rate_hz: float, now_ns: Callable[[], int]) -> None:
@@ -24,7 +24,7 @@ class MessageGate:
         self._now_ns = now_ns
         self._last_ns = 0
 
-    def lets_through(self, size: int) -> bool:
+    def allows(self, size: int) -> bool:
         """Decide about a message of so many bytes that comes now."""
         del size
         now = self._now_ns()
@@ -35,7 +35,7 @@ class MessageGate:
         return True
 
 
-class ByteGate:
+class BandwidthLimiter:
     """Lets a message through while fewer bytes were sent in the last `window_s` than are allowed.
 
     The original, too, counts neither the message's own bytes nor how many seconds a window has.
@@ -47,7 +47,7 @@ class ByteGate:
         self._now_ns = now_ns
         self._sent: deque[tuple[int, int]] = deque()
 
-    def lets_through(self, size: int) -> bool:
+    def allows(self, size: int) -> bool:
         """Decide about a message of so many bytes that comes now."""
         now = self._now_ns()
         while self._sent and not 0 <= now - self._sent[0][0] <= self._window_ns:
@@ -79,25 +79,25 @@ class Throttle:
         except ValueError:
             node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 1
-        outlet = RawPublisher(node, target, latch=latch)
+        output = RawPublisher(node, target, latch=latch)
 
         def take(message: RawMessage) -> None:
-            if gate.lets_through(len(message.data)):
-                outlet.put(message)
+            if gate.allows(len(message.data)):
+                output.publish(message)
 
         inlet = RawSubscriber(node, source, take)
-        inlet.open()
+        inlet.subscribe()
         if settings.flag("lazy", default=False):
-            await listen_lazily(node, outlet, lambda: [(inlet, True)])
+            await subscribe_lazily(node, output, lambda: [(inlet, True)])
         await node.closed.wait()
         return 0
 
-    def _read(self, now_ns: Callable[[], int]) -> tuple[MessageGate | ByteGate, str, str]:
+    def _read(self, now_ns: Callable[[], int]) -> tuple[MessageRateLimiter | BandwidthLimiter, str, str]:
         match self._arguments:
             case ["messages", source, rate, *rest] if len(rest) <= 1 and float(rate) > 0.0:
-                gate = MessageGate(float(rate), now_ns)
+                gate = MessageRateLimiter(float(rate), now_ns)
             case ["bytes", source, rate, window, *rest] if len(rest) <= 1:
-                gate = ByteGate(float(rate), float(window), now_ns)
+                gate = BandwidthLimiter(float(rate), float(window), now_ns)
             case _:
                 raise ValueError
         return gate, source, rest[0] if rest else f"{source}_throttle"

@@ -11,7 +11,7 @@ from ..host import NodeHost
 
 _USAGE = "usage: transform INPUT[/FIELD] OUTPUT TYPE EXPRESSION [--import MODULE…]; the message is m in the expression"
 
-_LOOK_S = 0.2
+_POLL_S = 0.2
 
 
 class Transform:
@@ -53,15 +53,15 @@ class Transform:
         parts = self._source.strip("/").split("/")
         starts = [(count, "/" + "/".join(parts[:count])) for count in range(len(parts), 0, -1)]
         while True:
-            topics = {str(name) for name, _ in await self._node.ask("getTopicTypes")}
+            topics = {str(name) for name, _ in await self._node.call_master("getTopicTypes")}
             for count, name in starts:
                 if name in topics:
                     self._fields = parts[count:]
-                    self._node.subscribe(name, "*", self._take, queue_size=1)
+                    self._node.subscribe(name, "*", self._on_message, queue_size=1)
                     return
-            await asyncio.sleep(_LOOK_S)
+            await asyncio.sleep(_POLL_S)
 
-    def _take(self, raw: RawMessage) -> None:
+    def _on_message(self, raw: RawMessage) -> None:
         node = self._node
         try:
             node.messages.add_definition(raw.type, raw.definition)

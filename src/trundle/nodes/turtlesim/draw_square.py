@@ -24,7 +24,7 @@ class DrawSquare:
         """Draw until cancelled."""
         node = self._node
         self._commands = node.advertise("turtle1/cmd_vel", "geometry_msgs/Twist", queue_size=1)
-        node.subscribe("turtle1/pose", "turtlesim/Pose", self._take, queue_size=1)
+        node.subscribe("turtle1/pose", "turtlesim/Pose", self._on_pose, queue_size=1)
         await node.wait_for_service("reset")
         await node.call_service("reset", "std_srvs/Empty")
         rate = Rate(node, _RATE_HZ)
@@ -50,5 +50,5 @@ class DrawSquare:
             self._commands.publish({})
             await rate.sleep()
 
-    def _take(self, pose: Message) -> None:
+    def _on_pose(self, pose: Message) -> None:
         self._pose = pose

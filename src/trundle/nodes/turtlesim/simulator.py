@@ -7,8 +7,8 @@ from trundle.ros import Message, Node, Publisher, Service, ServiceError, Subscri
 
 from ..host import NodeHost
 from ..rate import Rate
-from .picture import SIZE_M, SIZE_PX, Picture
 from .turtle import Colour, Turtle
+from .turtle_frame import SIZE_M, SIZE_PX, TurtleFrame
 
 _NS = 1_000_000_000
 _TICK_NS = 16_000_000
@@ -23,7 +23,7 @@ _THINNEST_PX = 1
 """Of a pen that is set without a width."""
 
 
-class _Registered:
+class _SpawnedTurtle:
     """A turtle with its topics and services."""
 
     def __init__(self, turtle: Turtle, pose: Publisher, colour: Publisher) -> None:
@@ -50,11 +50,11 @@ class TurtleSim:
         del arguments
         self._node = node
         self._display = host.display
-        self._turtles: dict[str, _Registered] = {}
+        self._turtles: dict[str, _SpawnedTurtle] = {}
         self._named = 0
         """How many turtles were named since the start; a number is not given twice."""
         self._background = _BACKGROUND
-        self._picture = Picture(_BACKGROUND)
+        self._picture = TurtleFrame(_BACKGROUND)
 
     async def run(self) -> int:
         """Move turtles until cancelled."""
@@ -66,7 +66,7 @@ class TurtleSim:
         image = node.advertise("~image", "sensor_msgs/Image", queue_size=1)
         node.advertise_service("clear", "std_srvs/Empty", self._clear)
         node.advertise_service("reset", "std_srvs/Empty", self._reset)
-        node.advertise_service("spawn", "turtlesim/Spawn", self._asked_to_spawn)
+        node.advertise_service("spawn", "turtlesim/Spawn", self._on_spawn)
         node.advertise_service("kill", "turtlesim/Kill", self._kill)
         node.log_info(f"Starting turtlesim with node name {node.name}; its window is {image.topic}")
         self._start()
@@ -108,7 +108,7 @@ class TurtleSim:
 
     def _spawn(self, name: str, turtle: Turtle) -> None:
         node = self._node
-        registered = _Registered(
+        registered = _SpawnedTurtle(
             turtle,
             node.advertise(f"{name}/pose", "turtlesim/Pose", queue_size=1),
             node.advertise(f"{name}/color_sensor", "turtlesim/Color", queue_size=1),
@@ -135,12 +135,12 @@ class TurtleSim:
 
     def _move(self, name: str, turtle: Turtle, now_ns: int) -> None:
         before = (turtle.x, turtle.y)
-        turtle.move(_TICK_NS / _NS, now_ns=now_ns)
+        turtle.update(_TICK_NS / _NS, now_ns=now_ns)
         if turtle.hit_wall:
             self._node.log_warn(f"Oh no! I hit the wall! ({name} is held at x=[{turtle.x:f}], y=[{turtle.y:f}])")
         self._draw(turtle, before)
 
-    def _publish(self, registered: _Registered) -> None:
+    def _publish(self, registered: _SpawnedTurtle) -> None:
         turtle = registered.turtle
         red, green, blue = self._picture.colour_at(turtle.x, turtle.y)
         registered.colour.publish({"r": red, "g": green, "b": blue})
@@ -160,12 +160,12 @@ class TurtleSim:
 
     def _teleport(self, turtle: Turtle, request: Message) -> None:
         before = (turtle.x, turtle.y)
-        turtle.place(request.x, request.y, request.theta)
+        turtle.teleport(request.x, request.y, request.theta)
         self._draw(turtle, before)
 
     def _teleport_ahead(self, turtle: Turtle, request: Message) -> None:
         before = (turtle.x, turtle.y)
-        turtle.step_ahead(request.linear, request.angular)
+        turtle.teleport_relative(request.linear, request.angular)
         self._draw(turtle, before)
 
     def _image(self) -> dict[str, Any]:
@@ -199,7 +199,7 @@ class TurtleSim:
         self._start()
         return {}
 
-    def _asked_to_spawn(self, request: Message) -> dict[str, Any]:
+    def _on_spawn(self, request: Message) -> dict[str, Any]:
         name = request.name or self._new_name()
         if name in self._turtles:
             raise ServiceError(f"A turtle named [{name}] already exists")

@@ -27,13 +27,13 @@ class TurtleTeleopKey:
         if self._display is not None:
             self._display.drive_on(commands.topic)
         keyboard = Keyboard(node)
-        if not keyboard.there:
+        if not keyboard.is_available:
             node.log_warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
             await node.closed.wait()
             return 0
         print("Reading from keyboard\n---------------------------\nUse arrow keys to move the turtle. 'q' to quit.")
-        with keyboard.held():
-            while (key := await keyboard.key()) != "q":
+        with keyboard.cbreak():
+            while (key := await keyboard.read_key()) != "q":
                 if key in _MOVES:
                     forwards, turn = _MOVES[key]
                     commands.publish({"linear": {"x": forwards * linear}, "angular": {"z": turn * angular}})

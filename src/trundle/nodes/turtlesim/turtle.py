@@ -5,7 +5,7 @@ from collections import deque
 from dataclasses import dataclass
 
 Colour = tuple[int, int, int]
-_COMMAND_HOLDS_NS = 1_000_000_000
+_COMMAND_TIMEOUT_NS = 1_000_000_000
 """A turtle that hears nothing for a second stops."""
 _MAX_COMING = 100
 _Velocity = tuple[float, float, float]
@@ -41,30 +41,30 @@ class Turtle:
         """Take a velocity [m/s, m/s, rad/s], for one second."""
         self._coming.append((now_ns, (x, y, turn)))
 
-    def move(self, dt_s: float, *, now_ns: int) -> None:
+    def update(self, dt_s: float, *, now_ns: int) -> None:
         """Move for a time, by the last command that had come by then."""
         while self._coming and self._coming[0][0] <= now_ns:
             self._command_ns, self._command = self._coming.popleft()
-        if abs(now_ns - self._command_ns) > _COMMAND_HOLDS_NS:  # or time went back
+        if abs(now_ns - self._command_ns) > _COMMAND_TIMEOUT_NS:  # or time went back
             self._command = _REST
         forwards, sideways, turn = self._command
         self.theta = _wrapped(self.theta + turn * dt_s)
         cos, sin = math.cos(self.theta), math.sin(self.theta)
         x = self.x + (cos * forwards - sin * sideways) * dt_s
         y = self.y + (sin * forwards + cos * sideways) * dt_s
-        self.place(x, y, self.theta)
+        self.teleport(x, y, self.theta)
         self.linear_velocity, self.angular_velocity = math.hypot(forwards, sideways), turn
 
-    def place(self, x: float, y: float, theta: float) -> None:
+    def teleport(self, x: float, y: float, theta: float) -> None:
         """Put it somewhere, inside the walls."""
         self.x, self.y = min(max(x, 0.0), self._size), min(max(y, 0.0), self._size)
         self.hit_wall = (self.x, self.y) != (x, y)
         self.theta = _wrapped(theta)
 
-    def step_ahead(self, distance: float, turn: float) -> None:
+    def teleport_relative(self, distance: float, turn: float) -> None:
         """Turn, then go a distance at once."""
         theta = self.theta + turn
-        self.place(self.x + math.cos(theta) * distance, self.y + math.sin(theta) * distance, theta)
+        self.teleport(self.x + math.cos(theta) * distance, self.y + math.sin(theta) * distance, theta)
 
 
 def _wrapped(angle: float) -> float:

@@ -10,7 +10,7 @@ from trundle.simulation import LinkHandle, ModelHandle, Simulation
 from trundle.spatial import ZERO, Vector3, Wrench
 
 from ..plugin import Plugin
-from .bounds import bounding_box
+from .bounding_box import bounding_box
 
 _WATER = 999.1026
 """[kg/m³] Gazebo's default fluid."""

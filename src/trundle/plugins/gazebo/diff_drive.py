@@ -8,7 +8,7 @@ from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Pose
 
 from ..plugin import Plugin
-from .bounds import bounding_box
+from .bounding_box import bounding_box
 from .velocity_command import VelocityCommand
 
 
@@ -30,7 +30,7 @@ class DiffDrive(Plugin):
             model_from_joint(model.model, self._left.joint), model_from_joint(model.model, self._right.joint)
         )
         self._radius = max(bounding_box(model.link(self._left.joint.child).link)) / 2 or 1.0
-        self._command = VelocityCommand.of(model, node)
+        self._command = VelocityCommand.subscribe(model, node)
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
@@ -40,7 +40,7 @@ class DiffDrive(Plugin):
     def before_step(self, sim: Simulation) -> None:
         """Keep both wheels at their speeds."""
         del sim
-        half = self._command.turning * self._separation / 2
+        half = self._command.yaw_rate * self._separation / 2
         self._left.set_velocity((self._command.speed + half) / self._radius, max_effort=self._torque)
         self._right.set_velocity((self._command.speed - half) / self._radius, max_effort=self._torque)
 

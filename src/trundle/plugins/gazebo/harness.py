@@ -49,8 +49,8 @@ class Harness(Plugin):
         self._target, self._target_speed = 0.0, 0.0
         if node is not None:
             base = f"/{ros_name(model.name)}/harness"
-            node.subscribe(f"{base}/velocity", "std_msgs/Float32", self._take_velocity)
-            node.subscribe(f"{base}/detach", "std_msgs/Bool", self._take_detach)
+            node.subscribe(f"{base}/velocity", "std_msgs/Float32", self._on_velocity)
+            node.subscribe(f"{base}/detach", "std_msgs/Bool", self._on_detach)
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
@@ -73,25 +73,25 @@ class Harness(Plugin):
         self._position.reset()
         self._speed.reset()
 
-    def wind(self, speed: float) -> None:
+    def set_winch_velocity(self, speed: float) -> None:
         """Wind at a speed [m/s]; 0 holds."""
         self._target_speed = speed
         if abs(speed) < _STILL and self._winch is not None:
             self._target = self._winch.position
             self._position.reset()
 
-    def let_go(self) -> None:
+    def detach(self) -> None:
         """Open the joint; afterwards nothing winds any more."""
         if self._opens is not None:
             self._sim.detach(self._opens.name)
             self._opens = self._winch = None
 
-    def _take_velocity(self, message: Message) -> None:
-        self.wind(float(message.data))
+    def _on_velocity(self, message: Message) -> None:
+        self.set_winch_velocity(float(message.data))
 
-    def _take_detach(self, message: Message) -> None:
+    def _on_detach(self, message: Message) -> None:
         if message.data:
-            self.let_go()
+            self.detach()
 
     def _named(
         self, node: XmlNode | None, tag: str, model: ModelHandle, plugin: PluginTag, report: Diagnostics

@@ -31,7 +31,7 @@ class ControlledJoint:
         """Push with it [N·m or N] from now on."""
         self._effort = effort
 
-    def push(self, effort: float) -> None:
+    def apply_effort(self, effort: float) -> None:
         """Push with it [N·m or N] for one step."""
         self._once += effort
 
@@ -57,7 +57,7 @@ class ControlledJoint:
             self.joint.set_effort(effort)
         self._is_idle = not wanted
 
-    def release(self) -> None:
+    def clear(self) -> None:
         """Forget every command."""
         self._effort = self._position.target = self._velocity.target = None
         self.reset()

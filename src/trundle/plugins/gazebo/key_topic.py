@@ -12,7 +12,7 @@ from trundle.ros import Message, Node
 KEYS_TOPIC = "/keyboard/keypress"
 
 
-def listen_to_keys(node: Node | None, tag: PluginTag, press: Callable[[int], None], report: Diagnostics) -> None:
+def subscribe_keys(node: Node | None, tag: PluginTag, press: Callable[[int], None], report: Diagnostics) -> None:
     """Have a function called with each key; where none can come, that is said."""
     if node is None:
         report.warn(tag.at, f"plugin {tag.name!r} waits for keys, and without ROS there is no topic to bring them")

@@ -9,7 +9,7 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
 from ..plugin import Plugin
-from .key_topic import listen_to_keys
+from .key_topic import subscribe_keys
 
 _KEYS = {
     "stop": (13, 32),
@@ -62,10 +62,10 @@ class KeysToCmdVel(Plugin):
         """See `Plugin.load`."""
         del model
         plugin = cls(node, tag, sim)
-        listen_to_keys(node, tag, plugin.press, sim.report)
+        subscribe_keys(node, tag, plugin.on_key, sim.report)
         return plugin
 
-    def press(self, key: int) -> None:
+    def on_key(self, key: int) -> None:
         """Obey a key."""
         match self._keys.get(key):
             case "stop":

@@ -12,7 +12,7 @@ from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
 from .joint_controller import ControlledJoint
-from .key_topic import listen_to_keys
+from .key_topic import subscribe_keys
 
 _NEEDED = ("key", "scale", "type")
 
@@ -43,10 +43,10 @@ class KeysToJoints(Plugin):
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
         """See `Plugin.load`."""
         plugin = cls(model, tag, sim)
-        listen_to_keys(node, tag, plugin.press, sim.report)
+        subscribe_keys(node, tag, plugin.on_key, sim.report)
         return plugin
 
-    def press(self, key: int) -> None:
+    def on_key(self, key: int) -> None:
         """Obey a key."""
         for each in self._keys.get(key, ()):
             match each.kind:
@@ -55,7 +55,7 @@ class KeysToJoints(Plugin):
                 case "velocity":
                     each.joint.set_velocity(each.scale)
                 case _:
-                    each.joint.push(each.scale)
+                    each.joint.apply_effort(each.scale)
 
     def before_step(self, sim: Simulation) -> None:
         """Push."""
@@ -65,7 +65,7 @@ class KeysToJoints(Plugin):
     def reset(self) -> None:
         """Forget what was pressed."""
         for joint in self._joints.values():
-            joint.release()
+            joint.clear()
 
     def _read(self, node: XmlNode, model: ModelHandle, sim: Simulation) -> None:
         report = sim.report

@@ -71,14 +71,14 @@ class LinkPlot3D(Plugin):
             points.append(here)
             if len(points) > _MOST:
                 del points[:_FEWER]
-            self._tell(number, plot, sim.time_ns)
+            self._publish(number, plot, sim.time_ns)
 
     def reset(self) -> None:
         """Begin anew."""
         for plot in self._plots:
             plot.line.points.clear()
 
-    def _tell(self, number: int, plot: _Plot, time_ns: int) -> None:
+    def _publish(self, number: int, plot: _Plot, time_ns: int) -> None:
         if self._topic is None or not self._topic.has_subscribers:
             return
         red, green, blue = plot.line.rgb

@@ -34,7 +34,7 @@ class SimpleTrackedVehicle(Plugin):
         ]
         parameters.find("collide_without_contact_bitmask")
         parameters.report_unread(sim.report)
-        self._tracks.grease(sim, [*links[0], *links[1]])
+        self._tracks.set_friction(sim, [*links[0], *links[1]])
         self._links = links
 
     @classmethod

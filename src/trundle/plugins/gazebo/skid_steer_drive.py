@@ -7,7 +7,7 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
 from ..plugin import Plugin
-from .bounds import bounding_box
+from .bounding_box import bounding_box
 from .velocity_command import VelocityCommand
 
 
@@ -29,7 +29,7 @@ class SkidSteerDrive(Plugin):
         right, left = (model_from_joint(model.model, wheels[0].joint).position for wheels in (self._right, self._left))
         self._separation = sum((a - b) ** 2 for a, b in zip(right, left, strict=True)) ** 0.5
         self._radius = max(bounding_box(model.link(self._right[0].joint.child).link)) / 2 or 1.0
-        self._command = VelocityCommand.of(model, node)
+        self._command = VelocityCommand.subscribe(model, node)
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
@@ -40,7 +40,7 @@ class SkidSteerDrive(Plugin):
         """Keep all wheels at their speeds."""
         del sim
         for wheels, sign in ((self._right, 1.0), (self._left, -1.0)):
-            speed = (self._command.speed + sign * self._command.turning * self._separation) / self._radius
+            speed = (self._command.speed + sign * self._command.yaw_rate * self._separation) / self._radius
             for wheel in wheels:
                 wheel.set_velocity(speed, max_effort=self._torque)
 

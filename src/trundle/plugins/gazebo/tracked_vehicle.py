@@ -47,14 +47,14 @@ class Tracks:
     def speeds(self) -> tuple[float, float]:
         """Of the left and the right track [m/s], positive forwards."""
         speed = _clamped(self.command.speed, self._fastest)
-        half = _clamped(self.command.turning, self._fastest_turn) * self.separation / 2 / self.efficiency
+        half = _clamped(self.command.yaw_rate, self._fastest_turn) * self.separation / 2 / self.efficiency
         left, right = _clamped(speed + half, self._fastest), _clamped(speed - half, self._fastest)
         if self._topic is not None and self._told != (left, right):
             self._told = (left, right)
             self._topic.publish({"x": left, "y": right})
         return left, right
 
-    def grease(self, sim: Simulation, links: Iterable[LinkHandle]) -> None:
+    def set_friction(self, sim: Simulation, links: Iterable[LinkHandle]) -> None:
         """Give these links' surfaces the friction that the plugin's tag states."""
         mu, mu2 = self._mu
         if mu is None and mu2 is None:

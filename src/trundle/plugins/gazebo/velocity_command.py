@@ -19,22 +19,22 @@ class VelocityCommand:
     def __init__(self, topic: str, node: Node | None) -> None:
         self.speed = 0.0
         """[m/s]"""
-        self.turning = 0.0
+        self.yaw_rate = 0.0
         """[rad/s]"""
         if node is not None:
-            node.subscribe(topic, "geometry_msgs/Pose", self._take)
+            node.subscribe(topic, "geometry_msgs/Pose", self._on_command)
 
     @classmethod
-    def of(cls, model: ModelHandle, node: Node | None) -> Self:
+    def subscribe(cls, model: ModelHandle, node: Node | None) -> Self:
         """Listen to `/<model>/vel_cmd`."""
         return cls(f"/{ros_name(model.name)}/vel_cmd", node)
 
     def stop(self) -> None:
         """Ask for nothing."""
-        self.speed = self.turning = 0.0
+        self.speed = self.yaw_rate = 0.0
 
-    def _take(self, pose: Message) -> None:
+    def _on_command(self, pose: Message) -> None:
         turn = pose.orientation
         yaw = rpy_from_quaternion((turn.w, turn.x, turn.y, turn.z))[2]
         if math.isfinite(pose.position.x) and math.isfinite(yaw):
-            self.speed, self.turning = float(pose.position.x), yaw
+            self.speed, self.yaw_rate = float(pose.position.x), yaw

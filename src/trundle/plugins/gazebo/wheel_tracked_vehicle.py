@@ -7,7 +7,7 @@ from trundle.ros import Node
 from trundle.simulation import JointHandle, ModelHandle, Simulation
 
 from ..plugin import Plugin
-from .bounds import bounding_box
+from .bounding_box import bounding_box
 from .tracked_vehicle import Tracks
 
 
@@ -28,7 +28,7 @@ class WheelTrackedVehicle(Plugin):
                 sim.report.warn(tag.at, f"{what}; it drives those")
         tag.node.report_unread(sim.report)
         self._wheels = [[(joint, _radius(model, joint)) for joint in joints] for joints in sides]
-        self._tracks.grease(sim, [model.link(joint.joint.child) for joints in sides for joint in joints])
+        self._tracks.set_friction(sim, [model.link(joint.joint.child) for joints in sides for joint in joints])
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:

@@ -28,17 +28,17 @@ class Wind(WorldPlugin):
     def __init__(self, sim: Simulation, tag: PluginTag) -> None:
         parameters, report = tag.node, sim.report
         horizontal = parameters.find("horizontal")
-        self._speed = _Part(horizontal and horizontal.find("magnitude"), "amplitude_percent", sim)
-        self._heading = _Part(horizontal and horizontal.find("direction"), "amplitude", sim)
-        self._rise = _Part(parameters.find("vertical"), "", sim)
+        self._speed = _WindComponent(horizontal and horizontal.find("magnitude"), "amplitude_percent", sim)
+        self._heading = _WindComponent(horizontal and horizontal.find("direction"), "amplitude", sim)
+        self._rise = _WindComponent(parameters.find("vertical"), "", sim)
         self._factor = parameters.number("force_approximation_scaling_factor", default=0.0, report=report)
         parameters.report_unread(report)
         if abs(self._factor) < 1e-6:
             needs = "needs a <force_approximation_scaling_factor> above 0"
             report.warn(tag.at, f"plugin {tag.name!r} {needs}; the wind pushes nothing")
         self._links: list[LinkHandle] = []
-        self._gather(sim)
-        sim.on_change(lambda: self._gather(sim))
+        self._find_links(sim)
+        sim.on_change(lambda: self._find_links(sim))
 
     @classmethod
     def load(cls, sim: Simulation, node: Node | None, tag: PluginTag) -> Self:
@@ -50,7 +50,7 @@ class Wind(WorldPlugin):
         """Blow."""
         if not self._links:
             return
-        wx, wy, wz = self._blow(sim.world.wind, sim.time_ns / 1e9)
+        wx, wy, wz = self._wind_velocity(sim.world.wind, sim.time_ns / 1e9)
         twists = sim.engine.reader.link_twists()
         for link in self._links:
             vx, vy, vz = twists[link.index, :3].tolist()
@@ -62,7 +62,7 @@ class Wind(WorldPlugin):
         for part in (self._speed, self._heading, self._rise):
             part.mean = 0.0
 
-    def _gather(self, sim: Simulation) -> None:
+    def _find_links(self, sim: Simulation) -> None:
         """Find the links that the wind reaches."""
         self._links = [
             link
@@ -72,7 +72,7 @@ class Wind(WorldPlugin):
             and abs(self._factor) >= 1e-6
         ]
 
-    def _blow(self, wind: Vector3, time_s: float) -> Vector3:
+    def _wind_velocity(self, wind: Vector3, time_s: float) -> Vector3:
         """The wind of now [m/s], which follows the world's."""
         x, y, z = wind
         speed = self._speed.follow(math.hypot(x, y))
@@ -82,7 +82,7 @@ class Wind(WorldPlugin):
         return (speed * math.cos(heading), speed * math.sin(heading), self._rise.disturb(self._rise.follow(z)))
 
 
-class _Part:
+class _WindComponent:
     """Speed, heading or rise: a mean that follows with a lag, a swing and noise."""
 
     def __init__(self, node: XmlNode | None, amplitude: str, sim: Simulation) -> None:

@@ -3,14 +3,14 @@
 from collections.abc import Callable
 from typing import Any
 
-from trundle.bridge import camera_info_of, image_maker
+from trundle.bridge import camera_info_message, image_encoder
 from trundle.diagnostics import Diagnostics
 from trundle.model import PluginTag
 from trundle.ros import Node, Option, Options, ReconfigureServer
 from trundle.sensors import CameraReading, CameraSensor
 
-from .namespaces import ignore, namespace_of, topic_in
-from .sensor import Outlet, frame_of
+from .namespaces import join_topic, mark_read, read_namespace
+from .sensor_publisher import SensorPublisher, read_frame_name
 
 _FASTEST_HZ = 1000.0
 _SIDES = ["left", "right"]
@@ -25,10 +25,10 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
     false, a distorted picture is not enlarged. Of a multicamera's, <hackBaseline> is how far the right one is from the
     left; without it, what the file says.
     """
-    attach_pictures(sensor, node, tag, report, image_maker(sensor.optics.format))
+    attach_images(sensor, node, tag, report, image_encoder(sensor.optics.format))
 
 
-def attach_pictures(
+def attach_images(
     sensor: CameraSensor,
     node: Node,
     tag: PluginTag,
@@ -36,21 +36,27 @@ def attach_pictures(
     image: Callable[[CameraReading], dict[str, object]],
 ) -> None:
     """Publish what a function makes of each reading, as `attach` does."""
-    keep_borders_if_told(sensor, tag, report)
-    frame, rate_hz = frame_of(tag, "world"), _number(tag, "updateRate", report)
-    pictures = Outlet(node, camera_topic(sensor, tag, "imageTopicName", "image_raw"), "sensor_msgs/Image", frame,
-                      rate_hz=rate_hz)  # fmt: skip
-    infos = Outlet(node, camera_topic(sensor, tag, "cameraInfoTopicName", "camera_info"), "sensor_msgs/CameraInfo",
-                   frame, rate_hz=rate_hz)  # fmt: skip
-    calibration = told_calibration(sensor, tag, report)
-    ignore(tag.node, "autoDistortion", "triggerTopicName", "cameraName")
+    read_border_crop(sensor, tag, report)
+    frame, rate_hz = read_frame_name(tag, "world"), _number(tag, "updateRate", report)
+    pictures = SensorPublisher(
+        node, camera_topic(sensor, tag, "imageTopicName", "image_raw"), "sensor_msgs/Image", frame, rate_hz=rate_hz
+    )
+    infos = SensorPublisher(
+        node,
+        camera_topic(sensor, tag, "cameraInfoTopicName", "camera_info"),
+        "sensor_msgs/CameraInfo",
+        frame,
+        rate_hz=rate_hz,
+    )
+    calibration = read_calibration(sensor, tag, report)
+    mark_read(tag.node, "autoDistortion", "triggerTopicName", "cameraName")
     tag.node.report_unread(report)
 
     def publish(reading: CameraReading) -> None:
         pictures.publish(reading, lambda: image(reading))
         infos.publish(reading, lambda: calibration)
 
-    sensor.listen(publish, enabled=lambda: pictures.wanted() or infos.wanted())
+    sensor.listen(publish, enabled=lambda: pictures.has_subscribers() or infos.has_subscribers())
     offer_rate(sensor, node, tag, rate_hz)
 
 
@@ -74,10 +80,10 @@ def offer_rate(sensor: CameraSensor, node: Node, tag: PluginTag, plugin_rate_hz:
         return values
 
     option = Option(name="imager_rate", value=min(rates), lower=0.1, upper=_FASTEST_HZ, description="Pictures a second")
-    ReconfigureServer(node, [option], apply, namespace=topic_in(_space(sensor, tag), "").rstrip("/"))
+    ReconfigureServer(node, [option], apply, namespace=join_topic(_space(sensor, tag), "").rstrip("/"))
 
 
-def keep_borders_if_told(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> None:
+def read_border_crop(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> None:
     """Heed <borderCrop>."""
     if not tag.node.flag("borderCrop", default=True, report=report):
         sensor.disable_crop()
@@ -85,12 +91,12 @@ def keep_borders_if_told(sensor: CameraSensor, tag: PluginTag, report: Diagnosti
 
 def camera_topic(sensor: CameraSensor, tag: PluginTag, parameter: str, default: str) -> str:
     """A topic below the robot's namespace and the camera's name; a multicamera's have a name each."""
-    return topic_in(_space(sensor, tag), tag.node.string(parameter, default=default))
+    return join_topic(_space(sensor, tag), tag.node.string(parameter, default=default))
 
 
 def _space(sensor: CameraSensor, tag: PluginTag) -> str:
     name = tag.node.string("cameraName").strip("/")
-    return "/".join(part for part in (namespace_of(tag, sensor.model.name), name, _eye(sensor)) if part)
+    return "/".join(part for part in (read_namespace(tag, sensor.model.name), name, _eye(sensor)) if part)
 
 
 def _eye(sensor: CameraSensor) -> str:
@@ -100,9 +106,9 @@ def _eye(sensor: CameraSensor) -> str:
     return sides[names.index(sensor.optics.name)] if sorted(sides) == _SIDES else sensor.optics.name
 
 
-def told_calibration(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> dict[str, object]:
+def read_calibration(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> dict[str, object]:
     """What camera_info says, with what the plugin has otherwise."""
-    found: dict[str, Any] = dict(camera_info_of(sensor))
+    found: dict[str, Any] = dict(camera_info_message(sensor))
     k, p = list(found["K"]), list(found["P"])
     focal = _number(tag, "focalLength", report)
     cx, cy = _number(tag, "Cx", report) or _number(tag, "CxPrime", report), _number(tag, "Cy", report)

@@ -4,16 +4,16 @@ from functools import lru_cache
 
 import numpy as np
 
-from trundle.bridge import cloud_maker, depth_image, image_maker
+from trundle.bridge import depth_image, image_encoder, point_cloud_encoder
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import PluginTag
 from trundle.render import clip_depths
 from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor, DepthCameraSensor
 
-from .camera import camera_topic, keep_borders_if_told, offer_rate, told_calibration
-from .namespaces import ignore
-from .sensor import Outlet, frame_of
+from .camera import camera_topic, offer_rate, read_border_crop, read_calibration
+from .namespaces import mark_read
+from .sensor_publisher import SensorPublisher, read_frame_name
 
 _IMAGE, _INFO, _POINTS = "sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/PointCloud2"
 
@@ -28,26 +28,26 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
     """
     if not isinstance(sensor, DepthCameraSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a depth sensor is needed")
-    keep_borders_if_told(sensor, tag, report)
+    read_border_crop(sensor, tag, report)
     parameters = tag.node
-    frame, rate_hz = frame_of(tag, "world"), parameters.number("updateRate", default=0.0, report=report)
+    frame, rate_hz = read_frame_name(tag, "world"), parameters.number("updateRate", default=0.0, report=report)
     near = parameters.number("pointCloudCutoff", default=0.4, report=report)
     far = parameters.number("pointCloudCutoffMax", default=5.0, report=report)
     in_millimetres = parameters.flag("useDepth16UC1Format", default=False, report=report)
 
-    def outlet(parameter: str, default: str, kind: str) -> Outlet:
-        return Outlet(node, camera_topic(sensor, tag, parameter, default), kind, frame, rate_hz=rate_hz)
+    def outlet(parameter: str, default: str, kind: str) -> SensorPublisher:
+        return SensorPublisher(node, camera_topic(sensor, tag, parameter, default), kind, frame, rate_hz=rate_hz)
 
     pictures, infos = outlet("imageTopicName", "image_raw", _IMAGE), outlet("cameraInfoTopicName", "camera_info", _INFO)
     depths = outlet("depthImageTopicName", "depth/image_raw", _IMAGE)
     depth_infos = outlet("depthImageCameraInfoTopicName", "depth/camera_info", _INFO)
     points = outlet("pointCloudTopicName", "points", _POINTS)
     calibration, image, cloud = (
-        told_calibration(sensor, tag, report),
-        image_maker(sensor.optics.format),
-        cloud_maker(sensor),
+        read_calibration(sensor, tag, report),
+        image_encoder(sensor.optics.format),
+        point_cloud_encoder(sensor),
     )
-    ignore(parameters, "autoDistortion", "cameraName", "depthImageInfoTopicName", "reflectanceTopicName")
+    mark_read(parameters, "autoDistortion", "cameraName", "depthImageInfoTopicName", "reflectanceTopicName")
     parameters.report_unread(report)
 
     @lru_cache(maxsize=1)  # depths and points are of the same reading
@@ -67,7 +67,7 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
         points.publish(reading, lambda: cloud(cut(reading)))
 
     outlets = (pictures, infos, depths, depth_infos, points)
-    sensor.listen(publish, enabled=lambda: any(each.wanted() for each in outlets))
+    sensor.listen(publish, enabled=lambda: any(each.has_subscribers() for each in outlets))
     offer_rate(sensor, node, tag, rate_hz)
 
 

@@ -8,12 +8,12 @@ from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import JointHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
-from .namespaces import ignore, namespace_of, period_of, topic_in
-from .odometry import WIDE, OdometryTopic, true_motion
+from .namespaces import join_topic, mark_read, rate_to_period_ns, read_namespace
+from .odometry import LARGE_VARIANCE, OdometryTopic, ground_truth
 from .ros_plugin import RosPlugin
 from .twist_command import TwistCommand
 
-_VARIANCES = (1e-5, 1e-5, WIDE, WIDE, WIDE, 1e-3)
+_VARIANCES = (1e-5, 1e-5, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-3)
 
 
 class DiffDrive(RosPlugin):
@@ -29,7 +29,7 @@ class DiffDrive(RosPlugin):
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         parameters, report = tag.node, sim.report
         self._model = model
-        namespace = namespace_of(tag, model.name)
+        namespace = read_namespace(tag, model.name)
 
         def number(name: str, default: float) -> float:
             return parameters.number(name, default=default, report=report)
@@ -46,23 +46,25 @@ class DiffDrive(RosPlugin):
         )
         self._torque, self._acceleration = number("wheelTorque", 5.0), number("wheelAcceleration", 0.0)
         self._sign = -1.0 if flag("legacyMode", default=node.profile.mirrored_diff_drive) else 1.0
-        self.period_ns = period_of(number("updateRate", 100.0))
+        self.period_ns = rate_to_period_ns(number("updateRate", 100.0))
         self._from_wheels = parameters.string("odometrySource", default="world") in ("encoder", "0")
-        self._command = TwistCommand.of(tag, namespace, node)
+        self._command = TwistCommand.from_tag(tag, namespace, node)
         self._odometry = None
         if flag("publishTf", default=True):
             with_tf = flag("publishOdomTF", default=True)
-            self._odometry = OdometryTopic.of(tag, namespace, node, variances=_VARIANCES, with_tf=with_tf)
+            self._odometry = OdometryTopic.from_tag(tag, namespace, node, variances=_VARIANCES, with_tf=with_tf)
         states = flag("publishWheelJointState", default=False)
-        self._states = node.advertise(topic_in(namespace, "joint_states"), "sensor_msgs/JointState") if states else None
+        self._states = (
+            node.advertise(join_topic(namespace, "joint_states"), "sensor_msgs/JointState") if states else None
+        )
         self._frames = TransformBroadcaster(node) if flag("publishWheelTF", default=False) else None
-        ignore(parameters, "odometryFrame", "robotBaseFrame", "odometryTopic", "publishOdomTF")
+        mark_read(parameters, "odometryFrame", "robotBaseFrame", "odometryTopic", "publishOdomTF")
         self.reset()
 
     def before_step(self, sim: Simulation) -> None:
         """Keep both wheels at their speeds."""
         most = self._acceleration * (self.period_ns or sim.step_ns) / 1e9
-        wanted = self._drive.wheel_speeds(self._command.forward, self._sign * self._command.turning)
+        wanted = self._drive.wheel_speeds(self._command.forward, self._sign * self._command.yaw_rate)
         for number, (wheel, speed) in enumerate(zip(self._wheels, wanted, strict=True)):
             if self._acceleration > 0.0:
                 speed = step_towards(self._speeds[number], speed, most / self._drive.wheel_radius)
@@ -72,14 +74,14 @@ class DiffDrive(RosPlugin):
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell where that led."""
         if self._odometry is not None:
-            pose, twist = self._by_wheels(snapshot.time_ns) if self._from_wheels else true_motion(self._model)
+            pose, twist = self._integrate_wheels(snapshot.time_ns) if self._from_wheels else ground_truth(self._model)
             self._odometry.publish(snapshot.time_ns, pose, twist)
         if self._states is not None and self._states.has_subscribers:
             header = {"stamp": snapshot.time_ns}
             names, positions = [w.name for w in self._wheels], [w.position for w in self._wheels]
             self._states.publish({"header": header, "name": names, "position": positions})
         if self._frames is not None and self._frames.has_subscribers:
-            self._frames.send(*(_frame(self._model, wheel, snapshot.time_ns) for wheel in self._wheels))
+            self._frames.send_transform(*(_frame(self._model, wheel, snapshot.time_ns) for wheel in self._wheels))
 
     def reset(self) -> None:
         """Stand still at the origin of the odometry."""
@@ -89,7 +91,7 @@ class DiffDrive(RosPlugin):
         self._turned = [wheel.position for wheel in self._wheels]
         self._last_ns = 0
 
-    def _by_wheels(self, time_ns: int) -> tuple[Pose, Twist]:
+    def _integrate_wheels(self, time_ns: int) -> tuple[Pose, Twist]:
         """Add up what the wheels turned."""
         turned = [wheel.position for wheel in self._wheels]
         left, right = (now - before for now, before in zip(turned, self._turned, strict=True))

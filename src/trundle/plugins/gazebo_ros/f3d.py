@@ -5,7 +5,7 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Wrench
 
-from .namespaces import namespace_of, topic_in
+from .namespaces import join_topic, read_namespace
 from .ros_plugin import RosPlugin, required
 
 
@@ -20,7 +20,7 @@ class F3D(RosPlugin):
         super().__init__(sim, model, node, tag)
         parameters = tag.node
         self._link = model.link(required(parameters, "bodyName"))
-        topic = topic_in(namespace_of(tag, model.name), required(parameters, "topicName"))
+        topic = join_topic(read_namespace(tag, model.name), required(parameters, "topicName"))
         self._frame = parameters.string("frameName", default="world")
         self._topic = node.advertise(topic, "geometry_msgs/WrenchStamped", queue_size=1)
         self._wrench = Wrench()

@@ -5,7 +5,7 @@ from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Wrench
 
-from .namespaces import namespace_of, topic_in
+from .namespaces import join_topic, read_namespace
 from .ros_plugin import RosPlugin, required
 
 
@@ -18,7 +18,9 @@ class Force(RosPlugin):
         self._link = model.link(parameters.string("bodyName"))
         topic = required(parameters, "topicName")
         self._wrench = Wrench()
-        node.subscribe(topic_in(namespace_of(tag, model.name), topic), "geometry_msgs/Wrench", self._take, queue_size=1)
+        node.subscribe(
+            join_topic(read_namespace(tag, model.name), topic), "geometry_msgs/Wrench", self._on_wrench, queue_size=1
+        )
 
     def before_step(self, sim: Simulation) -> None:
         """Push."""
@@ -30,6 +32,6 @@ class Force(RosPlugin):
         """Let go."""
         self._wrench = Wrench()
 
-    def _take(self, message: Message) -> None:
+    def _on_wrench(self, message: Message) -> None:
         force, torque = message.force, message.torque
         self._wrench = Wrench((force.x, force.y, force.z), (torque.x, torque.y, torque.z))

@@ -7,11 +7,11 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Vector3
 
-from .namespaces import namespace_of, period_of, topic_in
+from .namespaces import join_topic, rate_to_period_ns, read_namespace
 from .ros_plugin import RosPlugin, required
 
 
-class ForceTorque(RosPlugin):
+class FtSensor(RosPlugin):
     """Publishes geometry_msgs/WrenchStamped in the axes of the joint's child: what the child does to its parent.
 
     Parameters: <jointName> and <topicName> (required), <gaussianNoise> 0, <updateRate> 0 (every step).
@@ -24,8 +24,8 @@ class ForceTorque(RosPlugin):
         self._child = model.link(self._joint.joint.child)
         self._noise = parameters.number("gaussianNoise", default=0.0, report=report)
         self._random = np.random.default_rng(sim.seed)
-        self.period_ns = period_of(parameters.number("updateRate", default=0.0, report=report))
-        self._topic = node.advertise(topic_in(namespace_of(tag, model.name), topic), "geometry_msgs/WrenchStamped")
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", default=0.0, report=report))
+        self._topic = node.advertise(join_topic(read_namespace(tag, model.name), topic), "geometry_msgs/WrenchStamped")
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell."""

@@ -8,7 +8,7 @@ from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose, Vector3
 
 from .link_motion import LinkMotion
-from .namespaces import namespace_of, period_of, topic_in
+from .namespaces import join_topic, rate_to_period_ns, read_namespace
 from .ros_plugin import RosPlugin, required
 
 
@@ -22,16 +22,16 @@ class Imu(RosPlugin):
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         parameters, report = tag.node, sim.report
         link = model.link(required(parameters, "bodyName"))
-        namespace = namespace_of(tag, model.name)
+        namespace = read_namespace(tag, model.name)
         self._motion = LinkMotion(link)
         self._frame = parameters.string("frameName", default=link.name)
         self._offset = Pose.from_rpy(0, 0, 0, *parameters.vector("rpyOffset", default=ZERO, report=report))
         self._noise = parameters.number("gaussianNoise", default=0.0, report=report)
         self._random = np.random.default_rng(sim.seed)
-        self.period_ns = period_of(parameters.number("updateRate", default=0.0, report=report))
-        topic = topic_in(namespace, parameters.string("topicName", default="default_imu"))
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", default=0.0, report=report))
+        topic = join_topic(namespace, parameters.string("topicName", default="default_imu"))
         self._topic = node.advertise(topic, "sensor_msgs/Imu", queue_size=1)
-        service = topic_in(namespace, parameters.string("serviceName", default="default_imu"))
+        service = join_topic(namespace, parameters.string("serviceName", default="default_imu"))
         node.advertise_service(service, "std_srvs/Empty", _calibrated)
         parameters.find("xyzOffset")
 
@@ -39,7 +39,7 @@ class Imu(RosPlugin):
         """Tell."""
         if not self._topic.has_subscribers:
             return
-        motion = self._motion.look(snapshot.time_ns)
+        motion = self._motion.sample(snapshot.time_ns)
         qw, qx, qy, qz = (self._offset @ Pose(quaternion=motion.orientation)).quaternion
         covariance = [self._noise**2 if number % 4 == 0 else 0.0 for number in range(9)]
         self._topic.publish(
@@ -47,14 +47,14 @@ class Imu(RosPlugin):
                 "header": {"stamp": snapshot.time_ns, "frame_id": self._frame},
                 "orientation": {"x": qx, "y": qy, "z": qz, "w": qw},
                 "orientation_covariance": covariance,
-                "angular_velocity": self._disturbed(motion.rate),
+                "angular_velocity": self._with_noise(motion.rate),
                 "angular_velocity_covariance": covariance,
-                "linear_acceleration": self._disturbed(motion.acceleration),
+                "linear_acceleration": self._with_noise(motion.acceleration),
                 "linear_acceleration_covariance": covariance,
             }
         )
 
-    def _disturbed(self, vector: Vector3) -> dict[str, float]:
+    def _with_noise(self, vector: Vector3) -> dict[str, float]:
         errors = self._random.normal(0.0, self._noise, 3).tolist() if self._noise > 0.0 else ZERO
         return {axis: value + error for axis, value, error in zip("xyz", vector, errors, strict=True)}
 

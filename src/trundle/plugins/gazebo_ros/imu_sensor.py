@@ -10,8 +10,8 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import ImuReading, ImuSensor, InstrumentSensor
 
-from .namespaces import ignore, leave_out, namespace_of
-from .sensor import Outlet, frame_of, topic_of
+from .namespaces import mark_read, read_namespace, warn_unsupported
+from .sensor_publisher import SensorPublisher, read_frame_name, read_topic_name
 
 
 def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
@@ -23,17 +23,17 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     if not isinstance(sensor, ImuSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; an imu is needed")
     parameters = tag.node
-    topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "imu_data")
+    topic = read_topic_name(tag, read_namespace(tag, sensor.model.name), "topicName", "imu_data")
     rate_hz = parameters.number("updateRateHZ", default=1.0, report=report)
-    frame = frame_of(tag, sensor.link.name)
-    outlet = Outlet(node, topic, "sensor_msgs/Imu", frame, rate_hz=rate_hz)
+    frame = read_frame_name(tag, sensor.link.name)
+    outlet = SensorPublisher(node, topic, "sensor_msgs/Imu", frame, rate_hz=rate_hz)
     noise = parameters.number("gaussianNoise", default=0.0, report=report)
     random = np.random.default_rng(0)
     covariance = [noise**2 if number % 4 == 0 else 0.0 for number in range(9)]
     names = ("orientation", "angular_velocity", "linear_acceleration")
     covariances = {f"{name}_covariance": covariance for name in names}
-    leave_out(parameters, report, "xyzOffset", "rpyOffset", "initialOrientationAsReference")
-    ignore(parameters, "bodyName", "serviceName")
+    warn_unsupported(parameters, report, "xyzOffset", "rpyOffset", "initialOrientationAsReference")
+    mark_read(parameters, "bodyName", "serviceName")
     parameters.report_unread(report)
 
     def message(reading: ImuReading) -> dict[str, Any]:
@@ -46,4 +46,4 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     def publish(reading: ImuReading) -> None:
         outlet.publish(reading, lambda: message(reading))
 
-    sensor.listen(publish, enabled=outlet.wanted)
+    sensor.listen(publish, enabled=outlet.has_subscribers)

@@ -5,10 +5,10 @@ from typing import Any
 
 from trundle.diagnostics import UsageError
 from trundle.model import PluginTag
-from trundle.ros import Message, Node, ns_of
+from trundle.ros import Message, Node, to_nsec
 from trundle.simulation import ModelHandle, Simulation
 
-from .namespaces import namespace_of, period_of, topic_in
+from .namespaces import join_topic, rate_to_period_ns, read_namespace
 from .ros_plugin import RosPlugin
 
 _MAX_POINTS = 100_000
@@ -24,13 +24,13 @@ class JointPoseTrajectory(RosPlugin):
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         parameters, report = tag.node, sim.report
         self._sim, self._model, self._node = sim, model, node
-        namespace = namespace_of(tag, model.name)
-        topic = topic_in(namespace, parameters.string("topicName", default="set_joint_trajectory"))
-        service = topic_in(namespace, parameters.string("serviceName", default="set_joint_trajectory"))
-        self.period_ns = period_of(parameters.number("updateRate", default=0.0, report=report))
+        namespace = read_namespace(tag, model.name)
+        topic = join_topic(namespace, parameters.string("topicName", default="set_joint_trajectory"))
+        service = join_topic(namespace, parameters.string("serviceName", default="set_joint_trajectory"))
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", default=0.0, report=report))
         self._due: deque[tuple[int, dict[str, float]]] = deque()
-        node.subscribe(topic, "trajectory_msgs/JointTrajectory", self._take, queue_size=100)
-        node.advertise_service(service, "gazebo_msgs/SetJointTrajectory", self._asked)
+        node.subscribe(topic, "trajectory_msgs/JointTrajectory", self._on_trajectory, queue_size=100)
+        node.advertise_service(service, "gazebo_msgs/SetJointTrajectory", self._set_trajectory)
 
     def before_step(self, sim: Simulation) -> None:
         """Put the joints where they are to be by now."""
@@ -42,13 +42,13 @@ class JointPoseTrajectory(RosPlugin):
         """Forget what was to come."""
         self._due.clear()
 
-    def _take(self, trajectory: Message) -> None:
+    def _on_trajectory(self, trajectory: Message) -> None:
         try:
             self._plan(trajectory)
         except UsageError as error:
             self._node.log_error(str(error))
 
-    def _asked(self, request: Message) -> dict[str, Any]:
+    def _set_trajectory(self, request: Message) -> dict[str, Any]:
         try:
             self._plan(request.joint_trajectory)
         except UsageError as error:
@@ -64,10 +64,10 @@ class JointPoseTrajectory(RosPlugin):
             raise UsageError(f"{len(trajectory.points)} points are more than {_MAX_POINTS}")
         if any(len(point.positions) != len(names) for point in trajectory.points):
             raise UsageError(f"each point needs {len(names)} positions")
-        start_ns = max(ns_of(trajectory.header.stamp), self._sim.time_ns)
+        start_ns = max(to_nsec(trajectory.header.stamp), self._sim.time_ns)
         self._due = deque(
             (
-                start_ns + ns_of(point.time_from_start),
+                start_ns + to_nsec(point.time_from_start),
                 {name: float(p) for name, p in zip(names, point.positions, strict=True)},
             )
             for point in trajectory.points

@@ -6,7 +6,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
-from .namespaces import namespace_of, period_of, topic_in
+from .namespaces import join_topic, rate_to_period_ns, read_namespace
 from .ros_plugin import RosPlugin
 
 
@@ -20,8 +20,8 @@ class JointStatePublisher(RosPlugin):
         parameters, report = tag.node, sim.report
         names = [name for name in re.split(r"[\s,]+", parameters.string("jointName")) if name]
         self._joints = [model.joint(name) for name in names] or [joint for joint in model.joints if joint.axes]
-        self.period_ns = period_of(parameters.number("updateRate", default=100.0, report=report))
-        topic = topic_in(namespace_of(tag, model.name), "joint_states")
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", default=100.0, report=report))
+        topic = join_topic(read_namespace(tag, model.name), "joint_states")
         self._states = node.advertise(topic, "sensor_msgs/JointState", queue_size=1000)
 
     def after_step(self, snapshot: Snapshot) -> None:

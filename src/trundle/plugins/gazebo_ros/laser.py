@@ -8,26 +8,28 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
-from .namespaces import ignore, leave_out, namespace_of, topic_in
-from .sensor import Outlet, frame_of, topic_of
+from .namespaces import join_topic, mark_read, read_namespace, warn_unsupported
+from .sensor_publisher import SensorPublisher, read_frame_name, read_topic_name
 
 
 def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
     """Publish sensor_msgs/LaserScan on <topicName> (scan) in <frameName> (world)."""
     rays = _rays(sensor)
-    topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "scan")
-    _listen(rays, Outlet(node, topic, "sensor_msgs/LaserScan", frame_of(tag, "world")), as_points=False)
-    ignore(tag.node, "gaussianNoise", "hokuyoMinIntensity", "updateRate")  # gazebo_ros reads none of them
+    topic = read_topic_name(tag, read_namespace(tag, sensor.model.name), "topicName", "scan")
+    _listen(rays, SensorPublisher(node, topic, "sensor_msgs/LaserScan", read_frame_name(tag, "world")), as_points=False)
+    mark_read(tag.node, "gaussianNoise", "hokuyoMinIntensity", "updateRate")  # gazebo_ros reads none of them
     tag.node.report_unread(report)
 
 
 def attach_points(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
     """libgazebo_ros_block_laser.so and velodyne's: sensor_msgs/PointCloud2 on <topicName> (points)."""
     rays = _rays(sensor)
-    topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "points")
-    _listen(rays, Outlet(node, topic, "sensor_msgs/PointCloud2", frame_of(tag, "world")), as_points=True)
-    leave_out(tag.node, report, "gaussianNoise", "min_range", "max_range", "min_intensity")
-    ignore(tag.node, "hokuyoMinIntensity", "updateRate", "organize_cloud")
+    topic = read_topic_name(tag, read_namespace(tag, sensor.model.name), "topicName", "points")
+    _listen(
+        rays, SensorPublisher(node, topic, "sensor_msgs/PointCloud2", read_frame_name(tag, "world")), as_points=True
+    )
+    warn_unsupported(tag.node, report, "gaussianNoise", "min_range", "max_range", "min_intensity")
+    mark_read(tag.node, "hokuyoMinIntensity", "updateRate", "organize_cloud")
     tag.node.report_unread(report)
 
 
@@ -36,7 +38,7 @@ def attach_ray_sensor(sensor: InstrumentSensor, node: Node, tag: PluginTag, repo
     <remapping>~/out:=scan."""
     rays, parameters = _rays(sensor), tag.node
     kind = parameters.string("output_type", default="sensor_msgs/PointCloud2")
-    namespace, topic = namespace_of(tag, sensor.model.name), "out"
+    namespace, topic = read_namespace(tag, sensor.model.name), "out"
     ros = parameters.find("ros")
     if ros is not None:
         namespace = ros.string("namespace", default=namespace).strip("/")
@@ -48,8 +50,8 @@ def attach_ray_sensor(sensor: InstrumentSensor, node: Node, tag: PluginTag, repo
     if outlet is None:
         raise UsageError(f"output_type {kind!r} is not published; sensor_msgs/LaserScan and PointCloud2 are")
     frame = parameters.string("frame_name", default=rays.link.name)
-    _listen(rays, Outlet(node, topic_in(namespace, topic), kind, frame), as_points=outlet)
-    ignore(parameters)
+    _listen(rays, SensorPublisher(node, join_topic(namespace, topic), kind, frame), as_points=outlet)
+    mark_read(parameters)
     parameters.report_unread(report)
 
 
@@ -59,10 +61,10 @@ def _rays(sensor: InstrumentSensor) -> RangeSensor:
     return sensor
 
 
-def _listen(sensor: RangeSensor, outlet: Outlet, *, as_points: bool) -> None:
+def _listen(sensor: RangeSensor, outlet: SensorPublisher, *, as_points: bool) -> None:
     period_s = float(sensor.period_ns) / 1e9
 
     def publish(reading: RangeReading) -> None:
         outlet.publish(reading, lambda: points_message(reading) if as_points else scan_message(reading, period_s))
 
-    sensor.listen(publish, enabled=outlet.wanted)
+    sensor.listen(publish, enabled=outlet.has_subscribers)

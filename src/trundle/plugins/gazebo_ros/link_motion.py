@@ -7,7 +7,7 @@ from trundle.spatial import Pose, Quaternion, Vector3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Motion:
+class MotionSample:
     """One moment of a link."""
 
     orientation: Quaternion
@@ -29,7 +29,7 @@ class LinkMotion:
         self._link = link
         self._before: tuple[int, Vector3] | None = None
 
-    def look(self, time_ns: int) -> Motion:
+    def sample(self, time_ns: int) -> MotionSample:
         """How it moves now; the first look knows no acceleration."""
         twist, orientation = self._link.twist, self._link.pose.quaternion
         before, self._before = self._before, (time_ns, twist.linear)
@@ -38,7 +38,7 @@ class LinkMotion:
             elapsed = (time_ns - before[0]) / 1e9
             ax, ay, az = ((now - then) / elapsed for now, then in zip(twist.linear, before[1], strict=True))
         back = Pose(quaternion=orientation).inverse()
-        return Motion(
+        return MotionSample(
             orientation=orientation,
             rate=back.transform_vector(twist.angular),
             acceleration=back.transform_vector((ax, ay, az)),

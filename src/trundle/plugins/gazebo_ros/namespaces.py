@@ -8,7 +8,7 @@ from trundle.xmlnode import XmlNode
 _NOTHING = {"0", "0.0", "false"}
 
 
-def namespace_of(tag: PluginTag, model: str) -> str:
+def read_namespace(tag: PluginTag, model: str) -> str:
     """<robotNamespace> without slashes at its ends; the model's name where it is there and empty, as in gazebo_ros."""
     found = tag.node.find("robotNamespace")
     if found is None:
@@ -16,25 +16,25 @@ def namespace_of(tag: PluginTag, model: str) -> str:
     return found.text.strip().strip("/") or (ros_name(model) if not found.text.strip() else "")
 
 
-def topic_in(namespace: str, topic: str) -> str:
+def join_topic(namespace: str, topic: str) -> str:
     """A topic's global name."""
     if topic.startswith("/") or not namespace:
         return f"/{topic.lstrip('/')}"
     return f"/{namespace}/{topic}"
 
 
-def period_of(rate_hz: float) -> int:
+def rate_to_period_ns(rate_hz: float) -> int:
     """Of an update rate [ns]; 0: every step."""
     return round(1e9 / rate_hz) if rate_hz > 0.0 else 0
 
 
-def ignore(parameters: XmlNode, *names: str) -> None:
+def mark_read(parameters: XmlNode, *names: str) -> None:
     """Count parameters as read that have no meaning here: levels of debugging, ODE's own settings."""
     for name in (*names, "rosDebugLevel", "alwaysOn", "robotNamespace", "always_on", "update_rate"):
         parameters.find(name)
 
 
-def leave_out(parameters: XmlNode, report: Diagnostics, *names: str) -> None:
+def warn_unsupported(parameters: XmlNode, report: Diagnostics, *names: str) -> None:
     """Count parameters as read, and name those that would do something."""
     for name in names:
         found = parameters.find(name)

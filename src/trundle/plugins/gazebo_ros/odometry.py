@@ -8,9 +8,9 @@ from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import ModelHandle
 from trundle.spatial import Pose, Twist
 
-from .namespaces import topic_in
+from .namespaces import join_topic
 
-WIDE = 1e12
+LARGE_VARIANCE = 1e12
 """Variance of what odometry on a plane does not know."""
 
 
@@ -46,7 +46,7 @@ class OdometryTopic:
         self._broadcaster = TransformBroadcaster(node) if with_tf else None
 
     @classmethod
-    def of(
+    def from_tag(
         cls,
         tag: PluginTag,
         namespace: str,
@@ -60,7 +60,7 @@ class OdometryTopic:
         """By <odometryTopic>, <odometryFrame> and <robotBaseFrame>, as every drive of gazebo_ros has them."""
         return cls(
             node,
-            topic_in(namespace, tag.node.string("odometryTopic", default="odom")),
+            join_topic(namespace, tag.node.string("odometryTopic", default="odom")),
             frame=tag.node.string("odometryFrame", default="odom"),
             base=tag.node.string("robotBaseFrame", default=base),
             variances=variances,
@@ -72,7 +72,7 @@ class OdometryTopic:
         """Say it; `twist` is in the robot's axes, `yaw_variance` takes the place of yaw's and its rate's for once."""
         (x, y, z), (qw, qx, qy, qz) = pose.position, pose.quaternion
         if self._broadcaster is not None:
-            self._broadcaster.send(
+            self._broadcaster.send_transform(
                 Transform(
                     parent=self._frame,
                     child=self._base,
@@ -108,7 +108,7 @@ def _diagonal(variances: tuple[float, ...]) -> list[float]:
     return [variances[row] if row == column else 0.0 for row in range(6) for column in range(6)]
 
 
-def true_motion(model: ModelHandle) -> tuple[Pose, Twist]:
+def ground_truth(model: ModelHandle) -> tuple[Pose, Twist]:
     """Where a model is in the world, and how fast it moves along its own heading and turns."""
     pose, twist = model.pose, model.base.twist
     yaw = pose.rpy[2]

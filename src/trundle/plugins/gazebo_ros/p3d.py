@@ -9,7 +9,7 @@ from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose, Twist
 
-from .namespaces import namespace_of, period_of, topic_in
+from .namespaces import join_topic, rate_to_period_ns, read_namespace
 from .ros_plugin import RosPlugin, required
 
 _WORLD = frozenset({"", "/", "world", "/world", "map", "/map", "/my_frame"})
@@ -36,8 +36,8 @@ class P3D(RosPlugin):
         self._offset = Pose.from_rpy(*offsets[0], *offsets[1])
         self._noise = parameters.number("gaussianNoise", default=0.0, report=report)
         self._random = np.random.default_rng(sim.seed)
-        self.period_ns = period_of(parameters.number("updateRate", default=0.0, report=report))
-        topic = topic_in(namespace_of(tag, model.name), required(parameters, "topicName"))
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", default=0.0, report=report))
+        topic = join_topic(read_namespace(tag, model.name), required(parameters, "topicName"))
         self._topic = node.advertise(topic, "nav_msgs/Odometry", queue_size=1)
         variance = self._noise**2
         self._covariance = [variance if number % 7 == 0 else 0.0 for number in range(36)]
@@ -56,22 +56,22 @@ class P3D(RosPlugin):
         qw, qx, qy, qz = pose.quaternion
         told = {
             "pose": {
-                "position": self._disturbed(pose.position),
+                "position": self._with_noise(pose.position),
                 "orientation": {"x": qx, "y": qy, "z": qz, "w": qw},
             },
             "covariance": self._covariance,
         }
         speeds = {
             "twist": {
-                "linear": self._disturbed(back.transform_vector((ax - bx, ay - by, az - bz))),
-                "angular": self._disturbed(back.transform_vector((ux - vx, uy - vy, uz - vz))),
+                "linear": self._with_noise(back.transform_vector((ax - bx, ay - by, az - bz))),
+                "angular": self._with_noise(back.transform_vector((ux - vx, uy - vy, uz - vz))),
             },
             "covariance": self._covariance,
         }
         header = {"stamp": snapshot.time_ns, "frame_id": self._frame}
         self._topic.publish({"header": header, "child_frame_id": self._link.name, "pose": told, "twist": speeds})
 
-    def _disturbed(self, vector: tuple[float, float, float]) -> dict[str, Any]:
+    def _with_noise(self, vector: tuple[float, float, float]) -> dict[str, Any]:
         if self._noise > 0.0:
             x, y, z = (value + float(self._random.normal(0.0, self._noise)) for value in vector)
             vector = (x, y, z)

@@ -7,8 +7,8 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Twist
 
-from .namespaces import namespace_of, period_of
-from .odometry import WIDE, OdometryTopic, true_motion
+from .namespaces import rate_to_period_ns, read_namespace
+from .odometry import LARGE_VARIANCE, OdometryTopic, ground_truth
 from .ros_plugin import RosPlugin
 from .twist_command import TwistCommand
 
@@ -22,14 +22,18 @@ class PlanarMove(RosPlugin):
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         parameters, report = tag.node, sim.report
-        namespace = namespace_of(tag, model.name)
+        namespace = read_namespace(tag, model.name)
         self._model = model
-        self._command = TwistCommand.of(tag, namespace, node)
+        self._command = TwistCommand.from_tag(tag, namespace, node)
         self._timeout_s = parameters.number("cmdTimeout", default=-1.0, report=report)
-        self._tell_ns = period_of(parameters.number("odometryRate", default=20.0, report=report))
-        self._told_ns = sim.time_ns
-        self._odometry = OdometryTopic.of(
-            tag, namespace, node, variances=(1e-5, 1e-5, WIDE, WIDE, WIDE, 1e-3), with_tf=True
+        self._tell_ns = rate_to_period_ns(parameters.number("odometryRate", default=20.0, report=report))
+        self._published_ns = sim.time_ns
+        self._odometry = OdometryTopic.from_tag(
+            tag,
+            namespace,
+            node,
+            variances=(1e-5, 1e-5, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-3),
+            with_tf=True,
         )
 
     def before_step(self, sim: Simulation) -> None:
@@ -41,14 +45,14 @@ class PlanarMove(RosPlugin):
         cos, sin = math.cos(yaw), math.sin(yaw)
         forward, sideways = command.forward, command.sideways
         linear = (cos * forward - sin * sideways, sin * forward + cos * sideways, 0.0)
-        self._model.set_twist(Twist(linear, (0.0, 0.0, command.turning)))
+        self._model.set_twist(Twist(linear, (0.0, 0.0, command.yaw_rate)))
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell where that led, now and then."""
-        if snapshot.time_ns < self._told_ns + self._tell_ns and snapshot.time_ns >= self._told_ns:
+        if snapshot.time_ns < self._published_ns + self._tell_ns and snapshot.time_ns >= self._published_ns:
             return
-        self._told_ns = snapshot.time_ns
-        self._odometry.publish(snapshot.time_ns, *true_motion(self._model))
+        self._published_ns = snapshot.time_ns
+        self._odometry.publish(snapshot.time_ns, *ground_truth(self._model))
 
     def reset(self) -> None:
         """Stand still."""

@@ -7,8 +7,8 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
-from .namespaces import ignore, namespace_of
-from .sensor import Outlet, frame_of, topic_of
+from .namespaces import mark_read, read_namespace
+from .sensor_publisher import SensorPublisher, read_frame_name, read_topic_name
 
 _KINDS = {"ultrasound": 0, "infrared": 1}
 
@@ -22,16 +22,16 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     if not isinstance(sensor, RangeSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a ray sensor is needed")
     parameters = tag.node
-    topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "range")
+    topic = read_topic_name(tag, read_namespace(tag, sensor.model.name), "topicName", "range")
     rate_hz = parameters.number("updateRate", default=0.0, report=report)
-    outlet = Outlet(node, topic, "sensor_msgs/Range", frame_of(tag, "world"), rate_hz=rate_hz)
+    outlet = SensorPublisher(node, topic, "sensor_msgs/Range", read_frame_name(tag, "world"), rate_hz=rate_hz)
     kind = parameters.string("radiation", default="ultrasound")
     if kind not in _KINDS:
         report.warn(tag.at, f"radiation {kind!r} is neither of {', '.join(_KINDS)}; it is ultrasound")
     fov = parameters.number("fov", default=0.05, report=report)
     noise = parameters.number("gaussianNoise", default=0.0, report=report)
     random = np.random.default_rng(0)
-    ignore(parameters)
+    mark_read(parameters)
     parameters.report_unread(report)
 
     def message(reading: RangeReading) -> dict[str, object]:
@@ -50,4 +50,4 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     def publish(reading: RangeReading) -> None:
         outlet.publish(reading, lambda: message(reading))
 
-    sensor.listen(publish, enabled=outlet.wanted)
+    sensor.listen(publish, enabled=outlet.has_subscribers)

@@ -9,7 +9,7 @@ from trundle.simulation import ModelHandle, Simulation
 from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
-from .namespaces import ignore
+from .namespaces import mark_read
 
 
 class RosPlugin(Plugin):
@@ -24,7 +24,7 @@ class RosPlugin(Plugin):
         if node is None:
             raise TrundleError("it needs the ROS graph, which --no-ros leaves out")
         plugin = cls(sim, model, node, tag)
-        ignore(tag.node)
+        mark_read(tag.node)
         tag.node.report_unread(sim.report)
         return plugin
 

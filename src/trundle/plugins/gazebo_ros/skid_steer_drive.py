@@ -5,8 +5,8 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
-from .namespaces import namespace_of, period_of
-from .odometry import WIDE, OdometryTopic, true_motion
+from .namespaces import rate_to_period_ns, read_namespace
+from .odometry import LARGE_VARIANCE, OdometryTopic, ground_truth
 from .ros_plugin import RosPlugin
 from .twist_command import TwistCommand
 
@@ -22,7 +22,7 @@ class SkidSteerDrive(RosPlugin):
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         parameters, report = tag.node, sim.report
-        namespace = namespace_of(tag, model.name)
+        namespace = read_namespace(tag, model.name)
 
         def number(name: str, default: float) -> float:
             return parameters.number(name, default=default, report=report)
@@ -36,28 +36,28 @@ class SkidSteerDrive(RosPlugin):
             separation=number("wheelSeparation", 0.4), wheel_radius=number("wheelDiameter", 0.15) / 2
         )
         self._torque = number("torque", 5.0)
-        self.period_ns = period_of(number("updateRate", 100.0))
-        self._command = TwistCommand.of(tag, namespace, node)
+        self.period_ns = rate_to_period_ns(number("updateRate", 100.0))
+        self._command = TwistCommand.from_tag(tag, namespace, node)
         x, y, yaw = number("covariance_x", 1e-4), number("covariance_y", 1e-4), number("covariance_yaw", 0.01)
-        self._odometry = OdometryTopic.of(
+        self._odometry = OdometryTopic.from_tag(
             tag,
             namespace,
             node,
-            variances=(x, y, WIDE, WIDE, WIDE, yaw),
+            variances=(x, y, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, yaw),
             with_tf=parameters.flag("broadcastTF", default=False, report=report),
         )
 
     def before_step(self, sim: Simulation) -> None:
         """Keep all wheels at their speeds."""
         del sim
-        speeds = self._drive.wheel_speeds(self._command.forward, self._command.turning)
+        speeds = self._drive.wheel_speeds(self._command.forward, self._command.yaw_rate)
         for side, speed in zip(self._sides, speeds, strict=True):
             for wheel in side:
                 wheel.set_velocity(speed, max_effort=self._torque)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell where that led."""
-        self._odometry.publish(snapshot.time_ns, *true_motion(self._model))
+        self._odometry.publish(snapshot.time_ns, *ground_truth(self._model))
 
     def reset(self) -> None:
         """Stand still."""

@@ -8,8 +8,8 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
-from .namespaces import leave_out, namespace_of, period_of, topic_in
-from .odometry import WIDE, OdometryTopic, true_motion
+from .namespaces import join_topic, rate_to_period_ns, read_namespace, warn_unsupported
+from .odometry import LARGE_VARIANCE, OdometryTopic, ground_truth
 from .ros_plugin import RosPlugin
 from .twist_command import TwistCommand
 
@@ -31,7 +31,7 @@ class TricycleDrive(RosPlugin):
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         super().__init__(sim, model, node, tag)
         parameters, report = tag.node, sim.report
-        namespace = namespace_of(tag, model.name)
+        namespace = read_namespace(tag, model.name)
 
         def number(name: str, default: float) -> float:
             return parameters.number(name, default=default, report=report)
@@ -50,16 +50,20 @@ class TricycleDrive(RosPlugin):
         self._torque, self._steering_speed = number("wheelTorque", 5.0), number("steeringSpeed", 0.0)
         self._faster = number("wheelAcceleration", 0.0)
         self._slower = number("wheelDeceleration", self._faster)
-        self.period_ns = period_of(number("updateRate", 100.0))
+        self.period_ns = rate_to_period_ns(number("updateRate", 100.0))
         self._from_wheels = parameters.string("odometrySource", default="world") in ("encoder", "0")
-        self._command = TwistCommand.of(tag, namespace, node)
-        variances = (1e-5, 1e-5, WIDE, WIDE, WIDE, 1e-3)
-        self._odometry = OdometryTopic.of(tag, namespace, node, variances=variances, with_tf=True, base="base_link")
+        self._command = TwistCommand.from_tag(tag, namespace, node)
+        variances = (1e-5, 1e-5, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-3)
+        self._odometry = OdometryTopic.from_tag(
+            tag, namespace, node, variances=variances, with_tf=True, base="base_link"
+        )
         states = parameters.flag("publishWheelJointState", default=False, report=report)
-        self._states = node.advertise(topic_in(namespace, "joint_states"), "sensor_msgs/JointState") if states else None
+        self._states = (
+            node.advertise(join_topic(namespace, "joint_states"), "sensor_msgs/JointState") if states else None
+        )
         for name in ("wheelSpeedTolerance", "steeringAngleTolerance"):
             parameters.find(name)
-        leave_out(parameters, report, "publishWheelTF")
+        warn_unsupported(parameters, report, "publishWheelTF")
         self.reset()
 
     def before_step(self, sim: Simulation) -> None:
@@ -69,7 +73,7 @@ class TricycleDrive(RosPlugin):
         change = self._faster if abs(wanted) > abs(self._speed) else self._slower
         self._speed = step_towards(self._speed, wanted, change * dt_s) if self._faster > 0.0 else wanted
         self._wheel.set_velocity(self._speed, max_effort=self._torque)
-        angle = min(max(self._command.turning, -math.pi / 2), math.pi / 2)
+        angle = min(max(self._command.yaw_rate, -math.pi / 2), math.pi / 2)
         if self._steering_speed > 0.0:
             angle = step_towards(self._angle, angle, self._steering_speed * dt_s)
         self._angle = angle
@@ -77,7 +81,7 @@ class TricycleDrive(RosPlugin):
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell where that led."""
-        pose, twist = self._by_wheels(snapshot.time_ns) if self._from_wheels else true_motion(self._model)
+        pose, twist = self._integrate_wheels(snapshot.time_ns) if self._from_wheels else ground_truth(self._model)
         self._odometry.publish(snapshot.time_ns, pose, twist)
         if self._states is not None and self._states.has_subscribers:
             joints = [self._steering, self._wheel, *self._encoders]
@@ -98,7 +102,7 @@ class TricycleDrive(RosPlugin):
         self._turned = [wheel.position for wheel in self._encoders]
         self._last_ns = 0
 
-    def _by_wheels(self, time_ns: int) -> tuple[Pose, Twist]:
+    def _integrate_wheels(self, time_ns: int) -> tuple[Pose, Twist]:
         """Add up what the wheels turned."""
         turned = [wheel.position for wheel in self._encoders]
         left, right = (now - before for now, before in zip(turned, self._turned, strict=True))

@@ -6,7 +6,7 @@ from typing import Self
 from trundle.model import PluginTag
 from trundle.ros import Message, Node
 
-from .namespaces import topic_in
+from .namespaces import join_topic
 
 
 class TwistCommand:
@@ -14,24 +14,24 @@ class TwistCommand:
 
     def __init__(self, node: Node, topic: str) -> None:
         """Subscribe."""
-        self.forward = self.sideways = self.turning = 0.0
+        self.forward = self.sideways = self.yaw_rate = 0.0
         """[m/s], [m/s] to the left, [rad/s] to the left."""
         self.stamp_ns = 0
         """When it came."""
         self._node = node
-        node.subscribe(topic, "geometry_msgs/Twist", self._take, queue_size=1)
+        node.subscribe(topic, "geometry_msgs/Twist", self._on_command, queue_size=1)
 
     @classmethod
-    def of(cls, tag: PluginTag, namespace: str, node: Node) -> Self:
+    def from_tag(cls, tag: PluginTag, namespace: str, node: Node) -> Self:
         """By <commandTopic>, as every drive of gazebo_ros has it."""
-        return cls(node, topic_in(namespace, tag.node.string("commandTopic", default="cmd_vel")))
+        return cls(node, join_topic(namespace, tag.node.string("commandTopic", default="cmd_vel")))
 
     def stop(self) -> None:
         """Ask for nothing."""
-        self.forward = self.sideways = self.turning = 0.0
+        self.forward = self.sideways = self.yaw_rate = 0.0
 
-    def _take(self, twist: Message) -> None:
+    def _on_command(self, twist: Message) -> None:
         wanted = (float(twist.linear.x), float(twist.linear.y), float(twist.angular.z))
         if all(map(math.isfinite, wanted)):
-            self.forward, self.sideways, self.turning = wanted
+            self.forward, self.sideways, self.yaw_rate = wanted
             self.stamp_ns = self._node.clock.now_ns()

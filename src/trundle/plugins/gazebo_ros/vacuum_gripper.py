@@ -9,7 +9,7 @@ from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Wrench
 
-from .namespaces import topic_in
+from .namespaces import join_topic
 from .ros_plugin import RosPlugin, required
 
 _REACH = 0.05
@@ -37,31 +37,31 @@ class VacuumGripper(RosPlugin):
         self._link = model.link(required(parameters, "bodyName"))
         topic = required(parameters, "topicName")
         self._is_on = self._holds = False
-        self._told = node.advertise(topic_in(namespace, topic), "std_msgs/Bool", queue_size=1)
-        node.advertise_service(topic_in(namespace, "on"), "std_srvs/Empty", lambda _: self._switch(on=True))
-        node.advertise_service(topic_in(namespace, "off"), "std_srvs/Empty", lambda _: self._switch(on=False))
+        self._was_holding = node.advertise(join_topic(namespace, topic), "std_msgs/Bool", queue_size=1)
+        node.advertise_service(join_topic(namespace, "on"), "std_srvs/Empty", lambda _: self._switch(on=True))
+        node.advertise_service(join_topic(namespace, "off"), "std_srvs/Empty", lambda _: self._switch(on=False))
 
     def before_step(self, sim: Simulation) -> None:
         """Suck."""
-        near = self._near(sim) if self._is_on else []
+        near = self._find_nearby_links(sim) if self._is_on else []
         for link in near:
-            self._suck(link, free=sim.engine.is_free(link.index))
+            self._apply_suction(link, free=sim.engine.is_free(link.index))
         self._holds = bool(near)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell."""
         del snapshot
-        if self._told.has_subscribers:
-            self._told.publish({"data": self._holds})
+        if self._was_holding.has_subscribers:
+            self._was_holding.publish({"data": self._holds})
 
-    def _near(self, sim: Simulation) -> list[LinkHandle]:
+    def _find_nearby_links(self, sim: Simulation) -> list[LinkHandle]:
         positions = sim.engine.reader.link_poses()[:, :3]
         distances = np.linalg.norm(positions - positions[self._link.index], axis=1)
         near = set(np.flatnonzero(distances < _REACH).tolist())
         others = (each for each in sim.models if each.name not in (self._model.name, self._link.name))
         return [link for each in others for link in each.links if link.index in near]
 
-    def _suck(self, link: LinkHandle, *, free: bool) -> None:
+    def _apply_suction(self, link: LinkHandle, *, free: bool) -> None:
         here, there = self._link.pose, link.pose
         way = np.subtract(here.position, there.position)
         distance = math.hypot(*way.tolist())

@@ -50,7 +50,7 @@ class Arm:
     def _joint(self) -> str:
         return f"{self._model.name}::{self.name}::grasp"
 
-    def take(self, collision: str, link: LinkHandle, grip: list[ContactAverage]) -> None:
+    def attach(self, collision: str, link: LinkHandle, grip: list[ContactAverage]) -> None:
         """Weld an object's link to the palm as it lies now.
 
         Args:
@@ -66,13 +66,13 @@ class Arm:
         self.held, self.grip = collision, grip
         self._surfaces = [each.surface for each in link.link.collisions]
         if self._leaves:
-            self._cover(child, [replace(each, collide_bitmask=0, category_bitmask=0) for each in self._surfaces])
+            self._set_surfaces(child, [replace(each, collide_bitmask=0, category_bitmask=0) for each in self._surfaces])
 
-    def drop(self) -> None:
+    def detach(self) -> None:
         """Let it go."""
         self._sim.detach(self._joint)
         if self._leaves:
-            self._cover(self.held.rpartition("::")[0], self._surfaces)
+            self._set_surfaces(self.held.rpartition("::")[0], self._surfaces)
         self.forget()
 
     def forget(self) -> None:
@@ -80,11 +80,11 @@ class Arm:
         self.held, self.grip = "", []
 
     @property
-    def has_lost(self) -> bool:
+    def is_joint_lost(self) -> bool:
         """Whether something else took the joint away, as when a model is deleted."""
         return bool(self.held) and all(joint.name != self._joint for joint in self._sim.joints)
 
-    def _cover(self, link: str, surfaces: Sequence[Surface]) -> None:
+    def _set_surfaces(self, link: str, surfaces: Sequence[Surface]) -> None:
         """Give the collisions of `model::link` other surfaces."""
         owner, _, name = link.partition("::")
         world = self._sim.world

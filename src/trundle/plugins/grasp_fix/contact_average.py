@@ -51,7 +51,7 @@ class ContactAverage:
         """(3,) [N]"""
         return self.force / self.steps
 
-    def slipped(self) -> float:
+    def slip_distance(self) -> float:
         """How much nearer or farther the place that touched is from the object than it was then [m]."""
         point, origin = self.point / self.steps, self.object_origin / self.steps
         x, y, z = point.tolist()
@@ -59,7 +59,7 @@ class ContactAverage:
         return abs(float(np.linalg.norm(point - origin)) - now)
 
 
-def by_pair(
+def group_by_pair(
     contacts: Iterable[Contact], fingers: Mapping[str, object]
 ) -> dict[tuple[str, str], tuple[NDArray[np.float64], NDArray[np.float64]]]:
     """Contacts of one step by (object, finger) collision: (n, 3) forces on the object and (n, 3) points, in the world.
@@ -83,7 +83,7 @@ def by_pair(
     }
 
 
-def is_held(forces: Sequence[NDArray[np.float64]], least_angle_rad: float) -> bool:
+def forces_oppose(forces: Sequence[NDArray[np.float64]], least_angle_rad: float) -> bool:
     """Whether two of the forces oppose each other by more than an angle, and neither is much weaker."""
     for one, other in combinations(forces, 2):
         strong, weak = sorted((float(np.linalg.norm(one)), float(np.linalg.norm(other))), reverse=True)

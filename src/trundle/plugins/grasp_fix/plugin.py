@@ -13,7 +13,7 @@ from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
 from .arm import Arm
-from .contact_average import ContactAverage, by_pair, is_held
+from .contact_average import ContactAverage, forces_oppose, group_by_pair
 
 _USUAL_TOPIC = "__default_topic__"
 
@@ -63,31 +63,33 @@ class GraspFix(Plugin):
 
     def before_step(self, sim: Simulation) -> None:
         """Feel what the last step did; now and then take or drop."""
-        self._feel()
+        self._record_contacts()
         if sim.time_ns < self._next_ns:
             return
         self._next_ns = sim.time_ns + self._every_ns
         touching, self._touching = self._touching, {}
         for arm in self._arms.values():
-            if arm.has_lost:
+            if arm.is_joint_lost:
                 arm.forget()
         held = {
-            name for name, each in touching.items() if is_held([t.mean_force for t in each.values()], self._angle_rad)
+            name
+            for name, each in touching.items()
+            if forces_oppose([t.mean_force for t in each.values()], self._angle_rad)
         }
         for name in sorted(held):
             self._count[name] = min(self._count[name] + 1, self._most)
             if self._count[name] > self._enough:
-                self._take(name, list(touching[name].values()))
+                self._attach(name, list(touching[name].values()))
         for name in sorted(self._count.keys() - held):
             self._count[name] = max(self._count[name] - 1, 0)
             if self._count[name] <= self._enough:
-                self._maybe_drop(name)
+                self._detach_if_slipped(name)
 
     def reset(self) -> None:
         """Open every hand."""
         for arm in self._arms.values():
-            if arm.held and not arm.has_lost:
-                arm.drop()
+            if arm.held and not arm.is_joint_lost:
+                arm.detach()
         self._forget()
 
     def _forget(self) -> None:
@@ -112,11 +114,11 @@ class GraspFix(Plugin):
             return
         self._arms[arm.name] = arm
 
-    def _feel(self) -> None:
+    def _record_contacts(self) -> None:
         contacts = self._sim.contacts(self._among)
         if not contacts:
             return
-        for (name, finger), (forces, points) in by_pair(contacts, self._fingers).items():
+        for (name, finger), (forces, points) in group_by_pair(contacts, self._fingers).items():
             arm, link = self._fingers[finger]
             owner = self._sim[name.partition("::")[0]]
             if owner.model.static:
@@ -126,23 +128,23 @@ class GraspFix(Plugin):
                 found[finger] = ContactAverage(arm.name, link, _link_of(owner, name))
             found[finger].add(forces, points)
 
-    def _take(self, name: str, touching: list[ContactAverage]) -> None:
+    def _attach(self, name: str, touching: list[ContactAverage]) -> None:
         """Have the arm with most fingers on an object hold it, unless one of those that touch it holds something."""
         fingers = Counter(each.arm for each in touching)
         if any(self._arms[arm].held for arm in fingers):
             return
         arm = self._arms[max(fingers, key=lambda arm: fingers[arm])]
         try:
-            arm.take(name, touching[0].object_link, [each for each in touching if each.arm == arm.name])
+            arm.attach(name, touching[0].object_link, [each for each in touching if each.arm == arm.name])
         except TrundleError as error:
             self._sim.report.warn_error(error, arm.at, f"{name} is not held", who=f"arm {arm.name!r}")
             return
         self._say(f"grasp_fix: {arm.name} holds {name}")
 
-    def _maybe_drop(self, name: str) -> None:
+    def _detach_if_slipped(self, name: str) -> None:
         arm = next((arm for arm in self._arms.values() if arm.held == name), None)
-        if arm is not None and any(each.slipped() > self._slack for each in arm.grip):
-            arm.drop()
+        if arm is not None and any(each.slip_distance() > self._slack for each in arm.grip):
+            arm.detach()
             self._count[name] = 0
             self._say(f"grasp_fix: {arm.name} lets {name} go")
 

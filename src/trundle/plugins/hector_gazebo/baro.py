@@ -4,7 +4,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node, Publisher
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
-from .errors import ErrorModel
+from .error_model import ErrorModel
 from .link_sensor import LinkSensor
 
 _SCALE_M, _POWER = 44330.0, 5.263157
@@ -39,7 +39,7 @@ class Baro(LinkSensor):
         heard = [topic for topic in (self._height, self._altimeter) if topic is not None and topic.has_subscribers]
         if not heard:
             return
-        (height,) = self._errors.of(self.link.pose.position[2:], self.elapsed_s(snapshot.time_ns))
+        (height,) = self._errors.apply(self.link.pose.position[2:], self.elapsed_s(snapshot.time_ns))
         header = {"stamp": snapshot.time_ns, "frame_id": self.frame}
         altitude = height + self._elevation
         pressure = max(1.0 - altitude / _SCALE_M, 0.0) ** _POWER * self._qnh

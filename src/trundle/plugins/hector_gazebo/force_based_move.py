@@ -7,13 +7,13 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist, Wrench
 
-from ..gazebo_ros.namespaces import namespace_of, period_of
-from ..gazebo_ros.odometry import WIDE, OdometryTopic
+from ..gazebo_ros.namespaces import rate_to_period_ns, read_namespace
+from ..gazebo_ros.odometry import LARGE_VARIANCE, OdometryTopic
 from ..gazebo_ros.ros_plugin import RosPlugin
 from ..gazebo_ros.twist_command import TwistCommand
 
-_VARIANCES = (1e-3, 1e-3, WIDE, WIDE, WIDE, 1e-2)
-_TWIST_VARIANCES = (1e-3, 1e-3, 1e-3, WIDE, WIDE, 1e-2)
+_VARIANCES = (1e-3, 1e-3, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-2)
+_TWIST_VARIANCES = (1e-3, 1e-3, 1e-3, LARGE_VARIANCE, LARGE_VARIANCE, 1e-2)
 _TURNING_VARIANCE = 100.0
 """Of yaw, while the model turns."""
 _STRAIGHT = 1e-4
@@ -34,19 +34,19 @@ class ForceBasedMove(RosPlugin):
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         parameters, report = tag.node, sim.report
-        namespace = namespace_of(tag, model.name)
+        namespace = read_namespace(tag, model.name)
 
         def number(name: str, default: float) -> float:
             return parameters.number(name, default=default, report=report)
 
         self.model = model
-        self.command = TwistCommand.of(tag, namespace, node)
+        self.command = TwistCommand.from_tag(tag, namespace, node)
         self._link = model.link(parameters.string("robotBaseFrame", default="base_footprint"))
         self._gains = number("x_velocity_p_gain", 1e4), number("y_velocity_p_gain", 1e4)
         self._yaw_gain = number("yaw_velocity_p_gain", 100.0)
         rate_hz = number("odometryRate", 20.0)
-        self._period_ns = period_of(rate_hz) if rate_hz > 0.0 else None
-        self._odometry = OdometryTopic.of(
+        self._period_ns = rate_to_period_ns(rate_hz) if rate_hz > 0.0 else None
+        self._odometry = OdometryTopic.from_tag(
             tag,
             namespace,
             node,
@@ -54,7 +54,7 @@ class ForceBasedMove(RosPlugin):
             twist_variances=_TWIST_VARIANCES,
             with_tf=parameters.flag("publishOdometryTf", default=True, report=report),
         )
-        self._told_ns: int | None = None
+        self._published_ns: int | None = None
         self._place = Pose()
 
     def before_step(self, sim: Simulation) -> None:
@@ -64,17 +64,17 @@ class ForceBasedMove(RosPlugin):
         vx, vy, _ = self.model.pose.inverse().transform_vector(twist.linear)
         x_gain, y_gain = self._gains
         force = (x_gain * (self.command.forward - vx), y_gain * (self.command.sideways - vy), 0.0)
-        torque = (0.0, 0.0, self._yaw_gain * (self.command.turning - twist.angular[2]))
+        torque = (0.0, 0.0, self._yaw_gain * (self.command.yaw_rate - twist.angular[2]))
         self._link.add_wrench(Wrench(self._link.pose.transform_vector(force), torque))
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell how far that led, now and then."""
-        if self._told_ns is None:
-            self._told_ns = snapshot.time_ns
-        elapsed_ns = snapshot.time_ns - self._told_ns
+        if self._published_ns is None:
+            self._published_ns = snapshot.time_ns
+        elapsed_ns = snapshot.time_ns - self._published_ns
         if self._period_ns is None or elapsed_ns <= self._period_ns:
             return
-        elapsed_s, self._told_ns = elapsed_ns / 1e9, snapshot.time_ns
+        elapsed_s, self._published_ns = elapsed_ns / 1e9, snapshot.time_ns
         body_from_world = self.model.pose.inverse()
         vx, vy, _ = body_from_world.transform_vector(self.model.twist.linear)
         rate = body_from_world.transform_vector(self.model.twist.angular)[2]
@@ -87,7 +87,7 @@ class ForceBasedMove(RosPlugin):
     def reset(self) -> None:
         """Ask for nothing, at the origin of the odometry."""
         self.command.stop()
-        self._told_ns, self._place = None, Pose()
+        self._published_ns, self._place = None, Pose()
 
 
 def _turns(rate: float) -> bool:

@@ -7,7 +7,7 @@ from trundle.ros import Node
 from trundle.sensors import geodetic
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
-from .errors import ErrorModel
+from .error_model import ErrorModel
 from .link_sensor import LinkSensor
 
 _DIAGONAL_KNOWN = 2
@@ -56,8 +56,8 @@ class Gps(LinkSensor):
             return
         dt_s = self.elapsed_s(snapshot.time_ns)
         header = {"stamp": snapshot.time_ns, "frame_id": self.frame}
-        vx, vy, vz = self._speed.of(self.link.twist.linear, dt_s)
-        x, y, z = self._place.of(self.link.pose.position, dt_s)
+        vx, vy, vz = self._speed.apply(self.link.twist.linear, dt_s)
+        x, y, z = self._place.apply(self.link.pose.position, dt_s)
         latitude, longitude, altitude = geodetic(self._origin, (x, y, z))
         east, north, up = self._place.variances
         self._fix.publish(

@@ -6,7 +6,7 @@ from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose
 
 from ..gazebo_ros.link_motion import LinkMotion
-from .errors import ErrorModel
+from .error_model import ErrorModel
 from .link_sensor import LinkSensor
 
 _G = 9.8065
@@ -45,10 +45,10 @@ class Imu(LinkSensor):
         if not self._topic.has_subscribers:
             return
         dt_s = self.elapsed_s(snapshot.time_ns)
-        motion = self._motion.look(snapshot.time_ns)
+        motion = self._motion.sample(snapshot.time_ns)
         (ax, ay, az), (gx, gy, gz) = motion.acceleration, motion.in_link(self._gravity)
         felt = (ax - gx + self._tilt[0], ay - gy + self._tilt[1], az - gz)
-        turned = Pose.from_rpy(0, 0, 0, 0, 0, self._yaw + float(self._heading.error(dt_s)[0]))
+        turned = Pose.from_rpy(0, 0, 0, 0, 0, self._yaw + float(self._heading.sample(dt_s)[0]))
         qw, qx, qy, qz = (Pose(quaternion=motion.orientation) @ turned).quaternion
         strength = gx * gx + gy * gy + gz * gz
         roll, pitch, _ = (self._acceleration.noise**2 / strength).tolist() if strength > 0.0 else (-1.0, -1.0, 0.0)
@@ -56,7 +56,7 @@ class Imu(LinkSensor):
             "linear_acceleration": (self._acceleration, felt),
             "angular_velocity": (self._rate, motion.rate),
         }
-        values = {name: dict(zip("xyz", by.of(true, dt_s), strict=True)) for name, (by, true) in told.items()}
+        values = {name: dict(zip("xyz", by.apply(true, dt_s), strict=True)) for name, (by, true) in told.items()}
         covariances = {f"{name}_covariance": _diagonal((by.noise**2).tolist()) for name, (by, _) in told.items()}
         self._topic.publish(
             {

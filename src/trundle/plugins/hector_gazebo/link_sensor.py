@@ -6,7 +6,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
-from ..gazebo_ros.namespaces import namespace_of, period_of, topic_in
+from ..gazebo_ros.namespaces import join_topic, rate_to_period_ns, read_namespace
 from ..gazebo_ros.ros_plugin import RosPlugin
 
 
@@ -21,16 +21,16 @@ class LinkSensor(RosPlugin):
         body = parameters.string("bodyName")
         self.link = model.link(body) if body else model.base
         self.frame = parameters.string("frameId", default=frame or self.link.name)
-        self.period_ns = period_of(parameters.number("updateRate", default=rate_hz, report=sim.report))
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", default=rate_hz, report=sim.report))
         self.random = np.random.default_rng(sim.seed)
-        self._namespace = namespace_of(tag, model.name)
+        self._namespace = read_namespace(tag, model.name)
         self._last_ns = sim.time_ns
         for name in ("updatePeriod", "randomEngineSeed"):
             parameters.find(name)
 
     def topic(self, name: str) -> str:
         """A topic's global name."""
-        return topic_in(self._namespace, name)
+        return join_topic(self._namespace, name)
 
     def elapsed_s(self, time_ns: int) -> float:
         """Time since this was last asked."""

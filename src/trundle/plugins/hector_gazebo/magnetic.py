@@ -7,7 +7,7 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose
 
-from .errors import ErrorModel
+from .error_model import ErrorModel
 from .link_sensor import LinkSensor
 
 
@@ -43,7 +43,7 @@ class Magnetic(LinkSensor):
         if not self._topic.has_subscribers:
             return
         here = Pose(quaternion=self.link.pose.quaternion).inverse().transform_vector(self._field)
-        told = dict(zip("xyz", self._errors.of(here, self.elapsed_s(snapshot.time_ns)), strict=True))
+        told = dict(zip("xyz", self._errors.apply(here, self.elapsed_s(snapshot.time_ns)), strict=True))
         header = {"stamp": snapshot.time_ns, "frame_id": self.frame}
         self._topic.publish({"header": header, self._value: told})
 

@@ -7,9 +7,9 @@ from trundle.model import PluginTag, ScanAxis
 from trundle.ros import Node
 from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
-from ..gazebo_ros.namespaces import ignore, namespace_of
-from ..gazebo_ros.sensor import Outlet, topic_of
-from .errors import ErrorModel
+from ..gazebo_ros.namespaces import mark_read, read_namespace
+from ..gazebo_ros.sensor_publisher import SensorPublisher, read_topic_name
+from .error_model import ErrorModel
 
 
 def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
@@ -21,12 +21,12 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     if not isinstance(sensor, RangeSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a ray sensor is needed")
     parameters = tag.node
-    topic = topic_of(tag, namespace_of(tag, sensor.model.name), "topicName", "sonar")
+    topic = read_topic_name(tag, read_namespace(tag, sensor.model.name), "topicName", "sonar")
     rate_hz = parameters.number("updateRate", default=10.0, report=report)
     frame = parameters.string("frameId", default="/sonar_link")
-    outlet = Outlet(node, topic, "sensor_msgs/Range", frame, rate_hz=rate_hz)
+    outlet = SensorPublisher(node, topic, "sensor_msgs/Range", frame, rate_hz=rate_hz)
     errors = ErrorModel(parameters, report, np.random.default_rng(0), axes=1)
-    ignore(parameters)
+    mark_read(parameters)
     parameters.report_unread(report)
     last_ns = 0
 
@@ -36,7 +36,7 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
         near, far = reading.scan.min_m, reading.scan.max_m
         nearest = min(float(np.nanmin(reading.ranges)), far) if reading.ranges.size else far
         if nearest < far:
-            nearest = min(max(errors.of((nearest,), elapsed_s)[0], near), far)
+            nearest = min(max(errors.apply((nearest,), elapsed_s)[0], near), far)
         return {
             "radiation_type": 0,
             "field_of_view": min(_width(reading.scan.horizontal), _width(reading.scan.vertical)),
@@ -48,7 +48,7 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     def publish(reading: RangeReading) -> None:
         outlet.publish(reading, lambda: message(reading))
 
-    sensor.listen(publish, enabled=outlet.wanted)
+    sensor.listen(publish, enabled=outlet.has_subscribers)
 
 
 def _width(axis: ScanAxis) -> float:

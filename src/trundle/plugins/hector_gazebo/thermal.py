@@ -7,7 +7,7 @@ from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor
 
-from ..gazebo_ros.camera import attach_pictures
+from ..gazebo_ros.camera import attach_images
 
 _HOT = (255, 0, 0)
 _DARKER = 8
@@ -16,7 +16,7 @@ _DARKER = 8
 
 def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
     """Publish sensor_msgs/Image in mono8, and camera_info; parameters are those of gazebo_ros' camera."""
-    attach_pictures(sensor, node, tag, report, _grey)
+    attach_images(sensor, node, tag, report, _grey)
 
 
 def _grey(reading: CameraReading) -> dict[str, object]:

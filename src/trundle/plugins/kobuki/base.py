@@ -10,10 +10,10 @@ from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
-from ..gazebo_ros.namespaces import namespace_of, period_of, topic_in
+from ..gazebo_ros.namespaces import join_topic, rate_to_period_ns, read_namespace
 from ..gazebo_ros.odometry import OdometryTopic
 from ..gazebo_ros.ros_plugin import RosPlugin, required
-from .sensors import KobukiSensors, SensorTopic
+from .sensors import KobukiSensors, ModelSensor
 
 _BASE = "mobile_base"
 _POSE_VARIANCES = (0.1, 0.1, 1e6, 1e6, 1e6, 0.05)
@@ -45,12 +45,12 @@ class Kobuki(RosPlugin):
         if not (separation > 0.0 and diameter > 0.0):
             raise UsageError("<wheel_separation> and <wheel_diameter> must be > 0 m")
         self._drive = DifferentialDrive(separation=separation, wheel_radius=diameter / 2)
-        self.period_ns = period_of(parameters.number("update_rate", default=0.0, report=report))
+        self.period_ns = rate_to_period_ns(parameters.number("update_rate", default=0.0, report=report))
         self._node = node
-        namespace = namespace_of(tag, model.name)
+        namespace = read_namespace(tag, model.name)
 
         def topic(name: str) -> str:
-            return topic_in(namespace, name)
+            return join_topic(namespace, name)
 
         self._odometry = OdometryTopic(
             node,
@@ -64,15 +64,15 @@ class Kobuki(RosPlugin):
         self._states = node.advertise(topic("joint_states"), "sensor_msgs/JointState", queue_size=1)
         self._imu = node.advertise(topic(f"{_BASE}/sensors/imu_data"), "sensor_msgs/Imu", queue_size=1)
 
-        def sensor(name: str) -> SensorTopic:
+        def sensor(name: str) -> ModelSensor:
             return _find_sensor(model, required(parameters, name))
 
-        self._feelers = KobukiSensors(model, node, topic(_BASE), parameters, report, sensor)
+        self._sensors = KobukiSensors(model, node, topic(_BASE), parameters, report, sensor)
         self._gyro: Message | None = None
-        node.subscribe(sensor("imu_name").topic("imu"), "sensor_msgs/Imu", self._take_gyro, queue_size=1)
+        node.subscribe(sensor("imu_name").topic("imu"), "sensor_msgs/Imu", self._on_imu, queue_size=1)
         commands = topic(f"{_BASE}/commands")
-        node.subscribe(f"{commands}/velocity", "geometry_msgs/Twist", self._take, queue_size=100)
-        node.subscribe(f"{commands}/motor_power", "kobuki_msgs/MotorPower", self._take_power)
+        node.subscribe(f"{commands}/velocity", "geometry_msgs/Twist", self._on_command, queue_size=100)
+        node.subscribe(f"{commands}/motor_power", "kobuki_msgs/MotorPower", self._on_motor_power)
         node.subscribe(f"{commands}/reset_odometry", "std_msgs/Empty", self._reset_odometry)
         self.reset()
 
@@ -86,8 +86,8 @@ class Kobuki(RosPlugin):
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell all of it."""
         time_ns = snapshot.time_ns
-        self._tell_joints(time_ns)
-        self._tell_odometry(time_ns)
+        self._publish_joint_states(time_ns)
+        self._publish_odometry(time_ns)
         if self._gyro is not None and self._imu.has_subscribers:
             self._imu.publish(
                 {
@@ -99,17 +99,17 @@ class Kobuki(RosPlugin):
                     "linear_acceleration": self._gyro.linear_acceleration,
                 }
             )
-        self._feelers.publish(time_ns)
+        self._sensors.publish(time_ns)
 
     def reset(self) -> None:
         """Stand still, powered, at the origin of the odometry."""
         self._speeds, self._commanded_ns, self._is_powered = (0.0, 0.0), 0, True
         self._place = [0.0, 0.0, 0.0]
         self._turned = [wheel.position for wheel in self._wheels]
-        self._told_ns = 0
-        self._feelers.reset()
+        self._published_ns = 0
+        self._sensors.reset()
 
-    def _tell_joints(self, time_ns: int) -> None:
+    def _publish_joint_states(self, time_ns: int) -> None:
         if self._states.has_subscribers:
             self._states.publish(
                 {
@@ -121,13 +121,13 @@ class Kobuki(RosPlugin):
                 }
             )
 
-    def _tell_odometry(self, time_ns: int) -> None:
+    def _publish_odometry(self, time_ns: int) -> None:
         """Add what the wheels and the gyro did since the last time."""
-        turned, elapsed = [wheel.position for wheel in self._wheels], (time_ns - self._told_ns) / 1e9
+        turned, elapsed = [wheel.position for wheel in self._wheels], (time_ns - self._published_ns) / 1e9
         distance = (
             sum(now - then for now, then in zip(turned, self._turned, strict=True)) / 2 * self._drive.wheel_radius
         )
-        self._turned, self._told_ns = turned, time_ns
+        self._turned, self._published_ns = turned, time_ns
         turning = 0.0 if self._gyro is None else float(self._gyro.angular_velocity.z)
         yaw = self._place[2]
         self._place = [
@@ -140,29 +140,29 @@ class Kobuki(RosPlugin):
         speed = distance / elapsed if elapsed > 0.0 else 0.0
         self._odometry.publish(time_ns, pose, Twist((speed, 0.0, 0.0), (0.0, 0.0, turning)))
 
-    def _take(self, twist: Message) -> None:
+    def _on_command(self, twist: Message) -> None:
         forward, turning = float(twist.linear.x), float(twist.angular.z)
         if math.isfinite(forward) and math.isfinite(turning):
             self._speeds = self._drive.wheel_speeds(forward, turning)
             self._commanded_ns = self._node.clock.now_ns()
 
-    def _take_power(self, message: Message) -> None:
+    def _on_motor_power(self, message: Message) -> None:
         self._is_powered = message.state == _ON
 
-    def _take_gyro(self, message: Message) -> None:
+    def _on_imu(self, message: Message) -> None:
         self._gyro = message
 
     def _reset_odometry(self, _: Any) -> None:
         self._place = [0.0, 0.0, 0.0]
 
 
-def _find_sensor(model: ModelHandle, name: str) -> SensorTopic:
+def _find_sensor(model: ModelHandle, name: str) -> ModelSensor:
     """A sensor of the model, by its name.
 
     Raises:
         UsageError: there is none, with those there are.
     """
-    there = [SensorTopic(model.model, link.name, each) for link in model.model.links for each in link.sensors]
+    there = [ModelSensor(model.model, link.name, each) for link in model.model.links for each in link.sensors]
     for each in there:
         if each.sensor.name == name:
             return each

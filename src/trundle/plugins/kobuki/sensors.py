@@ -22,7 +22,7 @@ _STAMP_MOD_MS = 1 << 16
 
 
 @dataclass(frozen=True, slots=True)
-class SensorTopic:
+class ModelSensor:
     """A sensor of the model, read as others read it."""
 
     model: Model
@@ -34,7 +34,7 @@ class SensorTopic:
         return sensor_topic(self.model, self.link, self.sensor, output, main=output)
 
 
-class _Switches:
+class _EventPublisher:
     """Some that are on or off; an event is told when one changes."""
 
     def __init__(self, publisher: Publisher, field: str, order: Iterable[str]) -> None:
@@ -67,7 +67,7 @@ class KobukiSensors:
         base: str,
         parameters: XmlNode,
         report: Diagnostics,
-        sensor: Callable[[str], SensorTopic],
+        sensor: Callable[[str], ModelSensor],
     ) -> None:
         """Subscribe.
 
@@ -82,9 +82,9 @@ class KobukiSensors:
         self._model = model
         self._edge_m = parameters.number("cliff_detection_threshold", default=0.0, report=report)
 
-        def switches(name: str, kind: str, field: str, order: Iterable[str]) -> _Switches:
+        def switches(name: str, kind: str, field: str, order: Iterable[str]) -> _EventPublisher:
             publisher = node.advertise(f"{base}/events/{name}", f"kobuki_msgs/{kind}Event", queue_size=10)
-            return _Switches(publisher, field, order)
+            return _EventPublisher(publisher, field, order)
 
         self._bumpers = switches("bumper", "Bumper", "bumper", _SIDES)
         self._cliffs = switches("cliff", "Cliff", "sensor", _SIDES)
@@ -95,13 +95,17 @@ class KobukiSensors:
             node.subscribe(sensor(parameter).topic(output), kind, take, queue_size=1)
 
         contacts, scan = ("contacts", "gazebo_msgs/ContactsState"), ("scan", "sensor_msgs/LaserScan")
-        hear("bumper_name", *contacts, self._take_bumps)
+        hear("bumper_name", *contacts, self._on_bumper)
         for side in _DROP_BITS:
             if parameters.find(f"wheel_drop_{side}_sensor_name") is None:
                 continue
-            hear(f"wheel_drop_{side}_sensor_name", *contacts, lambda message, side=side: self._take_drop(side, message))
+            hear(
+                f"wheel_drop_{side}_sensor_name",
+                *contacts,
+                lambda message, side=side: self._on_wheel_drop(side, message),
+            )
         for side in _SIDES:
-            hear(f"cliff_sensor_{side}_name", *scan, lambda message, side=side: self._take_floor(side, message))
+            hear(f"cliff_sensor_{side}_name", *scan, lambda message, side=side: self._on_cliff(side, message))
 
     def reset(self) -> None:
         """Feel nothing."""
@@ -121,7 +125,7 @@ class KobukiSensors:
         }
         self._core.publish(state)
 
-    def _take_bumps(self, message: Message) -> None:
+    def _on_bumper(self, message: Message) -> None:
         """Sixty degrees of the front belong to each bumper."""
         height, yaw = self._model.pose.position[2], self._model.pose.rpy[2]
         pressed: set[str] = set()
@@ -137,11 +141,11 @@ class KobukiSensors:
         for side in _SIDES:
             self._bumpers.set(side, on=side in pressed)
 
-    def _take_drop(self, side: str, message: Message) -> None:
+    def _on_wheel_drop(self, side: str, message: Message) -> None:
         """A wheel that touches nothing hangs."""
         self._drops.set(side, on=not message.states)
 
-    def _take_floor(self, side: str, scan: Message) -> None:
+    def _on_cliff(self, side: str, scan: Message) -> None:
         """What the first ray sees; nothing is far."""
         seen = float(scan.ranges[0])
         distance = seen if math.isfinite(seen) else float(scan.range_max)

@@ -27,15 +27,15 @@ class AckermannSteering:
     twist_covariance_diagonal.
     """
 
-    def __init__(self, site: ControllerContext) -> None:
-        settings = site.settings
-        self._node = site.node
-        self._wheel = site.joint(settings.text("rear_wheel", "rear_wheel_joint"), "VelocityJointInterface")
-        self._steer = site.joint(settings.text("front_steer", "front_steer_joint"), "PositionJointInterface")
+    def __init__(self, context: ControllerContext) -> None:
+        settings = context.settings
+        self._node = context.node
+        self._wheel = context.joint(settings.text("rear_wheel", "rear_wheel_joint"), "VelocityJointInterface")
+        self._steer = context.joint(settings.text("front_steer", "front_steer_joint"), "PositionJointInterface")
         self.claims: dict[Interface | str, list[str]] = {j.interface: [j.name] for j in (self._wheel, self._steer)}
-        apart = abs(origin(site, self._wheel)[0] - origin(site, self._steer)[0])
-        base = length(site, "wheel_separation_h", apart or None)
-        self._radius = wheel_radius(site, self._wheel)
+        apart = abs(origin(context, self._wheel)[0] - origin(context, self._steer)[0])
+        base = length(context, "wheel_separation_h", apart or None)
+        self._radius = wheel_radius(context, self._wheel)
         self._rolled_radius = self._radius * settings.number("wheel_radius_multiplier", 1.0)
         self._base = base * settings.number("wheel_separation_h_multiplier", 1.0)
         self._steer_multiplier = settings.number("steer_pos_multiplier", 1.0)
@@ -45,10 +45,12 @@ class AckermannSteering:
         sections = (settings.section("linear").section("x"), settings.section("angular").section("z"))
         self._limits = tuple(map(speed_limit, sections))
         self._window = max(1, round(settings.number("velocity_rolling_window_size", 10)))
-        self._ends = Endpoints()
-        self._odometry = BaseOdometry(site, self._ends, frame=settings.text("odom_frame_id", "odom"))
-        self._commands = site.node.subscribe(f"{site.name}/cmd_vel", "geometry_msgs/Twist", self._take, queue_size=1)
-        self._ends.add(self._commands)
+        self._endpoints = Endpoints()
+        self._odometry = BaseOdometry(context, self._endpoints, frame=settings.text("odom_frame_id", "odom"))
+        self._commands = context.node.subscribe(
+            f"{context.name}/cmd_vel", "geometry_msgs/Twist", self._on_command, queue_size=1
+        )
+        self._endpoints.add(self._commands)
         self._is_running = False
         self._place = (0.0, 0.0, 0.0)
         """x, y [m] and yaw [rad]."""
@@ -56,14 +58,14 @@ class AckermannSteering:
         """Last and last but one command, linear and angular."""
 
     @classmethod
-    def make(cls, site: ControllerContext) -> Self:
+    def create(cls, context: ControllerContext) -> Self:
         """See `Controller.make`."""
-        return cls(site)
+        return cls(context)
 
     def start(self, time_ns: int) -> None:
         """Stand still, straight, and count the wheel's turns from here."""
         for joint in (self._wheel, self._steer):
-            joint.engage()
+            joint.start()
             joint.command = 0.0
         self._odometry.restart(time_ns)
         self._turned = self._wheel.position
@@ -78,7 +80,7 @@ class AckermannSteering:
             count = max(1, len(self._speeds))
             linear, angular = (sum(speed[i] for speed in self._speeds) / count for i in (0, 1))
             self._odometry.publish(time_ns, self._place, (linear, 0.0, angular))
-        for number, wanted in enumerate(self._wanted(time_ns)):
+        for number, wanted in enumerate(self._current_command(time_ns)):
             last, before = self._history[number]
             self._history[number] = (self._limits[number].limit(wanted, last, before, dt), last)
         (linear, _), (angle, _) = self._history
@@ -88,14 +90,14 @@ class AckermannSteering:
     def stop(self) -> None:
         """Brake, and steer straight on."""
         self._is_running = False
-        self._wheel.rest()
+        self._wheel.stop()
         self._steer.command = 0.0
 
     def close(self) -> None:
         """Leave the graph."""
-        self._ends.close()
+        self._endpoints.close()
 
-    def _take(self, message: Message) -> None:
+    def _on_command(self, message: Message) -> None:
         linear, angle = float(message.linear.x), float(message.angular.z)
         if not self._is_running:
             self._node.log_error("Can't accept new commands. Controller is not running.")
@@ -107,7 +109,7 @@ class AckermannSteering:
         else:
             self._node.log_warn("Received NaN in velocity command. Ignoring.")
 
-    def _wanted(self, time_ns: int) -> tuple[float, float]:
+    def _current_command(self, time_ns: int) -> tuple[float, float]:
         """What was commanded, unless that is too old."""
         if self._command is None or time_ns - self._command[0] > self._timeout_ns:
             return 0.0, 0.0

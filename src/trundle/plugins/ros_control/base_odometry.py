@@ -4,37 +4,37 @@ import math
 
 from trundle.ros import Transform, TransformBroadcaster
 
-from .controller import Cadence, ControllerContext, Endpoints
+from .controller import ControllerContext, Endpoints, PublishTimer
 from .drive_settings import covariance
 
 
 class BaseOdometry:
     """Tells by publish_rate 50, base_frame_id base_link, enable_odom_tf true, pose_ and twist_covariance_diagonal."""
 
-    def __init__(self, site: ControllerContext, ends: Endpoints, *, frame: str) -> None:
+    def __init__(self, context: ControllerContext, ends: Endpoints, *, frame: str) -> None:
         """Advertise.
 
         Args:
-            site: of the controller.
+            context: of the controller.
             ends: takes the topic.
             frame: of the odometry.
         """
-        settings = site.settings
+        settings = context.settings
         self._frame, self.base = frame, settings.text("base_frame_id", "base_link")
         self._covariances = tuple(covariance(settings, f"{what}_covariance_diagonal") for what in ("pose", "twist"))
-        self._cadence = Cadence(settings.rate_hz("publish_rate", 50.0))
-        self._topic = site.node.advertise(f"{site.name}/odom", "nav_msgs/Odometry", queue_size=100)
+        self._timer = PublishTimer(settings.rate_hz("publish_rate", 50.0))
+        self._topic = context.node.advertise(f"{context.name}/odom", "nav_msgs/Odometry", queue_size=100)
         ends.add(self._topic)
         has_tf = settings.flag("enable_odom_tf", default=True)
-        self._broadcaster = TransformBroadcaster(site.node) if has_tf else None
+        self._broadcaster = TransformBroadcaster(context.node) if has_tf else None
 
     def restart(self, time_ns: int) -> None:
         """Count the period from now."""
-        self._cadence.restart(time_ns)
+        self._timer.restart(time_ns)
 
     def due(self, time_ns: int) -> bool:
         """Whether to tell now; if so, the next period begins."""
-        return self._cadence.due(time_ns)
+        return self._timer.due(time_ns)
 
     def publish(self, time_ns: int, place: tuple[float, float, float], speed: tuple[float, float, float]) -> None:
         """Publish.
@@ -58,7 +58,7 @@ class BaseOdometry:
                 }
             )
         if self._broadcaster is not None:
-            self._broadcaster.send(
+            self._broadcaster.send_transform(
                 Transform(
                     parent=self._frame,
                     child=self.base,

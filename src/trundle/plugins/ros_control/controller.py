@@ -56,7 +56,7 @@ class Controller(Protocol):
     """Interface → joints that nobody else may command."""
 
     @classmethod
-    def make(cls, site: ControllerContext) -> Self:
+    def create(cls, context: ControllerContext) -> Self:
         """Read parameters, advertise and subscribe.
 
         Raises:
@@ -96,20 +96,20 @@ class Endpoints:
     """What a controller has on the graph, to be taken off again."""
 
     def __init__(self) -> None:
-        self._ends: list[Publisher | Subscription | Service | ReconfigureServer] = []
+        self._endpoints: list[Publisher | Subscription | Service | ReconfigureServer] = []
 
     def add(self, *ends: Publisher | Subscription | Service | ReconfigureServer) -> None:
         """Remember."""
-        self._ends.extend(ends)
+        self._endpoints.extend(ends)
 
     def close(self) -> None:
         """Unregister all."""
-        for end in self._ends:
+        for end in self._endpoints:
             end.unregister()
-        self._ends.clear()
+        self._endpoints.clear()
 
 
-class Cadence:
+class PublishTimer:
     """Says when something is due that happens at a rate of simulated time."""
 
     def __init__(self, rate_hz: float) -> None:

@@ -26,14 +26,14 @@ class DiffDriveController:
     acceleration_limits and jerk_limits, pose_ and twist_covariance_diagonal, publish_cmd false.
     """
 
-    def __init__(self, site: ControllerContext) -> None:
-        settings = site.settings
-        self._site = site
-        self._left = [site.joint(name, _VELOCITY) for name in joint_names(settings, "left_wheel")]
-        self._right = [site.joint(name, _VELOCITY) for name in joint_names(settings, "right_wheel")]
+    def __init__(self, context: ControllerContext) -> None:
+        settings = context.settings
+        self._context = context
+        self._left = [context.joint(name, _VELOCITY) for name in joint_names(settings, "left_wheel")]
+        self._right = [context.joint(name, _VELOCITY) for name in joint_names(settings, "right_wheel")]
         if len(self._left) != len(self._right):
             raise ParamError(
-                f"{site.name}: {len(self._left)} left wheels, but {len(self._right)} right ones; as many are needed"
+                f"{context.name}: {len(self._left)} left wheels, but {len(self._right)} right ones; as many are needed"
             )
         self.claims: dict[Interface | str, list[str]] = {_VELOCITY: [j.name for j in (*self._left, *self._right)]}
         self._drive = self._geometry(settings)
@@ -53,34 +53,38 @@ class DiffDriveController:
         self._forget()
 
     def _advertise(self, settings: NodeParams) -> None:
-        site = self._site
-        self._ends = Endpoints()
-        self._odometry = BaseOdometry(site, self._ends, frame=settings.text("odom_frame_id", "odom"))
-        self._ends.add(site.node.subscribe(f"{site.name}/cmd_vel", "geometry_msgs/Twist", self._take, queue_size=1))
+        context = self._context
+        self._endpoints = Endpoints()
+        self._odometry = BaseOdometry(context, self._endpoints, frame=settings.text("odom_frame_id", "odom"))
+        self._endpoints.add(
+            context.node.subscribe(f"{context.name}/cmd_vel", "geometry_msgs/Twist", self._on_command, queue_size=1)
+        )
         self._told = None
         if settings.flag("publish_cmd", default=False):
-            self._told = site.node.advertise(f"{site.name}/cmd_vel_out", "geometry_msgs/TwistStamped", queue_size=100)
-            self._ends.add(self._told)
+            self._told = context.node.advertise(
+                f"{context.name}/cmd_vel_out", "geometry_msgs/TwistStamped", queue_size=100
+            )
+            self._endpoints.add(self._told)
 
     @classmethod
-    def make(cls, site: ControllerContext) -> Self:
+    def create(cls, context: ControllerContext) -> Self:
         """See `Controller.make`."""
-        return cls(site)
+        return cls(context)
 
     def start(self, time_ns: int) -> None:
         """Stand still, and count the wheels' turns from here."""
         for joint in (*self._left, *self._right):
-            joint.engage()
+            joint.start()
         self._odometry.restart(time_ns)
-        self._turned = self._turns()
+        self._wheel_angles = self._turns()
         self._command = None
 
     def update(self, time_ns: int, dt: float) -> None:
         """Add up what the wheels did, tell it, and drive on."""
         self._count(dt)
         if self._odometry.due(time_ns):
-            self._tell(time_ns)
-        linear, angular = self._wanted(time_ns)
+            self._publish(time_ns)
+        linear, angular = self._current_command(time_ns)
         for number, wanted in enumerate((linear, angular)):
             last, before = self._history[number]
             limited = self._limits[number].limit(wanted, last, before, dt)
@@ -100,20 +104,20 @@ class DiffDriveController:
     def stop(self) -> None:
         """Brake."""
         for joint in (*self._left, *self._right):
-            joint.rest()
+            joint.stop()
 
     def close(self) -> None:
         """Leave the graph."""
-        self._ends.close()
+        self._endpoints.close()
 
-    def _take(self, message: Message) -> None:
+    def _on_command(self, message: Message) -> None:
         if math.isfinite(message.linear.x) and math.isfinite(message.angular.z):
-            stamp = self._site.node.clock.now_ns()
+            stamp = self._context.node.clock.now_ns()
             self._command = (stamp, float(message.linear.x), float(message.angular.z))
         else:
-            self._site.node.log_warn("Received NaN in velocity command. Ignoring.")
+            self._context.node.log_warn("Received NaN in velocity command. Ignoring.")
 
-    def _wanted(self, time_ns: int) -> tuple[float, float]:
+    def _current_command(self, time_ns: int) -> tuple[float, float]:
         """What was commanded, unless that is too old."""
         if self._command is None or time_ns - self._command[0] > self._timeout_ns:
             return 0.0, 0.0
@@ -124,7 +128,7 @@ class DiffDriveController:
         self._history = [(0.0, 0.0), (0.0, 0.0)]
         """Last and last but one command, linear and angular."""
         self._place = WheelOdometry(self._drive)
-        self._turned = (0.0, 0.0)
+        self._wheel_angles = (0.0, 0.0)
         self._speeds: deque[tuple[float, float]] = deque(maxlen=self._window)
 
     def _turns(self) -> tuple[float, float]:
@@ -139,24 +143,24 @@ class DiffDriveController:
         else:
             now = self._turns()
             left, right = (
-                (new - old) * radius for new, old, radius in zip(now, self._turned, self._radii, strict=True)
+                (new - old) * radius for new, old, radius in zip(now, self._wheel_angles, self._radii, strict=True)
             )
-            self._turned = now
+            self._wheel_angles = now
         radius = self._drive.wheel_radius
         distance, turn = self._place.update(left / radius, right / radius)
         if dt > 0.0:
             self._speeds.append((distance / dt, turn / dt))
 
-    def _tell(self, time_ns: int) -> None:
+    def _publish(self, time_ns: int) -> None:
         place, count = self._place, max(1, len(self._speeds))
         linear, angular = (sum(speed[i] for speed in self._speeds) / count for i in (0, 1))
         self._odometry.publish(time_ns, (place.x, place.y, place.yaw), (linear, 0.0, angular))
 
     def _geometry(self, settings: NodeParams) -> DifferentialDrive:
         """As the parameters say, else as the model has it."""
-        site, left, right = self._site, self._left[0], self._right[0]
-        separation = length(site, "wheel_separation", math.dist(origin(site, left), origin(site, right)))
+        context, left, right = self._context, self._left[0], self._right[0]
+        separation = length(context, "wheel_separation", math.dist(origin(context, left), origin(context, right)))
         return DifferentialDrive(
-            wheel_radius=wheel_radius(site, left),
+            wheel_radius=wheel_radius(context, left),
             separation=separation * settings.number("wheel_separation_multiplier", 1.0),
         )

@@ -53,35 +53,35 @@ def covariance(settings: NodeParams, name: str) -> list[float]:
     return [float(values[row]) if row == column else 0.0 for row in range(6) for column in range(6)]
 
 
-def length(site: ControllerContext, name: str, otherwise: float | None) -> float:
+def length(context: ControllerContext, name: str, otherwise: float | None) -> float:
     """A length [m]: the parameter, else as the model has it; None: it does not say.
 
     Raises:
         ParamError: there is none, or it is not > 0.
     """
-    value = site.settings.number(name, otherwise)
+    value = context.settings.number(name, otherwise)
     if value <= 0.0:
-        raise ParamError(f"parameter {site.name}/{name} must be > 0 m, got {value:g}")
+        raise ParamError(f"parameter {context.name}/{name} must be > 0 m, got {value:g}")
     return value
 
 
-def origin(site: ControllerContext, joint: JointHardware) -> Vector3:
+def origin(context: ControllerContext, joint: JointHardware) -> Vector3:
     """Where a joint is in the model with all joints at zero [m]."""
-    return model_from_joint(site.model.model, joint.handle.joint).position
+    return model_from_joint(context.model.model, joint.handle.joint).position
 
 
-def wheel_radius(site: ControllerContext, wheel: JointHardware) -> float:
+def wheel_radius(context: ControllerContext, wheel: JointHardware) -> float:
     """The parameter wheel_radius, else that of the wheel's collision [m].
 
     Raises:
         ParamError: there is neither, or it is of no use.
     """
-    link = site.model.link(wheel.handle.joint.child).link
+    link = context.model.link(wheel.handle.joint.child).link
     round_ones = (each.geometry for each in link.collisions if isinstance(each.geometry, Cylinder | Sphere))
     found = next((geometry.radius for geometry in round_ones), None)
-    if found is None and "wheel_radius" not in site.settings.names():
+    if found is None and "wheel_radius" not in context.settings.names():
         raise ParamError(
-            f"parameter {site.name}/wheel_radius is not set, and link {link.name!r} has neither a cylinder nor "
+            f"parameter {context.name}/wheel_radius is not set, and link {link.name!r} has neither a cylinder nor "
             "a sphere to measure"
         )
-    return length(site, "wheel_radius", found)
+    return length(context, "wheel_radius", found)

@@ -27,30 +27,33 @@ class FourWheelDrive:
     angles, with rates that grow as they do: the original's have the other sign, and it mistakes the wheels' offset.
     """
 
-    def __init__(self, site: ControllerContext) -> None:
-        settings = site.settings
-        self._node = site.node
-        self._wheels = _pair(site, "front_wheel", "VelocityJointInterface")
-        self._wheels += _pair(site, "rear_wheel", "VelocityJointInterface")
-        self._steers = _pair(site, "front_steering", "PositionJointInterface")
-        self._steers += _pair(site, "rear_steering", "PositionJointInterface")
+    def __init__(self, context: ControllerContext) -> None:
+        settings = context.settings
+        self._node = context.node
+        self._wheels = _pair(context, "front_wheel", "VelocityJointInterface")
+        self._wheels += _pair(context, "rear_wheel", "VelocityJointInterface")
+        self._steers = _pair(context, "front_steering", "PositionJointInterface")
+        self._steers += _pair(context, "rear_steering", "PositionJointInterface")
         self.claims: dict[Interface | str, list[str]] = {
             group[0].interface: [joint.name for joint in group] for group in (self._wheels, self._steers)
         }
-        self._law = self._geometry(site)
+        self._law = self._geometry(context)
         self._timeout_ns = round(settings.number("cmd_vel_timeout", 0.5) * 1e9)
         sections = (settings.section("linear").section("x"), settings.section("angular").section("z"))
         self._limits = tuple(map(speed_limit, sections))
         self._window = max(1, round(settings.number("velocity_rolling_window_size", 10)))
-        self._ends = Endpoints()
-        self._odometry = BaseOdometry(site, self._ends, frame="odom")
+        self._endpoints = Endpoints()
+        self._odometry = BaseOdometry(context, self._endpoints, frame="odom")
         told = f"{_PACKAGE}/FourWheelSteeringStamped"
-        self._steering_topic = site.node.advertise(f"{site.name}/odom_steer", told, queue_size=100)
-        self._ends.add(
+        self._steering_topic = context.node.advertise(f"{context.name}/odom_steer", told, queue_size=100)
+        self._endpoints.add(
             self._steering_topic,
-            site.node.subscribe(f"{site.name}/cmd_vel", "geometry_msgs/Twist", self._take_twist, queue_size=1),
-            site.node.subscribe(
-                f"{site.name}/cmd_four_wheel_steering", f"{_PACKAGE}/FourWheelSteering", self._take_angles, queue_size=1
+            context.node.subscribe(f"{context.name}/cmd_vel", "geometry_msgs/Twist", self._on_twist, queue_size=1),
+            context.node.subscribe(
+                f"{context.name}/cmd_four_wheel_steering",
+                f"{_PACKAGE}/FourWheelSteering",
+                self._on_steering,
+                queue_size=1,
             ),
         )
         settings.flag("open_loop", default=False)  # of no effect in the original either
@@ -61,14 +64,14 @@ class FourWheelDrive:
         """Last and last but one command, linear and angular."""
 
     @classmethod
-    def make(cls, site: ControllerContext) -> Self:
+    def create(cls, context: ControllerContext) -> Self:
         """See `Controller.make`."""
-        return cls(site)
+        return cls(context)
 
     def start(self, time_ns: int) -> None:
         """Stand still, straight."""
         for joint in (*self._wheels, *self._steers):
-            joint.engage()
+            joint.start()
             joint.command = 0.0
         self._odometry.restart(time_ns)
         self._twist: tuple[int, float, float] = (-1, 0.0, 0.0)
@@ -95,20 +98,20 @@ class FourWheelDrive:
         self._told.append((math.copysign(math.hypot(forward, sideways), forward), front, rear, dt))
         if self._odometry.due(time_ns):
             self._odometry.publish(time_ns, self._place, (forward, sideways, turning))
-            self._tell_angles(time_ns)
+            self._publish_angles(time_ns)
         self._drive(time_ns, dt)
 
     def stop(self) -> None:
         """Brake, and steer straight on."""
         self._is_running = False
         for joint in self._wheels:
-            joint.rest()
+            joint.stop()
         for joint in self._steers:
             joint.command = 0.0
 
     def close(self) -> None:
         """Leave the graph."""
-        self._ends.close()
+        self._endpoints.close()
 
     def _drive(self, time_ns: int, dt: float) -> None:
         if self._angles[0] >= self._twist[0]:
@@ -128,7 +131,7 @@ class FourWheelDrive:
         self._history[number] = (limited, last)
         return limited
 
-    def _tell_angles(self, time_ns: int) -> None:
+    def _publish_angles(self, time_ns: int) -> None:
         if not self._steering_topic.has_subscribers:
             return
         first, last = self._told[0], self._told[-1]
@@ -144,17 +147,17 @@ class FourWheelDrive:
         }
         self._steering_topic.publish({"header": {"stamp": time_ns, "frame_id": "odom"}, "data": data})
 
-    def _take_twist(self, message: Message) -> None:
+    def _on_twist(self, message: Message) -> None:
         values = (float(message.linear.x), float(message.angular.z))
-        if self._is_taken("geometry_msgs::Twist", values):
+        if self._accepts("geometry_msgs::Twist", values):
             self._twist = (self._node.clock.now_ns(), *values)
 
-    def _take_angles(self, message: Message) -> None:
+    def _on_steering(self, message: Message) -> None:
         values = (float(message.speed), float(message.front_steering_angle), float(message.rear_steering_angle))
-        if self._is_taken("four_wheel_steering_msgs::FourWheelSteering", values):
+        if self._accepts("four_wheel_steering_msgs::FourWheelSteering", values):
             self._angles = (self._node.clock.now_ns(), *values)
 
-    def _is_taken(self, kind: str, values: tuple[float, ...]) -> bool:
+    def _accepts(self, kind: str, values: tuple[float, ...]) -> bool:
         if not self._is_running:
             self._node.log_error("Can't accept new commands. Controller is not running.")
         elif not all(map(math.isfinite, values)):
@@ -163,22 +166,22 @@ class FourWheelDrive:
             return True
         return False
 
-    def _geometry(self, site: ControllerContext) -> FourWheelSteering:
+    def _geometry(self, context: ControllerContext) -> FourWheelSteering:
         """As the parameters say, else as the model has it."""
         front, rear, steer = self._wheels[0], self._wheels[2], self._steers[0]
-        offset = math.dist(origin(site, steer), origin(site, front))
-        between = math.dist(origin(site, front), origin(site, self._wheels[1]))
+        offset = math.dist(origin(context, steer), origin(context, front))
+        between = math.dist(origin(context, front), origin(context, self._wheels[1]))
         return FourWheelSteering(
-            track=length(site, "track", between) - 2 * offset,
+            track=length(context, "track", between) - 2 * offset,
             offset=offset,
-            radius=wheel_radius(site, front),
-            base=length(site, "wheel_base", math.dist(origin(site, front), origin(site, rear))),
+            radius=wheel_radius(context, front),
+            base=length(context, "wheel_base", math.dist(origin(context, front), origin(context, rear))),
         )
 
 
-def _pair(site: ControllerContext, name: str, interface: Interface) -> list[JointHardware]:
+def _pair(context: ControllerContext, name: str, interface: Interface) -> list[JointHardware]:
     """A left and a right joint."""
-    names = joint_names(site.settings, name)
+    names = joint_names(context.settings, name)
     if len(names) != 2:
-        raise ParamError(f"parameter {site.name}/{name} must be a left and a right joint, got {', '.join(names)}")
-    return [site.joint(each, interface) for each in names]
+        raise ParamError(f"parameter {context.name}/{name} must be a left and a right joint, got {', '.join(names)}")
+    return [context.joint(each, interface) for each in names]

@@ -10,7 +10,7 @@ _MOST = 1_000.0
 """control_toolbox's bounds, of p and of everything else."""
 
 
-def tunable_pid(node: Node, settings: NodeParams, ends: Endpoints) -> ToolboxPid:
+def reconfigurable_pid(node: Node, settings: NodeParams, endpoints: Endpoints) -> ToolboxPid:
     """Gains p, i, d, i_clamp (or i_clamp_min and i_clamp_max, whose smaller magnitude counts) and antiwindup.
 
     Users may change them while they are in use, as control_toolbox's.
@@ -18,7 +18,7 @@ def tunable_pid(node: Node, settings: NodeParams, ends: Endpoints) -> ToolboxPid
     Args:
         node: of the robot; its callbacks run where the gains are used.
         settings: where the gains are.
-        ends: of who uses them.
+        endpoints: of who uses them.
 
     Raises:
         ParamError: p is missing, or one is no number.
@@ -39,7 +39,7 @@ def tunable_pid(node: Node, settings: NodeParams, ends: Endpoints) -> ToolboxPid
         pid.i_clamp, pid.antiwindup = min(clamps), bool(values["antiwindup"])
         return values
 
-    ends.add(ReconfigureServer(node, options, apply, namespace=settings.where))
+    endpoints.add(ReconfigureServer(node, options, apply, namespace=settings.where))
     return pid
 
 

@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Self
 from trundle.ros import ActionOutcome, ActionServer, Message
 
 from .controller import ControllerContext, Endpoints
-from .gains import tunable_pid
+from .gains import reconfigurable_pid
 from .transmissions import Interface
 
 
@@ -20,15 +20,17 @@ class GripperController:
 
     interface: ClassVar[Interface]
 
-    def __init__(self, site: ControllerContext) -> None:
-        settings = site.settings
-        self._node = site.node
-        self._joint = site.joint(settings.text("joint"), self.interface)
+    def __init__(self, context: ControllerContext) -> None:
+        settings = context.settings
+        self._node = context.node
+        self._joint = context.joint(settings.text("joint"), self.interface)
         self.claims: dict[Interface | str, list[str]] = {self.interface: [self._joint.name]}
-        self._ends = Endpoints()
+        self._endpoints = Endpoints()
         self._pid = None
         if self.interface == "EffortJointInterface":
-            self._pid = tunable_pid(site.node, settings.section("gains").section(self._joint.name), self._ends)
+            self._pid = reconfigurable_pid(
+                context.node, settings.section("gains").section(self._joint.name), self._endpoints
+            )
         self._tolerance = abs(settings.number("goal_tolerance", 0.01))
         self._slow = abs(settings.number("stall_velocity_threshold", 0.001))
         self._stall_ns = round(settings.number("stall_timeout", 1.0) * 1e9)
@@ -38,17 +40,17 @@ class GripperController:
         self._is_running = False
         self._settled: Callable[[ActionOutcome], None] | None = None
         self._server = ActionServer(
-            site.node, f"{site.name}/gripper_cmd", "control_msgs/GripperCommand", self._asked, side_by_side=True
+            context.node, f"{context.name}/gripper_cmd", "control_msgs/GripperCommand", self._on_goal, side_by_side=True
         )
 
     @classmethod
-    def make(cls, site: ControllerContext) -> Self:
+    def create(cls, context: ControllerContext) -> Self:
         """See `Controller.make`."""
-        return cls(site)
+        return cls(context)
 
     def start(self, time_ns: int) -> None:
         """Stay."""
-        self._joint.engage()
+        self._joint.start()
         self._wanted, self._moved_ns, self._is_running = self._joint.position, time_ns, True
         self._most_effort = 0.0
         if self._pid is not None:
@@ -77,15 +79,15 @@ class GripperController:
         """Let go."""
         self._is_running = False
         self._settle("preempted", reached=False)
-        self._joint.rest()
+        self._joint.stop()
 
     def close(self) -> None:
         """Leave the graph."""
         self._settle("aborted", reached=False)
         self._server.close()
-        self._ends.close()
+        self._endpoints.close()
 
-    async def _asked(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
+    async def _on_goal(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
         """Close or open; on the loop."""
         ended: asyncio.Future[ActionOutcome] = asyncio.get_running_loop().create_future()
 

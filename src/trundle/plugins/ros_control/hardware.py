@@ -39,7 +39,7 @@ class JointHardware:
         self._most_effort, self._most_speed = axis.effort, axis.velocity
 
     @property
-    def is_endless(self) -> bool:
+    def is_continuous(self) -> bool:
         """Whether it turns on and on, so that angles a whole turn apart are one."""
         return self.handle.joint.type is JointType.REVOLUTE and math.isinf(self.upper) and math.isinf(self.lower)
 
@@ -51,9 +51,9 @@ class JointHardware:
     def error(self, wanted: float) -> float:
         """From the joint to a position [rad or m], the short way round where it has no stops."""
         way = wanted - self.position
-        return math.remainder(way, math.tau) if self.is_endless else way
+        return math.remainder(way, math.tau) if self.is_continuous else way
 
-    def rest(self) -> None:
+    def stop(self) -> None:
         """Have nobody drive it: no effort, no speed, or held where it is."""
         self._is_at_rest = True
         if self.interface != "PositionJointInterface":
@@ -61,7 +61,7 @@ class JointHardware:
         if self._pid is not None:
             self._pid.reset()
 
-    def engage(self) -> None:
+    def start(self) -> None:
         """Have a controller drive it; until it does, the joint stays."""
         self._is_at_rest = False
         self.command = self.position if self.interface == "PositionJointInterface" else 0.0

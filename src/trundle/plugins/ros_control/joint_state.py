@@ -2,40 +2,42 @@
 
 from typing import Self
 
-from .controller import Cadence, ControllerContext, Endpoints
+from .controller import ControllerContext, Endpoints, PublishTimer
 from .transmissions import Interface
 
 
 class JointStateController:
     """`<robot>/joint_states` at `publish_rate`, joints in the order of their names, then `extra_joints`."""
 
-    def __init__(self, site: ControllerContext) -> None:
+    def __init__(self, context: ControllerContext) -> None:
         self.claims: dict[Interface | str, list[str]] = {}
-        settings = site.settings
+        settings = context.settings
         named = settings.texts("joints")
-        self._joints = [site.joint(name, None) for name in named] or [
-            site.hardware[name] for name in sorted(site.hardware)
+        self._joints = [context.joint(name, None) for name in named] or [
+            context.hardware[name] for name in sorted(context.hardware)
         ]
         self._extra = [joint for joint in settings.items("extra_joints") if isinstance(joint, dict)]
         self._names = [joint.name for joint in self._joints] + [str(joint.get("name", "")) for joint in self._extra]
-        self._cadence = Cadence(settings.rate_hz("publish_rate"))
-        self._states = site.node.advertise(f"{site.namespace}/joint_states", "sensor_msgs/JointState", queue_size=4)
-        self._ends = Endpoints()
-        self._ends.add(self._states)
+        self._timer = PublishTimer(settings.rate_hz("publish_rate"))
+        self._states = context.node.advertise(
+            f"{context.namespace}/joint_states", "sensor_msgs/JointState", queue_size=4
+        )
+        self._endpoints = Endpoints()
+        self._endpoints.add(self._states)
 
     @classmethod
-    def make(cls, site: ControllerContext) -> Self:
+    def create(cls, context: ControllerContext) -> Self:
         """See `Controller.make`."""
-        return cls(site)
+        return cls(context)
 
     def start(self, time_ns: int) -> None:
         """Count the period from now."""
-        self._cadence.restart(time_ns)
+        self._timer.restart(time_ns)
 
     def update(self, time_ns: int, dt: float) -> None:
         """Publish when due."""
         del dt
-        if not self._cadence.due(time_ns) or not self._states.has_subscribers:
+        if not self._timer.due(time_ns) or not self._states.has_subscribers:
             return
         self._states.publish(
             {
@@ -52,7 +54,7 @@ class JointStateController:
 
     def close(self) -> None:
         """Leave the graph."""
-        self._ends.close()
+        self._endpoints.close()
 
 
 def _number(joint: dict[str, object], key: str) -> float:

@@ -100,7 +100,7 @@ class ControllerManager:
                 f"configuration on the parameter server (namespace: '{self._namespace or '/'}')?"
             )
             return False
-        site = ControllerContext(
+        context = ControllerContext(
             name=full,
             namespace=self._namespace,
             node=self._node,
@@ -109,7 +109,7 @@ class ControllerManager:
             model=self._model,
         )
         try:
-            controller = find_controller(kind).make(site)
+            controller = find_controller(kind).create(context)
         except ParamError as error:
             self._node.log_error(f"Could not load controller '{name}': {error}")
             return False

@@ -8,7 +8,7 @@ from trundle.control import ToolboxPid
 from trundle.ros import Message, NodeParams
 
 from .controller import ControllerContext, Endpoints, group_command
-from .gains import tunable_pid
+from .gains import reconfigurable_pid
 from .hardware import JointHardware
 from .transmissions import Interface
 
@@ -17,7 +17,7 @@ _STATE_EVERY = 10
 
 
 @dataclass(slots=True)
-class _Loop:
+class _PidLoop:
     joint: JointHardware
     pid: ToolboxPid
     of_speed: bool
@@ -26,7 +26,7 @@ class _Loop:
 
     def start(self) -> None:
         """Stay."""
-        self.joint.engage()
+        self.joint.start()
         self.pid.reset()
         self.wanted = 0.0 if self.of_speed else self.joint.position
 
@@ -50,20 +50,22 @@ class PidController:
     interface: ClassVar[Interface]
     of_speed: ClassVar[bool] = False
 
-    def __init__(self, site: ControllerContext) -> None:
-        joint = site.joint(site.settings.text("joint"), self.interface)
+    def __init__(self, context: ControllerContext) -> None:
+        joint = context.joint(context.settings.text("joint"), self.interface)
         self.claims: dict[Interface | str, list[str]] = {self.interface: [joint.name]}
-        self._ends = Endpoints()
-        self._loop = _Loop(joint, tunable_pid(site.node, site.settings.section("pid"), self._ends), self.of_speed)
+        self._endpoints = Endpoints()
+        self._loop = _PidLoop(
+            joint, reconfigurable_pid(context.node, context.settings.section("pid"), self._endpoints), self.of_speed
+        )
         self._updates = 0
-        self._state = site.node.advertise(f"{site.name}/state", "control_msgs/JointControllerState", queue_size=1)
-        commands = site.node.subscribe(f"{site.name}/command", "std_msgs/Float64", self._take, queue_size=1)
-        self._ends.add(self._state, commands)
+        self._state = context.node.advertise(f"{context.name}/state", "control_msgs/JointControllerState", queue_size=1)
+        commands = context.node.subscribe(f"{context.name}/command", "std_msgs/Float64", self._on_command, queue_size=1)
+        self._endpoints.add(self._state, commands)
 
     @classmethod
-    def make(cls, site: ControllerContext) -> Self:
+    def create(cls, context: ControllerContext) -> Self:
         """See `Controller.make`."""
-        return cls(site)
+        return cls(context)
 
     def start(self, time_ns: int) -> None:
         """Stay, until a command comes."""
@@ -75,21 +77,21 @@ class PidController:
         self._loop.update(dt)
         self._updates += 1
         if self._updates % _STATE_EVERY == 0 and self._state.has_subscribers:
-            self._tell(time_ns, dt)
+            self._publish_state(time_ns, dt)
 
     def stop(self) -> None:
         """Let go."""
-        self._loop.joint.rest()
+        self._loop.joint.stop()
 
     def close(self) -> None:
         """Leave the graph."""
-        self._ends.close()
+        self._endpoints.close()
 
-    def _take(self, message: Message) -> None:
+    def _on_command(self, message: Message) -> None:
         if math.isfinite(message.data):
             self._loop.wanted = float(message.data)
 
-    def _tell(self, time_ns: int, dt: float) -> None:
+    def _publish_state(self, time_ns: int, dt: float) -> None:
         loop, pid = self._loop, self._loop.pid
         self._state.publish(
             {
@@ -112,22 +114,22 @@ class PidController:
 class EffortGroupPosition:
     """effort_controllers/JointGroupPositionController: `joints`, each by the gains `<joint>/pid`."""
 
-    def __init__(self, site: ControllerContext) -> None:
-        self._node, self._ends = site.node, Endpoints()
+    def __init__(self, context: ControllerContext) -> None:
+        self._node, self._endpoints = context.node, Endpoints()
         self._loops = [
-            _Loop(site.joint(name, "EffortJointInterface"), self._pid(site.settings, name), of_speed=False)
-            for name in site.joint_setting()
+            _PidLoop(context.joint(name, "EffortJointInterface"), self._pid(context.settings, name), of_speed=False)
+            for name in context.joint_setting()
         ]
         self.claims: dict[Interface | str, list[str]] = {
             "EffortJointInterface": [loop.joint.name for loop in self._loops]
         }
         kind = "std_msgs/Float64MultiArray"
-        self._ends.add(site.node.subscribe(f"{site.name}/command", kind, self._take, queue_size=1))
+        self._endpoints.add(context.node.subscribe(f"{context.name}/command", kind, self._on_command, queue_size=1))
 
     @classmethod
-    def make(cls, site: ControllerContext) -> Self:
+    def create(cls, context: ControllerContext) -> Self:
         """See `Controller.make`."""
-        return cls(site)
+        return cls(context)
 
     def start(self, time_ns: int) -> None:
         """Stay, until a command comes."""
@@ -144,19 +146,19 @@ class EffortGroupPosition:
     def stop(self) -> None:
         """Let go."""
         for loop in self._loops:
-            loop.joint.rest()
+            loop.joint.stop()
 
     def close(self) -> None:
         """Leave the graph."""
-        self._ends.close()
+        self._endpoints.close()
 
-    def _take(self, message: Message) -> None:
+    def _on_command(self, message: Message) -> None:
         values = group_command(message, len(self._loops), self._node)
         for loop, value in zip(self._loops, values, strict=False):
             loop.wanted = value
 
     def _pid(self, settings: NodeParams, joint: str) -> ToolboxPid:
-        return tunable_pid(self._node, settings.section(joint).section("pid"), self._ends)
+        return reconfigurable_pid(self._node, settings.section(joint).section("pid"), self._endpoints)
 
 
 class EffortPosition(PidController):

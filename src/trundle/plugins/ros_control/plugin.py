@@ -11,13 +11,13 @@ from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
 from .controller import Endpoints
-from .gains import tunable_pid
+from .gains import reconfigurable_pid
 from .hardware import JointHardware
 from .manager import ControllerManager
 from .transmissions import read_transmissions
 
 _DEFAULT_SIM = "gazebo_ros_control/DefaultRobotHWSim"
-_LOOK_S = 0.5
+_POLL_S = 0.5
 _LAG_STEPS = 5
 _OLD_INDIGO = "legacyModeNS"
 
@@ -47,7 +47,7 @@ class GazeboRosControl(Plugin):
             node.subscribe(f"{self._namespace}/{stop_topic}", "std_msgs/Bool", lambda m: self._stop(m.data))
         parameters.find(_OLD_INDIGO)
         parameters.report_unread(report)
-        self._ends = Endpoints()
+        self._endpoints = Endpoints()
         self._hardware: dict[str, JointHardware] = {}
         self._manager: ControllerManager | None = None
         self._last_ns = sim.time_ns
@@ -82,7 +82,7 @@ class GazeboRosControl(Plugin):
         self._last_ns = self._sim.time_ns
         for joint in self._hardware.values():
             joint.read()
-            joint.rest()
+            joint.stop()
             joint.command = joint.position if joint.interface == "PositionJointInterface" else 0.0
         if self._manager is not None:
             self._manager.restart(self._sim.time_ns)
@@ -105,7 +105,7 @@ class GazeboRosControl(Plugin):
             if not said:
                 node.log_info(f"gazebo_ros_control plugin is waiting for model URDF in parameter [{name}]")
                 said = True
-            await asyncio.sleep(_LOOK_S)
+            await asyncio.sleep(_POLL_S)
 
     def _begin(self, urdf: str, name: str, gains: object) -> None:
         report = self._sim.report
@@ -119,7 +119,7 @@ class GazeboRosControl(Plugin):
                     continue
                 own = settings.section(driven.name)
                 is_pushed = "p" in own.names() and driven.interface != "EffortJointInterface"
-                pid = tunable_pid(self._node, own, self._ends) if is_pushed else None
+                pid = reconfigurable_pid(self._node, own, self._endpoints) if is_pushed else None
                 joint = JointHardware(handle, driven.interface, pid, lag_s=lag_s)
                 joint.read()
                 joint.command = joint.position if driven.interface == "PositionJointInterface" else 0.0

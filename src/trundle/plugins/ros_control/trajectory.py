@@ -5,10 +5,10 @@ from collections.abc import Callable
 from typing import Any, ClassVar, Self
 
 from trundle.control import ToolboxPid
-from trundle.ros import ActionOutcome, ActionServer, Message, ns_of
+from trundle.ros import ActionOutcome, ActionServer, Message, to_nsec
 
-from .controller import Cadence, ControllerContext, Endpoints
-from .gains import tunable_pid
+from .controller import ControllerContext, Endpoints, PublishTimer
+from .gains import reconfigurable_pid
 from .hardware import JointHardware
 from .trajectory_goal import GoalError, SampledTrajectory, Tolerances, read_tolerances, read_trajectory
 from .transmissions import Interface
@@ -28,48 +28,52 @@ class TrajectoryController:
 
     interface: ClassVar[Interface]
 
-    def __init__(self, site: ControllerContext) -> None:
-        settings, node = site.settings, site.node
+    def __init__(self, context: ControllerContext) -> None:
+        settings, node = context.settings, context.node
         self._node = node
-        self._joints = [site.joint(name, self.interface) for name in site.joint_setting()]
+        self._joints = [context.joint(name, self.interface) for name in context.joint_setting()]
         names = [joint.name for joint in self._joints]
         self.claims: dict[Interface | str, list[str]] = {self.interface: names}
-        self._ends = Endpoints()
+        self._endpoints = Endpoints()
         self._pids: list[ToolboxPid] = []
         if self.interface != "PositionJointInterface":
             gains = settings.section("gains")
-            self._pids = [tunable_pid(node, gains.section(name), self._ends) for name in names]
+            self._pids = [reconfigurable_pid(node, gains.section(name), self._endpoints) for name in names]
         forward = settings.section("velocity_ff")
         self._forward = [forward.number(name, 0.0) for name in names]
-        self._usual = read_tolerances(settings.section("constraints"), names)
+        self._default_tolerances = read_tolerances(settings.section("constraints"), names)
         self._partial = settings.flag("allow_partial_joints_goal", default=False)
-        self._states = Cadence(settings.rate_hz("state_publish_rate", 50.0))
-        self._monitors = Cadence(settings.rate_hz("action_monitor_rate", 20.0))
-        self._course: SampledTrajectory | None = None
+        self._states = PublishTimer(settings.rate_hz("state_publish_rate", 50.0))
+        self._monitors = PublishTimer(settings.rate_hz("action_monitor_rate", 20.0))
+        self._trajectory: SampledTrajectory | None = None
         self._time_ns = 0
         self._settled: Callable[[ActionOutcome], None] | None = None
         """Told once how the action's goal ended."""
         self._is_running = False
-        self._state = node.advertise(f"{site.name}/state", "control_msgs/JointTrajectoryControllerState", queue_size=1)
-        kind = "trajectory_msgs/JointTrajectory"
-        self._ends.add(
-            self._state,
-            node.subscribe(f"{site.name}/command", kind, self._take, queue_size=1),
-            node.advertise_service(f"{site.name}/query_state", "control_msgs/QueryTrajectoryState", self._query),
+        self._state = node.advertise(
+            f"{context.name}/state", "control_msgs/JointTrajectoryControllerState", queue_size=1
         )
-        action = f"{site.name}/follow_joint_trajectory"
-        self._server = ActionServer(node, action, "control_msgs/FollowJointTrajectory", self._asked, side_by_side=True)
+        kind = "trajectory_msgs/JointTrajectory"
+        self._endpoints.add(
+            self._state,
+            node.subscribe(f"{context.name}/command", kind, self._on_command, queue_size=1),
+            node.advertise_service(f"{context.name}/query_state", "control_msgs/QueryTrajectoryState", self._query),
+        )
+        action = f"{context.name}/follow_joint_trajectory"
+        self._server = ActionServer(
+            node, action, "control_msgs/FollowJointTrajectory", self._on_goal, side_by_side=True
+        )
 
     @classmethod
-    def make(cls, site: ControllerContext) -> Self:
+    def create(cls, context: ControllerContext) -> Self:
         """See `Controller.make`."""
-        return cls(site)
+        return cls(context)
 
     def start(self, time_ns: int) -> None:
         """Stay where the joints are."""
         self._time_ns = time_ns
         for joint in self._joints:
-            joint.engage()
+            joint.start()
         for pid in self._pids:
             pid.reset()
         self._settle("aborted", 0, "the controller was started anew")
@@ -80,10 +84,10 @@ class TrajectoryController:
     def update(self, time_ns: int, dt: float) -> None:
         """Go on along the course."""
         self._time_ns = time_ns
-        course = self._course
-        if course is None:
+        sampled = self._trajectory
+        if sampled is None:
             return
-        desired = course.at(time_ns)
+        desired = sampled.sample(time_ns)
         for number, (joint, (position, velocity, _)) in enumerate(zip(self._joints, desired, strict=True)):
             if not self._pids:
                 joint.command = position
@@ -92,32 +96,32 @@ class TrajectoryController:
             command = self._pids[number].command(joint.error(position), dt, slope=slope)
             joint.command = command + self._forward[number] * velocity
         if self._settled is not None:
-            self._watch(course, desired)
+            self._check_tolerances(sampled, desired)
         if self._states.due(time_ns) and self._state.has_subscribers:
-            self._state.publish({"header": {"stamp": time_ns}, **self._told(desired)})
+            self._state.publish({"header": {"stamp": time_ns}, **self._desired_fields(desired)})
 
     def stop(self) -> None:
         """Let go."""
         self._is_running = False
         self._settle("preempted", 0, "the controller was stopped")
         for joint in self._joints:
-            joint.rest()
+            joint.stop()
 
     def close(self) -> None:
         """Leave the graph."""
         self._settle("aborted", 0, "the controller was unloaded")
         self._server.close()
-        self._ends.close()
+        self._endpoints.close()
 
     # -- commands, on the simulation's thread
 
-    def _take(self, trajectory: Message) -> None:
+    def _on_command(self, trajectory: Message) -> None:
         """A trajectory from the topic; one without points stops the joints."""
         if not self._is_running:
             self._node.log_error("Can't accept new commands. Controller is not running.")
             return
         try:
-            self._begin(trajectory, self._usual)
+            self._begin(trajectory, self._default_tolerances)
         except GoalError as error:
             self._node.log_error(str(error))
             return
@@ -127,23 +131,25 @@ class TrajectoryController:
         if not trajectory.points:
             self._stay()
             return
-        assert self._course is not None, "start() comes first"
-        now = self._course.at(self._time_ns)
+        assert self._trajectory is not None, "start() comes first"
+        now = self._trajectory.sample(self._time_ns)
         names = [joint.name for joint in self._joints]
-        course = read_trajectory(trajectory, names, now, self._time_ns, tolerances, partial=self._partial)
+        sampled = read_trajectory(trajectory, names, now, self._time_ns, tolerances, partial=self._partial)
         for number, joint in enumerate(self._joints):
-            if joint.is_endless:  # the first point is gone to the short way round
-                course.unwind(number)
-        self._course = course
+            if joint.is_continuous:  # the first point is gone to the short way round
+                sampled.unwind(number)
+        self._trajectory = sampled
 
     def _stay(self) -> None:
-        self._course = SampledTrajectory.standing(
-            [joint.position for joint in self._joints], self._time_ns, self._usual
+        self._trajectory = SampledTrajectory.hold_position(
+            [joint.position for joint in self._joints], self._time_ns, self._default_tolerances
         )
 
     def _query(self, request: Message) -> dict[str, Any]:
-        course = self._course or SampledTrajectory.standing([joint.position for joint in self._joints], 0, self._usual)
-        position, velocity, acceleration = zip(*course.at(ns_of(request.time)), strict=True)
+        sampled = self._trajectory or SampledTrajectory.hold_position(
+            [joint.position for joint in self._joints], 0, self._default_tolerances
+        )
+        position, velocity, acceleration = zip(*sampled.sample(to_nsec(request.time)), strict=True)
         return {
             "name": [joint.name for joint in self._joints],
             "position": list(position),
@@ -153,7 +159,7 @@ class TrajectoryController:
 
     # -- the action
 
-    async def _asked(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
+    async def _on_goal(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
         """Follow a trajectory to its end; on the loop. One that is refused leaves the one before it running."""
         loop = asyncio.get_running_loop()
         ended: asyncio.Future[ActionOutcome] = loop.create_future()
@@ -167,7 +173,7 @@ class TrajectoryController:
                 return
             names = [joint.name for joint in self._joints]
             try:
-                self._begin(goal.trajectory, self._usual.overridden(goal, names))
+                self._begin(goal.trajectory, self._default_tolerances.with_goal(goal, names))
             except GoalError as error:
                 settle(_outcome("rejected", error.code, str(error)))
                 return
@@ -189,9 +195,9 @@ class TrajectoryController:
             self._settled = None
             self._stay()
 
-    def _watch(self, course: SampledTrajectory, desired: list[tuple[float, float, float]]) -> None:
+    def _check_tolerances(self, sampled: SampledTrajectory, desired: list[tuple[float, float, float]]) -> None:
         """Compare with the tolerances, and tell the action how it goes."""
-        tolerances, late_s = course.tolerances, (self._time_ns - course.end_ns) / 1e9
+        tolerances, late_s = sampled.tolerances, (self._time_ns - sampled.end_ns) / 1e9
         for number, joint in enumerate(self._joints):
             error = abs(joint.error(desired[number][0]))
             if late_s < 0.0 and 0.0 < tolerances.path[number] < error:
@@ -208,7 +214,7 @@ class TrajectoryController:
                 self._settle("aborted", GoalError.GOAL_TOLERANCE_VIOLATED, text)
             return
         if self._monitors.due(self._time_ns):
-            self._server.tell(self._told(desired))
+            self._server.publish_feedback(self._desired_fields(desired))
 
     def _has_arrived(self, joint: JointHardware, position: float, number: int, tolerances: Tolerances) -> bool:
         at = tolerances.goal[number] <= 0.0 or abs(joint.error(position)) <= tolerances.goal[number]
@@ -219,7 +225,7 @@ class TrajectoryController:
             settle, self._settled = self._settled, None
             settle(_outcome(status, code, text))
 
-    def _told(self, desired: list[tuple[float, float, float]]) -> dict[str, Any]:
+    def _desired_fields(self, desired: list[tuple[float, float, float]]) -> dict[str, Any]:
         joints = self._joints
         positions, velocities, accelerations = (list(values) for values in zip(*desired, strict=True))
         return {

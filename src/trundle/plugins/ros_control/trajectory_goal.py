@@ -8,7 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from trundle.control import JointPoint, JointSpline
-from trundle.ros import Message, NodeParams, ns_of
+from trundle.ros import Message, NodeParams, to_nsec
 
 _STOPPED = 0.01
 """[rad/s or m/s] The original's idea of a joint that stands still."""
@@ -38,7 +38,7 @@ class Tolerances(Struct, frozen=True, kw_only=True):
     time_s: float
     """How late the end may be reached."""
 
-    def overridden(self, goal: Message, joints: Sequence[str]) -> "Tolerances":
+    def with_goal(self, goal: Message, joints: Sequence[str]) -> "Tolerances":
         """As an action's goal wants it: what it names replaces, and less than zero is any."""
 
         def merged(usual: tuple[float, ...], asked: Sequence[Message]) -> tuple[float, ...]:
@@ -46,7 +46,7 @@ class Tolerances(Struct, frozen=True, kw_only=True):
             values = (named.get(joint, 0.0) or ours for joint, ours in zip(joints, usual, strict=True))
             return tuple(max(value, 0.0) for value in values)
 
-        time_s = ns_of(goal.goal_time_tolerance) / 1e9
+        time_s = to_nsec(goal.goal_time_tolerance) / 1e9
         return replace(
             self,
             path=merged(self.path, goal.path_tolerance),
@@ -77,7 +77,7 @@ class SampledTrajectory:
         self.tolerances = tolerances
 
     @classmethod
-    def standing(cls, positions: Sequence[float], start_ns: int, tolerances: Tolerances) -> "SampledTrajectory":
+    def hold_position(cls, positions: Sequence[float], start_ns: int, tolerances: Tolerances) -> "SampledTrajectory":
         """Stay at positions."""
         return cls([[JointPoint(0.0, position)] for position in positions], start_ns, tolerances)
 
@@ -86,7 +86,7 @@ class SampledTrajectory:
         """When all have arrived."""
         return self._start_ns + round(max(spline.end_s for spline in self._splines) * 1e9)
 
-    def at(self, time_ns: int) -> list[tuple[float, float, float]]:
+    def sample(self, time_ns: int) -> list[tuple[float, float, float]]:
         """Position, velocity and acceleration of each joint."""
         time_s = (time_ns - self._start_ns) / 1e9
         return [spline.sample(time_s) for spline in self._splines]
@@ -130,8 +130,8 @@ def read_trajectory(
         raise GoalError(
             GoalError.INVALID_JOINTS, f"the joints of this controller are {wanted}; the trajectory has {got}"
         )
-    begin_ns = ns_of(trajectory.header.stamp) or now_ns
-    times = [(begin_ns - now_ns + ns_of(point.time_from_start)) / 1e9 for point in trajectory.points]
+    begin_ns = to_nsec(trajectory.header.stamp) or now_ns
+    times = [(begin_ns - now_ns + to_nsec(point.time_from_start)) / 1e9 for point in trajectory.points]
     if len(times) > _MAX_POINTS:
         raise GoalError(GoalError.INVALID_GOAL, f"{len(times)} points are more than {_MAX_POINTS}")
     if any(b <= a for a, b in pairwise(times)):

@@ -15,11 +15,11 @@ from trundle.xmlnode import XmlNode
 
 from ..gazebo_ros.link_motion import LinkMotion
 from ..gazebo_ros.ros_plugin import RosPlugin, required
-from .namespaces import topic_of
+from .namespaces import read_topic_name
 
 
 @dataclass(slots=True)
-class _Axes:
+class _NoiseModel:
     """Three axes that err alike: white noise, a bias that wanders by a Gauss-Markov process, and one from the start."""
 
     random: np.random.Generator
@@ -34,7 +34,7 @@ class _Axes:
     first: NDArray[np.float64]
     """(3,) What stays."""
 
-    def disturbed(self, values: Vector3, dt: float) -> dict[str, float]:
+    def with_noise(self, values: Vector3, dt: float) -> dict[str, float]:
         """What is told, so long [s] after the last."""
         spread = self.walk * math.sqrt(self.lag_s / 2.0 * -math.expm1(-2.0 * dt / self.lag_s))
         self.bias = math.exp(-dt / self.lag_s) * self.bias + spread * self.random.normal(size=3)
@@ -69,7 +69,7 @@ class Imu(RosPlugin):
         self._gyroscope, self._accelerometer = (
             _axes(parameters, sim, random, walk, values) for walk, values in zip(walks, defaults, strict=True)
         )
-        self._topic = node.advertise(topic_of(tag, "imuTopic", "imu"), "sensor_msgs/Imu", queue_size=1)
+        self._topic = node.advertise(read_topic_name(tag, "imuTopic", "imu"), "sensor_msgs/Imu", queue_size=1)
         self._last_ns = sim.time_ns
 
     def after_step(self, snapshot: Snapshot) -> None:
@@ -77,7 +77,7 @@ class Imu(RosPlugin):
         if not self._topic.has_subscribers:
             return
         elapsed, self._last_ns = (snapshot.time_ns - self._last_ns) / 1e9, snapshot.time_ns
-        motion = self._motion.look(snapshot.time_ns)
+        motion = self._motion.sample(snapshot.time_ns)
         if elapsed <= 0.0:
             return
         (ax, ay, az), (gx, gy, gz) = motion.acceleration, motion.in_link(self._gravity)
@@ -87,9 +87,9 @@ class Imu(RosPlugin):
                 "header": {"stamp": snapshot.time_ns, "frame_id": self._frame},
                 "orientation": {"x": qx, "y": qy, "z": qz, "w": qw},
                 "orientation_covariance": [-1.0] * 9,
-                "angular_velocity": self._gyroscope.disturbed(motion.rate, elapsed),
+                "angular_velocity": self._gyroscope.with_noise(motion.rate, elapsed),
                 "angular_velocity_covariance": self._gyroscope.covariance,
-                "linear_acceleration": self._accelerometer.disturbed((ax - gx, ay - gy, az - gz), elapsed),
+                "linear_acceleration": self._accelerometer.with_noise((ax - gx, ay - gy, az - gz), elapsed),
                 "linear_acceleration_covariance": self._accelerometer.covariance,
             }
         )
@@ -97,7 +97,7 @@ class Imu(RosPlugin):
 
 def _axes(
     parameters: XmlNode, sim: Simulation, random: np.random.Generator, walk: str, defaults: tuple[float, ...]
-) -> _Axes:
+) -> _NoiseModel:
     """Read what has the first word of `walk`, the name of its bias' parameter."""
     device = walk.removesuffix("RandomWalk").removesuffix("Bias")
     names = (f"{device}NoiseDensity", walk, f"{device}BiasCorrelationTime", f"{device}TurnOnBiasSigma")
@@ -106,4 +106,4 @@ def _axes(
     )
     if lag_s <= 0.0:
         raise UsageError(f"<{device}BiasCorrelationTime> must be > 0 s, got {lag_s:g}")
-    return _Axes(random, density, spread, lag_s, np.zeros(3), sigma * random.normal(size=3))
+    return _NoiseModel(random, density, spread, lag_s, np.zeros(3), sigma * random.normal(size=3))

@@ -8,12 +8,12 @@ from trundle.simulation import ModelHandle, Simulation
 
 from ..gazebo_ros.ros_plugin import RosPlugin
 from ..plugin import WorldPlugin
-from .namespaces import topic_of
+from .namespaces import read_topic_name
 
 _ACTUATORS = "mav_msgs/Actuators"
 
 
-class RosInterface(WorldPlugin):
+class GazeboRosInterface(WorldPlugin):
     """Does nothing: the other plugins are on the graph themselves."""
 
     period_ns = 1 << 62
@@ -38,8 +38,8 @@ class ControllerInterface(RosPlugin):
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         super().__init__(sim, model, node, tag)
-        heard = topic_of(tag, "commandMotorSpeedSubTopic", "command/motor_speed")
-        told = topic_of(tag, "motorSpeedCommandPubTopic", "gazebo/command/motor_speed")
+        heard = read_topic_name(tag, "commandMotorSpeedSubTopic", "command/motor_speed")
+        told = read_topic_name(tag, "motorSpeedCommandPubTopic", "gazebo/command/motor_speed")
         self._sim, self._motors = sim, node.advertise(told, _ACTUATORS, queue_size=1)
         node.subscribe(heard, _ACTUATORS, self._pass, queue_size=1)
         for name in ("commandAttitudeThrustSubTopic", "commandRateThrustSubTopic", "imuSubTopic"):

@@ -15,7 +15,7 @@ from trundle.spatial import Vector3, Wrench
 from trundle.xmlnode import XmlNode
 
 from ..gazebo_ros.ros_plugin import RosPlugin, required
-from .namespaces import topic_of
+from .namespaces import read_topic_name
 
 _WAYS = {"cw": -1.0, "ccw": 1.0}
 _GAINS = (
@@ -74,13 +74,15 @@ class MotorModel(RosPlugin):
         if min(self._up_s, self._down_s, self._slowdown) <= 0.0:
             raise UsageError("<timeConstantUp>, <timeConstantDown> and <rotorVelocitySlowdownSim> must be > 0")
         self._wind = np.zeros(3)
-        node.subscribe(topic_of(tag, "commandSubTopic", "command/motor_speed"), "mav_msgs/Actuators", self._take)
-        node.subscribe(topic_of(tag, "windSpeedSubTopic", "wind_speed"), "rotors_comm/WindSpeed", self._blow)
+        node.subscribe(
+            read_topic_name(tag, "commandSubTopic", "command/motor_speed"), "mav_msgs/Actuators", self._on_command
+        )
+        node.subscribe(read_topic_name(tag, "windSpeedSubTopic", "wind_speed"), "rotors_comm/WindSpeed", self._on_wind)
         told = {"motorSpeedPubTopic": "motor_speed"} | {
             name: "" for name in ("motorPositionPubTopic", "motorForcePubTopic") if parameters.find(name) is not None
         }
         self._told = {
-            name: node.advertise(topic_of(tag, name, default), "std_msgs/Float32", queue_size=1)
+            name: node.advertise(read_topic_name(tag, name, default), "std_msgs/Float32", queue_size=1)
             for name, default in told.items()
         }
         self._forget()
@@ -89,7 +91,7 @@ class MotorModel(RosPlugin):
         """Push, and turn on."""
         dt = sim.step_ns / 1e9
         if self._kind == "velocity":
-            self._fly()
+            self._apply_forces()
             lag_s = self._up_s if self._wanted > self._speed else self._down_s
             kept = math.exp(-dt / lag_s)
             self._speed = kept * self._speed + (1.0 - kept) * self._wanted
@@ -117,7 +119,7 @@ class MotorModel(RosPlugin):
         self._wanted = self._speed = 0.0
         self._pid.reset()
 
-    def _fly(self) -> None:
+    def _apply_forces(self) -> None:
         """Lift along the rotor's z axis; drag and rolling moment by P. Martin and E. Salaün, The true role of
         accelerometer feedback in quadrotor control (ICRA 2010)."""
         pose, rate = self._link.pose, self._joint.velocity * self._slowdown
@@ -130,7 +132,7 @@ class MotorModel(RosPlugin):
             torque = pose.transform_vector((0.0, 0.0, -self._way * thrust * self._moment))
             self._parent.add_wrench(Wrench(torque=_sum(torque, -abs(rate) * self._roll * across)))
 
-    def _take(self, message: Message) -> None:
+    def _on_command(self, message: Message) -> None:
         values = message.angular_velocities
         if not 0 <= self._number < len(values):
             self._node.log_error(f"motor {self._number}: the command is for {len(values)} motors")
@@ -139,7 +141,7 @@ class MotorModel(RosPlugin):
         if math.isfinite(wanted):
             self._wanted = min(wanted, self._fastest) if self._kind == "velocity" else wanted
 
-    def _blow(self, message: Message) -> None:
+    def _on_wind(self, message: Message) -> None:
         wind = np.array([message.velocity.x, message.velocity.y, message.velocity.z], dtype=float)
         if np.isfinite(wind).all():
             self._wind = wind

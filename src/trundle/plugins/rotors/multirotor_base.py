@@ -7,7 +7,7 @@ from trundle.ros import Node
 from trundle.simulation import JointHandle, ModelHandle, Simulation, Snapshot
 
 from ..gazebo_ros.ros_plugin import RosPlugin
-from .namespaces import topic_in, topic_of
+from .namespaces import join_topic, read_topic_name
 
 _ROTOR = re.compile(r"rotor_(\d+)")
 
@@ -26,8 +26,10 @@ class MultirotorBase(RosPlugin):
         self._frame = base.name
         self._slowdown = parameters.number("rotorVelocitySlowdownSim", default=10.0, report=sim.report)
         self._rotors = _rotors_of(model, base.name)
-        self._speeds = node.advertise(topic_of(tag, "motorPubTopic", "motor_speed"), "mav_msgs/Actuators", queue_size=1)
-        self._states = node.advertise(topic_in(tag, "joint_states"), "sensor_msgs/JointState", queue_size=1)
+        self._speeds = node.advertise(
+            read_topic_name(tag, "motorPubTopic", "motor_speed"), "mav_msgs/Actuators", queue_size=1
+        )
+        self._states = node.advertise(join_topic(tag, "joint_states"), "sensor_msgs/JointState", queue_size=1)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell."""

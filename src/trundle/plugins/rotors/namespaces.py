@@ -3,12 +3,12 @@
 from trundle.model import PluginTag
 
 
-def topic_in(tag: PluginTag, topic: str) -> str:
+def join_topic(tag: PluginTag, topic: str) -> str:
     """A topic's global name, below <robotNamespace>."""
     namespace = tag.node.string("robotNamespace").strip("/")
     return f"/{namespace}/{topic.strip('/')}" if namespace else f"/{topic.strip('/')}"
 
 
-def topic_of(tag: PluginTag, name: str, default: str) -> str:
+def read_topic_name(tag: PluginTag, name: str, default: str) -> str:
     """The global name of the topic that a parameter names."""
-    return topic_in(tag, tag.node.string(name, default=default))
+    return join_topic(tag, tag.node.string(name, default=default))

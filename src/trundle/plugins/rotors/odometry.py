@@ -12,9 +12,9 @@ from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose, Quaternion, Twist, cross, quaternion_product
 
-from ..gazebo_ros.namespaces import leave_out
+from ..gazebo_ros.namespaces import warn_unsupported
 from ..gazebo_ros.ros_plugin import RosPlugin, required
-from .namespaces import topic_of
+from .namespaces import read_topic_name
 
 _TOPICS = {
     "poseTopic": ("pose", "geometry_msgs/Pose"),
@@ -58,9 +58,9 @@ class Odometry(RosPlugin):
             return np.abs(np.array(rows))
 
         self._normal, self._uniform = spread("Normal"), spread("Uniform")
-        leave_out(parameters, report, "covarianceImage", "covarianceImageScale")
+        warn_unsupported(parameters, report, "covarianceImage", "covarianceImageScale")
         self._topics = {
-            name: node.advertise(topic_of(tag, name, default), kind, queue_size=1)
+            name: node.advertise(read_topic_name(tag, name, default), kind, queue_size=1)
             for name, (default, kind) in _TOPICS.items()
         }
         self._broadcaster = TransformBroadcaster(node)
@@ -76,7 +76,7 @@ class Odometry(RosPlugin):
             self._measured.append((self._steps + self._delay, snapshot.time_ns + self._late_ns, *self._motion()))
         if self._measured and self._measured[0][0] == self._steps:
             _, stamp_ns, pose, twist = self._measured.popleft()
-            self._tell(stamp_ns, *self._disturbed(pose, twist))
+            self._publish(stamp_ns, *self._with_noise(pose, twist))
         self._steps += 1
 
     def reset(self) -> None:
@@ -100,7 +100,7 @@ class Odometry(RosPlugin):
         back = Pose(quaternion=link.quaternion).inverse()
         return pose, Twist(back.transform_vector(linear), back.transform_vector(angular))
 
-    def _disturbed(self, pose: Pose, twist: Twist) -> tuple[Pose, Twist]:
+    def _with_noise(self, pose: Pose, twist: Twist) -> tuple[Pose, Twist]:
         errors = self._random.normal(size=(4, 3)) * self._normal
         errors += self._random.uniform(-1.0, 1.0, size=(4, 3)) * self._uniform
         values = (pose.position, ZERO, twist.linear, twist.angular)
@@ -108,9 +108,9 @@ class Odometry(RosPlugin):
         quaternion = quaternion_product(pose.quaternion, _small_turn(turn))
         return Pose(position, quaternion), Twist(linear, angular)
 
-    def _tell(self, stamp_ns: int, pose: Pose, twist: Twist) -> None:
+    def _publish(self, stamp_ns: int, pose: Pose, twist: Twist) -> None:
         (x, y, z), (qw, qx, qy, qz) = pose.position, pose.quaternion
-        self._broadcaster.send(
+        self._broadcaster.send_transform(
             Transform(
                 parent=self._frame,
                 child=self._child,

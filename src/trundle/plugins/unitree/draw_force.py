@@ -54,12 +54,12 @@ class DrawForce(VisualPlugin):
             return
         if self._subscription is None:
             kind = "geometry_msgs/WrenchStamped"
-            self._subscription = self._node.subscribe(self._topic, kind, self._hear, queue_size=30)
+            self._subscription = self._node.subscribe(self._topic, kind, self._on_force, queue_size=30)
         x, y, z = (force * scale / _NEWTONS_PER_UNIT for force, scale in zip(self._force, self._scale, strict=True))
         world_from_visual = self._link.pose @ self._link_from_visual
         self._line.points[:] = [world_from_visual.position, world_from_visual.transform_point((x, y, z))]
 
-    def _hear(self, message: Message) -> None:
+    def _on_force(self, message: Message) -> None:
         force = message.wrench.force
         self._force = (force.x, force.y, force.z)
 

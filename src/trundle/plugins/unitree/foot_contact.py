@@ -6,8 +6,8 @@ from trundle.ros import Node
 from trundle.sensors import ContactReading, ContactSensor, InstrumentSensor
 from trundle.spatial import Vector3
 
-from ..gazebo_ros.namespaces import ignore
-from ..gazebo_ros.sensor import Outlet
+from ..gazebo_ros.namespaces import mark_read
+from ..gazebo_ros.sensor_publisher import SensorPublisher
 
 
 def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
@@ -19,8 +19,8 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     """
     if not isinstance(sensor, ContactSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a contact sensor is needed")
-    outlet = Outlet(node, f"/visual/{sensor.name}/the_force", "geometry_msgs/WrenchStamped", sensor.link.name)
-    ignore(tag.node)
+    outlet = SensorPublisher(node, f"/visual/{sensor.name}/the_force", "geometry_msgs/WrenchStamped", sensor.link.name)
+    mark_read(tag.node)
     tag.node.report_unread(report)
 
     def message(reading: ContactReading) -> dict[str, object]:
@@ -30,7 +30,7 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     def publish(reading: ContactReading) -> None:
         outlet.publish(reading, lambda: message(reading))
 
-    sensor.listen(publish, enabled=outlet.wanted)
+    sensor.listen(publish, enabled=outlet.has_subscribers)
 
 
 def _mean_force(reading: ContactReading) -> Vector3:

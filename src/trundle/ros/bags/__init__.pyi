@@ -7,9 +7,9 @@ from .bag import Chunk as Chunk
 from .bag import UnindexedBagError as UnindexedBagError
 from .files import create_bag as create_bag
 from .files import open_bag as open_bag
-from .files import recovered as recovered
+from .files import recover_messages as recover_messages
 from .play import Player as Player
-from .play import PlayOptions as PlayOptions
+from .play import PlayerOptions as PlayerOptions
 from .record import Recorder as Recorder
-from .record import RecordOptions as RecordOptions
-from .steps import StepRecorder as StepRecorder
+from .record import RecorderOptions as RecorderOptions
+from .step_recorder import StepRecorder as StepRecorder

@@ -12,7 +12,7 @@ class BagError(RosError):
     """A file that is no bag, is damaged, or cannot be written."""
 
 
-def broken_off(path: Path, error: OSError) -> str:
+def recording_failure(path: Path, error: OSError) -> str:
     """Why recording into a file broke off, and what becomes of what it holds."""
     return f"{path}: {error.strerror}; trundle bag reindex makes a bag of what it holds"
 
@@ -57,7 +57,7 @@ class Chunk:
     """[bytes], in the file."""
 
 
-Wanted = Callable[[BagConnection], bool]
+ConnectionFilter = Callable[[BagConnection], bool]
 
 
 class BagReader(Protocol):
@@ -74,7 +74,7 @@ class BagReader(Protocol):
     """First and last message [ns]; both 0 in an empty bag."""
 
     def messages(
-        self, wanted: Wanted | None = None, *, start_ns: int | None = None, end_ns: int | None = None
+        self, wanted: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
     ) -> Iterator[BagMessage]:
         """Yield messages in the order of their stamps, from `start_ns` on and up to `end_ns`.
 

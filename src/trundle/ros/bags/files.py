@@ -58,7 +58,7 @@ def create_bag(path: Path, *, compression: str = "none", chunk_bytes: int = 768 
     return Ros1Writer(path, compression=compression, chunk_bytes=chunk_bytes)
 
 
-def recovered(path: Path) -> Iterator[BagMessage]:
+def recover_messages(path: Path) -> Iterator[BagMessage]:
     """Yield every whole message of a bag with or without an index, as they lie in the file.
 
     Raises:

@@ -14,7 +14,7 @@ from mcap.stream_reader import StreamReader
 from mcap.writer import CompressionType, Writer
 
 from ..messages.messages import Messages
-from .bag import BagConnection, BagError, BagMessage, Chunk, UnindexedBagError, Wanted
+from .bag import BagConnection, BagError, BagMessage, Chunk, ConnectionFilter, UnindexedBagError
 
 _MAGIC = b"\x89MCAP0\r\n"
 """What a file begins and, if its recording was not cut off, ends with."""
@@ -40,7 +40,7 @@ class McapReader:
         if self._file.read() != _MAGIC:
             raise UnindexedBagError(self.path)
         self._file.seek(0)
-        with _told(self.path):
+        with _library_errors(self.path):
             self._reader = SeekingReader(self._file, record_size_limit=_LARGEST)
             summary = self._reader.get_summary()
         if summary is None or summary.statistics is None:
@@ -59,11 +59,11 @@ class McapReader:
         ]
 
     def messages(
-        self, wanted: Wanted | None = None, *, start_ns: int | None = None, end_ns: int | None = None
+        self, wanted: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
     ) -> Iterator[BagMessage]:
         """See `BagReader`."""
         stop = None if end_ns is None else end_ns + 1
-        with _told(self.path):
+        with _library_errors(self.path):
             for _, channel, message in self._reader.iter_messages(starting_at=start_ns, ending_before=stop):
                 connection = self._by_id[channel.id]
                 if wanted is None or wanted(connection):
@@ -193,7 +193,7 @@ def _connection(path: Path, channel: Channel, schema: Schema | None) -> BagConne
 
 
 @contextmanager
-def _told(path: Path) -> Generator[None]:
+def _library_errors(path: Path) -> Generator[None]:
     """Turn whatever the library makes of a damaged file into one sentence."""
     try:
         yield

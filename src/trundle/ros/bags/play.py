@@ -14,12 +14,12 @@ from ..node.publisher import Publisher
 from .bag import BagConnection, BagMessage, BagReader
 
 _HEADER_FIRST = re.compile(r"(\s|#.*\n)*(std_msgs/)?Header\s")
-_NAP_S = 0.05
+_SLEEP_S = 0.05
 """How long pausing or a key press may go unnoticed."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PlayOptions:
+class PlayerOptions:
     """What to play, and how."""
 
     rate: float = 1.0
@@ -48,7 +48,7 @@ class PlayOptions:
 class Player:
     """Plays some bags at once, by their common time."""
 
-    def __init__(self, node: Node, bags: Sequence[BagReader], options: PlayOptions) -> None:
+    def __init__(self, node: Node, bags: Sequence[BagReader], options: PlayerOptions) -> None:
         self._node = node
         self._bags = bags
         self._options = options
@@ -57,9 +57,9 @@ class Player:
         """What is latched on a topic, by who had published it."""
         self._clock: Publisher | None = None
         self._clock_due_s = 0.0
-        self._pace = _Pace(options.rate, 0)
+        self._pace = _PlaybackClock(options.rate, 0)
         self.is_paused = False
-        self.heeds_pause_topics = True
+        self.uses_pause_topics = True
         """Whether messages of the topics to pause before do so."""
         self.steps = 0
         """Messages to let through although it is paused."""
@@ -83,58 +83,58 @@ class Player:
         if self._options.clock_hz is not None:
             self._clock = self._node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=1)
         if self._options.rate_control_topic is not None:
-            self._node.subscribe(self._options.rate_control_topic, "*", self._hear_follower, on_loop=True)
+            self._node.subscribe(self._options.rate_control_topic, "*", self._on_rate_control, on_loop=True)
         latched = {c.topic for bag in self._bags for c in bag.connections if c.latching}
         for connection in (c for bag in self._bags for c in bag.connections):
-            if self._wants(connection):
+            if self._is_selected(connection):
                 self._publishers[connection] = self._node.advertise(
                     self._options.prefix + connection.topic,
                     connection.type,
                     latch=connection.topic in latched,
                     queue_size=self._options.queue_size or None,
-                    foreign=(connection.md5sum, connection.definition),
+                    raw_type=(connection.md5sum, connection.definition),
                 )
         for message in self._latched_before():
             self._publish(message)
         return list(dict.fromkeys(self._publishers.values()))
 
-    def play(self, attend: Callable[[], None]) -> None:
+    def play(self, poll: Callable[[], None]) -> None:
         """Publish everything once, from the first message on.
 
         Args:
-            attend: called again and again, between messages and while waiting; may set `is_paused` and `steps`.
+            poll: called again and again, between messages and while waiting; may set `is_paused` and `steps`.
         """
         for i, message in enumerate(self._messages()):
             if i == 0:
-                self._pace = _Pace(self._options.rate, message.stamp_ns)
+                self._pace = _PlaybackClock(self._options.rate, message.stamp_ns)
                 self.now_ns = self._follower_ns = message.stamp_ns
-            self._wait_for(message, attend)
+            self._wait_for(message, poll)
             self.now_ns = message.stamp_ns
             self._tick(at_once=self._options.immediate or self.is_paused)
             self._publish(message)
             self.played += 1
 
-    def linger(self, attend: Callable[[], None]) -> None:
+    def keep_alive(self, poll: Callable[[], None]) -> None:
         """Let the time go on behind the end, for whoever comes late."""
         while True:
-            attend()
+            poll()
             if self.is_paused or self._options.immediate:
                 self._pace.hold()
             else:
                 self.now_ns = self._pace.now_ns()
-            self._nap(_NAP_S)
+            self._sleep(_SLEEP_S)
 
-    def _wait_for(self, message: BagMessage, attend: Callable[[], None]) -> None:
+    def _wait_for(self, message: BagMessage, poll: Callable[[], None]) -> None:
         """Wait until it is a message's time."""
         options = self._options
-        if self.heeds_pause_topics and message.connection.topic in options.pause_topics:
+        if self.uses_pause_topics and message.connection.topic in options.pause_topics:
             self.is_paused = True
         if options.skip_empty_s is not None and message.stamp_ns - self.now_ns > options.skip_empty_s * 1e9:
             self._pace.jump(message.stamp_ns)
         # Decided here and once: a follower hears nothing in a silence, and cannot come further in it.
         is_ahead = self._is_ahead()
         while True:
-            attend()
+            poll()
             is_ahead = is_ahead and self._is_ahead()
             if self.is_paused and self.steps > 0:
                 self.steps -= 1
@@ -142,19 +142,19 @@ class Player:
                 return
             if self.is_paused or is_ahead:
                 self._pace.hold()
-                self._nap(_NAP_S)
+                self._sleep(_SLEEP_S)
                 continue
             wait_s = 0.0 if options.immediate else self._pace.wait_s(message.stamp_ns)
             if wait_s <= 0.0:
                 return
             self.now_ns = self._pace.now_ns()
-            self._nap(wait_s)
+            self._sleep(wait_s)
 
-    def _nap(self, longest_s: float) -> None:
+    def _sleep(self, longest_s: float) -> None:
         """Tell the time if that is due, and rest for a moment."""
         self._tick()
-        due_s = _NAP_S if self._clock is None else max(0.0, self._clock_due_s - time.monotonic())
-        time.sleep(min(longest_s, due_s, _NAP_S))
+        due_s = _SLEEP_S if self._clock is None else max(0.0, self._clock_due_s - time.monotonic())
+        time.sleep(min(longest_s, due_s, _SLEEP_S))
 
     def _tick(self, *, at_once: bool = False) -> None:
         """Publish the time, at its rate or whether that is due or not."""
@@ -180,7 +180,7 @@ class Player:
             return False
         return self.now_ns - self._follower_ns > self._options.rate_control_s * 1e9
 
-    def _hear_follower(self, message: RawMessage) -> None:
+    def _on_rate_control(self, message: RawMessage) -> None:
         """Take the stamp from the header that the message starts with, whatever its type."""
         if not _HEADER_FIRST.match(message.definition) or len(message.data) < 12:
             self._node.log_warn(f"{message.type} does not start with a header; it cannot control the rate")
@@ -195,22 +195,22 @@ class Player:
         last = {
             message.connection: message
             for bag in self._bags
-            for message in bag.messages(lambda c: c.latching and self._wants(c), end_ns=self.start_ns - 1)
+            for message in bag.messages(lambda c: c.latching and self._is_selected(c), end_ns=self.start_ns - 1)
         }
         return list(last.values())
 
     def _messages(self) -> Iterator[BagMessage]:
-        streams = [bag.messages(self._wants, start_ns=self.start_ns, end_ns=self.end_ns) for bag in self._bags]
+        streams = [bag.messages(self._is_selected, start_ns=self.start_ns, end_ns=self.end_ns) for bag in self._bags]
         with ExitStack() as stack:
             for stream in streams:
                 stack.callback(getattr(stream, "close", lambda: None))
             yield from heapq.merge(*streams, key=lambda message: message.stamp_ns)
 
-    def _wants(self, connection: BagConnection) -> bool:
+    def _is_selected(self, connection: BagConnection) -> bool:
         return not self._options.topics or connection.topic in self._options.topics
 
 
-class _Pace:
+class _PlaybackClock:
     """Which bag time it is, by the wall's clock."""
 
     def __init__(self, rate: float, start_ns: int) -> None:

@@ -17,7 +17,7 @@ from ..node.node import Node
 from ..node.subscription import Subscription
 from ..xmlrpc.rpc_client import call_value
 from ..xmlrpc.xmlrpc import FaultError
-from .bag import BagConnection, BagMessage, BagWriter, broken_off
+from .bag import BagConnection, BagMessage, BagWriter, recording_failure
 from .files import create_bag
 
 _FLUSH_S = 1.0
@@ -31,7 +31,7 @@ _FULL_S = 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RecordOptions:
+class RecorderOptions:
     """What to record, and into which files."""
 
     topics: tuple[str, ...] = ()
@@ -71,7 +71,7 @@ class Recorder:
     def __init__(
         self,
         node: Node,
-        options: RecordOptions,
+        options: RecorderOptions,
         *,
         say: Callable[[str], None],
         complain: Callable[[str], None] = lambda _: None,
@@ -131,7 +131,7 @@ class Recorder:
             for topic in options.topics:
                 self._node.loop.call_soon(lambda topic=topic: self._subscribe(topic))
         if options.is_regex or options.all_topics or options.of_node:
-            self._node.loop.spawn(self._follow())
+            self._node.loop.spawn(self._follow_topics())
 
     def stop(self) -> None:
         """Write what is queued and close the file; the result can be read."""
@@ -150,23 +150,23 @@ class Recorder:
 
     # on the loop
 
-    async def _follow(self) -> None:
+    async def _follow_topics(self) -> None:
         """Subscribe to what is published, or what the node subscribes to, as it comes."""
         while not self._node.is_shut_down:
             with contextlib.suppress(RosError, OSError, FaultError):
                 for topic in await self._topics():
-                    if self._wants(topic):
+                    if self._is_selected(topic):
                         self._subscribe(topic)
             await asyncio.sleep(_POLL_S)
 
     async def _topics(self) -> list[str]:
         node = self._options.of_node
         if node is not None:
-            uri = await self._node.ask("lookupNode", self._node.resolve(node))
+            uri = await self._node.call_master("lookupNode", self._node.resolve(node))
             return [topic for topic, _ in await call_value(uri, "getSubscriptions", self._node.name)]
-        return [topic for topic, _ in await self._node.ask("getPublishedTopics", "")]
+        return [topic for topic, _ in await self._node.call_master("getPublishedTopics", "")]
 
-    def _wants(self, topic: str) -> bool:
+    def _is_selected(self, topic: str) -> bool:
         if topic in self._subscriptions or (self._excluded is not None and self._excluded.fullmatch(topic)):
             return False
         if self._options.all_topics or self._options.of_node is not None:
@@ -181,13 +181,13 @@ class Recorder:
         self._subscriptions[topic] = self._node.subscribe(
             topic,
             "*",
-            lambda message: self._take(topic, message),
+            lambda message: self._on_message(topic, message),
             queue_size=None,
             tcp_nodelay=self._options.tcp_nodelay,
             on_loop=True,
         )
 
-    def _take(self, topic: str, message: RawMessage) -> None:
+    def _on_message(self, topic: str, message: RawMessage) -> None:
         stamp_ns = self.clock.now_ns()
         if stamp_ns == 0 or self.done.is_set():  # simulated time has not begun; or a limit is reached
             return
@@ -235,21 +235,21 @@ class Recorder:
     def _write_all(self) -> None:
         try:
             try:
-                self._write_until_the_end()
+                self._write_loop()
             except RosError as error:
-                self._break_off(str(error))
+                self._abort(str(error))
             if self._is_open:
                 self._close()
         except OSError as error:
             self._writer.abandon()
-            self._break_off(broken_off(self._active, error))
+            self._abort(recording_failure(self._active, error))
 
-    def _break_off(self, why: str) -> None:
+    def _abort(self, why: str) -> None:
         self.error = why
         self._complain(f"recording broke off: {why}")
         self.done.set()
 
-    def _write_until_the_end(self) -> None:
+    def _write_loop(self) -> None:
         flushed = time.monotonic()
         while True:
             with self._wake:

@@ -12,7 +12,7 @@ import lz4.frame
 from rosbags.rosbag1 import Reader, ReaderError, Writer, WriterError
 from rosbags.rosbag1.writer import WriteChunk
 
-from .bag import BagConnection, BagError, BagMessage, Chunk, UnindexedBagError, Wanted
+from .bag import BagConnection, BagError, BagMessage, Chunk, ConnectionFilter, UnindexedBagError
 from .scan import chunk_at
 
 
@@ -23,7 +23,7 @@ class Ros1Reader:
         self.path = path
         self.version = "2.0"
         self._reader = Reader(path)
-        with _told(path):
+        with _library_errors(path):
             self._reader.open()
         self._by_id = {c.id: _connection(c) for c in self._reader.connections}
         self.connections = [self._by_id[c.id] for c in self._reader.connections]  # a damaged one may name an id twice
@@ -35,14 +35,14 @@ class Ros1Reader:
             self.chunks: list[Chunk] = [chunk_at(file, info.pos) for info in infos]
 
     def messages(
-        self, wanted: Wanted | None = None, *, start_ns: int | None = None, end_ns: int | None = None
+        self, wanted: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
     ) -> Iterator[BagMessage]:
         """See `BagReader`."""
         chosen = [c for c in self._reader.connections if wanted is None or wanted(self._by_id[c.id])]
         if not chosen:
             return
         stop = None if end_ns is None else end_ns + 1
-        with _told(self.path):
+        with _library_errors(self.path):
             for connection, stamp_ns, data in self._reader.messages(chosen, start_ns, stop):
                 yield BagMessage(self._by_id[connection.id], stamp_ns, data)
 
@@ -185,7 +185,7 @@ def _connection(connection: Any) -> BagConnection:
 
 
 @contextmanager
-def _told(path: Path) -> Generator[None]:
+def _library_errors(path: Path) -> Generator[None]:
     """Turn whatever the library makes of a damaged file into one sentence."""
     try:
         yield

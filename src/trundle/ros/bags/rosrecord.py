@@ -8,8 +8,8 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Self
 
-from .bag import BagConnection, BagError, BagMessage, Chunk, UnindexedBagError, Wanted
-from .scan import CutOffError, RecordFile, operation, read_head
+from .bag import BagConnection, BagError, BagMessage, Chunk, ConnectionFilter, UnindexedBagError
+from .scan import BoundedFile, TruncatedError, operation, read_head
 
 _DEFINITION, _MESSAGE, _FILE_HEADER = 1, 2, 3
 
@@ -22,8 +22,8 @@ class RosrecordReader:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        walk = _Walk(path)
-        if walk.broke_off or walk.index_at == 0:
+        walk = _RecordScan(path)
+        if walk.is_truncated or walk.index_at == 0:
             raise UnindexedBagError(path)
         self.version = "1.2 (unindexed)" if walk.index_at is None else "1.2"
         self.connections = list(walk.connections.values())
@@ -34,7 +34,7 @@ class RosrecordReader:
         self.start_ns, self.end_ns = (self._entries[i][0] if self._entries else 0 for i in (0, -1))
 
     def messages(
-        self, wanted: Wanted | None = None, *, start_ns: int | None = None, end_ns: int | None = None
+        self, wanted: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
     ) -> Iterator[BagMessage]:
         """See `BagReader`."""
         chosen = {connection for connection in self.connections if wanted is None or wanted(connection)}
@@ -54,10 +54,10 @@ class RosrecordReader:
 
 def scan_rosrecord(path: Path) -> Iterator[BagMessage]:
     """Yield every message that is whole, as it lies, of a bag that may end anywhere."""
-    return _read(path, _Walk(path).entries)
+    return _read(path, _RecordScan(path).entries)
 
 
-class _Walk:
+class _RecordScan:
     """Where the messages of a file lie, in its order, as far as it makes sense."""
 
     def __init__(self, path: Path) -> None:
@@ -66,17 +66,17 @@ class _Walk:
         self.entries: list[_Entry] = []
         self.index_at: int | None = None
         """Where the index begins; 0: it was never written; None: this bag is to have none."""
-        self.broke_off = False
+        self.is_truncated = False
         with path.open("rb") as opened:
             version = opened.readline()
-            file = RecordFile(opened, path.stat().st_size - len(version))
+            file = BoundedFile(opened, path.stat().st_size - len(version))
             try:
                 while head := read_head(file):
-                    self._take(head[0], file.skip(head[1]), head[1])
-            except (CutOffError, KeyError, struct.error):
-                self.broke_off = True
+                    self._read_record(head[0], file.skip(head[1]), head[1])
+            except (TruncatedError, KeyError, struct.error):
+                self.is_truncated = True
 
-    def _take(self, fields: dict[str, bytes], at: int, size: int) -> None:
+    def _read_record(self, fields: dict[str, bytes], at: int, size: int) -> None:
         kind = operation(fields)
         if kind == _FILE_HEADER:
             (self.index_at,) = struct.unpack("<Q", fields["index_pos"])
@@ -88,17 +88,17 @@ class _Walk:
             self.connections.setdefault(fields["topic"], made)
         elif kind == _MESSAGE:
             seconds, nanoseconds = struct.unpack("<II", fields["sec"] + fields["nsec"])
-            connection = self.connections.get(fields["topic"]) or self._defined_elsewhere(fields)
+            connection = self.connections.get(fields["topic"]) or self._find_definition(fields)
             self.entries.append((seconds * 10**9 + nanoseconds, connection, at, size))
 
-    def _defined_elsewhere(self, fields: dict[str, bytes]) -> BagConnection:
+    def _find_definition(self, fields: dict[str, bytes]) -> BagConnection:
         """Find the definition of a type that was written for another topic alone."""
         type_ = fields["type"].decode("utf-8", "replace")
         for connection in self.connections.values():
             if connection.type == type_:
                 topic = fields["topic"].decode("utf-8", "replace")
                 return self.connections.setdefault(fields["topic"], replace(connection, topic=topic))
-        raise CutOffError
+        raise TruncatedError
 
 
 def _read(path: Path, entries: Iterable[_Entry]) -> Iterator[BagMessage]:

@@ -16,7 +16,7 @@ _MESSAGE, _CHUNK, _CONNECTION = 2, 5, 7
 _LENGTH = struct.Struct("<I")
 
 
-class CutOffError(Exception):
+class TruncatedError(Exception):
     """A file ends, or stops to make sense, within a record."""
 
 
@@ -28,7 +28,7 @@ def scan_bag(path: Path) -> Iterator[BagMessage]:
     """
     connections: dict[int, BagConnection] = {}
     with path.open("rb") as opened:
-        file = RecordFile(opened, path.stat().st_size)
+        file = BoundedFile(opened, path.stat().st_size)
         if file.read(len(_MAGIC)) != _MAGIC:
             raise BagError(f"{path} is no ROS 1 bag of format 2.0")
         try:
@@ -37,24 +37,24 @@ def scan_bag(path: Path) -> Iterator[BagMessage]:
                 if operation(fields) == _CHUNK:
                     yield from _chunk(fields, file, size, connections)
                 else:
-                    yield from _record(fields, _exactly(file, size), connections)
-        except CutOffError:
+                    yield from _record(fields, _read_exactly(file, size), connections)
+        except TruncatedError:
             return
 
 
 def _chunk(
-    fields: dict[str, bytes], file: "RecordFile", size: int, connections: dict[int, BagConnection]
+    fields: dict[str, bytes], file: "BoundedFile", size: int, connections: dict[int, BagConnection]
 ) -> Iterator[BagMessage]:
     data = file.read(size)
     try:
         (most,) = _LENGTH.unpack(fields["size"])
     except (KeyError, struct.error):
-        raise CutOffError from None
-    inner = _Bytes(_decompressed(fields.get("compression", b"none").decode("ascii", "replace"), data, most))
+        raise TruncatedError from None
+    inner = _ByteReader(_decompressed(fields.get("compression", b"none").decode("ascii", "replace"), data, most))
     while head := read_head(inner):
-        yield from _record(head[0], _exactly(inner, head[1]), connections)
+        yield from _record(head[0], _read_exactly(inner, head[1]), connections)
     if len(data) != size:
-        raise CutOffError
+        raise TruncatedError
 
 
 def _record(fields: dict[str, bytes], data: bytes, connections: dict[int, BagConnection]) -> Iterator[BagMessage]:
@@ -68,7 +68,7 @@ def _record(fields: dict[str, bytes], data: bytes, connections: dict[int, BagCon
             seconds, nanoseconds = struct.unpack("<II", fields["time"])
             yield BagMessage(connections[number], seconds * 10**9 + nanoseconds, data)
     except (KeyError, struct.error):
-        raise CutOffError from None
+        raise TruncatedError from None
 
 
 def chunk_at(file: BinaryIO, position: int) -> Chunk:
@@ -79,16 +79,16 @@ def chunk_at(file: BinaryIO, position: int) -> Chunk:
     """
     try:
         end = file.seek(0, os.SEEK_END)
-        head = read_head(RecordFile(file, end - file.seek(position)))
+        head = read_head(BoundedFile(file, end - file.seek(position)))
         if head is None:
-            raise CutOffError
+            raise TruncatedError
         (size,) = _LENGTH.unpack(head[0]["size"])
-    except (CutOffError, KeyError, struct.error):
+    except (TruncatedError, KeyError, struct.error):
         raise BagError(f"no chunk at byte {position}; trundle bag reindex saves what is whole") from None
     return Chunk(compression=head[0]["compression"].decode("ascii", "replace"), size=size, compressed=head[1])
 
 
-class RecordFile:
+class BoundedFile:
     """A file of which no more is asked for than there is, whatever a length in it promises."""
 
     def __init__(self, file: BinaryIO, size: int) -> None:
@@ -105,15 +105,15 @@ class RecordFile:
         """Go on behind so many bytes; returns where in the file they begin.
 
         Raises:
-            CutOffError: there are not as many.
+            TruncatedError: there are not as many.
         """
         if size > self._left:
-            raise CutOffError
+            raise TruncatedError
         self._left -= size
         return self._file.seek(size, os.SEEK_CUR) - size
 
 
-class _Bytes:
+class _ByteReader:
     """A chunk's content, read piece by piece."""
 
     def __init__(self, data: bytes) -> None:
@@ -127,21 +127,21 @@ class _Bytes:
         return piece
 
 
-def read_head(file: "RecordFile | _Bytes") -> tuple[dict[str, bytes], int] | None:
+def read_head(file: "BoundedFile | _ByteReader") -> tuple[dict[str, bytes], int] | None:
     """Read a record's header and the size of its data; None at the end of the file."""
     start = file.read(4)
     if not start:
         return None
     if len(start) != 4:
-        raise CutOffError
-    fields = _fields(_exactly(file, _LENGTH.unpack(start)[0]))
-    return fields, _LENGTH.unpack(_exactly(file, 4))[0]
+        raise TruncatedError
+    fields = _fields(_read_exactly(file, _LENGTH.unpack(start)[0]))
+    return fields, _LENGTH.unpack(_read_exactly(file, 4))[0]
 
 
-def _exactly(file: "RecordFile | _Bytes", size: int) -> bytes:
+def _read_exactly(file: "BoundedFile | _ByteReader", size: int) -> bytes:
     data = file.read(size)
     if len(data) != size:
-        raise CutOffError
+        raise TruncatedError
     return data
 
 
@@ -150,11 +150,11 @@ def _fields(data: bytes) -> dict[str, bytes]:
     at = 0
     while at < len(data):
         if at + 4 > len(data):
-            raise CutOffError
+            raise TruncatedError
         (size,) = _LENGTH.unpack_from(data, at)
         name, equals, value = data[at + 4 : at + 4 + size].partition(b"=")
         if not equals or at + 4 + size > len(data):
-            raise CutOffError
+            raise TruncatedError
         fields[name.decode("ascii", "replace")] = value
         at += 4 + size
     return fields
@@ -189,4 +189,4 @@ def _decompressed(compression: str, data: bytes, most: int) -> bytes:
             return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data, most))
     except (OSError, RuntimeError):
         pass
-    raise CutOffError
+    raise TruncatedError

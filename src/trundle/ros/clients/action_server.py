@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from ..messages.messages import Message
-from ..node.clock import ns_of
+from ..node.clock import to_nsec
 from ..node.node import Node
 
 _STATUS_RATE_HZ = 5.0
-_KEPT_S = 5.0
+_STATUS_LIST_TIMEOUT_S = 5.0
 """How long a finished goal stays in the status list, as in actionlib."""
 _PENDING, _ACTIVE = 0, 1
 _NUMBERS = {"preempted": 2, "succeeded": 3, "aborted": 4, "rejected": 5}
@@ -67,17 +67,19 @@ class ActionServer:
         self._result = node.advertise(f"{name}/result", f"{type_name}ActionResult", queue_size=50)
         self._feedback = node.advertise(f"{name}/feedback", f"{type_name}ActionFeedback", queue_size=50)
         self._status = node.advertise(f"{name}/status", "actionlib_msgs/GoalStatusArray", latch=True, queue_size=50)
-        goals = node.subscribe(f"{name}/goal", f"{type_name}ActionGoal", self._take, queue_size=None, on_loop=True)
-        cancels = node.subscribe(f"{name}/cancel", "actionlib_msgs/GoalID", self._cancel, queue_size=None, on_loop=True)
-        self._ends = (self._result, self._feedback, self._status, goals, cancels)
-        self._teller = node.loop.spawn(self._tell_states())
+        goals = node.subscribe(f"{name}/goal", f"{type_name}ActionGoal", self._on_goal, queue_size=None, on_loop=True)
+        cancels = node.subscribe(
+            f"{name}/cancel", "actionlib_msgs/GoalID", self._on_cancel, queue_size=None, on_loop=True
+        )
+        self._endpoints = (self._result, self._feedback, self._status, goals, cancels)
+        self._status_task = node.loop.spawn(self._publish_status_loop())
 
     @property
     def active(self) -> bool:
         """Whether a goal is being worked on."""
         return any(goal.status == _ACTIVE for goal in self._goals.values())
 
-    def tell(self, feedback: dict[str, Any]) -> None:
+    def publish_feedback(self, feedback: dict[str, Any]) -> None:
         """Say how the goals that are being worked on go; any thread."""
         if not self._feedback.has_subscribers:
             return
@@ -87,14 +89,14 @@ class ActionServer:
 
     def close(self) -> None:
         """Unregister; any thread."""
-        self._teller.cancel()
-        for end in self._ends:
+        self._status_task.cancel()
+        for end in self._endpoints:
             end.unregister()
 
-    def _take(self, message: Message) -> None:
+    def _on_goal(self, message: Message) -> None:
         now = self._node.clock.now_ns()
         key = message.goal_id.id or f"{self._node.name}-{next(self._numbers)}-{now / 1e9:.9f}"
-        stamp = ns_of(message.goal_id.stamp) or now
+        stamp = to_nsec(message.goal_id.stamp) or now
         if key in self._goals:
             return
         if len(self._goals) >= _MAX_GOALS:
@@ -107,9 +109,9 @@ class ActionServer:
         self._goals[key] = goal
         goal.task = asyncio.get_running_loop().create_task(self._run(goal, message.goal))
 
-    def _cancel(self, message: Message) -> None:
+    def _on_cancel(self, message: Message) -> None:
         """By id; an empty id means all, a stamp all that came until then."""
-        stamp = ns_of(message.stamp)
+        stamp = to_nsec(message.stamp)
         for key, goal in self._goals.items():
             everything = not message.id and stamp == 0
             if everything or key == message.id or (stamp and goal.stamp_ns <= stamp):
@@ -135,10 +137,14 @@ class ActionServer:
         header = {"stamp": goal.ended_ns}
         self._result.publish({"header": header, "status": _status(goal), "result": outcome.result})
 
-    async def _tell_states(self) -> None:
+    async def _publish_status_loop(self) -> None:
         while not self._node.closed.is_set():
             now = self._node.clock.now_ns()
-            old = [k for k, g in self._goals.items() if g.ended_ns is not None and now - g.ended_ns > _KEPT_S * 1e9]
+            old = [
+                k
+                for k, g in self._goals.items()
+                if g.ended_ns is not None and now - g.ended_ns > _STATUS_LIST_TIMEOUT_S * 1e9
+            ]
             for key in old:
                 del self._goals[key]
             self._publish_status()

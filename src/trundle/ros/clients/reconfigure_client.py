@@ -8,7 +8,7 @@ from typing import Any
 from ..errors import ServiceError
 from ..messages.messages import Message
 from ..node.node import Node
-from .reconfigure_server import Option, Options, OptionValue, config_of, values_of
+from .reconfigure_server import Option, Options, OptionValue, config_message, config_values
 
 _DESCRIPTIONS = "/parameter_descriptions"
 _KIND = "dynamic_reconfigure"
@@ -17,7 +17,7 @@ _TRUTHS = {"true": True, "1": True, "yes": True, "on": True, "false": False, "0"
 
 async def find_reconfigurable(node: Node) -> list[str]:
     """Names of what has options, sorted: nodes, and namespaces of parts of nodes."""
-    topics = await node.ask("getTopicTypes")
+    topics = await node.call_master("getTopicTypes")
     kind = f"{_KIND}/ConfigDescription"
     return sorted(name.removesuffix(_DESCRIPTIONS) for name, type_ in topics if type_ == kind and _DESCRIPTIONS in name)
 
@@ -32,12 +32,12 @@ async def read_options(node: Node, name: str, *, timeout_s: float | None = None)
     try:
         async with asyncio.timeout(timeout_s):
             description, config = await asyncio.gather(
-                _first(node, f"{space}{_DESCRIPTIONS}", f"{_KIND}/ConfigDescription"),
-                _first(node, f"{space}/parameter_updates", f"{_KIND}/Config"),
+                _latched_message(node, f"{space}{_DESCRIPTIONS}", f"{_KIND}/ConfigDescription"),
+                _latched_message(node, f"{space}/parameter_updates", f"{_KIND}/Config"),
             )
     except TimeoutError:
         raise ServiceError(f"{space} told no options within {timeout_s:g} s") from None
-    lower, upper, now = values_of(description.min), values_of(description.max), values_of(config)
+    lower, upper, now = config_values(description.min), config_values(description.max), config_values(config)
     found = [parameter for group in description.groups for parameter in group.parameters if parameter.name in now]
     return [_option(parameter, now[parameter.name], lower, upper) for parameter in found]
 
@@ -55,13 +55,13 @@ async def set_options(
     for key, value in values.items():
         if key not in there:
             raise ServiceError(f"don't know parameter: {key}; there are: {', '.join(there)}")
-        asked[key] = _typed(key, value, type(there[key].value))
+        asked[key] = _converted(key, value, type(there[key].value))
     service = f"{node.resolve(name).rstrip('/')}/set_parameters"
-    answer = await node.call_service(service, f"{_KIND}/Reconfigure", {"config": config_of(asked)})
-    return values_of(answer.config)
+    answer = await node.call_service(service, f"{_KIND}/Reconfigure", {"config": config_message(asked)})
+    return config_values(answer.config)
 
 
-async def _first(node: Node, topic: str, kind: str) -> Message:
+async def _latched_message(node: Node, topic: str, kind: str) -> Message:
     """The message that is latched there."""
     future: asyncio.Future[Message] = asyncio.get_running_loop().create_future()
 
@@ -83,7 +83,7 @@ def _option(parameter: Message, value: OptionValue, lower: Options, upper: Optio
     return Option(name=parameter.name, value=value, description=parameter.description, **bounds)
 
 
-def _typed(name: str, value: object, kind: type[OptionValue]) -> OptionValue:
+def _converted(name: str, value: object, kind: type[OptionValue]) -> OptionValue:
     """A value as text or YAML gave it, in the option's own type."""
     if kind is bool and isinstance(value, str):
         value = _TRUTHS.get(value.lower(), value)

@@ -65,18 +65,18 @@ class ReconfigureServer:
         kind = "dynamic_reconfigure"
         descriptions = node.advertise(f"{self._space}parameter_descriptions", f"{kind}/ConfigDescription", latch=True)
         self._updates = node.advertise(f"{self._space}parameter_updates", f"{kind}/Config", latch=True)
-        self._ends = (
+        self._endpoints = (
             descriptions,
             self._updates,
             node.advertise_service(f"{self._space}set_parameters", f"{kind}/Reconfigure", self._set),
         )
-        descriptions.publish(self._described())
-        self._updates.publish(config_of(self._values))
+        descriptions.publish(self._description_message())
+        self._updates.publish(config_message(self._values))
         node.loop.spawn(self._write(self._values))
 
     def unregister(self) -> None:
         """Offer nothing any more; any thread."""
-        for end in self._ends:
+        for end in self._endpoints:
             end.unregister()
 
     async def _set(self, request: Message) -> dict[str, Any]:
@@ -84,8 +84,8 @@ class ReconfigureServer:
         node = self._node
         self._values = await run_on_callback_thread(node.deliver, node.loop, lambda: self._apply(asked))
         await self._write(self._values)
-        self._updates.publish(config_of(self._values))
-        return {"config": config_of(self._values)}
+        self._updates.publish(config_message(self._values))
+        return {"config": config_message(self._values)}
 
     def _read(self, config: Message) -> Options:
         """What is asked for, within bounds; what cannot be is said."""
@@ -108,7 +108,7 @@ class ReconfigureServer:
             for name, value in values.items():
                 await self._node.set_param(f"{self._space}{name}", value)
 
-    def _described(self) -> dict[str, Any]:
+    def _description_message(self) -> dict[str, Any]:
         options = self._options.values()
         parameters = [
             {"name": option.name, "type": _TYPES[type(option.value)], "description": option.description}
@@ -116,13 +116,13 @@ class ReconfigureServer:
         ]
         return {
             "groups": [{"name": _GROUP, "parameters": parameters}],
-            "min": config_of({option.name: _end(option, option.lower) for option in options}),
-            "max": config_of({option.name: _end(option, option.upper) for option in options}),
-            "dflt": config_of({option.name: option.value for option in options}),
+            "min": config_message({option.name: _bound(option, option.lower) for option in options}),
+            "max": config_message({option.name: _bound(option, option.upper) for option in options}),
+            "dflt": config_message({option.name: option.value for option in options}),
         }
 
 
-def _end(option: Option, bound: float) -> OptionValue:
+def _bound(option: Option, bound: float) -> OptionValue:
     """A bound as clients expect it, in the option's own type."""
     match option.value:
         case bool():
@@ -135,7 +135,7 @@ def _end(option: Option, bound: float) -> OptionValue:
             return min(max(bound, -sys.float_info.max), sys.float_info.max)
 
 
-def config_of(values: Mapping[str, OptionValue]) -> dict[str, Any]:
+def config_message(values: Mapping[str, OptionValue]) -> dict[str, Any]:
     """Fields of a dynamic_reconfigure/Config."""
     config: dict[str, Any] = {field: [] for field in _FIELDS.values()}
     for name, value in values.items():
@@ -143,6 +143,6 @@ def config_of(values: Mapping[str, OptionValue]) -> dict[str, Any]:
     return {**config, "groups": [{"name": _GROUP, "state": True}]}
 
 
-def values_of(config: Message) -> Options:
+def config_values(config: Message) -> Options:
     """What a dynamic_reconfigure/Config says."""
     return {str(item.name): item.value for field in _FIELDS.values() for item in getattr(config, field)}

@@ -44,7 +44,7 @@ class TransformBuffer:
         self._moving: dict[str, list[Transform]] = {}
         """Child → its transforms, oldest first."""
 
-    def insert(self, transform: Transform, *, static: bool = False) -> bool:
+    def set_transform(self, transform: Transform, *, static: bool = False) -> bool:
         """Take a transform; False if it is of no use (older than the cache, not finite, or a frame in itself)."""
         parent, child = frame_name(transform.parent), frame_name(transform.child)
         norm = math.hypot(*transform.rotation)
@@ -76,7 +76,7 @@ class TransformBuffer:
         del history[:expired]
         return True
 
-    def lookup(self, target: str, source: str, stamp_ns: int = 0) -> Transform:
+    def lookup_transform(self, target: str, source: str, stamp_ns: int = 0) -> Transform:
         """Return where `source` is in `target`: a transform with parent `target` and child `source`.
 
         Args:
@@ -88,12 +88,12 @@ class TransformBuffer:
             TransformError: a frame is unknown, the two are not connected, or the time is outside what is known.
         """
         target, source = frame_name(target), frame_name(source)
-        up_target, up_source, common = self._meeting(target, source)
+        up_target, up_source, common = self._paths_to_common_ancestor(target, source)
         below = [*up_source[: up_source.index(common)], *up_target[: up_target.index(common)]]
         if stamp_ns == 0:
             stamp_ns = min((self._moving[frame][-1].stamp_ns for frame in below if frame in self._moving), default=0)
-        common_from_source = self._climb(source, common, stamp_ns)
-        common_from_target = self._climb(target, common, stamp_ns)
+        common_from_source = self._compose(source, common, stamp_ns)
+        common_from_target = self._compose(target, common, stamp_ns)
         found = common_from_target.inverse() @ common_from_source
         return Transform(
             parent=target, child=source, stamp_ns=stamp_ns, translation=found.position, rotation=found.quaternion
@@ -106,14 +106,14 @@ class TransformBuffer:
             TransformError: a frame is unknown, or the two are not connected.
         """
         target, source = frame_name(target), frame_name(source)
-        up_target, up_source, common = self._meeting(target, source)
+        up_target, up_source, common = self._paths_to_common_ancestor(target, source)
         down = up_source[: up_source.index(common)]
         return [*up_target[: up_target.index(common) + 1], *reversed(down)]
 
     def can_transform(self, target: str, source: str, stamp_ns: int = 0) -> bool:
         """Tell whether a lookup would succeed."""
         try:
-            self.lookup(target, source, stamp_ns)
+            self.lookup_transform(target, source, stamp_ns)
         except TransformError:
             return False
         return True
@@ -141,7 +141,7 @@ class TransformBuffer:
         """Forget what moves, as when time goes back; what is static stays, as it is sent only once."""
         self._moving.clear()
 
-    def _meeting(self, target: str, source: str) -> tuple[list[str], list[str], str]:
+    def _paths_to_common_ancestor(self, target: str, source: str) -> tuple[list[str], list[str], str]:
         """Name each frame's way to the root, and where the two ways meet."""
         up_target, up_source = self._chain(target, "target"), self._chain(source, "source")
         common = next((frame for frame in up_source if frame in up_target), None)
@@ -171,15 +171,15 @@ class TransformBuffer:
     def _is_parent(self, frame: str) -> bool:
         return frame in self.frames()
 
-    def _climb(self, frame: str, ancestor: str, stamp_ns: int) -> Pose:
+    def _compose(self, frame: str, ancestor: str, stamp_ns: int) -> Pose:
         pose = Pose()
         while frame != ancestor:
-            step = self._static.get(frame) or self._at(frame, stamp_ns)
+            step = self._static.get(frame) or self._transform_at(frame, stamp_ns)
             pose = step.pose @ pose
             frame = step.parent
         return pose
 
-    def _at(self, frame: str, stamp_ns: int) -> Transform:
+    def _transform_at(self, frame: str, stamp_ns: int) -> Transform:
         history = self._moving[frame]
         at = bisect_left(history, stamp_ns, key=_stamp)
         if at < len(history) and history[at].stamp_ns == stamp_ns:
@@ -195,7 +195,7 @@ class TransformBuffer:
         if before.parent != after.parent:
             return before
         share = (stamp_ns - before.stamp_ns) / (after.stamp_ns - before.stamp_ns)
-        return _between(before, after, share, stamp_ns)
+        return _interpolate(before, after, share, stamp_ns)
 
 
 def frame_name(name: str) -> str:
@@ -207,7 +207,7 @@ def _stamp(transform: Transform) -> int:
     return transform.stamp_ns
 
 
-def _between(a: Transform, b: Transform, share: float, stamp_ns: int) -> Transform:
+def _interpolate(a: Transform, b: Transform, share: float, stamp_ns: int) -> Transform:
     position = tuple(x + (y - x) * share for x, y in zip(a.translation, b.translation, strict=True))
     return Transform(
         parent=a.parent,

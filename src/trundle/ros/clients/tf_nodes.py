@@ -3,7 +3,7 @@
 from typing import Any
 
 from ..messages.messages import Message
-from ..node.clock import SimClock, ns_of
+from ..node.clock import SimClock, to_nsec
 from ..node.node import Node
 from .tf_buffer import Transform, TransformBuffer
 
@@ -24,7 +24,7 @@ class TransformBroadcaster:
         """Whether anybody listens: if not, there is no need to make transforms."""
         return self._publisher.has_subscribers
 
-    def send(self, *transforms: Transform) -> None:
+    def send_transform(self, *transforms: Transform) -> None:
         """Send transforms in one message, from any thread."""
         if self.has_subscribers:
             self._publisher.publish(transform_message(self._node, transforms))
@@ -38,7 +38,7 @@ class StaticTransformBroadcaster:
         self._publisher = node.advertise("/tf_static", _TYPE, latch=True, queue_size=_QUEUE)
         self._sent: dict[str, Transform] = {}
 
-    def send(self, *transforms: Transform) -> None:
+    def send_transform(self, *transforms: Transform) -> None:
         """Send transforms, with all that were sent before: a later one of the same child replaces it."""
         self._sent.update({transform.child: transform for transform in transforms})
         self._publisher.publish(transform_message(self._node, tuple(self._sent.values())))
@@ -55,14 +55,14 @@ class TransformListener:
             buffer: to fill; a new one by default. Emptied of what moves when the node's simulated time goes back.
         """
         self.buffer = buffer or TransformBuffer()
-        node.subscribe("/tf", _TYPE, lambda m: self._take(m, static=False), queue_size=_QUEUE, on_loop=True)
-        node.subscribe("/tf_static", _TYPE, lambda m: self._take(m, static=True), queue_size=_QUEUE, on_loop=True)
+        node.subscribe("/tf", _TYPE, lambda m: self._on_message(m, static=False), queue_size=_QUEUE, on_loop=True)
+        node.subscribe("/tf_static", _TYPE, lambda m: self._on_message(m, static=True), queue_size=_QUEUE, on_loop=True)
         if isinstance(node.clock, SimClock):
             node.clock.on_jump(self.buffer.clear)
 
-    def _take(self, message: Message, *, static: bool) -> None:
-        for transform in transforms_of(message):
-            self.buffer.insert(transform, static=static)
+    def _on_message(self, message: Message, *, static: bool) -> None:
+        for transform in read_transforms(message):
+            self.buffer.set_transform(transform, static=static)
 
 
 def transform_message(node: Node, transforms: tuple[Transform, ...]) -> Message:
@@ -83,7 +83,7 @@ def transform_message(node: Node, transforms: tuple[Transform, ...]) -> Message:
     return node.new(_TYPE, {"transforms": items})
 
 
-def transforms_of(message: Message) -> list[Transform]:
+def read_transforms(message: Message) -> list[Transform]:
     """Read a tf2_msgs/TFMessage."""
     result: list[Transform] = []
     for item in message.transforms:
@@ -92,7 +92,7 @@ def transforms_of(message: Message) -> list[Transform]:
             Transform(
                 parent=item.header.frame_id,
                 child=item.child_frame_id,
-                stamp_ns=ns_of(item.header.stamp),
+                stamp_ns=to_nsec(item.header.stamp),
                 translation=(t.x, t.y, t.z),
                 rotation=(q.w, q.x, q.y, q.z),
             )

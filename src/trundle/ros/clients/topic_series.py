@@ -9,7 +9,7 @@ from typing import Any
 from trundle.diagnostics import UsageError
 from trundle.drawing import Curve
 
-from ..messages.fields import Field, field_type, value_at
+from ..messages.field_paths import TopicField, field_type, value_at
 from ..messages.messages import Messages, RawMessage
 from ..node.clock import Clock
 from ..node.node import Node
@@ -31,7 +31,7 @@ class TopicSeries:
     """One field, and a curve for each number in it."""
 
     name: str
-    where: Field
+    where: TopicField
     curves: dict[str, "deque[tuple[float, float]]"] = field(default_factory=dict[str, "deque[tuple[float, float]]"])
 
     def check(self, messages: Messages) -> None:
@@ -47,7 +47,7 @@ class TopicSeries:
             below = f"; fields here: {', '.join(inner)}" if inner else ""
             raise UsageError(f"{self.name} is a {kind}, not a number{below}")
 
-    def take(self, message: Any, time_s: float) -> None:
+    def add_message(self, message: Any, time_s: float) -> None:
         """Add a message's numbers; an array that is too short adds none."""
         try:
             value = value_at(message, self.where.steps)
@@ -61,7 +61,7 @@ class TopicSeries:
             self.curves.setdefault(curve, deque(maxlen=_POINTS)).append((time_s, float(number)))
 
 
-def curves_of(traces: Sequence[TopicSeries], *, last_s: float = math.inf) -> list[Curve]:
+def recent_curves(traces: Sequence[TopicSeries], *, last_s: float = math.inf) -> list[Curve]:
     """What was gathered in the last seconds; time is counted from the first message on."""
     found = [(name, list(points)) for trace in traces for name, points in trace.curves.items()]
     start = min((points[0][0] for _, points in found), default=0.0)
@@ -69,7 +69,7 @@ def curves_of(traces: Sequence[TopicSeries], *, last_s: float = math.inf) -> lis
     return [Curve(name, [(t - start, value) for t, value in points if t >= since]) for name, points in found]
 
 
-def follow_series(trace: TopicSeries, node: Node, clock: Clock) -> None:
+def subscribe_series(trace: TopicSeries, node: Node, clock: Clock) -> None:
     """Take the numbers of what is published from now on; a coroutine's or the loop's thread.
 
     Raises:
@@ -84,6 +84,6 @@ def follow_series(trace: TopicSeries, node: Node, clock: Clock) -> None:
         if isinstance(message, RawMessage):
             messages.add_definition(message.type, message.definition)
             message = messages.deserialize(message.data, message.type)
-        trace.take(message, clock.now_ns() / 1e9)
+        trace.add_message(message, clock.now_ns() / 1e9)
 
     node.subscribe(trace.where.topic, trace.where.type if known else "*", take, queue_size=None)

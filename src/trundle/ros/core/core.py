@@ -91,8 +91,8 @@ class Core:
         folder = None if self._log_folder is None else self._log_folder(self._run_id)
         if folder is not None:
             self._logs = CoreLogs(folder, self.parameters)
-            self._logs.note(f"Master initialized: port[{self.port}], uri[{self.uri}]")
-            self._master.on_call = self._logs.called
+            self._logs.log_master(f"Master initialized: port[{self.port}], uri[{self.uri}]")
+            self._master.on_call = self._logs.log_call
         profile = self._profile
         for name, value in (("run_id", self._run_id), ("rosdistro", profile.distro), ("rosversion", profile.version)):
             # roslaunch writes both with a newline at the end, as `rosversion -d > file` does; clients strip it.
@@ -103,7 +103,7 @@ class Core:
     def _start_rosout(self) -> None:
         node = self._rosout = Node("rosout", loop=self._loop, master_uri=self.uri, host=self._host)
         self._gathered = node.advertise("/rosout_agg", "rosgraph_msgs/Log", queue_size=100)
-        node.subscribe("/rosout", "rosgraph_msgs/Log", self._gather, queue_size=100)
+        node.subscribe("/rosout", "rosgraph_msgs/Log", self._on_log, queue_size=100)
 
         def respawn(_reason: str) -> None:
             self._loop.spawn(self._respawn_rosout(node))
@@ -116,13 +116,13 @@ class Core:
         if not self._is_stopping:
             self._start_rosout()
 
-    def _gather(self, message: Message) -> None:
+    def _on_log(self, message: Message) -> None:
         if self._gathered is not None:
             self._gathered.publish(message)
         if self._logs is not None:
-            self._logs.said(message)
+            self._logs.log_message(message)
 
-    async def ready(self) -> None:
+    async def wait_ready(self) -> None:
         """Wait until /rosout is there too."""
         if self._rosout is not None:
             await self._rosout.wait_registered()

@@ -48,7 +48,7 @@ class CoreLogs:
             self._rosout = LogFile(folder / "rosout.log", most_bytes=ROSOUT_BYTES, backups=ROSOUT_BACKUPS)
             self._rosout.write(f"\n\n{time.time_ns() / 1e9:.9f}  Node Startup")
 
-    def said(self, message: Message) -> None:
+    def log_message(self, message: Message) -> None:
         """Write a rosgraph_msgs/Log as the original node does."""
         if self._rosout is not None:
             with_topics = not (
@@ -56,21 +56,21 @@ class CoreLogs:
             )
             self._rosout.write(rosout_line(message, with_topics=with_topics))
 
-    def note(self, text: str) -> None:
+    def log_master(self, text: str) -> None:
         """Write what the master has to say of itself."""
         self._master.write(python_log_line("rosmaster.master", text))
 
-    def called(self, method: str, arguments: Sequence[Any], answer: Answer) -> None:
+    def log_call(self, method: str, arguments: Sequence[Any], answer: Answer) -> None:
         """Note a call to the master that changed its books."""
         if answer[0] != 1:
             return
         if method in _WITH_ADDRESS:
             caller, name, *_, address = arguments
-            self.note(f"{_WITH_ADDRESS[method]} [{resolve_name(name, caller)}] {caller} {address}")
+            self.log_master(f"{_WITH_ADDRESS[method]} [{resolve_name(name, caller)}] {caller} {address}")
         elif method in _BY_CALLER:
             caller = arguments[0]
             what, index = _BY_CALLER[method]
-            self.note(f"{what} [{resolve_name(arguments[index], caller)}] by {caller}")
+            self.log_master(f"{what} [{resolve_name(arguments[index], caller)}] by {caller}")
 
     def close(self) -> None:
         """Write what still waits."""

@@ -35,9 +35,9 @@ class Master:
         self.on_call: Callable[[str, list[Any], Answer], None] = lambda _method, _arguments, _answer: None
         """Told of each call and its answer."""
         self._on_shutdown = on_shutdown
-        self._books = Registry()
+        self._registry = Registry()
         self._types: dict[str, str] = {}
-        self._notices = SlaveCalls()
+        self._slave_calls = SlaveCalls()
         self._server = RpcServer(self.dispatch)
         self._methods: dict[str, Method] = {
             "getPid": (0, -1, self._get_pid),
@@ -82,12 +82,12 @@ class Master:
     @property
     def is_busy(self) -> bool:
         """Whether nodes are still to be told something."""
-        return self._notices.is_busy
+        return self._slave_calls.is_busy
 
     async def stop(self) -> None:
         """Stop listening; nodes are not told, as they can go on without a master."""
         await self._server.stop()
-        await self._notices.stop()
+        await self._slave_calls.stop()
 
     def dispatch(self, method: str, arguments: list[Any]) -> Answer | list[Any]:
         """Answer one call."""
@@ -115,18 +115,18 @@ class Master:
 
     def _lookup_node(self, caller: str, node: Any) -> Answer:
         name = "/" if node == "/" else name_argument("node", node, caller)
-        api = self._books.nodes.get(name)
+        api = self._registry.nodes.get(name)
         return (1, "node api", api) if api else (-1, f"unknown node [{name}]", "")
 
     def _lookup_service(self, caller: str, service: Any) -> Answer:
-        _, api = self._books.service_apis.get(name_argument("service", service, caller), ("", ""))
+        _, api = self._registry.service_apis.get(name_argument("service", service, caller), ("", ""))
         return (1, f"rosrpc URI: [{api}]", api) if api else (-1, "no provider", "")
 
     def _topic_types(self, _: str) -> Answer:
         return 1, "current system state", [list(item) for item in self._types.items()]
 
     def _system_state(self, _: str) -> Answer:
-        books = self._books
+        books = self._registry
         return 1, "current system state", [t.state() for t in (books.publishers, books.subscribers, books.services)]
 
     def _published_topics(self, caller: str, subgraph: Any) -> Answer:
@@ -135,36 +135,36 @@ class Master:
         prefix = resolve_name(subgraph, caller) if subgraph else ""
         if prefix and not prefix.endswith("/"):
             prefix += "/"
-        found = [[t, self._types.get(t, ANY_TYPE)] for t in self._books.publishers.entries if t.startswith(prefix)]
+        found = [[t, self._types.get(t, ANY_TYPE)] for t in self._registry.publishers.entries if t.startswith(prefix)]
         return 1, "current topics", found
 
     # -- topics and services
 
     def _register_publisher(self, caller: str, topic: Any, type_name: Any, api: Any) -> Answer:
         name, kind, uri = name_argument("topic", topic, caller), _type("topic_type", type_name), _api("caller_api", api)
-        self._enter(self._books.publishers, name, caller, uri)
+        self._register(self._registry.publishers, name, caller, uri)
         if kind != ANY_TYPE or name not in self._types:
             self._types[name] = kind
-        self._tell_subscribers(name)
-        return 1, f"Registered [{caller}] as publisher of [{name}]", self._books.subscribers.apis(name)
+        self._notify_subscribers(name)
+        return 1, f"Registered [{caller}] as publisher of [{name}]", self._registry.subscribers.apis(name)
 
     def _unregister_publisher(self, caller: str, topic: Any, api: Any) -> Answer:
         name, uri = name_argument("topic", topic, caller), _api("caller_api", api)
-        answer = self._books.unregister(self._books.publishers, name, caller, uri)
+        answer = self._registry.unregister(self._registry.publishers, name, caller, uri)
         if answer[2]:
-            self._tell_subscribers(name)
+            self._notify_subscribers(name)
         return answer
 
     def _register_subscriber(self, caller: str, topic: Any, type_name: Any, api: Any) -> Answer:
         name, kind, uri = name_argument("topic", topic, caller), _type("topic_type", type_name), _api("caller_api", api)
-        self._enter(self._books.subscribers, name, caller, uri)
+        self._register(self._registry.subscribers, name, caller, uri)
         if kind != ANY_TYPE:
             self._types.setdefault(name, kind)
-        return 1, f"Subscribed to [{name}]", self._books.publishers.apis(name)
+        return 1, f"Subscribed to [{name}]", self._registry.publishers.apis(name)
 
     def _unregister_subscriber(self, caller: str, topic: Any, api: Any) -> Answer:
         name, uri = name_argument("topic", topic, caller), _api("caller_api", api)
-        return self._books.unregister(self._books.subscribers, name, caller, uri)
+        return self._registry.unregister(self._registry.subscribers, name, caller, uri)
 
     def _register_service(self, caller: str, service: Any, service_api: Any, api: Any) -> Answer:
         name, rpc, uri = (
@@ -172,25 +172,25 @@ class Master:
             _api("service_api", service_api),
             _api("caller_api", api),
         )
-        self._replace(caller, self._books.register_service(name, caller, uri, rpc))
+        self._replace(caller, self._registry.register_service(name, caller, uri, rpc))
         return 1, f"Registered [{caller}] as provider of [{name}]", 1
 
     def _unregister_service(self, caller: str, service: Any, service_api: Any) -> Answer:
         name, rpc = name_argument("service", service, caller), _api("service_api", service_api)
-        return self._books.unregister_service(name, caller, rpc)
+        return self._registry.unregister_service(name, caller, rpc)
 
-    def _enter(self, table: RegistrationTable, name: str, caller: str, uri: str) -> None:
-        self._replace(caller, self._books.register(table, name, caller, uri))
+    def _register(self, table: RegistrationTable, name: str, caller: str, uri: str) -> None:
+        self._replace(caller, self._registry.register(table, name, caller, uri))
 
     def _replace(self, node: str, older_uri: str | None) -> None:
         if older_uri is not None:
             reason = f"[{node}] Reason: new node registered with same name"
-            self._notices.send(older_uri, "shutdown", "/master", reason)
+            self._slave_calls.send(older_uri, "shutdown", "/master", reason)
 
-    def _tell_subscribers(self, topic: str) -> None:
-        publishers = self._books.publishers.apis(topic)
-        for uri in self._books.subscribers.apis(topic):
-            self._notices.send(uri, "publisherUpdate", "/master", topic, publishers)
+    def _notify_subscribers(self, topic: str) -> None:
+        publishers = self._registry.publishers.apis(topic)
+        for uri in self._registry.subscribers.apis(topic):
+            self._slave_calls.send(uri, "publisherUpdate", "/master", topic, publishers)
 
     # -- parameters
 
@@ -217,7 +217,7 @@ class Master:
             TypeError: the root can only be a dictionary.
         """
         self.parameters.set(name, value)
-        self._tell_followers(name, value, by)
+        self._notify_param_subscribers(name, value, by)
 
     def _delete_param(self, caller: str, key: Any) -> Answer:
         name = _parameter(key, caller)
@@ -225,7 +225,7 @@ class Master:
             self.parameters.delete(name)
         except KeyError:
             return -1, f"parameter [{name}] is not set", 0
-        self._tell_followers(name, {}, None)
+        self._notify_param_subscribers(name, {}, None)
         return 1, f"parameter {name} deleted", 0
 
     def _get_param(self, caller: str, key: Any) -> Answer:
@@ -252,27 +252,27 @@ class Master:
 
     def _subscribe_param(self, caller: str, api: Any, key: Any) -> Answer:
         name, uri = _parameter(key, caller), _api("caller_api", api)
-        self._enter(self._books.parameters, _followed(name), caller, uri)
+        self._register(self._registry.parameters, _subscription_key(name), caller, uri)
         value = self.parameters.get(name) if self.parameters.has(name) else {}
         return 1, f"Subscribed to parameter [{name}]", value
 
     def _unsubscribe_param(self, caller: str, api: Any, key: Any) -> Answer:
         name, uri = _parameter(key, caller), _api("caller_api", api)
-        self._books.unregister(self._books.parameters, _followed(name), caller, uri)
+        self._registry.unregister(self._registry.parameters, _subscription_key(name), caller, uri)
         return 1, f"Unsubscribe to parameter [{name}]", 1
 
     def _param_names(self, _: str) -> Answer:
         return 1, "Parameter names", self.parameters.names()
 
-    def _tell_followers(self, name: str, value: object, by: str | None) -> None:
-        table = self._books.parameters.entries
+    def _notify_param_subscribers(self, name: str, value: object, by: str | None) -> None:
+        table = self._registry.parameters.entries
         for key, changed, new in updates(list(table), name, value):
             for node, uri in table[key]:
-                if node != by or changed != _followed(name):  # who set the whole may not know of its parts
-                    self._notices.send(uri, "paramUpdate", "/master", changed, new)
+                if node != by or changed != _subscription_key(name):  # who set the whole may not know of its parts
+                    self._slave_calls.send(uri, "paramUpdate", "/master", changed, new)
 
 
-def _followed(name: str) -> str:
+def _subscription_key(name: str) -> str:
     return "/" if name == "/" else canonical_name(name) + "/"
 
 

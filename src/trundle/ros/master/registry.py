@@ -70,7 +70,7 @@ class Registry:
         older = self.nodes.get(node)
         replaced = older if older is not None and older != api else None
         if replaced is not None:
-            self.forget(node)
+            self.unregister_node(node)
         self.nodes[node] = api
         table.add(name, node, api)
         return replaced
@@ -101,7 +101,7 @@ class Registry:
         self._drop_if_idle(node)
         return 1, f"Unregistered [{node}] as provider of [{name}]", 1
 
-    def forget(self, node: str) -> None:
+    def unregister_node(self, node: str) -> None:
         """Strike a node out of everything."""
         for table in self._tables():
             table.remove_node(node)

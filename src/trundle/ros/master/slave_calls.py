@@ -26,7 +26,7 @@ class SlaveCalls:
         queue = self._waiting.get(uri)
         if queue is None:
             self._waiting[uri] = queue = []
-            task = asyncio.get_running_loop().create_task(self._work(uri, queue))
+            task = asyncio.get_running_loop().create_task(self._run(uri, queue))
             self._tasks.add(task)
             task.add_done_callback(self._tasks.discard)
         if method in _ALREADY_TOLD_LAST:
@@ -44,7 +44,7 @@ class SlaveCalls:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
 
-    async def _work(self, uri: str, queue: list[tuple[str, tuple[Any, ...]]]) -> None:
+    async def _run(self, uri: str, queue: list[tuple[str, tuple[Any, ...]]]) -> None:
         try:
             while queue:
                 method, arguments = queue.pop(0)

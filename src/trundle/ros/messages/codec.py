@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 Pieces: TypeAlias = tuple[bytes | memoryview, ...]
 """Bytes that need not lie together."""
-MISFITS = (AttributeError, BufferError, OverflowError, TypeError, ValueError)
+ENCODING_ERRORS = (AttributeError, BufferError, OverflowError, TypeError, ValueError)
 """Raised where a field holds what its type does not, or bytes are no message."""
 
 
@@ -48,7 +48,7 @@ class Codec:
         """
         try:
             return self._program.write(message)
-        except MISFITS:
+        except ENCODING_ERRORS:
             return self._mended(message, self._program.write)
 
     def frame(self, message: Any) -> Pieces:
@@ -61,7 +61,7 @@ class Codec:
         """
         try:
             return self._program.frame(message)
-        except MISFITS:
+        except ENCODING_ERRORS:
             return self._mended(message, self._program.frame)
 
     def read(self, data: bytes | bytearray | memoryview) -> Any:
@@ -79,5 +79,5 @@ class Codec:
         """Write a message that has other lists than of plain numbers where numpy arrays belong, or something wrong."""
         try:
             return write(self._mend(message))
-        except MISFITS as error:
+        except ENCODING_ERRORS as error:
             raise MessageError(f"no {self.type} can be written: {error}") from None

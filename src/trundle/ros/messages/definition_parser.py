@@ -56,7 +56,7 @@ def read_type(text: str, key: str) -> tuple[list[Constant], list[tuple[str, Any]
     return constants, fields
 
 
-def line_of_field(text: str, name: str) -> int:
+def field_line(text: str, name: str) -> int:
     """Return the line that a field stands in; 1 where there is none."""
     for number, line in enumerate(text.split("\n"), 1):
         field = _FIELD.fullmatch(line.partition("#")[0].strip())

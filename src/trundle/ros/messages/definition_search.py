@@ -72,7 +72,7 @@ class Definitions:
         """The text of a known service type: as installed, with its comments, if that means the same."""
         known = self.services[type_name]
         text = self.installed(type_name, "srv")
-        return text if text is not None and _bare(text) == _bare(known) else known
+        return text if text is not None and _without_comments(text) == _without_comments(known) else known
 
     def installed(self, type_name: str, kind: str = "msg") -> str | None:
         """The text of a type as an installed ROS has it, with its comments, where `rosbag check` looks too."""
@@ -155,7 +155,7 @@ def split_action(name: str, text: str) -> dict[str, tuple[int, str]]:
     return {f"{package}/{base}{part}": placed for part, placed in texts.items()}
 
 
-def _bare(text: str) -> list[str]:
+def _without_comments(text: str) -> list[str]:
     """What a text says beside its comments."""
     lines = (" ".join(line.partition("#")[0].split()) for line in text.splitlines())
     return [line for line in lines if line]

@@ -27,7 +27,7 @@ class MessageView:
             return message.sec if name == "secs" else message.nanosec
         for field in (name, f"{name}_"):
             if hasattr(message, field):
-                return _seen(getattr(message, field), self._messages)
+                return _view(getattr(message, field), self._messages)
         raise AttributeError(f"no field named {name} in {ros_name(message.__msgtype__)}")
 
     def to_nsec(self) -> int:
@@ -66,7 +66,7 @@ class MessageView:
         return MessagePrinter(messages=self._messages).text(self._message, ros_name(self._message.__msgtype__))
 
 
-def _seen(value: Any, messages: Messages | None) -> Any:
+def _view(value: Any, messages: Messages | None) -> Any:
     if isinstance(value, list):
-        return [_seen(item, messages) for item in value]
+        return [_view(item, messages) for item in value]
     return MessageView(value, messages) if hasattr(value, "__msgtype__") else value

@@ -30,14 +30,14 @@ def compile_type(store: "Typestore", key: str) -> _wire.Program:
         MessageError: there can be no message of this type.
     """
     layouts: dict[str, tuple[type, _Fields]] = {}
-    _lay_out(store, key, layouts, 0)
+    _add_layout(store, key, layouts, 0)
     try:
         return _wire.Program(list(layouts.values()))
     except ValueError as error:
         raise MessageError(f"there can be no {ros_name(key)}: {error}") from None
 
 
-def _lay_out(store: "Typestore", key: str, layouts: dict[str, tuple[type, _Fields]], depth: int) -> int:
+def _add_layout(store: "Typestore", key: str, layouts: dict[str, tuple[type, _Fields]], depth: int) -> int:
     """Put a type behind those its fields are of; return its place."""
     if key in layouts:
         return list(layouts).index(key)
@@ -51,7 +51,7 @@ def _lay_out(store: "Typestore", key: str, layouts: dict[str, tuple[type, _Field
             kind, detail = detail[0]
         attribute = f"{name}_" if keyword.iskeyword(name) else name
         if kind == Nodetype.NAME:
-            fields.append((attribute, "message", count, _lay_out(store, detail, layouts, depth + 1)))
+            fields.append((attribute, "message", count, _add_layout(store, detail, layouts, depth + 1)))
         else:
             fields.append((attribute, "nothing" if name == PLACEHOLDER else detail[0], count, 0))
     layouts[key] = store.types[key], fields

@@ -9,7 +9,7 @@ import numpy as np
 from rosbags.interfaces import Nodetype
 
 from ..errors import MessageError
-from .message_fast_path import DURATION, TIME, MessageFastPath, NotFastPathError, dtype_of, numbers_at_once
+from .message_fast_path import DURATION, TIME, MessageFastPath, NotFastPathError, dtype_of, number_array
 from .type_definitions import fields_of
 
 if TYPE_CHECKING:
@@ -25,18 +25,18 @@ class MessageBuilder:
 
     def __init__(self, store: "Typestore") -> None:
         self._store = store
-        self._makers = MessageFastPath(store)
+        self._fast_path = MessageFastPath(store)
 
     def message(self, key: str, given: Any, now_ns: int) -> Any:
         """Make a message of type `key` ('geometry_msgs/msg/Twist') from a dictionary, a list or another message."""
         try:
-            return self._makers.make(key, given)
+            return self._fast_path.make(key, given)
         except NotFastPathError:
             return self._message(key, given, now_ns, "")
 
     def empty(self, key: str) -> Any:
         """Make a message whose fields all have ROS's default."""
-        return self._makers.empty(key)
+        return self._fast_path.empty(key)
 
     def _message(self, key: str, given: Any, now_ns: int, path: str) -> Any:
         """Make a message, or say which field does not fit."""
@@ -56,7 +56,7 @@ class MessageBuilder:
             else:
                 raise MessageError(f"{_field(path)}a {_ros(key)} is needed, got {given!r}")
         if isinstance(given, Sequence):
-            given = self._by_order(key, cast("Sequence[Any]", given), path)
+            given = self._from_sequence(key, cast("Sequence[Any]", given), path)
         if not isinstance(given, Mapping):
             raise MessageError(f"{_field(path)}a {_ros(key)} is needed, got {given!r}")
         values = cast("Mapping[str, Any]", given)
@@ -69,12 +69,12 @@ class MessageBuilder:
             *(
                 self._value(desc, values[name], now_ns, f"{path}.{name}".lstrip("."))
                 if name in values
-                else self._makers.default(desc)()
+                else self._fast_path.default(desc)()
                 for name, desc in fields
             )
         )
 
-    def _by_order(self, key: str, given: Sequence[Any], path: str) -> dict[str, Any]:
+    def _from_sequence(self, key: str, given: Sequence[Any], path: str) -> dict[str, Any]:
         names = [name for name, _ in fields_of(self._store, key)]
         if len(given) != len(names):
             expected = ", ".join(names) or "none"
@@ -157,7 +157,7 @@ def _numbers(kind: str, given: Any, path: str) -> Any:
     if not isinstance(given, Sequence):
         raise MessageError(f"field {path!r} is a list of {kind}, got {given!r}")
     elements = cast("Sequence[Any]", given)
-    quick = numbers_at_once(elements, dtype)
+    quick = number_array(elements, dtype)
     if quick is not None:
         return quick
     return np.array([_scalar(kind, item, f"{path}[{i}]") for i, item in enumerate(elements)], dtype)

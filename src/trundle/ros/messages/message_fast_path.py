@@ -35,7 +35,7 @@ class MessageFastPath:
     def __init__(self, store: "Typestore") -> None:
         self._store = store
         self._makers: dict[str, _Make] = {}
-        self._fresh: dict[str, Callable[[], Any]] = {}
+        self._defaults: dict[str, Callable[[], Any]] = {}
 
     def make(self, key: str, given: Any) -> Any:
         """Make a message of type `key` ('geometry_msgs/msg/Twist') from a dictionary, a list or another message.
@@ -43,11 +43,11 @@ class MessageFastPath:
         Raises:
             NotFastPathError: something in it is not as it mostly is.
         """
-        return (self._makers.get(key) or self._begin(key))(given)
+        return (self._makers.get(key) or self._compile(key))(given)
 
     def empty(self, key: str) -> Any:
         """Make a message whose fields all have ROS's default."""
-        return self._fresh_of(key)()
+        return self._default_maker(key)()
 
     def default(self, desc: Any) -> Callable[[], Any]:
         """Return what makes the default of a field."""
@@ -56,7 +56,7 @@ class MessageFastPath:
             value: Any = {"string": "", "bool": False, "float32": 0.0, "float64": 0.0}.get(detail[0], 0)
             return lambda: value
         if kind == Nodetype.NAME:
-            return self._fresh_of(detail)
+            return self._default_maker(detail)
         inner, count = detail
         length = count if kind == Nodetype.ARRAY else 0
         if _is_number(inner):
@@ -67,13 +67,13 @@ class MessageFastPath:
         make = self.default(inner)
         return lambda: [make() for _ in range(length)]
 
-    def _fresh_of(self, key: str) -> Callable[[], Any]:
-        if key not in self._fresh:
+    def _default_maker(self, key: str) -> Callable[[], Any]:
+        if key not in self._defaults:
             cls, makers = self._store.types[key], [self.default(desc) for _, desc in fields_of(self._store, key)]
-            self._fresh[key] = lambda: cls(*[make() for make in makers])
-        return self._fresh[key]
+            self._defaults[key] = lambda: cls(*[make() for make in makers])
+        return self._defaults[key]
 
-    def _begin(self, key: str) -> _Make:
+    def _compile(self, key: str) -> _Make:
         """Find out about a type; others may use what there is only when all of it is known."""
         begun: dict[str, _Make] = {}
         make = self._maker_of(key, begun)
@@ -112,7 +112,7 @@ def dtype_of(kind: str) -> "np.dtype[Any]":
     return np.dtype(_DTYPES.get(kind, kind))
 
 
-def numbers_at_once(given: Sequence[Any], dtype: "np.dtype[Any]") -> "np.ndarray[Any, Any] | None":
+def number_array(given: Sequence[Any], dtype: "np.dtype[Any]") -> "np.ndarray[Any, Any] | None":
     """Convert a list of plain numbers that fit; None where one by one must say which does not."""
     try:
         array = np.array(given)
@@ -184,7 +184,7 @@ def _list_maker(make: _Make, count: int | None) -> _Make:
 def _array_maker(dtype: "np.dtype[Any]", count: int | None) -> _Make:
     def make(given: Any) -> Any:
         if type(given) is list or type(given) is tuple:
-            array = numbers_at_once(given, dtype) if given else np.zeros(0, dtype)
+            array = number_array(given, dtype) if given else np.zeros(0, dtype)
         elif type(given) is np.ndarray:
             array = np.ascontiguousarray(given, dtype).reshape(-1)
         elif type(given) is bytes and dtype.itemsize == 1:
@@ -202,9 +202,9 @@ def _scalar_maker(kind: str) -> _Make:
     if kind == "string":
         return _make_text
     if kind == "bool":
-        return _make_truth
+        return _make_bool
     if kind.startswith("float"):
-        return _make_real
+        return _make_float
     limits = np.iinfo(dtype_of(kind))
     low, high = int(limits.min), int(limits.max)
 
@@ -222,13 +222,13 @@ def _make_text(given: Any) -> str:
     raise NotFastPathError
 
 
-def _make_truth(given: Any) -> bool:
+def _make_bool(given: Any) -> bool:
     if type(given) is bool:
         return given
     raise NotFastPathError
 
 
-def _make_real(given: Any) -> float:
+def _make_float(given: Any) -> float:
     if type(given) is float:
         return given
     if type(given) in _NUMBERS:

@@ -69,9 +69,9 @@ class Messages:
         self._lock = threading.RLock()
         """Held while types are added: nodes of several threads share one store."""
         self._store_: Typestore | None = None
-        self._texts_: TypeDefinitions | None = None
+        self._type_definitions_: TypeDefinitions | None = None
         self._registry_: TypeRegistry | None = None
-        self._filling_: MessageBuilder | None = None
+        self._builder_: MessageBuilder | None = None
 
     # -- types
 
@@ -103,15 +103,15 @@ class Messages:
 
     def fields(self, type_name: str) -> dict[str, str]:
         """Field names with their ROS types, in order: {'name': 'string[]', 'stamp': 'time', …}."""
-        return self._texts.fields(self._key(type_name))
+        return self._type_definitions.fields(self._key(type_name))
 
     def constants(self, type_name: str) -> dict[str, tuple[str, str]]:
         """Constants in order: name → (type, value as written)."""
-        return self._texts.constants(self._key(type_name))
+        return self._type_definitions.constants(self._key(type_name))
 
     def text(self, type_name: str) -> str:
         """Return the text of a type alone; of the library's types that no ROS is installed for, without comments."""
-        return self._texts.text(self._key(type_name))
+        return self._type_definitions.text(self._key(type_name))
 
     def service_text(self, type_name: str) -> str:
         """Return the text of a service type."""
@@ -146,11 +146,11 @@ class Messages:
 
     def md5(self, type_name: str) -> str:
         """Return the md5 sum over a type's canonical text, which peers compare."""
-        return self._texts.md5(self._key(type_name))
+        return self._type_definitions.md5(self._key(type_name))
 
     def definition(self, type_name: str) -> str:
         """Return the text of a type followed by those it depends on, as genmsg writes it."""
-        return self._texts.definition(self._key(type_name))
+        return self._type_definitions.definition(self._key(type_name))
 
     def service(self, type_name: str) -> ServiceType:
         """Return a service type.
@@ -176,8 +176,8 @@ class Messages:
             MessageError: no such type or field, or a value that does not fit; the text names the field.
         """
         if fields is None:
-            return self._filling.empty(self._key(type_name))
-        return self._filling.message(self._key(type_name), fields, time.time_ns() if now_ns is None else now_ns)
+            return self._builder.empty(self._key(type_name))
+        return self._builder.message(self._key(type_name), fields, time.time_ns() if now_ns is None else now_ns)
 
     def stamp(self, ns: int) -> Message:
         """Make a `time` value from nanoseconds."""
@@ -207,7 +207,7 @@ class Messages:
 
     def _make_codec(self, type_name: str) -> Codec:
         key = self._key(type_name)
-        self._codecs[type_name] = Codec(self._store, key, mend=lambda given: self._filling.message(key, given, 0))
+        self._codecs[type_name] = Codec(self._store, key, mend=lambda given: self._builder.message(key, given, 0))
         return self._codecs[type_name]
 
     @property
@@ -220,25 +220,25 @@ class Messages:
         return self._store_
 
     @property
-    def _texts(self) -> TypeDefinitions:
+    def _type_definitions(self) -> TypeDefinitions:
         with self._lock:
-            if self._texts_ is None:
-                self._texts_ = TypeDefinitions(self._store, None if self._is_bare else self._definitions)
-            return self._texts_
+            if self._type_definitions_ is None:
+                self._type_definitions_ = TypeDefinitions(self._store, None if self._is_bare else self._definitions)
+            return self._type_definitions_
 
     @property
     def _registry(self) -> TypeRegistry:
         if self._registry_ is None:
-            self._registry_ = TypeRegistry(self._store, self._definitions, self._texts, self._key)
+            self._registry_ = TypeRegistry(self._store, self._definitions, self._type_definitions, self._key)
         return self._registry_
 
     @property
-    def _filling(self) -> "MessageBuilder":
-        if self._filling_ is None:
+    def _builder(self) -> "MessageBuilder":
+        if self._builder_ is None:
             from .message_builder import MessageBuilder
 
-            self._filling_ = MessageBuilder(self._store)
-        return self._filling_
+            self._builder_ = MessageBuilder(self._store)
+        return self._builder_
 
     def _key(self, type_name: str) -> str:
         """Name a known type as rosbags does."""
@@ -264,7 +264,7 @@ class Messages:
                     f"{type_name!r} is no message type; types are written package/Name, like std_msgs/String"
                 )
             known = [other for other in self._names() if other.startswith(f"{package}/")]
-            raise UnknownTypeError(f"no message type {ros_name(key)!r}{_instead('messages', package, known)}")
+            raise UnknownTypeError(f"no message type {ros_name(key)!r}{_suggestion('messages', package, known)}")
         return key
 
     def _names(self) -> list[str]:
@@ -282,17 +282,17 @@ class Messages:
             if why := self._definitions.unreadable.get(f"{type_name}.srv"):
                 raise MessageError(why)
             known = sorted(name for name in self._definitions.services if name.startswith(f"{package}/"))
-            raise MessageError(f"no service type {type_name!r}{_instead('services', package, known)}")
+            raise MessageError(f"no service type {type_name!r}{_suggestion('services', package, known)}")
         request, response = f"{type_name}Request", f"{type_name}Response"
         for name, (line, half) in zip((request, response), split_service(text), strict=True):
             self._definitions.add_part(name, half, line, of=type_name)
             self._registry.add(name)
-        md5sum = self._texts.service_md5(self._key(request), self._key(response))
+        md5sum = self._type_definitions.service_md5(self._key(request), self._key(response))
         self._services[type_name] = ServiceType(type=type_name, md5sum=md5sum, request=request, response=response)
         return self._services[type_name]
 
 
-def _instead(what: str, package: str, known: list[str]) -> str:
+def _suggestion(what: str, package: str, known: list[str]) -> str:
     if not known:
         return f"; no {what} of a package {package!r} are known"
     return f"; {what} of {package}: {', '.join(name.partition('/')[2] for name in known[:40])}"

@@ -33,7 +33,7 @@ class TypeDefinitions:
         self._store = store
         self._installed = installed
         self._md5s: dict[str, str] = {}
-        self._under_way: set[str] = set()
+        self._in_progress: set[str] = set()
         self._definitions: dict[str, str] = {}
 
     def fields(self, key: str) -> dict[str, str]:
@@ -65,7 +65,7 @@ class TypeDefinitions:
     def definition(self, key: str) -> str:
         """Return the text of a type followed by those it depends on, as genmsg writes it."""
         if key not in self._definitions:
-            others = self._within(key)
+            others = self._nested_types(key)
             parts = [f"{_SEPARATOR}{ros_name(other)}\n{self.text(other)}" for other in others]
             self._definitions[key] = "\n".join([self.text(key), *parts])
         return self._definitions[key]
@@ -77,42 +77,42 @@ class TypeDefinitions:
             MessageError: the type consists of itself.
         """
         if key not in self._md5s:
-            if key in self._under_way:
+            if key in self._in_progress:
                 raise MessageError(f"the definition of {ros_name(key)} cannot be read: it has itself inside")
-            self._under_way.add(key)
+            self._in_progress.add(key)
             try:
-                self._md5s[key] = _sum(self._canonical(key))
+                self._md5s[key] = _md5sum(self._canonical(key))
             finally:
-                self._under_way.remove(key)
+                self._in_progress.remove(key)
         return self._md5s[key]
 
     def service_md5(self, request: str, response: str) -> str:
         """Return the md5 sum of a service, given the types of its halves."""
-        return _sum(self._canonical(request) + self._canonical(response))
+        return _md5sum(self._canonical(request) + self._canonical(response))
 
-    def direct(self, key: str) -> Iterator[str]:
+    def field_types(self, key: str) -> Iterator[str]:
         """Types that the fields of a type are of."""
         for _, desc in fields_of(self._store, key):
-            name = type_referred_to(desc)
+            name = referenced_type(desc)
             if name is not None:
                 yield name
 
-    def _within(self, key: str) -> list[str]:
+    def _nested_types(self, key: str) -> list[str]:
         """Types that a type consists of, each once, as they come."""
         found: dict[str, None] = {}
-        waiting = [*self.direct(key)]
+        waiting = [*self.field_types(key)]
         while waiting:
             name = waiting.pop(0)
             if name not in found:
                 found[name] = None
-                waiting = [*self.direct(name), *waiting]
+                waiting = [*self.field_types(name), *waiting]
         return list(found)
 
     def _canonical(self, key: str) -> str:
         """Write the text the md5 sum is taken of: constants, then fields, with types replaced by their own sums."""
         lines = [f"{kind} {name}={text}" for name, (kind, text) in self.constants(key).items()]
         for name, desc in fields_of(self._store, key):
-            reference = type_referred_to(desc)
+            reference = referenced_type(desc)
             lines.append(f"{_type_text(desc) if reference is None else self.md5(reference)} {name}")
         return "\n".join(lines)
 
@@ -127,11 +127,11 @@ def ros_name(key: str) -> str:
     return key.replace("/msg/", "/", 1)
 
 
-def _sum(text: str) -> str:
+def _md5sum(text: str) -> str:
     return hashlib.md5(text.encode()).hexdigest()
 
 
-def type_referred_to(desc: Any) -> str | None:
+def referenced_type(desc: Any) -> str | None:
     """Name the message type a field refers to, itself or as an element; None: numbers, texts and times."""
     kind, detail = desc
     if kind >= 3:

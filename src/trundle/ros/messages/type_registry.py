@@ -5,9 +5,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, cast
 
 from ..errors import DefinitionError, MessageError
-from .definition_parser import line_of_field, read_type
+from .definition_parser import field_line, read_type
 from .definition_search import Definitions
-from .type_definitions import TypeDefinitions, ros_name, type_referred_to
+from .type_definitions import TypeDefinitions, referenced_type, ros_name
 from .type_sizes import FieldError, TypeSizes
 
 if TYPE_CHECKING:
@@ -79,19 +79,19 @@ class TypeRegistry:
         self._texts.own[key] = text
         self._added.append(key)
         for field, desc in fields:
-            depends = type_referred_to(desc)
+            depends = referenced_type(desc)
             if depends is not None:
                 try:
                     self._find(depends)
                 except UnknownTypeError as error:
-                    raise MessageError(self._at(type_name, line_of_field(text, field)) + str(error)) from None
+                    raise MessageError(self._at(type_name, field_line(text, field)) + str(error)) from None
 
     def _check(self, type_name: str) -> None:
         try:
             self._sizes.check(self._find(type_name))
         except FieldError as error:
             name = ros_name(error.key)
-            line = line_of_field(self._definitions.messages.get(name, ""), error.field)
+            line = field_line(self._definitions.messages.get(name, ""), error.field)
             raise MessageError(self._at(name, line) + str(error)) from None
 
     def _at(self, type_name: str, line: int) -> str:

@@ -28,7 +28,7 @@ class TypeSizes:
     def __init__(self, store: "Typestore") -> None:
         self._store = store
         self._sizes: dict[str, int] = {}
-        self._under_way: dict[str, str] = {}
+        self._in_progress: dict[str, str] = {}
         """Types whose field, by its name, is looked into."""
 
     def check(self, key: str) -> None:
@@ -40,22 +40,22 @@ class TypeSizes:
         try:
             self._size(key)
         finally:
-            self._under_way.clear()
+            self._in_progress.clear()
 
     def _size(self, key: str) -> int:
-        if key in self._under_way:
-            chain = [*self._under_way]
+        if key in self._in_progress:
+            chain = [*self._in_progress]
             loop = " > ".join(ros_name(other) for other in (*chain[chain.index(key) :], key))
-            raise FieldError(key, self._under_way[key], f"{ros_name(key)} has itself inside: {loop}")
+            raise FieldError(key, self._in_progress[key], f"{ros_name(key)} has itself inside: {loop}")
         if key not in self._sizes:
             size = _OBJECT_BYTES
             for name, desc in fields_of(self._store, key):
-                self._under_way[key] = name
+                self._in_progress[key] = name
                 size += self._field_size(desc)
                 if size > MAX_MESSAGE_BYTES:
                     most = f"more than the {MAX_MESSAGE_BYTES} that a connection carries"
                     raise FieldError(key, name, f"a {ros_name(key)} takes {size} bytes when it is empty, {most}")
-            self._under_way.pop(key, None)
+            self._in_progress.pop(key, None)
             self._sizes[key] = size
         return self._sizes[key]
 

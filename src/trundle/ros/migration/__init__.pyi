@@ -1,9 +1,9 @@
 from .classes import MessageClass as MessageClass
 from .classes import MessageClasses as MessageClasses
 from .generated import GeneratedRule as GeneratedRule
-from .generated import HalfRule as HalfRule
+from .generated import PlaceholderRule as PlaceholderRule
+from .migrator import MigrationStep as MigrationStep
 from .migrator import Migrator as Migrator
-from .migrator import Step as Step
 from .migrator import missing_rules as missing_rules
 from .rule import MessageUpdateRule as MessageUpdateRule
 from .rule import MigrationError as MigrationError

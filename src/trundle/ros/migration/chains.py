@@ -15,7 +15,7 @@ class Chain:
     rename: MessageUpdateRule | None = None
     """The last one."""
 
-    def in_order(self) -> list[MessageUpdateRule]:
+    def all_rules(self) -> list[MessageUpdateRule]:
         """All of them."""
         return [*self.updates, *([self.rename] if self.rename else [])]
 

@@ -57,9 +57,9 @@ class MessageClass(type):
         """Those of the same store."""
         return cls._classes
 
-    def within(cls) -> "dict[str, MessageClass]":
+    def nested_classes(cls) -> "dict[str, MessageClass]":
         """This class and those of all it consists of, by type."""
-        return cls._classes.within(cls._type)
+        return cls._classes.nested_classes(cls._type)
 
     def constants(cls) -> dict[str, tuple[str, str]]:
         """Constants: name → (type, value as written)."""
@@ -117,7 +117,7 @@ class MessageClasses:
         self._readers: dict[str, Callable[[Any], Any]] = {}
 
     @classmethod
-    def of_definition(cls, kind: str, definition: str) -> "MessageClasses":
+    def from_definition(cls, kind: str, definition: str) -> "MessageClasses":
         """Those of a type as a bag or a rule has it, with the texts of what it depends on.
 
         Raises:
@@ -132,7 +132,7 @@ class MessageClasses:
         """Tell whether a type is known."""
         return self._messages.has(kind)
 
-    def of(self, kind: str) -> MessageClass:
+    def message_class(self, kind: str) -> MessageClass:
         """Return the class of a type.
 
         Raises:
@@ -142,15 +142,15 @@ class MessageClasses:
             self._made[kind] = self._make(kind)
         return self._made[kind]
 
-    def within(self, kind: str) -> dict[str, MessageClass]:
+    def nested_classes(self, kind: str) -> dict[str, MessageClass]:
         """The classes of a type and of all it consists of, by name."""
         found: dict[str, MessageClass] = {}
         waiting = [kind]
         while waiting:
             name = waiting.pop()
             if name not in found and name not in BUILTIN:
-                found[name] = self.of(name)
-                waiting += [base_of(field) for field in self._messages.fields(name).values()]
+                found[name] = self.message_class(name)
+                waiting += [base_type(field) for field in self._messages.fields(name).values()]
         return found
 
     def constants(self, kind: str) -> dict[str, tuple[str, str]]:
@@ -165,7 +165,7 @@ class MessageClasses:
             return bytes(length) if base in _BYTES else [self.default(base) for _ in range(length)]
         if base in BUILTIN:
             return _TIMES[base]() if base in _TIMES else {"string": "", "bool": False}.get(base, 0)
-        return self.of(base)()
+        return self.message_class(base)()
 
     def read(self, data: bytes, kind: str) -> Any:
         """What the store makes of bytes."""
@@ -225,7 +225,7 @@ class MessageClasses:
         return lambda items: [each(item) for item in items]
 
     def _reader_of_messages(self, kind: str) -> Callable[[Any], Any]:
-        made = self.of(kind)
+        made = self.message_class(kind)
 
         def read(value: Any) -> RuleMessage:
             message = cast(RuleMessage, object.__new__(made))
@@ -235,7 +235,7 @@ class MessageClasses:
         return read
 
 
-def base_of(kind: str) -> str:
+def base_type(kind: str) -> str:
     """A field's type without `[]`."""
     return kind.partition("[")[0]
 
@@ -292,7 +292,7 @@ def _field(value: Any, kind: str, classes: MessageClasses, path: str) -> Any:
         return [_field(item, base, classes, f"{path}[{i}]") for i, item in enumerate(value)]
     if base in _TIMES and hasattr(value, "nsecs"):
         return {"secs": value.secs, "nsecs": value.nsecs}
-    return value if base in BUILTIN else _fields(value, classes.of(base), path)
+    return value if base in BUILTIN else _fields(value, classes.message_class(base), path)
 
 
 def _constant(kind: str, text: str) -> Any:

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from .classes import BUILTIN, MessageClass, RuleMessage, base_of
+from .classes import BUILTIN, MessageClass, RuleMessage, base_type
 from .rule import MessageUpdateRule, Rule, Rules, short_name
 
-MayBecome = Callable[[str, str], bool]
+CanMigrate = Callable[[str, str], bool]
 """Whether rules lead from one type's name to another's."""
 _INDENT = "    "
 
@@ -27,12 +27,12 @@ class _Field:
 class GeneratedRule(Rule):
     """Carries over the fields that both types have; valid if those are all."""
 
-    def __init__(self, migrator: Rules, old: MessageClass, new: MessageClass, may_become: MayBecome) -> None:
+    def __init__(self, migrator: Rules, old: MessageClass, new: MessageClass, may_become: CanMigrate) -> None:
         super().__init__(migrator, f"the rule from {old.kind} to {new.kind}")
         self.old_type, self.new_type = old.kind, new.kind
         self.old_class, self.new_class = old, new
-        self.old_types, self.new_types = old.within(), new.within()
-        self._fields = [_planned(name, old, new, may_become) for name in new.kinds]
+        self.old_types, self.new_types = old.nested_classes(), new.nested_classes()
+        self._fields = [_plan_field(name, old, new, may_become) for name in new.kinds]
         self._problems = [
             *(f"constant {name} has changed" for name in _changed_constants(old, new)),
             *(f"{name} ({kind}) is gone" for name, kind in old.kinds.items() if name not in new.kinds),
@@ -50,7 +50,7 @@ class GeneratedRule(Rule):
                 setattr(new_msg, field.name, value)
             elif "[" in field.kind:
                 items: list[Any] = []
-                self.migrate_array(value, items, base_of(field.kind))
+                self.migrate_array(value, items, base_type(field.kind))
                 setattr(new_msg, field.name, items)
             else:
                 self.migrate(value, getattr(new_msg, field.name))
@@ -66,14 +66,14 @@ class GeneratedRule(Rule):
             elif field.pair is None:
                 lines.append(f"new_msg.{name} = old_msg.{name}")
             elif "[" in kind:
-                lines.append(f"self.migrate_array(old_msg.{name}, new_msg.{name}, '{base_of(kind)}')")
+                lines.append(f"self.migrate_array(old_msg.{name}, new_msg.{name}, '{base_type(kind)}')")
             else:
                 lines.append(f"self.migrate(old_msg.{name}, new_msg.{name})")
         lines += [f"# {problem}" for problem in self._problems]
         return _text(self, self.new_type, self.new_class.definition, lines)
 
 
-class HalfRule(Rule):
+class PlaceholderRule(Rule):
     """Stands for a rule to a type that nobody knows yet."""
 
     def __init__(self, migrator: Rules, old: MessageClass) -> None:
@@ -82,11 +82,11 @@ class HalfRule(Rule):
         self.old_types, self.new_types = {}, {}
 
 
-def _planned(name: str, old: MessageClass, new: MessageClass, may_become: MayBecome) -> _Field:
+def _plan_field(name: str, old: MessageClass, new: MessageClass, may_become: CanMigrate) -> _Field:
     before, after = old.kinds.get(name), new.kinds[name]
     if before is None:
         return _Field(name, after, f"{name} ({after}) is new")
-    old_base, new_base = base_of(before), base_of(after)
+    old_base, new_base = base_type(before), base_type(after)
     is_same_shape = before[len(old_base) :] == after[len(new_base) :]
     is_message = old_base not in BUILTIN and new_base not in BUILTIN
     if is_same_shape and is_message and may_become(old_base, new_base):

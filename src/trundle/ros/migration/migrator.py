@@ -8,20 +8,20 @@ from typing import Any
 from ..messages.messages import Messages
 from .chains import Chains
 from .classes import Key, MessageClass, MessageClasses, RuleMessage, from_bytes, to_bytes
-from .generated import GeneratedRule, HalfRule
+from .generated import GeneratedRule, PlaceholderRule
 from .rule import MessageUpdateRule, MigrationError, Rule
-from .rule_files import RuleFile, running
+from .rule_files import RuleFile, rule_errors
 
 
 @dataclass(slots=True, eq=False)
-class Step:
+class MigrationStep:
     """A rule between two classes, and the one after it."""
 
     old: MessageClass
     new: MessageClass | None
     """None where nobody knows what comes next."""
     rule: Rule
-    next: "Step | None" = None
+    next: "MigrationStep | None" = None
 
 
 class Migrator:
@@ -49,8 +49,8 @@ class Migrator:
         self.warn = warn
         self.is_forced = is_forced
         self._known = MessageClasses(known)
-        self._first: dict[str, Step] = {}
-        self._paths: dict[tuple[Key, Key | None], list[Step]] = {}
+        self._first: dict[str, MigrationStep] = {}
+        self._paths: dict[tuple[Key, Key | None], list[MigrationStep]] = {}
         self._chains = Chains(warn)
         for file in files:
             for rule in file.rules(self):
@@ -59,7 +59,7 @@ class Migrator:
 
     def known_class(self, kind: str) -> MessageClass | None:
         """The class of a type as it is known here."""
-        return self._known.of(kind) if self._known.has(kind) else None
+        return self._known.message_class(kind) if self._known.has(kind) else None
 
     def target(self, old: MessageClass) -> MessageClass | None:
         """What a recorded type is to become: what its name means here, or what rules rename it to."""
@@ -71,17 +71,17 @@ class Migrator:
             step = step.next
         return None if step.new is None else self.known_class(step.new.kind)
 
-    def path(self, old: MessageClass, new: MessageClass | None) -> list[Step]:
+    def path(self, old: MessageClass, new: MessageClass | None) -> list[MigrationStep]:
         """The steps from one class to another, those missing included; none if they are alike."""
         key = old.key, None if new is None else new.key
         if key not in self._paths:
             self._paths[key] = self._find(old, new)
         return self._paths[key]
 
-    def completed(self, rule: HalfRule, kind: str) -> GeneratedRule | None:
+    def rule_to_complete(self, rule: PlaceholderRule, kind: str) -> GeneratedRule | None:
         """A rule to complete from a type that moved to the one it is called here; None if there is none."""
         known = self.known_class(kind)
-        return None if known is None else self._told_generated(rule.old_class, known)
+        return None if known is None else self._warned_generated(rule.old_class, known)
 
     def convert_bytes(self, data: bytes, old: MessageClass, new: MessageClass) -> bytes:
         """Bytes of a message, brought from one class to another.
@@ -90,25 +90,25 @@ class Migrator:
             MigrationError: no rules lead there, or one of them fails.
             MessageError: the bytes are no such message.
         """
-        path = self._passable(old, new)
+        path = self._can_migrate(old, new)
         if not path or old.md5sum == new.md5sum:
             return data
-        made = _along(path, from_bytes(path[0].old, data))
-        with running(path[-1].rule):
+        made = _apply_path(path, from_bytes(path[0].old, data))
+        with rule_errors(path[-1].rule):
             return to_bytes(made)
 
     def convert(self, old: RuleMessage, new: MessageClass) -> RuleMessage:
         """See `Rules`."""
-        path = self._passable(type(old), new)
+        path = self._can_migrate(type(old), new)
         if path and type(old).md5sum != new.md5sum:
-            return _along(path, old)
+            return _apply_path(path, old)
         return from_bytes(new, to_bytes(old))
 
     def rules_between(self, old: MessageClass, new: MessageClass) -> list[Rule]:
         """See `Rules`."""
         return [step.rule for step in self.path(old, new)]
 
-    def _passable(self, old: MessageClass, new: MessageClass) -> list[Step]:
+    def _can_migrate(self, old: MessageClass, new: MessageClass) -> list[MigrationStep]:
         path = self.path(old, new)
         if not self.is_forced and not all(step.rule.valid for step in path):
             raise MigrationError(f"no complete rules lead from {old.kind} [{old.md5sum}] to {new.kind}")
@@ -118,19 +118,19 @@ class Migrator:
 
     def _link(self) -> None:
         """Tie the rules of each type to one another, to those of the types they become, and to what is known here."""
-        steps: list[Step] = []
-        ends: list[Step] = []
+        steps: list[MigrationStep] = []
+        ends: list[MigrationStep] = []
         for kind, chain in self._chains.items():
-            last: Step | None = None
-            for rule in chain.in_order():
-                step = Step(rule.old_class, rule.new_class, rule)
+            last: MigrationStep | None = None
+            for rule in chain.all_rules():
+                step = MigrationStep(rule.old_class, rule.new_class, rule)
                 if last is None:
                     self._first[kind] = step
                 else:
                     assert last.new is not None
                     last.next = step
                     if last.new.key != step.old.key:
-                        last.next = Step(last.new, step.old, self._generated(last.new, step.old), step)
+                        last.next = MigrationStep(last.new, step.old, self._generated(last.new, step.old), step)
                         steps.append(last.next)
                 steps.append(step)
                 last = step
@@ -142,13 +142,13 @@ class Migrator:
         for step in dict.fromkeys(steps):
             step.rule.find_sub_paths(is_told=isinstance(step.rule, MessageUpdateRule))
 
-    def _after(self, end: Step) -> Step | None:
+    def _after(self, end: MigrationStep) -> MigrationStep | None:
         """What follows the last rule of a type, as late among the rules of its new name as can be."""
         assert end.new is not None
         known = self.known_class(end.new.kind)
         if known is not None and known.key == end.new.key:
             return None
-        to_known = None if known is None else Step(end.new, known, self._generated(end.new, known))
+        to_known = None if known is None else MigrationStep(end.new, known, self._generated(end.new, known))
         is_renamed = end.old.kind != end.new.kind
         later = self._range(end.new.kind, end.new.kind) if is_renamed else []
         for step in reversed(later):
@@ -159,10 +159,10 @@ class Migrator:
         for step in reversed(later):
             rule = self._generated(end.new, step.old)
             if rule.valid:
-                return Step(end.new, step.old, rule, step)
-        return Step(end.new, None, HalfRule(self, end.new) if to_known is None else to_known.rule)
+                return MigrationStep(end.new, step.old, rule, step)
+        return MigrationStep(end.new, None, PlaceholderRule(self, end.new) if to_known is None else to_known.rule)
 
-    def _range(self, old_type: str, new_type: str) -> list[Step]:
+    def _range(self, old_type: str, new_type: str) -> list[MigrationStep]:
         """The steps that begin with a type, and go on until behind another."""
         step = self._first.get(old_type)
         found = [] if step is None else [step]
@@ -179,7 +179,7 @@ class Migrator:
 
     # -- paths
 
-    def _find(self, old: MessageClass, new: MessageClass | None) -> list[Step]:
+    def _find(self, old: MessageClass, new: MessageClass | None) -> list[MigrationStep]:
         if new is None:
             return self._lost(old)
         if old.key == new.key:
@@ -187,7 +187,7 @@ class Migrator:
         steps = self._range(old.kind, new.kind)
         return self._begun(self._ended(steps, new), old, new) if steps else [self._step(old, new)]
 
-    def _ended(self, steps: list[Step], new: MessageClass) -> list[Step]:
+    def _ended(self, steps: list[MigrationStep], new: MessageClass) -> list[MigrationStep]:
         """Steps that end with a class: at the last place from where it can be reached."""
         there = list(takewhile(lambda i: _type(steps[i].new) == new.kind, reversed(range(len(steps)))))
         for i in there:
@@ -199,7 +199,7 @@ class Migrator:
                 return [*steps[: i + 1], step]
         return [*steps, self._step(steps[-1].new, new)]
 
-    def _begun(self, steps: list[Step], old: MessageClass, new: MessageClass) -> list[Step]:
+    def _begun(self, steps: list[MigrationStep], old: MessageClass, new: MessageClass) -> list[MigrationStep]:
         """Steps that begin with a class: at the last place that can be reached from it."""
         here = [i for i in reversed(range(len(steps))) if steps[i].old.kind == old.kind]
         for i in here:
@@ -214,7 +214,7 @@ class Migrator:
                 return [step, *steps[i:]]
         return [self._step(old, steps[0].old), *steps]
 
-    def _lost(self, old: MessageClass) -> list[Step]:
+    def _lost(self, old: MessageClass) -> list[MigrationStep]:
         """As far as rules lead from a class that becomes nothing known here."""
         steps = self._range(old.kind, "")
         for i in reversed(range(len(steps))):
@@ -228,13 +228,13 @@ class Migrator:
                     break
         end = steps[-1].new if steps else old
         assert end is not None
-        return [*steps, Step(end, None, HalfRule(self, end))]
+        return [*steps, MigrationStep(end, None, PlaceholderRule(self, end))]
 
-    def _step(self, old: MessageClass | None, new: MessageClass) -> Step:
+    def _step(self, old: MessageClass | None, new: MessageClass) -> MigrationStep:
         assert old is not None
-        return Step(old, new, self._told_generated(old, new))
+        return MigrationStep(old, new, self._warned_generated(old, new))
 
-    def _told_generated(self, old: MessageClass, new: MessageClass) -> GeneratedRule:
+    def _warned_generated(self, old: MessageClass, new: MessageClass) -> GeneratedRule:
         rule = self._generated(old, new)
         rule.find_sub_paths(is_told=False)
         return rule
@@ -255,14 +255,14 @@ def missing_rules(rules: Sequence[Rule]) -> list[Rule]:
     return list(found.values())
 
 
-def _along(path: Sequence[Step], message: Any) -> Any:
+def _apply_path(path: Sequence[MigrationStep], message: Any) -> Any:
     for step in path:
-        with running(step.rule):
+        with rule_errors(step.rule):
             message = step.rule.apply(message)
     return message
 
 
-def _is_complete(step: Step) -> bool:
+def _is_complete(step: MigrationStep) -> bool:
     return step.rule.valid and step.rule.sub_rules_valid
 
 

@@ -143,8 +143,8 @@ class MessageUpdateRule(Rule):
             MessageError: a text cannot be read.
         """
         super().__init__(migrator, location)
-        self.old_types = MessageClasses.of_definition(self.old_type, self.old_full_text).within(self.old_type)
-        self.new_types = MessageClasses.of_definition(self.new_type, self.new_full_text).within(self.new_type)
+        self.old_types = MessageClasses.from_definition(self.old_type, self.old_full_text).nested_classes(self.old_type)
+        self.new_types = MessageClasses.from_definition(self.new_type, self.new_full_text).nested_classes(self.new_type)
         self.old_class, self.new_class = self.old_types[self.old_type], self.new_types[self.new_type]
 
 

@@ -27,7 +27,7 @@ class RuleFile:
         """
         self._path = path
         names: dict[str, object] = {MessageUpdateRule.__name__: MessageUpdateRule, "__file__": str(path)}
-        with _told(path, str(path)):
+        with _load_errors(path, str(path)):
             exec(compile(read_file(path), str(path), "exec"), names)
         self._classes = [each for each in names.values() if _is_rule(each)]
 
@@ -41,21 +41,21 @@ class RuleFile:
             where = _where(each, self._path)
             if why_not := _refusal(each):
                 raise MigrationError(f"{where}: {why_not}")
-            with _told(self._path, where):
+            with _load_errors(self._path, where):
                 rule = each(migrator, where)
             yield rule
 
 
 @contextmanager
-def running(rule: Rule) -> Generator[None]:
+def rule_errors(rule: Rule) -> Generator[None]:
     """Turn whatever a rule does wrong into one sentence that says where."""
     code = getattr(rule.update, "__code__", None) if isinstance(rule, MessageUpdateRule) else None
-    with _told(Path(code.co_filename) if code else None, rule.location):
+    with _load_errors(Path(code.co_filename) if code else None, rule.location):
         yield
 
 
 @contextmanager
-def _told(path: Path | None, where: str) -> Generator[None]:
+def _load_errors(path: Path | None, where: str) -> Generator[None]:
     try:
         yield
     except _RuleError:

@@ -7,7 +7,7 @@ _S = 1_000_000_000
 
 
 @functools.total_ordering
-class Instant:
+class TVal:
     """Seconds and nanoseconds; what `Time` and `Duration` share."""
 
     __slots__ = ("nsecs", "secs")
@@ -42,7 +42,7 @@ class Instant:
             return NotImplemented
         return self.to_nsec() == _ns(other)
 
-    def __lt__(self, other: "Instant") -> bool:
+    def __lt__(self, other: "TVal") -> bool:
         return self.to_nsec() < _ns(other)
 
     def __hash__(self) -> int:
@@ -52,12 +52,12 @@ class Instant:
         return f"{type(self).__name__}({self.secs}, {self.nsecs})"
 
 
-class Duration(Instant):
+class Duration(TVal):
     """How long something takes; may be negative."""
 
     __slots__ = ()
 
-    def __add__(self, other: Instant) -> Instant:
+    def __add__(self, other: TVal) -> TVal:
         return type(other)(0, self.to_nsec() + _ns(other))
 
     def __sub__(self, other: "Duration") -> "Duration":
@@ -78,7 +78,7 @@ class Duration(Instant):
         return Duration(0, abs(self.to_nsec()))
 
 
-class Time(Instant):
+class Time(TVal):
     """A point in time."""
 
     __slots__ = ()
@@ -86,7 +86,7 @@ class Time(Instant):
     def __add__(self, other: Duration) -> "Time":
         return Time(0, self.to_nsec() + _ns(other))
 
-    def __sub__(self, other: Instant) -> Instant:
+    def __sub__(self, other: TVal) -> TVal:
         made = Time if isinstance(other, Duration) else Duration
         return made(0, self.to_nsec() - _ns(other))
 

@@ -113,7 +113,7 @@ class SimClock:
             listener()
 
 
-def ns_of(stamp: Message) -> int:
+def to_nsec(stamp: Message) -> int:
     """Return a `time` or `duration` value as nanoseconds."""
     return stamp.sec * NS + stamp.nanosec
 
@@ -125,7 +125,9 @@ async def follow_time(node: "Node") -> Clock:
     """
     if await node.get_param("/use_sim_time", False):
         clock = SimClock(node.loop)
-        node.subscribe("/clock", "rosgraph_msgs/Clock", lambda m: clock.set(ns_of(m.clock)), queue_size=1, on_loop=True)
+        node.subscribe(
+            "/clock", "rosgraph_msgs/Clock", lambda m: clock.set(to_nsec(m.clock)), queue_size=1, on_loop=True
+        )
         node.clock = clock
     else:
         node.clock = WallClock()

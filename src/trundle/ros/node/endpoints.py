@@ -28,7 +28,7 @@ class NodeEndpoints(NodeMasterCalls, NodeLinks):
     """One node's ends of topics and services."""
 
     _slave: Slave
-    _errands: RegistrationQueue
+    _registrations: RegistrationQueue
 
     def __init__(self) -> None:
         """Have none yet."""
@@ -37,9 +37,9 @@ class NodeEndpoints(NodeMasterCalls, NodeLinks):
         self._subscriptions: dict[str, list[Subscription]] = {}
         self._publisher_uris: dict[str, list[str]] = {}
         self._services: dict[str, Service] = {}
-        self._leaving: set[tuple[str, str]] = set()
+        self._unregistering: set[tuple[str, str]] = set()
         """What the master has still to be told that it has ended."""
-        self._noted = EndpointRecorder()
+        self._recorder = EndpointRecorder()
 
     @property
     def _node(self) -> "Node":
@@ -54,7 +54,7 @@ class NodeEndpoints(NodeMasterCalls, NodeLinks):
         latch: bool = False,
         queue_size: int | None = 10,
         on_connect: Callable[[Publisher], None] | None = None,
-        foreign: tuple[str, str] | None = None,
+        raw_type: tuple[str, str] | None = None,
     ) -> Publisher:
         """Publish a topic; a second call for the same topic returns the same publisher.
 
@@ -64,29 +64,35 @@ class NodeEndpoints(NodeMasterCalls, NodeLinks):
             latch: whether new subscribers get the last message.
             queue_size: how many messages wait for a subscriber that reads too slowly; None: any number.
             on_connect: called on the loop whenever a subscriber has connected.
-            foreign: (md5 sum, definition) of a type that need not be known here; messages are given as bytes.
+            raw_type: (md5 sum, definition) of a type that need not be known here; messages are given as bytes.
 
         Raises:
             MessageError: no such type, or the topic is already published with another.
         """
         name = self.resolve(topic)
-        if foreign is None:
+        if raw_type is None:
             self.messages.md5(type_name)
         with self._lock:
             there = self._publishers.get(name)
             if there is not None:
                 if there.type != type_name:
                     raise MessageError(f"{self.name} publishes {name} as {there.type}, not as {type_name}")
-                self._noted.add(there)
+                self._recorder.add(there)
                 return there
             publisher = Publisher(
-                self._node, name, type_name, latch=latch, queue_size=queue_size, on_connect=on_connect, foreign=foreign
+                self._node,
+                name,
+                type_name,
+                latch=latch,
+                queue_size=queue_size,
+                on_connect=on_connect,
+                raw_type=raw_type,
             )
             self._publishers[name] = publisher
-        self._noted.add(publisher)
+        self._recorder.add(publisher)
         for listener in self.loop.on_publisher:
             self.loop.call_soon(lambda listener=listener: listener(publisher))
-        self._errands.add(lambda: self._tell("registerPublisher", name, type_name, self.uri))
+        self._registrations.add(lambda: self._notify_master("registerPublisher", name, type_name, self.uri))
         return publisher
 
     def subscribe(
@@ -120,8 +126,8 @@ class NodeEndpoints(NodeMasterCalls, NodeLinks):
         )
         with self._lock:
             self._subscriptions.setdefault(name, []).append(subscription)
-        self._noted.add(subscription)
-        self._errands.add(lambda: self._listen(name, type_name))
+        self._recorder.add(subscription)
+        self._registrations.add(lambda: self._register_subscriber(name, type_name))
         return subscription
 
     def advertise_service(self, name: str, type_name: str, handler: ServiceCallback) -> Service:
@@ -141,13 +147,13 @@ class NodeEndpoints(NodeMasterCalls, NodeLinks):
         service = Service(self._node, full, type_name, handler)
         with self._lock:
             self._services[full] = service
-        self._noted.add(service)
-        self._errands.add(lambda: self._provide(full))
+        self._recorder.add(service)
+        self._registrations.add(lambda: self._register_service(full))
         return service
 
     def recording_endpoints(self) -> AbstractContextManager[list[Endpoint]]:
         """Note what this thread has the node advertise, subscribe or provide meanwhile."""
-        return self._noted.record()
+        return self._recorder.record()
 
     def unregister_publisher(self, publisher: Publisher) -> None:
         """Stop publishing a topic."""
@@ -156,7 +162,7 @@ class NodeEndpoints(NodeMasterCalls, NodeLinks):
                 return
             del self._publishers[publisher.topic]
         self.loop.call_soon(publisher.close)
-        self._leave("unregisterPublisher", publisher.topic)
+        self._queue_unregister("unregisterPublisher", publisher.topic)
 
     def unregister_subscription(self, subscription: Subscription) -> None:
         """Stop listening; the master is told when nothing in this node listens to the topic any more."""
@@ -169,7 +175,7 @@ class NodeEndpoints(NodeMasterCalls, NodeLinks):
                 del self._subscriptions[subscription.topic]
         self.loop.call_soon(subscription.close)
         if not others:
-            self._leave("unregisterSubscriber", subscription.topic)
+            self._queue_unregister("unregisterSubscriber", subscription.topic)
 
     def unregister_service(self, service: Service) -> None:
         """Stop providing a service."""
@@ -178,24 +184,24 @@ class NodeEndpoints(NodeMasterCalls, NodeLinks):
                 return
             del self._services[service.name]
         self.loop.call_soon(service.close)
-        self._leave("unregisterService", service.name)
+        self._queue_unregister("unregisterService", service.name)
 
-    def _leave(self, method: str, name: str) -> None:
+    def _queue_unregister(self, method: str, name: str) -> None:
         """Have the master told; if the node shuts down before, by then."""
-        self._leaving.add((method, name))
+        self._unregistering.add((method, name))
 
         async def leave() -> None:
-            await self._farewell(method, name)
-            self._leaving.discard((method, name))
+            await self._unregister_at_master(method, name)
+            self._unregistering.discard((method, name))
 
-        self._errands.add(leave)
+        self._registrations.add(leave)
 
     async def _unregister_all(self) -> None:
-        ended = {("unregisterService", name) for name in self._services} | self._leaving
+        ended = {("unregisterService", name) for name in self._services} | self._unregistering
         ended |= {("unregisterSubscriber", topic) for topic in self._subscriptions}
         ended |= {("unregisterPublisher", topic) for topic in self._publishers}
-        farewells = [self._farewell(method, name) for method, name in ended]
-        farewells += [self._tell("unsubscribeParam", self.uri, name) for name in self.watched]
+        farewells = [self._unregister_at_master(method, name) for method, name in ended]
+        farewells += [self._notify_master("unsubscribeParam", self.uri, name) for name in self.watched]
         await asyncio.gather(*farewells, return_exceptions=True)
 
     def _close_all(self) -> None:
@@ -208,16 +214,16 @@ class NodeEndpoints(NodeMasterCalls, NodeLinks):
         for service in self._services.values():
             service.close()
 
-    async def _farewell(self, method: str, name: str) -> None:
-        await self._tell(method, name, self._slave.service_uri if method == "unregisterService" else self.uri)
+    async def _unregister_at_master(self, method: str, name: str) -> None:
+        await self._notify_master(method, name, self._slave.service_uri if method == "unregisterService" else self.uri)
 
-    async def _tell(self, method: str, *arguments: object) -> None:
-        await self.ask(method, *arguments)
+    async def _notify_master(self, method: str, *arguments: object) -> None:
+        await self.call_master(method, *arguments)
 
-    async def _provide(self, service: str) -> None:
-        await self.ask("registerService", service, self._slave.service_uri, self.uri)
+    async def _register_service(self, service: str) -> None:
+        await self.call_master("registerService", service, self._slave.service_uri, self.uri)
         self.loop.notify_service_change()
 
-    async def _listen(self, topic: str, type_name: str) -> None:
-        uris = await self.ask("registerSubscriber", topic, type_name, self.uri)
+    async def _register_subscriber(self, topic: str, type_name: str) -> None:
+        uris = await self.call_master("registerSubscriber", topic, type_name, self.uri)
         self.publishers_changed(topic, [str(uri) for uri in uris])

@@ -21,12 +21,12 @@ class Loggers:
         self._levels: dict[str, Level] = {}
 
     @classmethod
-    def of_rospy(cls) -> Self:
+    def for_rospy(cls) -> Self:
         """The loggers of a node in Python."""
         return cls("rosout", ("rosgraph", "rospy", *(f"rospy.{name}" for name in _ROSPY)))
 
     @classmethod
-    def of_roscpp(cls, package: str) -> Self:
+    def for_roscpp(cls, package: str) -> Self:
         """The loggers of a node in C++ that says what it does in the name of its package."""
         loggers = cls(f"ros.{package}", ("ros", *_ROSCPP, "ros.roscpp.superdebug"))
         loggers.set("ros.roscpp.superdebug", "warn")

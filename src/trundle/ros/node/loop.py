@@ -56,12 +56,12 @@ class GraphLoop:
         self.on_publisher: list[Callable[[Publisher], None]] = []
         """Called on the loop with each new publisher of its nodes."""
         self.work = PendingWork()
-        self._news: set[asyncio.Future[None]] = set()
-        self._gatherer: int | None = None
+        self._service_change: set[asyncio.Future[None]] = set()
+        self._batch_thread: int | None = None
         """The thread whose calls wait for `release`."""
         self.own_threads: set[int | None] = set()
         """The loop's, and the one that gathers: they gain nothing if they do a thing themselves that the loop can."""
-        self._gathered: list[Callable[[], object]] = []
+        self._batch: list[Callable[[], object]] = []
         self._calls = 0
         """By which `rested` knows that there are more."""
         self._deliveries = 0
@@ -71,7 +71,7 @@ class GraphLoop:
         self.selector = FastSelector()
         """Takes sockets that are read without asyncio's help; used on the loop."""
         self._loop = _ClosingLoop(self.selector)
-        self._thread = threading.Thread(target=self._work, name="trundle-graph", daemon=True)
+        self._thread = threading.Thread(target=self._run, name="trundle-graph", daemon=True)
         self._tasks: set[asyncio.Task[Any]] = set()
         self._unstarted: dict[Future[Any], Coroutine[Any, Any, Any]] = {}
         """What was spawned and has no task yet."""
@@ -90,7 +90,7 @@ class GraphLoop:
         if not self._thread.is_alive():
             return
         try:
-            self.run(self._wind_up(timeout_s * 0.75), timeout_s)
+            self.run(self._shutdown_nodes(timeout_s * 0.75), timeout_s)
         except TimeoutError:
             _log.warning("nodes did not shut down within %.1f s", timeout_s)
         self._loop.call_soon_threadsafe(self._loop.stop)
@@ -157,8 +157,8 @@ class GraphLoop:
             self._calls += 1
             self._loop.call_soon(function)
             return
-        if threading.get_ident() == self._gatherer:
-            self._gathered.append(function)
+        if threading.get_ident() == self._batch_thread:
+            self._batch.append(function)
             return
         self._call_soon_from_elsewhere(function)
 
@@ -189,13 +189,13 @@ class GraphLoop:
 
     def begin_batch(self) -> None:
         """From now on, give the loop what this thread has for it only when `release` says so: all at once, in order."""
-        self._gatherer = threading.get_ident()
-        self.own_threads.add(self._gatherer)
+        self._batch_thread = threading.get_ident()
+        self.own_threads.add(self._batch_thread)
 
     def end_batch(self) -> None:
         """Give the loop what this thread gathered."""
-        if self._gathered and threading.get_ident() == self._gatherer:
-            gathered, self._gathered = self._gathered, []
+        if self._batch and threading.get_ident() == self._batch_thread:
+            gathered, self._batch = self._batch, []
             self._call_soon_from_elsewhere(lambda: [self.call_soon(function) for function in gathered])
 
     def wait_idle(self, timeout_s: float, *, unless: Callable[[], bool]) -> bool:
@@ -225,13 +225,13 @@ class GraphLoop:
     async def wait_service_change(self, timeout_s: float) -> None:
         """Wait until `notify_service_change` is called, or so long."""
         future: asyncio.Future[None] = self._loop.create_future()
-        self._news.add(future)
+        self._service_change.add(future)
         await asyncio.wait([future], timeout=timeout_s)
-        self._news.discard(future)
+        self._service_change.discard(future)
 
     def notify_service_change(self) -> None:
         """A node of this loop provides a service that was not there."""
-        for future in self._news:
+        for future in self._service_change:
             if not future.done():
                 future.set_result(None)
 
@@ -242,21 +242,21 @@ class GraphLoop:
             calm = calm + 1 if self._deliveries == seen else 0
             seen = self._deliveries
 
-    async def _wind_up(self, timeout_s: float) -> None:
+    async def _shutdown_nodes(self, timeout_s: float) -> None:
         """Let the nodes say farewell."""
         self.is_ending = True
         farewells = [asyncio.create_task(node.shutdown()) for node in list(self.members)]
         if farewells:
             await asyncio.wait(farewells, timeout=timeout_s)
 
-    def _work(self) -> None:
+    def _run(self) -> None:
         _wire.request_time_slice(_SLICE_NS)
         asyncio.set_event_loop(self._loop)
         try:
             self._loop.run_forever()
         finally:
             self._has_stopped = True
-            self._loop.run_until_complete(self._loop.leave_nothing_open())
+            self._loop.run_until_complete(self._loop.close_all())
             self._loop.run_until_complete(self._loop.shutdown_asyncgens())
             self._loop.close()
             self._drop_unstarted()
@@ -278,7 +278,7 @@ class _ClosingLoop(asyncio.SelectorEventLoop):
         task.add_done_callback(self._opened)
         return await asyncio.shield(task)
 
-    async def leave_nothing_open(self) -> None:
+    async def close_all(self) -> None:
         """Close servers, end tasks, drop connections; in this order, so that little new comes in between.
 
         What does is ended in the next round, however slow the machine is; a task that will not end is left.

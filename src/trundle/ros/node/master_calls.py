@@ -18,7 +18,7 @@ ParamCallback: TypeAlias = Callable[[str, Any], None]
 _UNSET: Any = object()
 _MASTER_S = 5.0
 """How long the master may take for an answer."""
-_LOOK_S = 0.05
+_POLL_S = 0.05
 
 
 class NodeMasterCalls:
@@ -63,7 +63,7 @@ class NodeMasterCalls:
         """ROS time as a `time` value."""
         return self.messages.stamp(self.clock.now_ns())
 
-    async def ask(self, method: str, *arguments: object) -> Any:
+    async def call_master(self, method: str, *arguments: object) -> Any:
         """Call the master and return the value it answers with.
 
         Raises:
@@ -88,7 +88,7 @@ class NodeMasterCalls:
         full = self.resolve(name)
         await self.wait_params()
         try:
-            return await self.ask("getParam", full)
+            return await self.call_master("getParam", full)
         except MasterError:
             if default is _UNSET:
                 raise ParameterError(f"parameter {full} is not set") from None
@@ -103,7 +103,7 @@ class NodeMasterCalls:
         """
         full = self.resolve(name)
         try:
-            await self.ask("setParam", full, value)
+            await self.call_master("setParam", full, value)
         except (ValueError, MasterError) as error:
             raise ParameterError(f"parameter {full}: {error}") from None
 
@@ -115,26 +115,26 @@ class NodeMasterCalls:
         """
         full = self.resolve(name)
         try:
-            await self.ask("deleteParam", full)
+            await self.call_master("deleteParam", full)
         except MasterError:
             raise ParameterError(f"parameter {full} is not set") from None
 
     async def has_param(self, name: str) -> bool:
         """Tell whether a parameter or a namespace is set."""
         await self.wait_params()
-        return bool(await self.ask("hasParam", self.resolve(name)))
+        return bool(await self.call_master("hasParam", self.resolve(name)))
 
     async def search_param(self, key: str) -> str | None:
         """Find the full name of the nearest parameter upwards from this node; a remapped key is searched as written."""
         await self.wait_params()
         try:
-            return str(await self.ask("searchParam", self.written_remappings.get(key, key)))
+            return str(await self.call_master("searchParam", self.written_remappings.get(key, key)))
         except MasterError:
             return None
 
     async def param_names(self) -> list[str]:
         """Name every parameter of the graph."""
-        return list(await self.ask("getParamNames"))
+        return list(await self.call_master("getParamNames"))
 
     async def watch_param(self, name: str, callback: ParamCallback) -> Any:
         """Have a function called, on the loop, whenever a parameter or something below it changes.
@@ -145,7 +145,7 @@ class NodeMasterCalls:
         await self.wait_listening()
         full = self.resolve(name)
         self.watched.setdefault(full, []).append(callback)
-        return await self.ask("subscribeParam", self.uri, full)
+        return await self.call_master("subscribeParam", self.uri, full)
 
     def param_changed(self, key: str, value: Any) -> bool:
         """Tell those who watch a parameter; False: nobody does."""
@@ -179,7 +179,7 @@ class NodeMasterCalls:
         if request is None or isinstance(request, dict):
             request = self.new(kind.request, request)
         try:
-            uri = await self.ask("lookupService", full)
+            uri = await self.call_master("lookupService", full)
         except MasterError:
             raise ServiceError(f"no node provides the service {full}") from None
         try:
@@ -200,8 +200,8 @@ class NodeMasterCalls:
             async with asyncio.timeout(timeout_s):
                 while True:
                     with contextlib.suppress(MasterError):
-                        await self.ask("lookupService", full)
+                        await self.call_master("lookupService", full)
                         return
-                    await self.loop.wait_service_change(_LOOK_S)
+                    await self.loop.wait_service_change(_POLL_S)
         except TimeoutError:
             raise ServiceError(f"no node provided the service {full} within {timeout_s:g} s") from None

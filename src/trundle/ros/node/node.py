@@ -71,7 +71,7 @@ class Node(NodeEndpoints, NodeLog):
         self.deliver = deliver
         self.profile = NOETIC
         """How the distribution behaves that its graph is."""
-        self.loggers = Loggers.of_rospy()
+        self.loggers = Loggers.for_rospy()
         self.quiet_log: TextIO | None = None
         self.closed = asyncio.Event()
         """Set when the node has shut down; awaited on the loop."""
@@ -85,9 +85,9 @@ class Node(NodeEndpoints, NodeLog):
         self.watched: dict[str, list[ParamCallback]] = {}
         self._rosout: Publisher | None = None
         self._wants_rosout = rosout
-        self._errands = RegistrationQueue(loop, log=self)
-        self._listens = asyncio.Event()
-        self._params_told = asyncio.Event()
+        self._registrations = RegistrationQueue(loop, log=self)
+        self._listening = asyncio.Event()
+        self._params_set = asyncio.Event()
         self._on_shutdown: list[Callable[[str], None]] = []
         self._is_down = False
         self._has_begun = False
@@ -119,16 +119,16 @@ class Node(NodeEndpoints, NodeLog):
     async def wait_params(self) -> None:
         """Wait until the parameters this node was made with are set, or nobody is there to take them."""
         if self._params and not self._is_down:
-            await self._params_told.wait()
+            await self._params_set.wait()
 
     async def wait_listening(self) -> None:
         """Wait until the node has an address, or never will."""
         if not self._is_down:
-            await self._listens.wait()
+            await self._listening.wait()
 
     async def wait_registered(self) -> None:
         """Wait until everything asked for so far is registered at the master."""
-        await self._errands.done()
+        await self._registrations.wait_done()
 
     async def wait_connected(self) -> None:
         """Wait until every subscription hears the publishers there are, or knows that they do not answer."""
@@ -147,8 +147,8 @@ class Node(NodeEndpoints, NodeLog):
             return
         self._is_down = True
         if self._has_begun:
-            await self._listens.wait()  # a server caught half made would stay open
-        await self._errands.end()
+            await self._listening.wait()  # a server caught half made would stay open
+        await self._registrations.close()
         if self.uri:
             with contextlib.suppress(TimeoutError):
                 async with asyncio.timeout(_FAREWELL_S):
@@ -159,7 +159,7 @@ class Node(NodeEndpoints, NodeLog):
         await self._slave.stop()
         self.closed.set()
 
-    def asked_to_shut_down(self, reason: str) -> None:
+    def request_shutdown(self, reason: str) -> None:
         """Obey the master or another node."""
         if self._is_down:
             return
@@ -179,19 +179,19 @@ class Node(NodeEndpoints, NodeLog):
             return
         self._has_begun = True
         self.loop.members.add(self)
-        self._errands.begin(self._start)
+        self._registrations.start(self._start)
 
     async def _start(self) -> None:
         try:
             await self._slave.start()
         finally:
-            self._listens.set()
+            self._listening.set()
         self.loop.nodes[self.uri] = self
         if self._address.warning:
             self.log_warn(self._address.warning)
         for name, value in self._params.items():
-            await self._errands.retry(lambda name=name, value=value: self._set_own(name, value))
-        self._params_told.set()
+            await self._registrations.retry(lambda name=name, value=value: self._set_own(name, value))
+        self._params_set.set()
         if self._wants_rosout and self.name != "/rosout":  # that one would gather its own log for ever
             self._rosout = self.advertise("/rosout", "rosgraph_msgs/Log", queue_size=100)
         if self._wants_rosout:
@@ -202,5 +202,5 @@ class Node(NodeEndpoints, NodeLog):
         try:
             await self.set_param(f"~{name}", value)
         except MasterUnreachableError:
-            self._params_told.set()  # whoever waits for them learns the reason by asking
+            self._params_set.set()  # whoever waits for them learns the reason by asking
             raise

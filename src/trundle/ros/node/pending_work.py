@@ -11,24 +11,24 @@ class PendingWork:
         self._under_way: set[object] = set()
         self._asked: list[Callable[[], bool]] = []
 
-    def begin(self) -> object:
+    def start(self) -> object:
         """Count something; the result is handed to `end`."""
         token = object()
         self._under_way.add(token)
         return token
 
-    def end(self, token: object) -> None:
+    def finish(self, token: object) -> None:
         """Count it no more."""
         self._under_way.discard(token)
 
     @contextmanager
     def pending(self) -> Generator[None]:
         """Count what happens inside."""
-        token = self.begin()
+        token = self.start()
         try:
             yield
         finally:
-            self.end(token)
+            self.finish(token)
 
     def add_source(self, is_busy: Callable[[], bool]) -> None:
         """Have somebody asked who counts for themselves."""

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ..errors import MessageError
-from ..messages.codec import MISFITS, Codec, Pieces
+from ..messages.codec import ENCODING_ERRORS, Codec, Pieces
 from ..messages.messages import Message
 from ..transport.framing import LENGTH
 from ..transport.headers import check_md5
@@ -37,7 +37,7 @@ class Publisher:
         latch: bool,
         queue_size: int | None,
         on_connect: "Callable[[Publisher], None] | None",
-        foreign: tuple[str, str] | None = None,
+        raw_type: tuple[str, str] | None = None,
     ) -> None:
         self.topic = topic
         self.type = type_name
@@ -46,9 +46,9 @@ class Publisher:
         self._loop_threads = node.loop.own_threads
         self._queue_size = queue_size
         self._on_connect = on_connect
-        self._foreign = foreign
+        self._raw_type = raw_type
         """(md5 sum, definition) of a type that need not be known here."""
-        self._listeners = SubscriberLinks(topic)
+        self._subscriber_links = SubscriberLinks(topic)
         self._direct: tuple[SendQueue, ...] = ()
         """Where whoever publishes sends by itself: to other processes, while nobody here listens."""
         self._refused: set[str] = set()
@@ -87,7 +87,7 @@ class Publisher:
     @property
     def needs_every_message(self) -> bool:
         """Whether each message counts to somebody; else, what is told again and again may be told less often."""
-        return self._wanted > 0 and self._listeners.need_every_message
+        return self._wanted > 0 and self._subscriber_links.need_every_message
 
     def publish(self, message: Message | dict[str, Any] | bytes) -> None:
         """Publish a message, from any thread; never blocks. The message is read-only from now on.
@@ -103,7 +103,7 @@ class Publisher:
         if self._wanted == 0 and not self.latch:
             return
         if type(message) is not self._class:
-            message = self._looked_at(message)
+            message = self._checked(message)
         header: Any = getattr(message, "header", None) if self._has_header else None
         if header is not None and hasattr(header, "seq"):
             self._sequence += 1
@@ -123,12 +123,12 @@ class Publisher:
     @property
     def md5sum(self) -> str:
         """What subscribers compare."""
-        return self._foreign[0] if self._foreign else self._node.messages.md5(self.type)
+        return self._raw_type[0] if self._raw_type else self._node.messages.md5(self.type)
 
     @property
     def definition(self) -> str:
         """The text of the type and of those it depends on."""
-        return self._foreign[1] if self._foreign else self._node.messages.definition(self.type)
+        return self._raw_type[1] if self._raw_type else self._node.messages.definition(self.type)
 
     @property
     def caller(self) -> str:
@@ -157,60 +157,60 @@ class Publisher:
             }
         )
         with self._turn:
-            self._listeners.far[link] = peer
-            self._look_who_listens()
-            for message in self._held():
+            self._subscriber_links.remote[link] = peer
+            self._update_subscribers()
+            for message in self._latched_messages():
                 if (framed := self._framed(message)) is not None:
                     link.out.send([framed], self._queue_size)
         self._count()
 
-    def catch_up(self) -> None:
+    def resume(self) -> None:
         """Go on after all subscribers were too slow."""
         if self._outbox and not self._flushes:
             self._flush()
 
     def release(self, link: FrameProtocol) -> None:
         """Forget a connection that has ended."""
-        self._listeners.far.pop(link, None)
+        self._subscriber_links.remote.pop(link, None)
         self._count()
-        self.catch_up()
+        self.resume()
 
     def attach(self, subscriber: LocalSubscriber, name: str) -> None:
         """Take a subscription of this process."""
-        if subscriber in self._listeners.local:
+        if subscriber in self._subscriber_links.local:
             return
         with self._turn:
-            self._listeners.local[subscriber] = name
-            self._look_who_listens()
-            held = self._held()
+            self._subscriber_links.local[subscriber] = name
+            self._update_subscribers()
+            held = self._latched_messages()
         self._count()
         for message in held:
-            self._hand_over(message, subscriber, None)
+            self._deliver(message, subscriber, None)
 
     def detach(self, subscriber: LocalSubscriber) -> None:
         """Forget a subscription of this process."""
-        self._listeners.local.pop(subscriber, None)
+        self._subscriber_links.local.pop(subscriber, None)
         self._count()
 
     def close(self) -> None:
         """Drop every link."""
-        self._listeners.close()
+        self._subscriber_links.close()
         self._count()
 
     def connections(self) -> list[list[Any]]:
         """Links as getBusInfo tells them."""
-        return self._listeners.connections()
+        return self._subscriber_links.connections()
 
     def statistics(self) -> list[Any]:
         """Bytes and messages as getBusStats tells them."""
-        return self._listeners.statistics()
+        return self._subscriber_links.statistics()
 
     @property
     def dropped(self) -> int:
         """Messages that left the queue unsent: published too fast, or slow subscribers, connected now, lost them."""
-        return self._lost + self._listeners.dropped
+        return self._lost + self._subscriber_links.dropped
 
-    def _held(self) -> tuple[Any, ...]:
+    def _latched_messages(self) -> tuple[Any, ...]:
         """What whoever joins gets."""
         return () if self._latched is None else (*self.latched_for_others, self._latched)
 
@@ -226,13 +226,13 @@ class Publisher:
             f"our version has [{self.type}/{self.md5sum}] Dropping connection."
         )
 
-    def _look_who_listens(self) -> None:
-        here, far = self._listeners.local, self._listeners.far
+    def _update_subscribers(self) -> None:
+        here, far = self._subscriber_links.local, self._subscriber_links.remote
         self._direct = () if here else tuple(link.out for link in far)
 
     def _count(self) -> None:
-        self._look_who_listens()
-        before, self._wanted = self._wanted, len(self._listeners)
+        self._update_subscribers()
+        before, self._wanted = self._wanted, len(self._subscriber_links)
         if self._wanted > before and self._on_connect is not None:
             self._on_connect(self)
 
@@ -248,14 +248,14 @@ class Publisher:
             if outs is not self._direct or self._flushes or self._outbox:
                 return False
             for out in outs:
-                if out.is_behind:
+                if out.is_congested:
                     return False
             if self.latch:
                 self._latched = message
             self.published += 1
             try:
                 framed = self._frame(message)
-            except MISFITS:
+            except ENCODING_ERRORS:
                 framed = self._framed(message)
             if framed is not None:
                 for out in outs:
@@ -270,25 +270,30 @@ class Publisher:
         count = size = 0
         self._flushes = True  # nobody sends at once meanwhile
         try:
-            while self._outbox and count < _BATCH_MESSAGES and size < _BATCH_BYTES and not self._listeners.is_congested:
+            while (
+                self._outbox
+                and count < _BATCH_MESSAGES
+                and size < _BATCH_BYTES
+                and not self._subscriber_links.is_congested
+            ):
                 message = self._outbox.popleft()
                 count += 1
                 if self.latch:
                     self._latched = message
                 self.published += 1
-                framed = self._framed(message) if self._listeners.far else None
+                framed = self._framed(message) if self._subscriber_links.remote else None
                 if framed is not None:
                     frames.append(framed)
                     size += sum(map(len, framed))
-                for subscriber in list(self._listeners.local):
-                    self._hand_over(message, subscriber, framed)
+                for subscriber in list(self._subscriber_links.local):
+                    self._deliver(message, subscriber, framed)
             if frames:
-                for link in list(self._listeners.far):
+                for link in list(self._subscriber_links.remote):
                     link.out.send(frames, self._queue_size)
         finally:
             # In this order: a message put in between is seen here or by its own publish().
             self._flushes = False
-            if self._outbox and not self._listeners.is_congested:
+            if self._outbox and not self._subscriber_links.is_congested:
                 self._flush_soon()
 
     def _flush_soon(self) -> None:
@@ -296,7 +301,7 @@ class Publisher:
             self._flushes = True
             self._node.loop.deliver_soon(self._flush)
 
-    def _hand_over(self, message: Any, subscriber: LocalSubscriber, framed: Pieces | None) -> None:
+    def _deliver(self, message: Any, subscriber: LocalSubscriber, framed: Pieces | None) -> None:
         if not subscriber.is_raw and not isinstance(message, _BYTES):
             subscriber.receive(message)
             return
@@ -315,12 +320,12 @@ class Publisher:
             self._node.log_error(f"a message on {self.topic} is not sent: {error}")
             return None
 
-    def _looked_at(self, message: Message | dict[str, Any] | bytes) -> Any:
+    def _checked(self, message: Message | dict[str, Any] | bytes) -> Any:
         """What is handed on: bytes, or a message of the topic's type."""
         if isinstance(message, _BYTES):
             return message
         if isinstance(message, dict):
-            return self._looked_at(self._node.new(self.type, message))
+            return self._checked(self._node.new(self.type, message))
         given = self._node.messages.type_of(message)
         if given != self.type:
             raise MessageError(f"{self.topic} carries {self.type}, got a {given}")

@@ -26,19 +26,19 @@ class RegistrationQueue:
         self._has_ended = False
         self._waits_for_master = False
 
-    def add(self, errand: Registration) -> None:
+    def add(self, registration: Registration) -> None:
         """Have something done after all that was added before; from any thread, without waiting."""
-        token = self._loop.work.begin()
-        self._loop.call_soon(lambda: self._add(errand, token))
+        token = self._loop.work.start()
+        self._loop.call_soon(lambda: self._add(registration, token))
 
-    def begin(self, first: Registration) -> None:
+    def start(self, first: Registration) -> None:
         """Start to work off the queue, on the loop, with what must be done before all else."""
-        token = self._loop.work.begin()
-        self._worker = asyncio.get_running_loop().create_task(self._work(first, token))
-        self._worker.add_done_callback(lambda _: self._loop.work.end(token))
+        token = self._loop.work.start()
+        self._worker = asyncio.get_running_loop().create_task(self._run(first, token))
+        self._worker.add_done_callback(lambda _: self._loop.work.finish(token))
         self._worker.add_done_callback(self._worker_ended)
 
-    async def done(self) -> None:
+    async def wait_done(self) -> None:
         """Wait until everything added so far is done."""
         await self._is_started.wait()
         await asyncio.sleep(0)  # what other threads added before is in the queue now
@@ -48,21 +48,21 @@ class RegistrationQueue:
             if not reached.done():
                 reached.set_result(None)
 
-        self._queue.put_nowait((reach, self._loop.work.begin()))
+        self._queue.put_nowait((reach, self._loop.work.start()))
         await reached
 
-    async def end(self) -> None:
+    async def close(self) -> None:
         """Drop what is still to be done."""
         self._has_ended = True
         if self._worker is not None:
             self._worker.cancel()
             await asyncio.gather(self._worker, return_exceptions=True)
 
-    async def retry(self, errand: Registration) -> None:
+    async def retry(self, registration: Registration) -> None:
         """Do something at the master, as soon as there is one."""
         while True:
             try:
-                await errand()
+                await registration()
             except MasterUnreachableError as error:
                 if not self._waits_for_master:
                     self._waits_for_master = True
@@ -74,26 +74,26 @@ class RegistrationQueue:
             self._waits_for_master = False
             return
 
-    def _add(self, errand: Registration, token: object) -> None:
+    def _add(self, registration: Registration, token: object) -> None:
         if self._has_ended or (self._worker is not None and self._worker.done()):  # nobody is left to do it
-            self._loop.work.end(token)
+            self._loop.work.finish(token)
         else:
-            self._queue.put_nowait((errand, token))
+            self._queue.put_nowait((registration, token))
 
-    async def _work(self, first: Registration, token: object) -> None:
+    async def _run(self, first: Registration, token: object) -> None:
         await first()
         self._is_started.set()
-        self._loop.work.end(token)
+        self._loop.work.finish(token)
         while True:
-            errand, token = await self._queue.get()
+            registration, token = await self._queue.get()
             try:
-                await self.retry(errand)
+                await self.retry(registration)
             finally:
-                self._loop.work.end(token)
+                self._loop.work.finish(token)
 
     def _worker_ended(self, worker: "asyncio.Task[None]") -> None:
         while not self._queue.empty():
-            self._loop.work.end(self._queue.get_nowait()[1])
+            self._loop.work.finish(self._queue.get_nowait()[1])
         if not worker.cancelled() and (error := worker.exception()) is not None and not self._loop.is_ending:
             reason = f"{self._log.name} cannot go on: {error}"
             print_log("fatal", reason, wall_ns=WallClock().now_ns(), sim_ns=None)

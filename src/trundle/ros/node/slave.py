@@ -35,10 +35,10 @@ class Slave:
         self._address = address
         self._rpc = RpcServer(partial(answer_call, self._methods()))
         self._servers: list[asyncio.Server] = []
-        self._nearby: list[str] = []
+        self._unix_socket: list[str] = []
         """Where nodes of this machine connect faster, if there is such a place."""
         self._links: set[_Inbound] = set()
-        self._newcomers: dict[_Inbound, None] = {}
+        self._pending_peers: dict[_Inbound, None] = {}
         self.uri = ""
         self.tcp_port = 0
 
@@ -53,7 +53,7 @@ class Slave:
         if (found := listen_unix()) is not None:
             listening, name = found
             self._servers.append(await loop.create_server(self._inbound, sock=listening, backlog=_BACKLOG))
-            self._nearby = [name]
+            self._unix_socket = [name]
 
     @property
     def service_uri(self) -> str:
@@ -69,7 +69,7 @@ class Slave:
         await self._rpc.stop()
 
     def _inbound(self) -> "_Inbound":
-        return _Inbound(self._node, self._links, self._newcomers)
+        return _Inbound(self._node, self._links, self._pending_peers)
 
     def _methods(self) -> dict[str, Method]:
         node = self._node
@@ -89,7 +89,7 @@ class Slave:
         }
 
     def _shutdown(self, _: str, reason: Any) -> Answer:
-        self._node.asked_to_shut_down(str(reason))
+        self._node.request_shutdown(str(reason))
         return 1, "shutdown", 0
 
     def _publisher_update(self, caller: str, topic: Any, uris: Any) -> Answer:
@@ -124,7 +124,7 @@ class Slave:
         return (
             1,
             f"ready on {host}:{self.tcp_port}",
-            ["TCPROS", host, self.tcp_port, *(self._nearby if UNIXROS in wanted else [])],
+            ["TCPROS", host, self.tcp_port, *(self._unix_socket if UNIXROS in wanted else [])],
         )
 
 
@@ -139,22 +139,22 @@ class _Inbound(FrameProtocol):
         super().__init__()
         self._node = node
         self._links = links
-        self._newcomers = newcomers
+        self._pending_peers = newcomers
         self._target: Publisher | Service | None = None
 
     def connected(self) -> None:
         self._links.add(self)
-        self._newcomers[self] = None
-        if len(self._newcomers) > _MAX_NEWCOMERS:
-            next(iter(self._newcomers)).close("others wait, too")
+        self._pending_peers[self] = None
+        if len(self._pending_peers) > _MAX_NEWCOMERS:
+            next(iter(self._pending_peers)).close("others wait, too")
         assert self.transport is not None
-        if self.out.is_near and not is_of_this_user(self.transport.get_extra_info("socket")):
+        if self.out.is_local and not is_of_this_user(self.transport.get_extra_info("socket")):
             self.close("it is another user's")
         if self._node.is_shut_down:  # accepted in the same moment
             self.close("the node shuts down")
 
     def header_received(self, header: dict[str, str]) -> None:
-        self._newcomers.pop(self, None)
+        self._pending_peers.pop(self, None)
         name = header.get("topic", header.get("service"))
         if name is None:
             self.refuse("Missing required 'topic' or 'service' field")
@@ -182,14 +182,14 @@ class _Inbound(FrameProtocol):
 
     def note_received(self, note: bytes, /) -> None:
         self.out.receive_note(note)
-        self.read_past_asyncio(self._node.loop.selector)
+        self.use_fast_selector(self._node.loop.selector)
 
     def drained(self) -> None:
         if isinstance(self._target, Publisher):
-            self._target.catch_up()
+            self._target.resume()
 
     def closed(self, _: str, /) -> None:
         self._links.discard(self)
-        self._newcomers.pop(self, None)
+        self._pending_peers.pop(self, None)
         if self._target is not None:
             self._target.release(self)

@@ -29,7 +29,7 @@ class SubscriberLink(FrameProtocol):
         self._request = request
         self._loop_selector = selector
         self._receive = _wire.receive if codec is None else codec.receive
-        self._shelf: SharedRingReader | None = None
+        self._shared_ring: SharedRingReader | None = None
 
     def connected(self) -> None:
         self.send_header(self._request)
@@ -41,22 +41,22 @@ class SubscriberLink(FrameProtocol):
             raise WireError(f"it carries {header.get('type', 'another type')}, not {self._subscription.type}")
         if header.get("tcp_nodelay") == "1":
             self.set_nodelay()
-        self.read_past_asyncio(self._loop_selector)
+        self.use_fast_selector(self._loop_selector)
 
     def frame_received(self, data: bytes | memoryview) -> None:
         try:
-            self._subscription.take(data, self.header or {})
+            self._subscription.receive_data(data, self.header or {})
         except MessageError as error:
             raise WireError(str(error)) from None
 
     def note_received(self, note: bytes, /) -> bytes | None:
-        if self._shelf is None:
+        if self._shared_ring is None:
             assert self.transport is not None
             with contextlib.suppress(OSError):  # not to be seen from here: all goes on over the socket
-                self._shelf = SharedRingReader(self.transport.get_extra_info("socket"), note)
-                self.out.send([(self._shelf.seen(),)], None)
+                self._shared_ring = SharedRingReader(self.transport.get_extra_info("socket"), note)
+                self.out.send([(self._shared_ring.seen_note(),)], None)
             return None
-        content, answer = self._shelf.read(note)
+        content, answer = self._shared_ring.read(note)
         if answer is not None:
             self.out.send([(answer,)], None)
         self.bytes_received += len(content)
@@ -64,7 +64,7 @@ class SubscriberLink(FrameProtocol):
 
     def _readable(self) -> None:
         """As of any connection, but a message that comes alone is taken in one step."""
-        if (room := self.frames.room_for_one()) is None:
+        if (room := self.frames.get_frame_buffer()) is None:
             super()._readable()
             return
         assert self._socket is not None
@@ -74,16 +74,16 @@ class SubscriberLink(FrameProtocol):
             self._cannot_read(error)
             return
         if come is None:
-            self._take_bytes(count)
+            self._bytes_received(count)
             return
         self.bytes_received += count
         if self._subscription.is_raw:
-            self._subscription.take(come, self.header or {})
+            self._subscription.receive_data(come, self.header or {})
         else:
             self._subscription.receive(come)
 
     def closed(self, reason: str, /) -> None:
-        if self._shelf is not None:
-            self._shelf.close()
+        if self._shared_ring is not None:
+            self._shared_ring.close()
         if not self.ended.done():
             self.ended.set_result(reason)

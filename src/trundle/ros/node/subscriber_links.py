@@ -30,47 +30,47 @@ class SubscriberLinks:
     """The subscribers of one topic of one node, with the names of their nodes; changed on the loop only."""
 
     def __init__(self, topic: str) -> None:
-        self.far: dict[FrameProtocol, str] = {}
+        self.remote: dict[FrameProtocol, str] = {}
         self.local: dict[LocalSubscriber, str] = {}
         self._topic = topic
 
     def __len__(self) -> int:
-        return len(self.far) + len(self.local)
+        return len(self.remote) + len(self.local)
 
     @property
     def is_congested(self) -> bool:
         """Whether nobody can take a message now."""
-        return bool(self.far) and not self.local and all(link.out.is_behind for link in self.far)
+        return bool(self.remote) and not self.local and all(link.out.is_congested for link in self.remote)
 
     @property
     def need_every_message(self) -> bool:
         """Whether each message counts to one of them; what those of other processes want is not known."""
-        return bool(self.far) or any(subscriber.needs_every_message for subscriber in list(self.local))
+        return bool(self.remote) or any(subscriber.needs_every_message for subscriber in list(self.local))
 
     @property
     def dropped(self) -> int:
         """Messages that those connected now were too slow for."""
-        return sum(link.out.dropped for link in list(self.far))
+        return sum(link.out.dropped for link in list(self.remote))
 
     def close(self) -> None:
         """Drop them all."""
-        for link in list(self.far):
+        for link in list(self.remote):
             link.close("the topic is no longer published")
-        self.far.clear()
+        self.remote.clear()
         self.local.clear()
 
     def connections(self) -> list[list[Any]]:
         """Links as getBusInfo tells them."""
         far = [
             [_number(link), name, "o", link.kind, self._topic, True, link.description]
-            for link, name in self.far.items()
+            for link, name in self.remote.items()
         ]
         return far + [[_number(s), name, "o", "INTRAPROCESS", self._topic, True, ""] for s, name in self.local.items()]
 
     def statistics(self) -> list[Any]:
         """Bytes and messages as getBusStats tells them; our header is the first frame."""
-        links = [[_number(link), link.out.bytes_sent, link.out.frames_sent - 1, True] for link in self.far]
-        return [self._topic, sum(link.out.bytes_sent for link in self.far), links]
+        links = [[_number(link), link.out.bytes_sent, link.out.frames_sent - 1, True] for link in self.remote]
+        return [self._topic, sum(link.out.bytes_sent for link in self.remote), links]
 
 
 def _number(link: object) -> int:

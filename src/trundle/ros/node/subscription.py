@@ -93,7 +93,7 @@ class Subscription:
             self._tasks.pop(uri).cancel()
         for uri in uris:
             if uri not in self._tasks:
-                self._tasks[uri] = asyncio.get_running_loop().create_task(self._keep(uri))
+                self._tasks[uri] = asyncio.get_running_loop().create_task(self._maintain_link(uri))
 
     def close(self) -> None:
         """Drop every link."""
@@ -109,7 +109,7 @@ class Subscription:
             try:
                 self._callback(message)
             except Exception as error:
-                self._say_failed(error)
+                self._log_failed_callback(error)
             return
         # Whoever runs the callbacks has been asked once for each message in the queue; the one that takes a dropped
         # message's place needs no new asking.
@@ -126,7 +126,7 @@ class Subscription:
         definition = publisher.definition if self.is_raw else ""
         try:
             header = {"type": publisher.type, "md5sum": publisher.md5sum, "callerid": publisher.caller}
-            self.take(data, {**header, "message_definition": definition, "latching": str(int(publisher.latch))})
+            self.receive_data(data, {**header, "message_definition": definition, "latching": str(int(publisher.latch))})
         except MessageError as error:
             self._node.log_error(f"a message on {self.topic} is not taken: {error}")
 
@@ -144,7 +144,7 @@ class Subscription:
         links = [link for link in self._links.values() if isinstance(link, FrameProtocol)]
         return [self.topic, [[id(link) % 2**31, link.bytes_received, -1, self.dropped, True] for link in links]]
 
-    def take(self, data: bytes | memoryview, header: Mapping[str, str]) -> None:
+    def receive_data(self, data: bytes | memoryview, header: Mapping[str, str]) -> None:
         """Take a message as bytes, with what its publisher said when it connected.
 
         Raises:
@@ -170,23 +170,23 @@ class Subscription:
 
     # links
 
-    async def _keep(self, uri: str) -> None:
+    async def _maintain_link(self, uri: str) -> None:
         """Hold a link to one publisher, as long as the master names it."""
         attempt = 0
         while True:
             local = self._node.loop.nodes.get(uri)
             try:
                 if local is not None:
-                    await self._join(local, uri)
+                    await self._connect_local(local, uri)
                 else:
                     await self._connect(uri)
                 attempt = 0
             except (OSError, RosError, FaultError) as error:
-                self._complain(uri, str(error) or type(error).__name__, attempt)
+                self._warn_unreachable(uri, str(error) or type(error).__name__, attempt)
             await asyncio.sleep(_RETRY_S[min(attempt, len(_RETRY_S) - 1)])
             attempt += 1
 
-    async def _join(self, local: "Node", uri: str) -> None:
+    async def _connect_local(self, local: "Node", uri: str) -> None:
         """Be handed the messages of a publisher in this process until the task is cancelled."""
         publisher = local.publisher(self.topic)
         if publisher is None:
@@ -244,7 +244,7 @@ class Subscription:
             header["message_definition"] = self._messages.definition(self.type)
         return header
 
-    def _complain(self, uri: str, reason: str, attempt: int) -> None:
+    def _warn_unreachable(self, uri: str, reason: str, attempt: int) -> None:
         """Say once what keeps a publisher from being heard; the first failures are usual while it comes or goes."""
         if attempt >= 2 and uri not in self._complained:
             self._complained.add(uri)
@@ -256,9 +256,9 @@ class Subscription:
         try:
             self._callback(message)
         except Exception as error:
-            self._say_failed(error)
+            self._log_failed_callback(error)
 
-    def _say_failed(self, error: Exception) -> None:
+    def _log_failed_callback(self, error: Exception) -> None:
         self._node.log_failure(f"the callback of {self.topic} failed", error)
 
     def _drop_oldest(self) -> bool:
@@ -282,4 +282,4 @@ class Subscription:
                 if result is not None:
                     await result
             except Exception as error:
-                self._say_failed(error)
+                self._log_failed_callback(error)

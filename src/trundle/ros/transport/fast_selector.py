@@ -23,12 +23,12 @@ class FastSelector(selectors.DefaultSelector):
         self._epoll = select.epoll.fromfd(os.dup(self.fileno())) if has_epoll else None
         """The selector's own, to ask it directly: the way through its keys takes as long as reading a message."""
 
-    def read(self, sock: socket.socket, readable: Callable[[], None]) -> None:
+    def add_reader(self, sock: socket.socket, readable: Callable[[], None]) -> None:
         """Call `readable` on the loop whenever a socket has something to read, or has ended, until `forget`."""
         self.register(sock, selectors.EVENT_READ)
         self._readers[sock.fileno()] = readable
 
-    def forget(self, sock: socket.socket) -> None:
+    def remove_reader(self, sock: socket.socket) -> None:
         """Leave a socket alone from now on; before it is closed."""
         del self._readers[sock.fileno()]
         self.unregister(sock)

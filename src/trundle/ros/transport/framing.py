@@ -36,7 +36,7 @@ class FrameDecoder:
     def __init__(self, limit: int) -> None:
         self.limit = limit
         """Longest frame that is accepted [bytes]; it may change between two frames."""
-        self.take_note: Callable[[bytes], bytes | None] | None = None
+        self.on_note: Callable[[bytes], bytes | None] | None = None
         """Called with each note, if there may be any; returns the content of a frame that it stands for."""
         self._shared = _shared_buffer()
         self._rest = b""
@@ -47,17 +47,17 @@ class FrameDecoder:
         self._expected = 0
         """Size of the last frame with its length, if that was a long one: the next one may be as long."""
 
-    def room(self) -> memoryview:
+    def get_buffer(self) -> memoryview:
         """Return where to put what comes next; valid until the next call for any connection of this thread."""
         if self._own is None and self._expected:
-            self._own = _moved(self._rest, self._expected)
+            self._own = _copied(self._rest, self._expected)
             self._filled, self._rest = len(self._rest), b""
         if self._own is not None:
             return self._own[self._filled :]
         self._shared[: len(self._rest)] = self._rest
         return self._shared[len(self._rest) :]
 
-    def room_for_one(self) -> memoryview | None:
+    def get_frame_buffer(self) -> memoryview | None:
         """Return where a frame may come to lie that comes alone; None within one, or after a long one."""
         return None if self._rest or self._own is not None or self._expected else self._shared
 
@@ -72,14 +72,14 @@ class FrameDecoder:
         while (begin := start + LENGTH.size) <= end:
             (size,) = LENGTH.unpack_from(data, start)
             if size > self.limit:
-                if self.take_note is None or not _NOTE <= size <= _NOTE + _MAX_NOTE_BYTES:
+                if self.on_note is None or not _NOTE <= size <= _NOTE + _MAX_NOTE_BYTES:
                     raise WireError(f"a frame of {size} bytes is announced, more than is accepted")
                 size -= _NOTE
                 if begin + size > end:
                     break
                 start = begin + size
                 self._expected = 0
-                if (content := self.take_note(bytes(data[begin:start]))) is not None:
+                if (content := self.on_note(bytes(data[begin:start]))) is not None:
                     yield content
                 size = 0
                 continue
@@ -95,11 +95,11 @@ class FrameDecoder:
             self._own, self._rest = None, bytes(rest)
             return
         if data is not self._own or start or end == len(data):
-            self._own = _moved(rest, min(size, max(2 * len(rest), self._expected, _TRUST_BYTES)))
+            self._own = _copied(rest, min(size, max(2 * len(rest), self._expected, _TRUST_BYTES)))
         self._rest, self._filled = b"", len(rest)
 
 
-def _untouched(size: int) -> memoryview:
+def _uninitialized(size: int) -> memoryview:
     """Memory as it comes: to clear a picture's takes as long as to write it."""
     return _numpy().empty(size, "u1").data
 
@@ -111,9 +111,9 @@ def _numpy() -> Any:
     return numpy
 
 
-def _moved(data: bytes | memoryview, size: int) -> memoryview:
+def _copied(data: bytes | memoryview, size: int) -> memoryview:
     """Copy to the beginning of new memory, whose rest is not touched."""
-    moved = _untouched(size)
+    moved = _uninitialized(size)
     moved[: len(data)] = data
     return moved
 

@@ -36,9 +36,9 @@ class SendQueue:
             drained: called on the loop when the peer, having been too slow, has everything; it may send more.
             broken: called on the loop when nothing more can be sent.
         """
-        self.is_near = sock.family == _UNIX
+        self.is_local = sock.family == _UNIX
         """Whether the peer is reached without TCP."""
-        self.is_behind = False
+        self.is_congested = False
         """Whether something waits for a peer that reads too slowly."""
         self.bytes_sent = 0
         self.frames_sent = 0
@@ -62,8 +62,8 @@ class SendQueue:
         """Whether the loop looks when it does."""
         self._is_closed = False
         self._kernel_bytes = 0
-        self._shelf: SharedRing | None = None
-        self._may_share = self.is_near
+        self._ring: SharedRing | None = None
+        self._may_share = self.is_local
         """Whether it is worth a try to share memory with the peer."""
 
     def send(self, frames: Sequence[Pieces], queue_size: int | None) -> None:
@@ -74,7 +74,7 @@ class SendQueue:
             if self._is_closed:
                 return
             self._queue.extend(frames)
-            if not self.is_behind:
+            if not self.is_congested:
                 self._write()
             while queue_size is not None and len(self._queue) > queue_size:
                 self._queue.popleft()
@@ -86,10 +86,10 @@ class SendQueue:
     def try_send(self, frame: Pieces) -> bool:
         """Give the kernel one short frame past the queue, as nearly all go; any thread. False: it took nothing."""
         size = len(frame[0]) if len(frame) == 1 else _size(frame)
-        if _WRITEV is None or (self.is_near and size >= LONG_BYTES):
+        if _WRITEV is None or (self.is_local and size >= LONG_BYTES):
             return False
         with self._lock:
-            if self.is_behind or self._is_closed:
+            if self.is_congested or self._is_closed:
                 return False
             try:
                 sent = _WRITEV(self._fd, frame)
@@ -99,7 +99,7 @@ class SendQueue:
             self.frames_sent += 1
             if sent < size:
                 self._rest = _after(frame, sent)
-                self.is_behind = self._is_full = True
+                self.is_congested = self._is_full = True
                 self._call_soon(self._wait)
         return True
 
@@ -110,34 +110,34 @@ class SendQueue:
             WireError: it cannot be meant.
         """
         with self._lock:
-            if self._shelf is None:
+            if self._ring is None:
                 raise WireError("a note about memory that is not shared")
-            self._shelf.receive_note(note)
-            if self._is_full or not self.is_behind:
+            self._ring.receive_note(note)
+            if self._is_full or not self.is_congested:
                 return
-        self._go_on()
+        self._resume()
 
     def close(self) -> None:
         """Send nothing more; on the loop."""
         with self._lock:  # who writes now is done with the socket before it closes
             self._is_closed = True
             self._forget()
-            self._wait_no_more()
+            self._stop_waiting()
             if self._twin is not None:
                 self._twin.close()
-            if self._shelf is not None:
-                self._shelf.close()
+            if self._ring is not None:
+                self._ring.close()
 
     def _write(self) -> None:
         """Give the kernel, or the shelf, as much as it takes."""
-        self._write_on()
-        self.is_behind = bool(self._rest or self._queue)
+        self._continue_write()
+        self.is_congested = bool(self._rest or self._queue)
 
-    def _write_on(self) -> None:
+    def _continue_write(self) -> None:
         self._is_full = False
         while pieces := self._next():
             try:
-                sent = self._give(pieces)
+                sent = self._send_pieces(pieces)
             except BlockingIOError:
                 self._is_full = True
                 return
@@ -146,49 +146,49 @@ class SendQueue:
                 self._call_soon(self._broken)
                 return
             self.bytes_sent += sent
-            self._let_go(sent)
+            self._discard_sent(sent)
 
     def _next(self) -> list[bytes | memoryview]:
         """What the kernel gets next; nothing while a long frame waits for room on the shelf."""
-        if self.is_near:
-            self._lay()
+        if self.is_local:
+            self._share_frames()
         pieces = [*self._rest]
         for frame in islice(self._queue, _AT_ONCE):
-            if self.is_near and (size := _size(frame)) >= LONG_BYTES:
-                if not pieces and not (self._shelf is not None and self._shelf.has_room(size)):
-                    self._widen(size)
+            if self.is_local and (size := _size(frame)) >= LONG_BYTES:
+                if not pieces and not (self._ring is not None and self._ring.has_room(size)):
+                    self._grow_send_buffer(size)
                     pieces += frame
                 break
             pieces += frame
         return pieces
 
-    def _lay(self) -> None:
+    def _share_frames(self) -> None:
         """Put the long frames whose turn it is where the peer sees them."""
         while self._queue and (size := _size(self._queue[0])) >= LONG_BYTES:
-            if self._shelf is None:
-                self._offer_shelf(size)
-            if self._shelf is None or not self._shelf.has_room(size):
+            if self._ring is None:
+                self._offer_ring(size)
+            if self._ring is None or not self._ring.has_room(size):
                 return
-            if (note := self._shelf.write(self._queue[0], size)) is None:
+            if (note := self._ring.write(self._queue[0], size)) is None:
                 return
             self._queue.popleft()
             self._rest = (*self._rest, note)
             self.frames_sent += 1
             self.bytes_sent += size
 
-    def _offer_shelf(self, size: int) -> None:
+    def _offer_ring(self, size: int) -> None:
         if not self._may_share:
             return
         self._may_share = False
         with contextlib.suppress(OSError):
             if peer_process(self._socket) is not None:
-                self._shelf = SharedRing(size)
-                self._rest = (*self._rest, self._shelf.offer())
+                self._ring = SharedRing(size)
+                self._rest = (*self._rest, self._ring.offer_note())
 
-    def _give(self, pieces: list[bytes | memoryview]) -> int:
+    def _send_pieces(self, pieces: list[bytes | memoryview]) -> int:
         return self._open_twin().send(pieces[0]) if _WRITEV is None else _WRITEV(self._fd, pieces)
 
-    def _widen(self, size: int) -> None:
+    def _grow_send_buffer(self, size: int) -> None:
         """Have the kernel take a whole long frame at once; it does so by itself for TCP only."""
         if size <= self._kernel_bytes:
             return
@@ -198,7 +198,7 @@ class SendQueue:
             if wanted > self._socket.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF):
                 self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, wanted)
 
-    def _let_go(self, sent: int) -> None:
+    def _discard_sent(self, sent: int) -> None:
         """Take what was sent out of the queue."""
         while sent:
             if not self._rest:
@@ -211,7 +211,7 @@ class SendQueue:
     def _forget(self) -> None:
         self._queue.clear()
         self._rest = ()
-        self.is_behind = False
+        self.is_congested = False
 
     def _open_twin(self) -> socket.socket:
         if self._twin is None:
@@ -220,25 +220,25 @@ class SendQueue:
 
     def _wait(self) -> None:
         with self._lock:
-            if self._is_full and self.is_behind and not self._is_waiting:
+            if self._is_full and self.is_congested and not self._is_waiting:
                 try:
-                    self._loop.add_writer(self._open_twin().fileno(), self._go_on)
+                    self._loop.add_writer(self._open_twin().fileno(), self._resume)
                     self._is_waiting = True
                 except OSError:  # no number is left for it
-                    self._loop.call_later(_AGAIN_S, self._go_on)
+                    self._loop.call_later(_AGAIN_S, self._resume)
 
-    def _go_on(self) -> None:
+    def _resume(self) -> None:
         """Send more, now that there is room."""
         with self._lock:
             self._write()
-        if not self.is_behind:
+        if not self.is_congested:
             self._drained()
         self._wait()
         with self._lock:
             if not self._is_full:
-                self._wait_no_more()
+                self._stop_waiting()
 
-    def _wait_no_more(self) -> None:
+    def _stop_waiting(self) -> None:
         if self._is_waiting:
             self._is_waiting = False
             self._loop.remove_writer(self._open_twin().fileno())

@@ -24,9 +24,9 @@ _MIN_BYTES, _PLENTY_BYTES, _MAX_BYTES = 1024 * 1024, 32 * 1024 * 1024, 64 * 1024
 """The second one is passed for the sake of the fewest frames only."""
 _OPENED = struct.Struct("<QQ")
 """Publisher to subscriber: the file's number in the publisher's process, and its size."""
-_LAID = struct.Struct("<QQQ")
+_WRITTEN = struct.Struct("<QQQ")
 """Publisher to subscriber: a frame's first byte, its length, and the position behind it."""
-_TAKEN = struct.Struct("<Q")
+_READ = struct.Struct("<Q")
 """Subscriber to publisher: everything before this position may be written over; 0: the memory is seen."""
 
 
@@ -53,7 +53,7 @@ class SharedRing:
         self.is_seen = False
         """Whether the subscriber has it, too."""
 
-    def offer(self) -> bytes:
+    def offer_note(self) -> bytes:
         """Return the note that tells the subscriber where it is."""
         return encode_note(_OPENED.pack(self._file, self._size))
 
@@ -74,7 +74,7 @@ class SharedRing:
             self._memory[at:behind] = piece
             at = behind
         self._end = end
-        return encode_note(_LAID.pack(start, size, end))
+        return encode_note(_WRITTEN.pack(start, size, end))
 
     def receive_note(self, note: bytes | memoryview) -> None:
         """Learn what the subscriber is done with.
@@ -82,7 +82,7 @@ class SharedRing:
         Raises:
             WireError: it cannot be.
         """
-        (position,) = _unpacked(_TAKEN, note)
+        (position,) = _unpacked(_READ, note)
         if not self._taken <= position <= self._end:
             raise WireError("the peer took what was never laid there")
         self._taken, self.is_seen = position, True
@@ -116,9 +116,9 @@ class SharedRingReader:
             os.close(file)
         self._told = 0
 
-    def seen(self) -> bytes:
+    def seen_note(self) -> bytes:
         """Return the note with which the publisher begins to use it."""
-        return encode_note(_TAKEN.pack(0))
+        return encode_note(_READ.pack(0))
 
     def read(self, note: bytes | memoryview) -> tuple[bytes, bytes | None]:
         """Return a copy of a frame's content, and the note to answer with now and then.
@@ -126,14 +126,14 @@ class SharedRingReader:
         Raises:
             WireError: there can be no frame.
         """
-        start, size, end = _unpacked(_LAID, note)
+        start, size, end = _unpacked(_WRITTEN, note)
         if start + size > self._size:
             raise WireError("a frame is announced outside of the shared memory")
         content = self._memory[start + LENGTH.size : start + size]
         if end - self._told < self._size // 2:
             return content, None
         self._told = end
-        return content, encode_note(_TAKEN.pack(end))
+        return content, encode_note(_READ.pack(end))
 
     def close(self) -> None:
         """Let go of the memory."""

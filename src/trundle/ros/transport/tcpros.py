@@ -62,22 +62,22 @@ class FrameProtocol(asyncio.BufferedProtocol):
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self.transport = cast(asyncio.Transport, transport)
-        self.out = SendQueue(transport.get_extra_info("socket"), drained=self._caught_up, broken=self._abort)
-        if self.out.is_near:
-            self.frames.take_note = self.note_received
+        self.out = SendQueue(transport.get_extra_info("socket"), drained=self._resumed, broken=self._abort)
+        if self.out.is_local:
+            self.frames.on_note = self.note_received
         self._deadline = asyncio.get_running_loop().call_later(HANDSHAKE_S, self._too_slow)
         self.connected()
 
     def get_buffer(self, sizehint: int) -> memoryview:
         del sizehint
-        return self.frames.room()
+        return self.frames.get_buffer()
 
     def buffer_updated(self, nbytes: int) -> None:
         self.bytes_received += nbytes
         try:
             for content in self.frames.decode(nbytes):
                 if self.header is None:
-                    self._take_header(content)
+                    self._read_header(content)
                 else:
                     self.frame_received(content)
                 if self.transport is None:
@@ -85,7 +85,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
         except WireError as error:
             self.close(str(error))
 
-    def _take_header(self, content: bytes | memoryview) -> None:
+    def _read_header(self, content: bytes | memoryview) -> None:
         self.header = decode_header(bytes(content))
         self.frames.limit = MAX_MESSAGE_BYTES
         if self._deadline is not None:
@@ -97,30 +97,30 @@ class FrameProtocol(asyncio.BufferedProtocol):
 
     # past asyncio
 
-    def read_past_asyncio(self, selector: FastSelector) -> None:
+    def use_fast_selector(self, selector: FastSelector) -> None:
         """Have the loop's selector read from now on, with less between the system and this than asyncio has."""
         if self._socket is not None or self.transport is None:
             return
         with contextlib.suppress(OSError):  # no number is left for it: asyncio goes on reading
             own: socket.socket = self.transport.get_extra_info("socket").dup()
-            selector.read(own, self._readable)
+            selector.add_reader(own, self._readable)
             self.transport.pause_reading()
             self._selector, self._socket = selector, own
 
     def _readable(self) -> None:
         assert self._socket is not None
         try:
-            count = self._socket.recv_into(self.frames.room())
+            count = self._socket.recv_into(self.frames.get_buffer())
         except OSError as error:
             self._cannot_read(error)
             return
-        self._take_bytes(count)
+        self._bytes_received(count)
 
     def _cannot_read(self, error: OSError) -> None:
         if not isinstance(error, BlockingIOError):
             self.close(str(error))
 
-    def _take_bytes(self, count: int) -> None:
+    def _bytes_received(self, count: int) -> None:
         if count:
             self.buffer_updated(count)
         else:
@@ -140,7 +140,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
     def finish(self, reason: str) -> None:
         """End the connection as soon as the peer has all that was sent."""
         self._ending = reason
-        if not self.out.is_behind:
+        if not self.out.is_congested:
             self.close(reason)
 
     def close(self, reason: str = "closed") -> None:
@@ -152,24 +152,24 @@ class FrameProtocol(asyncio.BufferedProtocol):
 
     def set_nodelay(self) -> None:
         """Send small messages at once."""
-        if self.transport is not None and not self.out.is_near:
+        if self.transport is not None and not self.out.is_local:
             self.transport.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
     @property
     def kind(self) -> str:
         """The protocol's name."""
-        return UNIXROS if self.out.is_near else "TCPROS"
+        return UNIXROS if self.out.is_local else "TCPROS"
 
     @property
     def description(self) -> str:
         """The connection as rosnode reads it; one without ports needs no words."""
-        if self.transport is None or self.out.is_near:
+        if self.transport is None or self.out.is_local:
             return ""
         local, peer = self.transport.get_extra_info("sockname"), self.transport.get_extra_info("peername")
         number = self.transport.get_extra_info("socket").fileno()
         return f"TCPROS connection on port {local[1]} to [{peer[0]}:{peer[1]} on socket {number}]"
 
-    def _caught_up(self) -> None:
+    def _resumed(self) -> None:
         if self._ending is None:
             self.drained()
         else:
@@ -188,7 +188,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
         self.transport = None
         self.out.close()
         if self._selector is not None and self._socket is not None:
-            self._selector.forget(self._socket)
+            self._selector.remove_reader(self._socket)
             self._socket.close()
         if self._deadline is not None:
             self._deadline.cancel()

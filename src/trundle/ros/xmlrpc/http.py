@@ -68,7 +68,7 @@ def parse_head(data: bytes) -> Head:
     return Head(start=(start[0], start[1], start[2] if len(start) > 2 else ""), fields=fields)
 
 
-def refusal_of_browsers(head: Head) -> str | None:
+def browser_refusal(head: Head) -> str | None:
     """Return why a call is refused as one that a web page may have made; None: a program made it.
 
     A page can reach loopback. It cannot send text/xml to another origin without asking first, its POST carries an
@@ -119,7 +119,7 @@ def host_and_port(uri: str) -> tuple[str, int]:
     return address["host"].strip("[]").lower(), int(address["port"])
 
 
-def host_of(uri: str) -> str:
+def uri_host(uri: str) -> str:
     """Return the host of a node's address, or nothing where it has none."""
     try:
         return host_and_port(uri)[0]

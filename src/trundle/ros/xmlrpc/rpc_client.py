@@ -43,10 +43,10 @@ async def call_value(uri: str, method: str, *arguments: object, timeout_s: float
         MasterError: the code is not 1.
         OSError, WireError, FaultError: as `call`.
     """
-    return value_of(uri, method, await call(uri, method, *arguments, timeout_s=timeout_s))
+    return unpack_value(uri, method, await call(uri, method, *arguments, timeout_s=timeout_s))
 
 
-def value_of(uri: str, method: str, answer: Any) -> Any:
+def unpack_value(uri: str, method: str, answer: Any) -> Any:
     """Take [code, text, value] apart.
 
     Raises:

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..errors import PortTakenError, RosError, WireError
 from ..node.loop import close_server
-from .http import MAX_HEAD_BYTES, Head, answer, parse_head, refusal_of_browsers
+from .http import MAX_HEAD_BYTES, Head, answer, browser_refusal, parse_head
 from .xmlrpc import decode_call, encode_fault, encode_response
 
 _log = logging.getLogger(__name__)
@@ -95,7 +95,7 @@ class RpcServer:
             first = await reader.readexactly(1)
         async with asyncio.timeout(_REQUEST_S):
             head = parse_head(first + await reader.readuntil(b"\r\n\r\n"))
-            if (why := refusal_of_browsers(head)) is not None:
+            if (why := browser_refusal(head)) is not None:
                 self._warn(why)
                 writer.write(answer("403 Forbidden", f"refused: {why}\n".encode(), keep_alive=False, kind="text/plain"))
                 return False

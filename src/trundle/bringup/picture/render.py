@@ -1,0 +1,200 @@
+"""Pictures of what a file describes, from a camera of its own or from a good side."""
+
+import math
+from collections.abc import Mapping
+from colorsys import hsv_to_rgb
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from msgspec.structs import replace
+from numpy.typing import NDArray
+from PIL import Image
+
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.lint.empty_scene import empty_reason
+from trundle.model import World
+from trundle.packages import Packages
+from trundle.render import Intrinsics, Picture, Scene, corners_of, scene_from_world, update_skins
+from trundle.sensors import CameraProjection, CameraSensor, PinholeProjection, mount_cameras
+from trundle.simulation import Simulation, Snapshot
+from trundle.spatial import Pose
+
+from ..renderers import RENDERERS, RendererName
+from ..run.run_result import pose_from_row
+from ..world_setup import load_world
+from .lowest_point import lowest_point
+from .urdf_preview import add_robot
+
+DEFAULT_SIZE = (800, 600)
+_FOV = 0.6
+"""A long lens: little distortion, as in a product picture [rad]."""
+_FROM = (math.radians(-38.0), math.radians(16.0))
+"""Azimuth and elevation of a three-quarter view: on the side that Gazebo's sun shines on."""
+_MARGIN = 1.08
+_STUDIO_LIGHT, _BACKDROP = (0.6, 0.6, 0.6, 1.0), (0.95, 0.95, 0.95, 1.0)
+"""Brighter than worlds are: a camera of the file sees those as they are."""
+_SAMPLES = 2
+"""Pictures are drawn twice as large and averaged: smooth edges."""
+_MAX_PX = 3840 * 2160
+_GOLDEN = 0.61803398875
+_COLOURS = [(0.0, 0.0, 0.0)] + [hsv_to_rgb(i * _GOLDEN % 1.0, 0.5 + i % 3 * 0.2, 1.0 - i % 2 * 0.3) for i in range(255)]
+_PALETTE = np.round(np.array(_COLOURS) * 255.0).astype(np.uint8)
+"""Black for nothing, then colours that differ much from one to the next."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PictureOptions:
+    """What to draw, and from where."""
+
+    camera: str | None = None
+    """A camera sensor's name; None: a view of everything that is not the ground."""
+    size: tuple[int, int] | None = None
+    """Width and height [px]; None: the camera's, or 800 by 600."""
+    content: Literal["colour", "depth", "segmentation"] = "colour"
+    """Depth is in millimetres, 16 bit, 0 where nothing is; segmentation has a colour for each visual."""
+    at_s: float = 0.0
+    """Of simulated time."""
+    renderer: RendererName = "cpu"
+
+
+class PictureRenderer:
+    """A file that is ready to be drawn."""
+
+    def __init__(
+        self, file: str, environment: Mapping[str, str], report: Diagnostics, *, start: Path, options: PictureOptions
+    ) -> None:
+        """Read a file, and simulate it until the picture is to be taken.
+
+        Args:
+            file: as for `trundle run`.
+            environment: says where packages and models are.
+            report: takes findings.
+            start: packages are looked for around it too.
+            options: what to draw.
+
+        Raises:
+            DescriptionError: the file is at fault.
+            UsageError: no such camera, or a picture too large to draw.
+        """
+        packages = Packages(environment, start=start)
+        stage = load_world(file, packages, report)
+        self._content = options.content
+        self.empty_reason = empty_reason(stage.world)
+        """Why the picture is empty, or not what would be simulated, if it is so."""
+        self.simulation = Simulation(stage.world, report)
+        scene = scene_from_world(stage.world, report)
+        self._written: NDArray[np.float64] = np.zeros((0, 7))
+        """Poses of bodies that are drawn and not simulated."""
+        robot = stage.robot if options.camera is None and not _is_seen(stage.world) else None
+        if robot is not None and any(link.visuals for link in robot.links):
+            self.empty_reason = "nothing of it can be simulated; it is drawn as it is written"
+            scene, self._written = add_robot(scene, robot, packages, report)
+        if options.camera is None:
+            scene = replace(scene, ambient=_STUDIO_LIGHT, background=_BACKDROP)
+        self._scene, self._renderer = scene, RENDERERS[options.renderer](scene)
+        self._sensor: CameraSensor | None = None
+        width, height = options.size or DEFAULT_SIZE
+        self._lens = Intrinsics(width_px=width, height_px=height, horizontal_fov_rad=_FOV, near_m=0.01, far_m=1000.0)
+        if options.camera is not None:
+            self._sensor = _camera(options.camera, mount_cameras(self.simulation, lambda _: self._renderer))
+            self._lens = self._sensor.intrinsics
+            if options.content == "depth" and self._sensor.optics.lens is not None:
+                raise UsageError(f"camera {options.camera!r} is a wide-angle one; only pinholes see depths")
+            if options.size is not None and not self._sensor.is_pinhole:
+                own = f"{self._lens.width_px}x{self._lens.height_px}"
+                raise UsageError(f"camera {options.camera!r} looks through a lens; its picture has its own size, {own}")
+            if options.size is not None:
+                self._lens = replace(self._lens, width_px=width, height_px=height)
+        if self._lens.width_px * self._lens.height_px > _MAX_PX:
+            asked = f"{self._lens.width_px}x{self._lens.height_px}"
+            raise UsageError(f"a picture of {asked} is too large; it may have {_MAX_PX} pixels, as 3840x2160 has")
+        if options.at_s > 0.0:
+            self.simulation.run(options.at_s)
+        added = [options.camera is None and model.added for model in stage.world.models for _ in model.links]
+        self._ground = np.flatnonzero(added)
+        self._sunk_m = 0.0
+        self._cloud = _corners(scene, self._poses(self.simulation.snapshot()))
+        rows = self._poses(self.simulation.snapshot())
+        heights = [
+            lowest_point(each.geometry, pose_from_row(rows[each.body]) @ each.body_from_shape) for each in scene.shapes
+        ]
+        self._sunk_m = min([0.0, *heights])
+
+    def _poses(self, snapshot: Snapshot) -> NDArray[np.float64]:
+        """Where everything is drawn; the ground that was added is low enough not to hide what is written below it."""
+        poses = np.concatenate([snapshot.poses, self._written])
+        poses[self._ground, 2] += self._sunk_m
+        return poses
+
+    def render(self, *, turned_rad: float = 0.0) -> Image.Image:
+        """Draw what is there now; the view of everything may have gone around, counter-clockwise from above."""
+        snapshot = self.simulation.snapshot()
+        self._renderer.update(self._poses(snapshot))
+        update_skins(self._renderer, self._scene, self.simulation.animation_state)
+        if self._sensor is not None:
+            eye = self._sensor.world_from_camera(snapshot)
+        else:
+            eye = _good_side(self._cloud, self._lens, turned_rad)
+        bent = None if self._sensor is None or self._sensor.is_pinhole else self._sensor.projection
+
+        def drawn(view: CameraProjection, *, depth: bool = False, segmentation: bool = False) -> Picture:
+            views = [(eye @ face, lens) for face, lens in view.pinhole_views]
+            return view.compose(self._renderer.render(views, depth=depth, segmentation=segmentation))
+
+        view = bent or PinholeProjection(self._lens)
+        if self._content == "depth":
+            ranges = drawn(view, depth=True).depth
+            assert ranges is not None
+            millimetres = np.where(np.isfinite(ranges), np.minimum(ranges * 1000.0, 65535.0), 0.0)
+            return Image.fromarray(millimetres.astype(np.uint16))
+        if self._content == "segmentation":
+            segments = drawn(view, segmentation=True).segmentation
+            assert segments is not None
+            return Image.fromarray(_PALETTE[np.where(segments < 0, 0, segments % (len(_PALETTE) - 1) + 1)])
+        if bent is not None:
+            return Image.fromarray(drawn(bent).rgb)
+        width, height = self._lens.width_px, self._lens.height_px
+        large = replace(self._lens, width_px=width * _SAMPLES, height_px=height * _SAMPLES)
+        picture = Image.fromarray(drawn(PinholeProjection(large)).rgb)
+        return picture.resize((width, height), Image.Resampling.BOX)
+
+
+def _is_seen(world: World) -> bool:
+    """Whether there is a visual that was not added to what the file says."""
+    return any(link.visuals for model in world.models if not model.added for link in model.links)
+
+
+def _camera(name: str, cameras: list[CameraSensor]) -> CameraSensor:
+    for camera in cameras:
+        if camera.name == name:
+            return camera
+    there = ", ".join(repr(camera.name) for camera in cameras) or "none"
+    raise UsageError(f"no camera {name!r}; cameras there: {there}")
+
+
+def _corners(scene: Scene, poses: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(N, 3) points that a view of everything but endless planes must hold [m]."""
+    points = [
+        (pose_from_row(poses[shape.body]) @ shape.body_from_shape).transform_point(corner)
+        for shape in scene.shapes
+        for corner in corners_of(shape.geometry)
+    ]
+    return np.array(points or [(-1.0, -1.0, 0.0), (1.0, 1.0, 1.0)])
+
+
+def _good_side(cloud: NDArray[np.float64], lens: Intrinsics, turned_rad: float) -> Pose:
+    """A three-quarter view that holds all points."""
+    middle = (cloud.min(axis=0) + cloud.max(axis=0)) / 2
+    azimuth, elevation = _FROM[0] + turned_rad, _FROM[1]
+    away = np.array(
+        [math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)]
+    )
+    rotation = Pose.from_rpy(0.0, 0.0, 0.0, 0.0, elevation, azimuth + math.pi)
+    in_view = np.array([rotation.inverse().transform_vector((x, y, z)) for x, y, z in (cloud - middle).tolist()])
+    half_width = math.tan(lens.horizontal_fov_rad / 2)
+    half_height = half_width * lens.height_px / lens.width_px
+    needed = np.maximum(np.abs(in_view[:, 1]) / half_width, np.abs(in_view[:, 2]) / half_height) - in_view[:, 0]
+    x, y, z = (middle + away * float(needed.max()) * _MARGIN).tolist()
+    return Pose((x, y, z), rotation.quaternion)

@@ -1,0 +1,119 @@
+"""`trundle bag filter`, `compress`, `decompress` and `reindex`: bags made from bags."""
+
+import argparse
+import sys
+from collections.abc import Callable, Generator, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from itertools import chain, islice
+from pathlib import Path
+
+from trundle.diagnostics import UsageError
+from trundle.ros import BagError, BagMessage, BagReader, Messages, MessageView, create_bag, open_bag, recover_messages
+
+from ..expression import Expression, expression
+from .progress_meter import ProgressMeter
+
+
+def filter_bag(args: argparse.Namespace) -> int:
+    """Copy the messages for which an expression is true."""
+    source, target = Path(args.inbag), Path(args.outbag)
+    if not source.is_file():
+        print(f"Cannot locate input bag file [{source}]", file=sys.stderr)
+        return 2
+    if source.resolve() == target.resolve():
+        print(f"Cannot use same file as input and output [{source}]", file=sys.stderr)
+        return 3
+    wanted, printed = Expression(args.expression), expression(args.print)
+    messages = Messages(bare=True)
+    with open_bag(source) as bag:
+        target.unlink(missing_ok=True)
+        meter = ProgressMeter(args.outbag, _size(bag), is_quiet=printed is not None)
+        with create_bag(target) as out:
+            for message in bag.messages():
+                connection = message.connection
+                messages.add_definition(connection.type, connection.definition)
+                names = {
+                    "topic": connection.topic,
+                    "m": MessageView(messages.deserialize(message.data, connection.type), messages),
+                    "t": MessageView(messages.stamp(message.stamp_ns)),
+                }
+                is_wanted = bool(wanted.value(**names))
+                if printed is not None:
+                    print("MATCH" if is_wanted else "NO MATCH", printed.value(**names))
+                if is_wanted:
+                    out.write(message)
+                meter.step(len(message.data))
+        meter.finish()
+    return 0
+
+
+def _size(bag: BagReader) -> int:
+    """What lies in a bag, not compressed [bytes]; for one without chunks, the file's size."""
+    return sum(chunk.size for chunk in bag.chunks) or bag.path.stat().st_size
+
+
+def compress(args: argparse.Namespace) -> int:
+    """Write bags anew, compressed."""
+    return _rewrite(args, args.compression, _indexed)
+
+
+def decompress(args: argparse.Namespace) -> int:
+    """Write bags anew, not compressed."""
+    return _rewrite(args, "none", _indexed)
+
+
+def reindex(args: argparse.Namespace) -> int:
+    """Write bags anew from whatever whole messages are in them."""
+    return _rewrite(args, "none", _cut_off)
+
+
+Opened = tuple[int, Iterator[BagMessage]]
+"""Size [bytes] and messages."""
+Opening = Callable[[Path], AbstractContextManager[Opened]]
+
+
+@contextmanager
+def _indexed(path: Path) -> Generator[Opened]:
+    with open_bag(path) as bag:
+        yield _size(bag), bag.messages()
+
+
+@contextmanager
+def _cut_off(path: Path) -> Generator[Opened]:
+    messages = recover_messages(path)
+    first = list(islice(messages, 1))  # what is no bag is said before the meter begins
+    yield path.stat().st_size, chain(first, messages)
+
+
+def _rewrite(args: argparse.Namespace, compression: str, opened: Opening) -> int:
+    """Write each bag anew; one that cannot be is said, stays as it was, and the others follow."""
+    failures = 0
+    for name in args.bags:
+        try:
+            _rewrite_one(Path(name), args, compression, opened)
+        except (BagError, UsageError, OSError) as error:
+            print(f"ERROR: {error}", file=sys.stderr)
+            failures += 1
+    return 1 if failures else 0
+
+
+def _rewrite_one(path: Path, args: argparse.Namespace, compression: str, opened: Opening) -> None:
+    target = path if args.output_dir is None else Path(args.output_dir) / path.name
+    backup = path.with_name(f"{path.stem}.orig{path.suffix}")
+    is_in_place = target.resolve() == path.resolve()
+    if is_in_place and backup.exists() and not args.force:
+        raise UsageError(f"Skipping {path}. Backup path {backup} already exists.")
+    working = target.with_name(f"{target.name}.part")
+    working.unlink(missing_ok=True)
+    try:
+        with opened(path) as (size, messages), create_bag(working, compression=compression) as out:
+            meter = ProgressMeter(str(target), size, is_quiet=args.quiet)
+            for message in messages:
+                out.write(message)
+                meter.step(len(message.data))
+        meter.finish()
+        if is_in_place:
+            path.replace(backup)
+        working.replace(target)
+    finally:
+        working.unlink(missing_ok=True)

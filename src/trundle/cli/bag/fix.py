@@ -1,0 +1,70 @@
+"""`trundle bag fix`: bags of old message types, brought up to the types known here."""
+
+import argparse
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from trundle.diagnostics import UsageError
+from trundle.ros import BagConnection, BagMessage, BagReader, Migrator, create_bag, open_bag
+
+from .rules import Migration, load_rules, migrations, unmigrated_types
+
+Convert = Callable[[bytes], bytes]
+
+
+def main(args: argparse.Namespace) -> int:
+    """Write a bag in which every message is of the type that its name means here."""
+    source, target = Path(args.inbag), Path(args.outbag)
+    if target.suffix not in (".bag", ".mcap"):
+        return args.refuse(f"Output file must be a bag file, not {target.name}")
+    if source.resolve() == target.resolve():
+        raise UsageError(f"Cannot use same file as input and output [{source}]")
+    with open_bag(source) as bag:
+        rules = load_rules(args.rules, with_plugins=not args.noplugins, is_forced=args.force)
+        found = migrations(bag, rules)
+        impossible = [each for each in unmigrated_types(found) if each.missing]
+        if impossible and not args.force:
+            print("Bag could not be migrated.  The following migrations could not be performed:")
+            for migration in impossible:
+                print("\n".join(migration.lines()))
+            print(
+                "Try running 'bag check' to create the necessary rule files or run 'bag fix' with the '--force' option."
+            )
+            return 1
+        _write(bag, target, {connection: _plan(connection, each, rules) for connection, each in found.items()})
+    print("Bag migrated successfully.")
+    return 0
+
+
+def encrypt(args: argparse.Namespace) -> int:
+    """Say that there is no such thing."""
+    del args
+    raise UsageError(
+        "bags are not encrypted here: rosbag's plugin needs GnuPG keys of its own; encrypt the file, "
+        "as with gpg -e drive.bag or age -e, and decrypt it before playing; what rosbag encrypted, it alone decrypts"
+    )
+
+
+def _write(bag: BagReader, target: Path, plans: dict[BagConnection, tuple[BagConnection, Convert]]) -> None:
+    working = target.with_name(f"{target.stem}.part{target.suffix}")
+    working.unlink(missing_ok=True)
+    try:
+        with create_bag(working) as out:
+            for message in bag.messages():
+                connection, convert = plans[message.connection]
+                out.write(BagMessage(connection, message.stamp_ns, convert(message.data)))
+        working.replace(target)
+    finally:
+        working.unlink(missing_ok=True)
+
+
+def _plan(connection: BagConnection, migration: Migration, rules: Migrator) -> tuple[BagConnection, Convert]:
+    """How messages of a connection are written; of a type that is not known here, as they are."""
+    old, new = migration.old, migration.new
+    if new is None:
+        return connection, lambda data: data
+    if not migration.path:
+        return replace(connection, md5sum=old.md5sum), lambda data: data
+    written = replace(connection, type=new.kind, md5sum=new.md5sum, definition=new.definition)
+    return written, lambda data: rules.convert_bytes(data, old, new)

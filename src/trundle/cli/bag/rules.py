@@ -1,0 +1,101 @@
+"""What `trundle bag check` and `fix` share: rules, and what they lead to for each type in a bag."""
+
+import os
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from trundle.ros import (
+    BagConnection,
+    BagReader,
+    MessageClass,
+    MessageClasses,
+    MessageError,
+    Messages,
+    MigrationStep,
+    Migrator,
+    Rule,
+    RuleFile,
+    missing_rules,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Migration:
+    """How messages of one connection become those of today."""
+
+    old: MessageClass
+    new: MessageClass | None
+    """None where the type is not known here."""
+    path: list[MigrationStep]
+    missing: list[Rule]
+
+    def lines(self) -> list[str]:
+        """As rosbag prints it."""
+        lines = transition(self.path[0].old, self.path[-1].new, indent=0)
+        if self.missing:
+            lines.append(f"    {len(self.missing)} rules missing:")
+            for rule in self.missing:
+                lines += transition(rule.old_class, rule.new_class, indent=1)
+        return lines
+
+
+def load_rules(files: list[str], *, with_plugins: bool, is_forced: bool = False) -> Migrator:
+    """Run the rule files that were named, and those that packages export, which are named here.
+
+    Raises:
+        MigrationError: one of them cannot be used.
+    """
+    rules = [RuleFile(Path(name)) for name in files]
+    if with_plugins:
+        from trundle.packages import Packages, exported_rules
+
+        # Not around the working directory: what somebody merely looks at must not run.
+        for package, path in exported_rules(Packages(os.environ, start=Path(os.sep)).ros_packages()):
+            print(f"Using the rules of package {package}: {path}", file=sys.stderr)
+            rules.append(RuleFile(path))
+    return Migrator(rules, Messages(), warn=_warn, is_forced=is_forced)
+
+
+def migrations(bag: BagReader, rules: Migrator) -> dict[BagConnection, Migration]:
+    """What becomes of each connection, in the order of their first messages."""
+    found: dict[BagConnection, Migration] = {}
+    waiting = set(bag.connections)
+    for message in bag.messages(waiting.__contains__):
+        connection = message.connection
+        if connection in waiting:
+            waiting.remove(connection)
+            found[connection] = _migration(connection, rules)
+            if not waiting:
+                break
+    return found
+
+
+def unmigrated_types(found: dict[BagConnection, Migration]) -> list[Migration]:
+    """Those of types that are others here, one for each type."""
+    by_type = {(each.old.kind, each.old.md5sum): each for each in reversed(found.values()) if each.path}
+    return list(reversed(by_type.values()))
+
+
+def transition(old: MessageClass, new: MessageClass | None, *, indent: int) -> list[str]:
+    """From which type to which, as rosbag prints it."""
+    space = "    " * indent
+    to = "Unknown" if new is None else f"{new.kind} [{new.md5sum}]"
+    return [f"{space} * From: {old.kind} [{old.md5sum}]", f"{space}   To:   {to}"]
+
+
+def _migration(connection: BagConnection, rules: Migrator) -> Migration:
+    known = rules.known_class(connection.type)
+    try:
+        old = MessageClasses.from_definition(connection.type, connection.definition).message_class(connection.type)
+    except MessageError:
+        if known is None or known.md5sum != connection.md5sum:
+            raise
+        old = known  # who recorded it lost or garbled the text
+    new = rules.target(old)
+    path = rules.path(old, new)
+    return Migration(old, new, path, missing_rules([step.rule for step in path]))
+
+
+def _warn(text: str) -> None:
+    print(f"WARNING: {text}", file=sys.stderr)

@@ -1,0 +1,71 @@
+"""What `tf tree` and `tf monitor` gather: who sends which transform how often and how late."""
+
+from collections import deque
+from dataclasses import dataclass, field
+
+from trundle.ros import Clock, Node, RawMessage, to_nsec
+
+_KEPT = 1000
+"""Messages of each frame that averages are taken over."""
+_TYPE = "tf2_msgs/TFMessage"
+
+
+@dataclass(slots=True)
+class FrameStatistics:
+    """One frame in its parent."""
+
+    child: str
+    parent: str
+    caller: str
+    is_static: bool
+    stamps: deque[float] = field(default_factory=lambda: deque[float](maxlen=_KEPT))
+    """[s], as sent."""
+    delays: deque[float] = field(default_factory=lambda: deque[float](maxlen=_KEPT))
+    """Age on arrival [s]."""
+
+    @property
+    def rate_hz(self) -> float | None:
+        """Transforms a second by their stamps; None before there are two."""
+        span = max(self.stamps) - min(self.stamps) if self.stamps else 0.0
+        return (len(self.stamps) - 1) / span if span > 0 else None
+
+
+@dataclass(slots=True)
+class SenderStatistics:
+    """One node's messages."""
+
+    name: str
+    arrivals: deque[float] = field(default_factory=lambda: deque[float](maxlen=_KEPT))
+    delays: deque[float] = field(default_factory=lambda: deque[float](maxlen=_KEPT))
+
+
+class TransformMonitor:
+    """Listens to /tf and /tf_static; ask it on the loop."""
+
+    def __init__(self, node: Node, clock: Clock) -> None:
+        self._node = node
+        self._clock = clock
+        self.frames: dict[str, FrameStatistics] = {}
+        self.senders: dict[str, SenderStatistics] = {}
+        self.other_parents: dict[str, set[tuple[str, str]]] = {}
+        """Frame that is hung up in two places by turns → (parent, who says so)."""
+        for topic, is_static in (("/tf", False), ("/tf_static", True)):
+            node.subscribe(topic, "*", lambda m, s=is_static: self._take(m, is_static=s), queue_size=None, on_loop=True)
+
+    def _take(self, raw: RawMessage, *, is_static: bool) -> None:
+        now_s = self._clock.now_ns() / 1e9
+        sender = self.senders.setdefault(raw.caller, SenderStatistics(raw.caller))
+        sender.arrivals.append(now_s)
+        for item in self._node.messages.deserialize(raw.data, _TYPE).transforms:
+            child, parent = item.child_frame_id.removeprefix("/"), item.header.frame_id.removeprefix("/")
+            frame = self.frames.get(child)
+            if frame is None or (frame.parent, frame.caller) != (parent, raw.caller):
+                if frame is not None and frame.parent != parent:
+                    self.other_parents.setdefault(child, set()).update(
+                        {(frame.parent, frame.caller), (parent, raw.caller)}
+                    )
+                frame = self.frames[child] = FrameStatistics(child, parent, raw.caller, is_static)
+            stamp_s = to_nsec(item.header.stamp) / 1e9
+            frame.stamps.append(stamp_s)
+            frame.delays.append(now_s - stamp_s)
+            sender.delays.append(now_s - stamp_s)

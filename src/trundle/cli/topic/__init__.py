@@ -1,0 +1,5 @@
+"""List, print, measure and publish topics, as rostopic does."""
+
+from .topic import EXAMPLES, configure, main
+
+__all__ = ["EXAMPLES", "configure", "main"]

@@ -1,0 +1,53 @@
+"""arbotix_python's linear joints and their controllers, simulated: they are where they are told to be."""
+
+from trundle.ros import Message, Node, NodeParams
+
+from .controller import DiagnosticStatus, JointReading
+
+
+class LinearJoint:
+    """A joint that jumps to its command; the original checks no limits when simulated."""
+
+    def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
+        for limit, default in (("min_position", 0.0), ("max_position", 0.5), ("max_speed", 0.0508)):
+            settings.number(limit, default)
+        self.reading = JointReading(name=name)
+        node.subscribe(f"{name}/command", "std_msgs/Float64", self._command)
+
+    def _command(self, message: Message) -> None:
+        self.reading.position = float(message.data)
+
+    def interpolate(self, rate_hz: float) -> None:
+        """Nothing is left to do."""
+
+    def status(self) -> DiagnosticStatus:
+        """Name, OK and the position."""
+        return DiagnosticStatus(name=self.reading.name, values=(("Position", str(self.reading.position)),))
+
+
+class LinearController:
+    """linear_controller and linear_controller_i; the latter can be zeroed."""
+
+    def __init__(self, node: Node, name: str, settings: NodeParams, *, incremental: bool = False) -> None:
+        """Read `~controllers/<name>`.
+
+        Raises:
+            ParamError: no joint, or a parameter is of no use.
+        """
+        settings.text("joint")
+        settings.rate_hz("rate", 10.0)
+        self.readings: list[JointReading] = []
+        self._name = name
+        if incremental:
+            node.advertise_service(f"{name}/zero", "std_srvs/Empty", self._zero)
+        node.log_info(f"Started LinearController{'Incremental' if incremental else ''} ({name}).")
+
+    def _zero(self, _request: Message) -> dict[str, object]:
+        return {}
+
+    def update(self) -> None:
+        """Nothing is left to do."""
+
+    def status(self) -> DiagnosticStatus:
+        """Name and OK."""
+        return DiagnosticStatus(name=self._name)

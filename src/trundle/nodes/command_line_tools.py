@@ -1,0 +1,117 @@
+"""ROS' command line tools where launch files start them as nodes: rostopic pub, rosbag record, …"""
+
+import asyncio
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+
+from trundle.ros import Node
+
+from .host import NodeHost
+
+_TIMEOUT_S = 5.0
+"""How long a tool may take to end after SIGINT: a bag is closed readable."""
+
+
+class CommandLineTool:
+    """Runs `trundle COMMAND…` as a process of its own, and ends with its exit code."""
+
+    command: tuple[str, ...]
+    takes_remappings = True
+
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
+        self._env = host.env
+        self._tree = host.tree
+        self._node = node
+        self._arguments = arguments
+
+    async def run(self) -> int:
+        """Run to the tool's end."""
+        node = self._node
+        environment = {
+            **os.environ,
+            **self._env,
+            "ROS_MASTER_URI": node.master_uri,
+            "ROS_NAMESPACE": node.name.rpartition("/")[0],
+        }
+        words: list[str] = []
+        if self.takes_remappings:
+            await node.shutdown()  # the tool is the node of this name
+            words = [f"__name:={node.name.rpartition('/')[2]}", *(f"{a}:={b}" for a, b in node.remappings.items())]
+        self._tree.watch()
+        process = await asyncio.create_subprocess_exec(
+            *(sys.executable, "-m", "trundle", *self.command, *self._arguments, *words),
+            env=self._tree.environment(environment),
+            stdin=subprocess.DEVNULL,
+            start_new_session=os.name == "posix",
+        )
+        self._tree.add(process.pid)
+        try:
+            return await process.wait()
+        finally:
+            await _end(process)
+            self._tree.discard(process.pid)
+
+
+async def _end(process: asyncio.subprocess.Process) -> None:
+    """Ask it to end, then make it."""
+    if process.returncode is not None:
+        return
+    with contextlib.suppress(ProcessLookupError):
+        process.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM)
+    try:
+        await asyncio.wait_for(process.wait(), _TIMEOUT_S)
+    except TimeoutError:
+        with contextlib.suppress(ProcessLookupError):
+            process.kill()
+
+
+class Rostopic(CommandLineTool):
+    """rostopic/rostopic"""
+
+    command = ("topic",)
+
+
+class Rosservice(CommandLineTool):
+    """rosservice/rosservice"""
+
+    command = ("service",)
+
+
+class Rosparam(CommandLineTool):
+    """rosparam/rosparam"""
+
+    command = ("param",)
+    takes_remappings = False
+
+
+class RosbagRecord(CommandLineTool):
+    """rosbag/record"""
+
+    command = ("bag", "record")
+
+
+class RosbagPlay(CommandLineTool):
+    """rosbag/play"""
+
+    command = ("bag", "play")
+
+
+class TfEcho(CommandLineTool):
+    """tf/tf_echo, tf2_tools/echo.py"""
+
+    command = ("tf", "echo")
+
+
+class TfMonitor(CommandLineTool):
+    """tf/tf_monitor"""
+
+    command = ("tf", "monitor")
+
+
+class ViewFrames(CommandLineTool):
+    """tf/view_frames, tf2_tools/view_frames.py: the tree as a picture in the folder that it is run in"""
+
+    command = ("tf", "tree", "-o", "frames.svg")

@@ -1,0 +1,140 @@
+"""A map's picture as occupancies, and back: map_server's rules."""
+
+import io
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+from numpy.typing import NDArray
+from PIL import Image
+
+from trundle.diagnostics import UsageError
+from trundle.files import read_file
+from trundle.meshes import why_undecoded
+from trundle.yaml_loader import load_yaml
+
+_FREE, _OCCUPIED, _UNKNOWN = 0, 100, -1
+_MAX_BYTES = 256 * 1024 * 1024
+_LARGEST_PIXELS = 100_000_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OccupancyGrid:
+    """A grid of cells; row 0 is the bottom of the picture."""
+
+    cells: NDArray[np.int8]
+    """(height, width): −1 unknown, 0 free … 100 occupied."""
+    resolution_m: float
+    origin: tuple[float, float, float]
+    """x, y [m] and yaw [rad] of the lower left corner."""
+
+
+def read_map(file: Path) -> OccupancyGrid:
+    """Read a map's YAML and its picture.
+
+    Raises:
+        UsageError: a file or a key is missing, or is of no use.
+    """
+    try:
+        described: Any = load_yaml(read_file(file).decode())
+    except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
+        raise UsageError(f"map {file}: {error}") from None
+    if not isinstance(described, dict):
+        raise UsageError(f"map {file}: no mapping of keys and values")
+    try:
+        picture = file.parent / str(described["image"])
+        x, y, yaw = (float(v) for v in described["origin"])
+        resolution_m = float(described["resolution"])
+        negate = bool(int(described["negate"]))
+        occupied, free = float(described["occupied_thresh"]), float(described["free_thresh"])
+    except KeyError as error:
+        raise UsageError(f"map {file}: the key {error} is missing") from None
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"map {file}: {error}") from None
+    mode = str(described.get("mode", "trinary"))
+    if mode not in ("trinary", "scale", "raw"):
+        raise UsageError(f"map {file}: no mode {mode!r}; there are trinary, scale, raw")
+    cells = read_cells(picture, negate=negate, occupied=occupied, free=free, mode=mode)
+    return OccupancyGrid(cells=cells, resolution_m=positive(resolution_m, file), origin=(x, y, yaw))
+
+
+def positive(resolution_m: float, file: Path) -> float:
+    """A map's resolution.
+
+    Raises:
+        UsageError: it is none.
+    """
+    if not 0.0 < resolution_m < math.inf:
+        raise UsageError(f"map {file}: resolution must be > 0 m, got {resolution_m:g}")
+    return resolution_m
+
+
+def read_cells(picture: Path, *, negate: bool, occupied: float, free: float, mode: str = "trinary") -> NDArray[np.int8]:
+    """Read a picture as occupancies.
+
+    Args:
+        picture: dark is occupied.
+        negate: light is.
+        occupied: darker than this is occupied, of 1.
+        free: lighter than this is free.
+        mode: what becomes of what is between: trinary makes it unknown, scale a number; raw takes shades as they are.
+
+    Raises:
+        UsageError: it is no picture.
+    """
+    return _cells(_pixels(picture), negate=negate, occupied=occupied, free=free, mode=mode)
+
+
+def _pixels(picture: Path) -> NDArray[np.float64]:
+    """(height, width, channels) 0 … 255, the last channel opacity where there are two or four."""
+    try:
+        with Image.open(io.BytesIO(read_file(picture, max_bytes=_MAX_BYTES))) as image:
+            if image.width * image.height > _LARGEST_PIXELS:
+                raise UsageError(f"{picture}: {image.width} × {image.height} pixels are more than a map may have")
+            plain = image if image.mode in ("L", "LA", "RGB", "RGBA") else image.convert("L")
+            pixels = np.asarray(plain, dtype=np.float64)
+    except (OSError, Image.DecompressionBombError) as error:
+        raise UsageError(f"{picture}: {why_undecoded(error)}") from None
+    return pixels[:, :, None] if pixels.ndim == 2 else pixels
+
+
+def _cells(pixels: NDArray[np.float64], *, negate: bool, occupied: float, free: float, mode: str) -> NDArray[np.int8]:
+    has_opacity = pixels.shape[2] in (2, 4)
+    # The original takes opacity for a colour where it is not asked about.
+    colours = pixels[:, :, :-1] if has_opacity and mode != "trinary" else pixels
+    shade = 255.0 - colours.mean(axis=2) if negate else colours.mean(axis=2)
+    if mode == "raw":  # byte by byte: 255 is −1
+        return np.flipud(shade).astype(np.uint8).view(np.int8)
+    occupancy = (255.0 - shade) / 255.0
+    between = np.full_like(occupancy, _UNKNOWN)
+    if mode == "scale":
+        between = np.floor(1.0 + 98.0 * (occupancy - free) / (occupied - free))
+        if has_opacity:
+            between[pixels[:, :, -1] < 1.0] = _UNKNOWN
+    cells = np.where(occupancy > occupied, _OCCUPIED, np.where(occupancy < free, _FREE, between))
+    return np.flipud(cells).astype(np.int8)
+
+
+def write_map(file: Path, grid: OccupancyGrid, *, occupied: int, free: int) -> None:
+    """Write NAME.pgm and NAME.yaml, `file` being NAME; cells between the thresholds [%] become unknown's grey.
+
+    Raises:
+        UsageError: they cannot be written.
+    """
+    cells = np.flipud(grid.cells)
+    shades = np.full(cells.shape, 205, dtype=np.uint8)
+    shades[(cells >= 0) & (cells <= free)] = 254
+    shades[cells >= occupied] = 0
+    picture = file.with_name(f"{file.name}.pgm")
+    x, y, yaw = grid.origin
+    try:
+        Image.fromarray(shades).save(picture, format="PPM")
+        file.with_name(f"{file.name}.yaml").write_text(
+            f"image: {picture.name}\nresolution: {grid.resolution_m:f}\norigin: [{x:f}, {y:f}, {yaw:f}]\n"
+            "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n\n"
+        )
+    except OSError as error:
+        raise UsageError(f"map {file}: {error.strerror}") from None

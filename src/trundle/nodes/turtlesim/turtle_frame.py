@@ -1,0 +1,54 @@
+"""The turtles' window as a picture: paths that stay, turtles on top."""
+
+import math
+from collections.abc import Iterable
+
+from PIL import Image, ImageDraw
+
+from .turtle import Colour, Turtle
+
+SIZE_PX = 500
+METER_PX = 45
+"""The height of the original's turtle pictures, which it calls one metre."""
+SIZE_M = (SIZE_PX - 1) / METER_PX
+_SHELL: Colour = (60, 140, 60)
+_RADIUS_M = 0.3
+
+
+class TurtleFrame:
+    """500 × 500 pixels."""
+
+    def __init__(self, background: Colour) -> None:
+        self._paths = Image.new("RGB", (SIZE_PX, SIZE_PX), background)
+
+    def clear(self, background: Colour) -> None:
+        """Wipe every path away."""
+        self._paths.paste(background, (0, 0, SIZE_PX, SIZE_PX))
+
+    def draw_line(self, a: tuple[float, float], b: tuple[float, float], colour: Colour, width_px: int) -> None:
+        """Draw a piece of a path between two points [m]."""
+        ImageDraw.Draw(self._paths).line([_pixel(*a), _pixel(*b)], fill=colour, width=width_px)
+
+    def colour_at(self, x: float, y: float) -> Colour:
+        """What a turtle sees below itself."""
+        column, row = _pixel(x, y)
+        inside = (min(max(round(column), 0), SIZE_PX - 1), min(max(round(row), 0), SIZE_PX - 1))
+        red, green, blue = self._paths.getpixel(inside)  # type: ignore[misc]  # an RGB picture gives three
+        return int(red), int(green), int(blue)
+
+    def with_turtles(self, turtles: Iterable[Turtle]) -> bytes:
+        """The window's pixels, row by row from the top, rgb."""
+        image = self._paths.copy()
+        draw = ImageDraw.Draw(image)
+        for turtle in turtles:
+            x, y, r = turtle.x, turtle.y, _RADIUS_M
+            head = (x + r * 1.3 * math.cos(turtle.theta), y + r * 1.3 * math.sin(turtle.theta))
+            for (cx, cy), radius in ((head, 0.4 * r), ((x, y), r)):
+                left, top = _pixel(cx - radius, cy + radius)
+                right, bottom = _pixel(cx + radius, cy - radius)
+                draw.ellipse((left, top, right, bottom), fill=_SHELL, outline=(20, 60, 20))
+        return image.tobytes()
+
+
+def _pixel(x: float, y: float) -> tuple[float, float]:
+    return x * METER_PX, SIZE_PX - 1 - y * METER_PX

@@ -1,0 +1,42 @@
+"""Well-known executables that nothing stands in for, and the way out of each."""
+
+OVER_THE_WIRE = "the real one can run in a container with ROS_MASTER_URI set to this master"
+_NAVIGATION = f"planning and localisation are out of scope; {OVER_THE_WIRE}"
+_DRIVER = "a driver of real hardware; the simulator's sensors publish the same topics where the model has them"
+
+ALTERNATIVES: dict[str, str] = {
+    "amcl": _NAVIGATION,
+    "cartographer_ros": _NAVIGATION,
+    "costmap_2d": _NAVIGATION,
+    "explore_lite": _NAVIGATION,
+    "frontier_exploration": _NAVIGATION,
+    "global_planner": _NAVIGATION,
+    "gmapping": _NAVIGATION,
+    "hector_mapping": _NAVIGATION,
+    "karto_slam": _NAVIGATION,
+    "slam_karto": _NAVIGATION,
+    "move_base": _NAVIGATION,
+    "moveit_ros_move_group": _NAVIGATION,
+    "moveit_ros_visualization": _NAVIGATION,
+    "moveit_ros_benchmarks": _NAVIGATION,
+    "moveit_ros_warehouse": _NAVIGATION,
+    "moveit_setup_assistant": "a tool that writes files; run the real one once, what it wrote is read here",
+    "octomap_server": _NAVIGATION,
+    "rtabmap_ros": _NAVIGATION,
+    "robot_localization": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
+    "robot_pose_ekf": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
+    "laser_scan_matcher": _NAVIGATION,
+    "interactive_marker_twist_server": "a handle to drag in rviz; teleop_twist_keyboard drives as well",
+    "usb_cam": _DRIVER,
+    "uvc_camera": _DRIVER,
+    "hokuyo_node": _DRIVER,
+    "urg_node": _DRIVER,
+    "rplidar_ros": _DRIVER,
+    "openni_launch": _DRIVER,
+    "realsense2_camera": _DRIVER,
+    "hls_lfcd_lds_driver": _DRIVER,
+    "rosserial_python": _DRIVER,
+    "um6": _DRIVER,
+    "lms1xx": _DRIVER,
+}
+"""Package → what to do instead."""

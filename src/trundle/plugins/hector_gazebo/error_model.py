@@ -1,0 +1,62 @@
+"""How hector_gazebo's sensors err: scale, offset, drift and noise, axis by axis."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.diagnostics import Diagnostics
+from trundle.xmlnode import XmlNode
+
+
+class ErrorModel:
+    """A Gauss-Markov process and white noise, by <offset>, <drift>, <driftFrequency>, <gaussianNoise>, <scaleError>."""
+
+    def __init__(
+        self, parameters: XmlNode, report: Diagnostics, random: np.random.Generator, *, prefix: str = "", axes: int = 3
+    ) -> None:
+        """Read the parameters.
+
+        Args:
+            parameters: of the plugin.
+            report: takes what cannot be read.
+            random: for noise and drift.
+            prefix: of the parameters: with accel, <accelDrift> and so on.
+            axes: how many values there are; one number stands for all.
+        """
+
+        def read(name: str, default: float) -> NDArray[np.float64]:
+            node = parameters.find(prefix + name[0].upper() + name[1:] if prefix else name)
+            if node is None:
+                return np.full(axes, default)
+            count = 1 if len(node.text.split()) == 1 else axes
+            values = node.as_numbers(count, report=report)
+            return np.full(axes, default) if values is None else np.resize(np.array(values), axes)
+
+        self._random = random
+        self._offset, self._drift = read("offset", 0.0), read("drift", 0.0)
+        self._frequency = read("driftFrequency", 1.0 / 3600.0)
+        self._scale = read("scaleError", 1.0)
+        self.noise = read("gaussianNoise", 0.0)
+        """Standard deviation, (axes,)."""
+        self.reset()
+
+    @property
+    def variances(self) -> list[float]:
+        """Of drift and noise together, axis by axis."""
+        return (self._drift**2 + self.noise**2).tolist()
+
+    def reset(self) -> None:
+        """Begin a new drift."""
+        self._drifted = self._random.normal(0.0, 1.0, self._drift.shape) * self._drift
+
+    def apply(self, values: Sequence[float], dt_s: float) -> list[float]:
+        """What is told instead of true values, so long after the last ones."""
+        return (np.array(values) * self._scale + self.sample(dt_s)).tolist()
+
+    def sample(self, dt_s: float) -> NDArray[np.float64]:
+        """What is added to true values, (axes,)."""
+        kept = np.exp(-self._frequency * dt_s)
+        push = np.sqrt(2.0 * self._frequency) * self._drift * self._random.normal(0.0, 1.0, self._drift.shape)
+        self._drifted = kept * self._drifted + dt_s * push
+        return self._offset + self._drifted + self.noise * self._random.normal(0.0, 1.0, self.noise.shape)

@@ -1,0 +1,37 @@
+"""Controllers of sensors: the default hardware of gazebo_ros_control has none, so they do not load, as in Gazebo."""
+
+from typing import ClassVar, Never
+
+from trundle.ros import ParamError
+
+from .controller import ControllerContext
+
+
+class SensorController:
+    """Needs a sensor that a robot's own hardware would have."""
+
+    interface: ClassVar[str]
+
+    @classmethod
+    def create(cls, context: ControllerContext) -> Never:
+        """Refuse.
+
+        Raises:
+            ParamError: always.
+        """
+        raise ParamError(
+            f"{context.name} requires a hardware interface of type 'hardware_interface::{cls.interface}', which "
+            "gazebo_ros_control's default hardware has not; a sensor's own plugin publishes without a controller"
+        )
+
+
+class ImuSensor(SensorController):
+    """imu_sensor_controller/ImuSensorController."""
+
+    interface = "ImuSensorInterface"
+
+
+class ForceTorqueSensor(SensorController):
+    """force_torque_sensor_controller/ForceTorqueSensorController."""
+
+    interface = "ForceTorqueSensorInterface"

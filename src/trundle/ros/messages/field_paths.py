@@ -1,0 +1,110 @@
+"""Fields of a topic's messages, written behind its name: /odom/pose/pose, /tf/transforms[0]/child_frame_id."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from trundle.diagnostics import UsageError
+
+from .messages import Messages
+from .printing import field_value
+
+_PART = re.compile(r"(?P<name>\w+)(?:\[(?P<index>[^\]]*)\])?")
+
+
+@dataclass(frozen=True, slots=True)
+class FieldStep:
+    """One step into a message: a field, and an element or a slice of it."""
+
+    field: str
+    index: int | slice | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TopicField:
+    """A topic, and where in its messages to look."""
+
+    topic: str
+    type: str
+    path: str
+    """Behind the topic's name; '' for the whole message."""
+
+    @property
+    def steps(self) -> list[FieldStep]:
+        """The path, step by step.
+
+        Raises:
+            UsageError: the path cannot be read.
+        """
+        return [_parse_step(part) for part in self.path.split("/") if part]
+
+
+def split_topic(name: str, types: Mapping[str, str]) -> tuple[str, str] | None:
+    """Split a name into topic and field path: the longest topic that the name starts with."""
+    name = name.rstrip("/")
+    matches = [topic for topic in types if name == topic or name.startswith((topic + "/", topic + "["))]
+    topic = max(matches, key=len, default=None)
+    return None if topic is None else (topic, name[len(topic) :].strip("/"))
+
+
+def field_type(type_name: str, path: str, messages: Messages | None = None) -> str:
+    """Return the ROS type at a path.
+
+    Args:
+        type_name: of the message.
+        path: behind the topic's name.
+        messages: types known; those of a new store by default.
+
+    Raises:
+        UsageError: there is no such field.
+        MessageError: the type is not known.
+    """
+    messages = messages or Messages()
+    is_list = False
+    for step in TopicField(topic="", type=type_name, path=path).steps:
+        base, bracket, _ = type_name.partition("[")
+        if bracket:
+            raise UsageError(f"{step.field} is in each element of a {type_name}; write [0] or [:] before it")
+        fields = {"secs": "uint32", "nsecs": "uint32"} if base in ("time", "duration") else messages.fields(base)
+        if step.field not in fields:
+            raise UsageError(f"no field named {step.field} in {base}; fields here: {', '.join(fields)}")
+        type_name = fields[step.field]
+        is_list |= isinstance(step.index, slice)
+        if step.index is not None:
+            type_name = type_name.partition("[")[0]
+    return f"{type_name}[]" if is_list and "[" not in type_name else type_name
+
+
+def value_at(message: Any, steps: list[FieldStep]) -> Any:
+    """Return what is at a path; a slice gives the list of what is there in each element.
+
+    Raises:
+        IndexError: an array is shorter than the path asks for.
+        AttributeError: there is no such field.
+    """
+    for i, step in enumerate(steps):
+        message = field_value(message, step.field)
+        if step.index is None:
+            continue
+        message = message[step.index]
+        if isinstance(step.index, slice) and steps[i + 1 :]:
+            return [value_at(item, steps[i + 1 :]) for item in message]
+    return message
+
+
+def _parse_step(part: str) -> FieldStep:
+    match = _PART.fullmatch(part)
+    if match is None:
+        raise UsageError(f"not a field: {part!r}; fields are written name, name[2] or name[1:3]")
+    if match["index"] is None:
+        return FieldStep(match["name"], None)
+    try:
+        numbers = [int(text) if text else None for text in match["index"].split(":")]
+        if len(numbers) == 1 and numbers[0] is not None:
+            return FieldStep(match["name"], numbers[0])
+        if 2 <= len(numbers) <= 3:
+            return FieldStep(match["name"], slice(*numbers))
+    except ValueError:
+        pass
+    raise UsageError(f"not an index: [{match['index']}]; indices are written [2] or [1:3]")
