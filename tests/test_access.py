@@ -86,7 +86,7 @@ def test_the_token_comes_back_as_a_cookie_that_scripts_and_other_sites_do_not_ha
 
 
 def test_other_pages_cannot_frame_it_and_it_talks_to_its_own_server_alone() -> None:
-    policy = _access().answer_fields(_asked(HERE))["Content-Security-RespawnPolicy"]
+    policy = _access().answer_fields(_asked(HERE))["Content-Security-Policy"]
 
     assert "frame-ancestors 'self';" in policy
     assert "connect-src 'self' data: blob: ws://localhost:8080 wss://localhost:8080;" in policy

@@ -9,7 +9,7 @@ import pytest
 from tests.graphs import PATIENCE_S, running_graph, until
 
 import trundle
-from trundle.bridge import FrameNames, camera_topics, sensor_topics
+from trundle.bridge import FrameNames, make_camera_topics, make_sensor_topics
 from trundle.render import NativeRenderer
 from trundle.ros import StaticTransformBroadcaster, Transform
 from trundle.sensors import mount_cameras, mount_sensors
@@ -55,8 +55,8 @@ def hear(graph: SimpleNamespace, described: Described) -> Hear:
         for sensor in (*cameras, *sensors):
             sensor.start(sim)
         static_broadcaster = StaticTransformBroadcaster(graph.node)
-        camera_topics(graph.node, static_broadcaster, cameras, FrameNames.from_world(sim.world))
-        sensor_topics(graph.node, static_broadcaster, sensors, FrameNames.from_world(sim.world))
+        make_camera_topics(graph.node, static_broadcaster, cameras, FrameNames.from_world(sim.world))
+        make_sensor_topics(graph.node, static_broadcaster, sensors, FrameNames.from_world(sim.world))
         static_broadcaster.send_transform(Transform(parent="world", child="the last"))
         heard: dict[str, Any] = {}
         frames: set[str] = set()

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import trundle
-from trundle.bridge import FrameNames, LinkTransforms, camera_topics, sensor_topics
+from trundle.bridge import FrameNames, LinkTransforms, make_camera_topics, make_sensor_topics
 from trundle.render import NativeRenderer
 from trundle.ros import Transform, TransformBuffer
 from trundle.sensors import (
@@ -95,8 +95,8 @@ def spoken(sim: Simulation) -> tuple[Ear, Any, list[Any]]:
     ear: Any = Ear()
     mounted: list[Any] = [*mount_cameras(sim, NativeRenderer), *mount_sensors(sim)]
     names = FrameNames.from_world(sim.world)
-    camera_topics(ear, ear, [each for each in mounted if isinstance(each, CameraSensor)], names)
-    sensor_topics(ear, ear, [each for each in mounted if not isinstance(each, CameraSensor)], names)
+    make_camera_topics(ear, ear, [each for each in mounted if isinstance(each, CameraSensor)], names)
+    make_sensor_topics(ear, ear, [each for each in mounted if not isinstance(each, CameraSensor)], names)
     return ear, LinkTransforms(ear, ear, sim.world, sim.snapshot()), mounted
 
 

@@ -30,13 +30,13 @@ def test_a_world_that_is_reset_amid_a_stretch_goes_on_for_what_was_left(tmp_path
     sim = trundle.load(str(file))
     sim.run(0.5)
     times: list[int] = []
-    calls = SimpleNamespace(obey=lambda: None, any=lambda: False)
+    calls = SimpleNamespace(run_pending=lambda: None, has_pending=lambda: False)
     world = SimpleNamespace(
         _paused=False, _ending=threading.Event(), _calls=calls, _clock=SimpleNamespace(set=times.append)
     )
 
     sim.post(lambda sim: sim.reset())
-    steps = SimpleNamespace(settle=lambda *_: None, stepped=lambda _: None)
-    GazeboWorld._go_in_step(cast(GazeboWorld, world), sim, cast(Lockstep, steps), sim.time_ns + 20_000_000)
+    steps = SimpleNamespace(wait_settled=lambda *_: None, record_step=lambda _: None)
+    GazeboWorld._step_lockstep(cast(GazeboWorld, world), sim, cast(Lockstep, steps), sim.time_ns + 20_000_000)
 
     assert (sim.time_ns, times) == (20_000_000, [20_000_000])

@@ -1,6 +1,6 @@
 from .camera_info import camera_info_message as camera_info_message
 from .camera_topics import CameraTopics as CameraTopics
-from .camera_topics import camera_topics as camera_topics
+from .camera_topics import make_camera_topics as make_camera_topics
 from .clock import ClockTopic as ClockTopic
 from .clock import clock_rate_hz as clock_rate_hz
 from .frame_names import WORLD_FRAME as WORLD_FRAME
@@ -20,5 +20,5 @@ from .sensor_messages import scan_message as scan_message
 from .sensor_messages import wrench_message as wrench_message
 from .sensor_topics import ImuTopic as ImuTopic
 from .sensor_topics import ScanTopic as ScanTopic
-from .sensor_topics import sensor_topics as sensor_topics
+from .sensor_topics import make_sensor_topics as make_sensor_topics
 from .step_publisher import StepPublisher as StepPublisher

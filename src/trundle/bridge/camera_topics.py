@@ -28,7 +28,7 @@ _Output: TypeAlias = tuple[str, str, _Make]
 """Topic, type and what makes its messages, without their header."""
 
 
-def camera_topics(
+def make_camera_topics(
     node: Node, static_broadcaster: StaticTransformBroadcaster, cameras: Iterable[CameraSensor], names: FrameNames
 ) -> None:
     """Put everything that cameras see on topics of its own."""

@@ -42,7 +42,7 @@ _MAX_S = 1e30
 """Between two scans, in a message."""
 
 
-def sensor_topics(
+def make_sensor_topics(
     node: Node, static_broadcaster: StaticTransformBroadcaster, sensors: Iterable[InstrumentSensor], names: FrameNames
 ) -> None:
     """Put every sensor's readings on topics of its own."""

@@ -177,7 +177,7 @@ def _world(node: "Node", *, with_window: bool) -> "Generator[GazeboWorld]":
         say=show.line,
         window=PageAddress() if with_window else None,
     )
-    telling = node.loop.spawn(_tell(show))
+    telling = node.loop.spawn(_show_findings(show))
     try:
         yield world
     finally:
@@ -186,7 +186,7 @@ def _world(node: "Node", *, with_window: bool) -> "Generator[GazeboWorld]":
         show.findings()
 
 
-async def _tell(show: "Console") -> None:
+async def _show_findings(show: "Console") -> None:
     while True:
         show.findings()
         await asyncio.sleep(_POLL_S)

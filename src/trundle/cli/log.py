@@ -39,14 +39,14 @@ def main(args: argparse.Namespace) -> int:
     least = LEVELS[args.level]
     inbox: queue.Queue[Any] = queue.Queue(_WAITING)
 
-    def take(message: Any) -> None:
+    def on_message(message: Any) -> None:
         if inbox.full():
             inbox.get_nowait()
         inbox.put_nowait(message)
 
     printed = 0
     with running_node("log") as (_, node):
-        node.subscribe("/rosout_agg", "rosgraph_msgs/Log", take, queue_size=None)
+        node.subscribe("/rosout_agg", "rosgraph_msgs/Log", on_message, queue_size=None)
         while args.count is None or printed < args.count:
             message = inbox.get()
             if message.level < least or (node_name is not None and not node_name.fullmatch(message.name)):

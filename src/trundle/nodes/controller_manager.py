@@ -138,12 +138,12 @@ class Spawner:
         """Wait until a std_msgs/Bool on a topic says so."""
         said = asyncio.Event()
 
-        def look(message: Message) -> None:
+        def on_message(message: Message) -> None:
             if message.data:
                 said.set()
 
         self._node.log_info(f"Controller Spawner: Waiting for {topic}")
-        listening = self._node.subscribe(topic, "std_msgs/Bool", look, on_loop=True)
+        listening = self._node.subscribe(topic, "std_msgs/Bool", on_message, on_loop=True)
         await said.wait()
         listening.unregister()
 

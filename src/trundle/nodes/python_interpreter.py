@@ -28,7 +28,7 @@ _DEBIAN_PYTHON, _DEBIAN_MODULES = "/usr/bin/python3", "/usr/lib/python3/dist-pac
 def can_run(program: Path, env: Mapping[str, str]) -> bool:
     """Tell whether a program finds the modules of ROS it wants, rospy and messages."""
     wanted = {os.fsdecode(name) for name in _WANTED.findall(_beginning(program))}
-    folders = [_DEBIAN_MODULES, *_told(env)]
+    folders = [_DEBIAN_MODULES, *_python_path(env)]
     return all(any(os.path.isdir(os.path.join(folder, name)) for folder in folders) for name in wanted)
 
 
@@ -75,7 +75,7 @@ def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
     if asked is None:
         return []
     found = shutil.which(os.fsdecode(asked[1]), path=env.get("PATH", os.defpath))
-    if _IMPORTS_ROSPY.search(beginning) and _has_rospy(_DEBIAN_MODULES) and not any(map(_has_rospy, _told(env))):
+    if _IMPORTS_ROSPY.search(beginning) and _has_rospy(_DEBIAN_MODULES) and not any(map(_has_rospy, _python_path(env))):
         return [] if found is not None and _brings_rospy(Path(found)) else [_DEBIAN_PYTHON]
     return [] if found is not None else [sys.executable]
 
@@ -95,7 +95,7 @@ def _brings_rospy(python: Path) -> bool:
     return any(_has_rospy(folder) for folder in python.parent.parent.glob("lib/python3*/site-packages"))
 
 
-def _told(env: Mapping[str, str]) -> list[str]:
+def _python_path(env: Mapping[str, str]) -> list[str]:
     return [folder for folder in env.get("PYTHONPATH", "").split(os.pathsep) if folder]
 
 

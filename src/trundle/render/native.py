@@ -65,7 +65,7 @@ class NativeRenderer:
         meshes = _Registry[int, _native.Mesh]()
         textures = _Registry[Texture, _native.Texture]()
 
-        def look(shape: Shape) -> _native.Look:
+        def material_of(shape: Shape) -> _native.Look:
             image = None if shape.texture is None else load_texture(shape.texture)
             texture = -1
             if image is not None and shape.texture is not None:
@@ -85,7 +85,7 @@ class NativeRenderer:
             geometry, mesh = shape.geometry, -1
             if isinstance(geometry, Mesh):
                 mesh = meshes.number(id(geometry), lambda: _native_mesh(geometry))
-            return _native_shape(shape, mesh, look(shape))
+            return _native_shape(shape, mesh, material_of(shape))
 
         shapes = [native(shape) for shape in scene.shapes]
         self._meshes = {

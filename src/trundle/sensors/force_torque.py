@@ -50,13 +50,13 @@ class ForceTorqueSensor(LiveSensor[ForceTorqueReading]):
         sign = 1.0 if self.settings.parent_to_child else -1.0
         axes = Pose(quaternion=self._world_from_axes(snapshot).quaternion).inverse()
 
-        def told(vector: Vector3) -> Vector3:
+        def in_axes(vector: Vector3) -> Vector3:
             x, y, z = axes.transform_vector(vector)
             return (sign * x, sign * y, sign * z)
 
         now = snapshot.time_ns
-        force = apply_noise(told(on_child.force), self._forces, now)
-        torque = apply_noise(told(on_child.torque), self._torques, now)
+        force = apply_noise(in_axes(on_child.force), self._forces, now)
+        torque = apply_noise(in_axes(on_child.torque), self._torques, now)
         return ForceTorqueReading(time_ns=now, wrench=Wrench(force, torque))
 
     def _world_from_axes(self, snapshot: Snapshot) -> Pose:

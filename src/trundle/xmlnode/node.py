@@ -233,7 +233,7 @@ class XmlNode:
         self.children.remove(child)
         self._element.remove(child._element)
 
-    def take_values(self, other: "XmlNode", report: Diagnostics) -> None:
+    def merge_values(self, other: "XmlNode", report: Diagnostics) -> None:
         """Take over another element's text, where it has any, and its attributes."""
         if other.text:
             self._element.text = other.text

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.ros.conftest import PATIENCE_S
 
 from trundle.ros import (
     Node,
@@ -16,8 +17,6 @@ from trundle.ros import (
     read_options,
     set_options,
 )
-
-from .conftest import PATIENCE_S
 
 OPTIONS = (
     Option(name="rate", value=10.0, lower=1.0, upper=50.0, description="[Hz]"),

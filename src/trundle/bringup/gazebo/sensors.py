@@ -1,6 +1,6 @@
 """The sensors of the world behind /gazebo, and their topics, as models come and go."""
 
-from trundle.bridge import FrameNames, camera_topics, sensor_topics
+from trundle.bridge import FrameNames, make_camera_topics, make_sensor_topics
 from trundle.diagnostics import Diagnostics
 from trundle.robot import Robot
 from trundle.ros import Endpoint, Node, StaticTransformBroadcaster
@@ -67,9 +67,9 @@ class GazeboSensors:
                 end.unregister()
 
     def _advertise(self, cameras: list[CameraSensor], sensors: list[InstrumentSensor], names: FrameNames) -> None:
-        camera_topics(
+        make_camera_topics(
             self._node, self._static_broadcaster, attach_sensor_plugins(cameras, self._node, self._report), names
         )
-        sensor_topics(
+        make_sensor_topics(
             self._node, self._static_broadcaster, attach_sensor_plugins(sensors, self._node, self._report), names
         )

@@ -3,7 +3,14 @@
 from collections.abc import Mapping, Sequence
 from typing import Self
 
-from trundle.bridge import ClockTopic, FrameNames, JointStatesTopic, LinkTransforms, camera_topics, sensor_topics
+from trundle.bridge import (
+    ClockTopic,
+    FrameNames,
+    JointStatesTopic,
+    LinkTransforms,
+    make_camera_topics,
+    make_sensor_topics,
+)
 from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
@@ -51,8 +58,8 @@ class RosInterface:
         simulation.add_hook(frames, period_ns=frames.period_ns, enabled=frames.enabled)
         report = simulation.report
         names = FrameNames.from_world(stage.world, stage.robot)
-        camera_topics(self.node, static_broadcaster, attach_sensor_plugins(cameras, self.node, report), names)
-        sensor_topics(self.node, static_broadcaster, attach_sensor_plugins(sensors, self.node, report), names)
+        make_camera_topics(self.node, static_broadcaster, attach_sensor_plugins(cameras, self.node, report), names)
+        make_sensor_topics(self.node, static_broadcaster, attach_sensor_plugins(sensors, self.node, report), names)
         if stage.urdf is not None:
             loop.run(self.node.set_param("/robot_description", stage.urdf))
             states = JointStatesTopic(self.node, simulation.models[0])

@@ -31,7 +31,7 @@ def main(args: argparse.Namespace) -> int:
         clock = loop.run(follow_time(node))
         listener = TransformListener(node)
 
-        async def look() -> Transform | str:
+        async def lookup() -> Transform | str:
             try:
                 return listener.buffer.lookup_transform(args.source, args.target)
             except TransformError as error:
@@ -39,7 +39,7 @@ def main(args: argparse.Namespace) -> int:
 
         loop.run(node.wait_connected(), timeout_s=None)
         until = time.monotonic() + _FIRST_S
-        while isinstance(found := loop.run(look()), str) and time.monotonic() < until:
+        while isinstance(found := loop.run(lookup()), str) and time.monotonic() < until:
             time.sleep(0.01)
         while True:
             if isinstance(found, str):
@@ -50,7 +50,7 @@ def main(args: argparse.Namespace) -> int:
             if args.count is not None and printed >= args.count:
                 return 1 if isinstance(found, str) else 0
             time.sleep(1.0 / rate)
-            found = loop.run(look())
+            found = loop.run(lookup())
 
 
 def _number(args: argparse.Namespace, name: str, default: float) -> float:

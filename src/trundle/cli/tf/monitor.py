@@ -34,7 +34,7 @@ def main(args: argparse.Namespace) -> int:
             if watched is None:
                 time.sleep(_EVERY_S)
             else:
-                _look(loop, watched)
+                _run_until_report(loop, watched)
             print(loop.run(table()), flush=True)
             printed += 1
     return 0
@@ -80,7 +80,7 @@ def _wait(loop: GraphLoop, watched: _MonitoredChain) -> None:
     print()
 
 
-def _look(loop: GraphLoop, watched: _MonitoredChain) -> None:
+def _run_until_report(loop: GraphLoop, watched: _MonitoredChain) -> None:
     until = time.monotonic() + _EVERY_S
     while time.monotonic() < until:
         loop.run(watched.measure_delay())

@@ -50,9 +50,11 @@ class TransformMonitor:
         self.other_parents: dict[str, set[tuple[str, str]]] = {}
         """Frame that is hung up in two places by turns → (parent, who says so)."""
         for topic, is_static in (("/tf", False), ("/tf_static", True)):
-            node.subscribe(topic, "*", lambda m, s=is_static: self._take(m, is_static=s), queue_size=None, on_loop=True)
+            node.subscribe(
+                topic, "*", lambda m, s=is_static: self._on_message(m, is_static=s), queue_size=None, on_loop=True
+            )
 
-    def _take(self, raw: RawMessage, *, is_static: bool) -> None:
+    def _on_message(self, raw: RawMessage, *, is_static: bool) -> None:
         now_s = self._clock.now_ns() / 1e9
         sender = self.senders.setdefault(raw.caller, SenderStatistics(raw.caller))
         sender.arrivals.append(now_s)

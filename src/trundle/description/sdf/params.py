@@ -80,7 +80,7 @@ def _add(parent: XmlNode, what: XmlNode) -> None:
 
 def _modify(found: XmlNode, change: XmlNode, report: Diagnostics) -> None:
     """Take over values of what is there already."""
-    found.take_values(change, report)
+    found.merge_values(change, report)
     found.drop_attributes(*_OWN)
     for part in change.children:
         inner = _child(found, part.tag, part.attribute("name"))

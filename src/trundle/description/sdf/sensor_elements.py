@@ -24,7 +24,7 @@ def with_settings(sensor: Sensor, node: XmlNode, context: Context) -> Sensor:
         case "force_torque":
             return replace(sensor, force_torque=read_force_torque(node, context))
         case "contact":
-            return replace(sensor, touching=read_contact(node, context))
+            return replace(sensor, contact_collisions=read_contact(node, context))
         case type_:
             return replace(sensor, instrument=read_instrument(node, type_, context))
 

@@ -118,12 +118,12 @@ class SpawnModel:
             return
         found = asyncio.Event()
 
-        def look(message: Message) -> None:
+        def on_message(message: Message) -> None:
             if model in message.name:
                 found.set()
 
         self._node.log_info(f"Waiting for model {model} before proceeding.")
-        listening = self._node.subscribe(f"{gazebo}/model_states", "gazebo_msgs/ModelStates", look, queue_size=1)
+        listening = self._node.subscribe(f"{gazebo}/model_states", "gazebo_msgs/ModelStates", on_message, queue_size=1)
         await found.wait()
         listening.unregister()
 

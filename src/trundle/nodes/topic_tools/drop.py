@@ -27,12 +27,12 @@ class Drop:
         dropped, every = counts
         count = 0
 
-        def take(message: RawMessage) -> None:
+        def on_message(message: RawMessage) -> None:
             nonlocal count
             if count >= dropped:
                 output.publish(message)
             count = (count + 1) % every
 
-        RawSubscriber(node, words[0], take).subscribe()
+        RawSubscriber(node, words[0], on_message).subscribe()
         await node.closed.wait()
         return 0

@@ -48,11 +48,11 @@ class Mux:
     def _add(self, topic: str) -> None:
         name = self._node.resolve(topic)
 
-        def take(message: RawMessage) -> None:
+        def on_message(message: RawMessage) -> None:
             if self._selected == name:
                 self._output.publish(message)
 
-        self._inputs[name] = RawSubscriber(self._node, name, take)
+        self._inputs[name] = RawSubscriber(self._node, name, on_message)
         self._inputs[name].subscribe()
 
     def _begin(self, topic: str) -> None:

@@ -81,11 +81,11 @@ class Throttle:
             return 1
         output = RawPublisher(node, target, latch=latch)
 
-        def take(message: RawMessage) -> None:
+        def on_message(message: RawMessage) -> None:
             if gate.allows(len(message.data)):
                 output.publish(message)
 
-        inlet = RawSubscriber(node, source, take)
+        inlet = RawSubscriber(node, source, on_message)
         inlet.subscribe()
         if settings.flag("lazy", default=False):
             await subscribe_lazily(node, output, lambda: [(inlet, True)])

@@ -17,9 +17,9 @@ class Mimic:
         node = self._node
         commands = node.advertise("output/cmd_vel", "geometry_msgs/Twist", queue_size=1)
 
-        def take(pose: Message) -> None:
+        def on_pose(pose: Message) -> None:
             commands.publish({"linear": {"x": pose.linear_velocity}, "angular": {"z": pose.angular_velocity}})
 
-        node.subscribe("input/pose", "turtlesim/Pose", take, queue_size=1)
+        node.subscribe("input/pose", "turtlesim/Pose", on_pose, queue_size=1)
         await node.closed.wait()
         return 0

@@ -18,8 +18,8 @@ def subscribe_keys(node: Node | None, tag: PluginTag, press: Callable[[int], Non
         report.warn(tag.at, f"plugin {tag.name!r} waits for keys, and without ROS there is no topic to bring them")
         return
 
-    def take(message: Message) -> None:
+    def on_message(message: Message) -> None:
         press(int(message.data))
 
-    node.subscribe(KEYS_TOPIC, "std_msgs/Int32", take)
+    node.subscribe(KEYS_TOPIC, "std_msgs/Int32", on_message)
     report.info(tag.at, f"plugin {tag.name!r} takes keys from the topic {KEYS_TOPIC} (std_msgs/Int32)")

@@ -55,8 +55,8 @@ class WheelSlip(Plugin):
             for wheel in self._wheels:
                 topic = f"{base}/{ros_name(wheel.link.name)}"
                 wheel.topic = node.advertise(topic, "geometry_msgs/Vector3", queue_size=10)
-            node.subscribe(f"{base}/lateral_compliance", "std_msgs/Float64", self._take_lateral)
-            node.subscribe(f"{base}/longitudinal_compliance", "std_msgs/Float64", self._take_longitudinal)
+            node.subscribe(f"{base}/lateral_compliance", "std_msgs/Float64", self._on_lateral)
+            node.subscribe(f"{base}/longitudinal_compliance", "std_msgs/Float64", self._on_longitudinal)
         self.set_compliance()
 
     @classmethod
@@ -93,10 +93,10 @@ class WheelSlip(Plugin):
             )
             wheel.topic.publish({"x": _dot(along, twist.linear) - tread, "y": _dot(axis, twist.linear), "z": tread})
 
-    def _take_lateral(self, message: Message) -> None:
+    def _on_lateral(self, message: Message) -> None:
         self.set_compliance(lateral=max(float(message.data), 0.0))
 
-    def _take_longitudinal(self, message: Message) -> None:
+    def _on_longitudinal(self, message: Message) -> None:
         self.set_compliance(longitudinal=max(float(message.data), 0.0))
 
 

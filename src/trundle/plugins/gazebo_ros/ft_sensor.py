@@ -33,11 +33,11 @@ class FtSensor(RosPlugin):
             return
         on_child = self._joint.reaction
         back = Pose(quaternion=self._child.pose.quaternion).inverse()
-        wrench = {"force": self._told(back, on_child.force), "torque": self._told(back, on_child.torque)}
+        wrench = {"force": self._with_noise(back, on_child.force), "torque": self._with_noise(back, on_child.torque)}
         header = {"stamp": snapshot.time_ns, "frame_id": self._child.name}
         self._topic.publish({"header": header, "wrench": wrench})
 
-    def _told(self, back: Pose, vector: Vector3) -> dict[str, float]:
+    def _with_noise(self, back: Pose, vector: Vector3) -> dict[str, float]:
         values = [-value for value in back.transform_vector(vector)]
         if self._noise > 0.0:
             values = [value + float(self._random.normal(0.0, self._noise)) for value in values]

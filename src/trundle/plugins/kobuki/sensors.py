@@ -91,21 +91,21 @@ class KobukiSensors:
         self._drops = switches("wheel_drop", "WheelDrop", "wheel", _DROP_BITS)
         self._core = node.advertise(f"{base}/sensors/core", "kobuki_msgs/SensorState", queue_size=1)
 
-        def hear(parameter: str, output: str, kind: str, take: Callable[[Message], None]) -> None:
-            node.subscribe(sensor(parameter).topic(output), kind, take, queue_size=1)
+        def listen(parameter: str, output: str, kind: str, callback: Callable[[Message], None]) -> None:
+            node.subscribe(sensor(parameter).topic(output), kind, callback, queue_size=1)
 
         contacts, scan = ("contacts", "gazebo_msgs/ContactsState"), ("scan", "sensor_msgs/LaserScan")
-        hear("bumper_name", *contacts, self._on_bumper)
+        listen("bumper_name", *contacts, self._on_bumper)
         for side in _DROP_BITS:
             if parameters.find(f"wheel_drop_{side}_sensor_name") is None:
                 continue
-            hear(
+            listen(
                 f"wheel_drop_{side}_sensor_name",
                 *contacts,
                 lambda message, side=side: self._on_wheel_drop(side, message),
             )
         for side in _SIDES:
-            hear(f"cliff_sensor_{side}_name", *scan, lambda message, side=side: self._on_cliff(side, message))
+            listen(f"cliff_sensor_{side}_name", *scan, lambda message, side=side: self._on_cliff(side, message))
 
     def reset(self) -> None:
         """Feel nothing."""

@@ -65,11 +65,11 @@ async def _latched_message(node: Node, topic: str, kind: str) -> Message:
     """The message that is latched there."""
     future: asyncio.Future[Message] = asyncio.get_running_loop().create_future()
 
-    def take(message: Message) -> None:
+    def on_message(message: Message) -> None:
         if not future.done():
             future.set_result(message)
 
-    subscription = node.subscribe(topic, kind, take, queue_size=1, on_loop=True)
+    subscription = node.subscribe(topic, kind, on_message, queue_size=1, on_loop=True)
     try:
         return await future
     finally:

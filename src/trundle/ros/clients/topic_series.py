@@ -80,10 +80,10 @@ def subscribe_series(trace: TopicSeries, node: Node, clock: Clock) -> None:
     if known:
         trace.check(messages)
 
-    def take(message: Any) -> None:
+    def on_message(message: Any) -> None:
         if isinstance(message, RawMessage):
             messages.add_definition(message.type, message.definition)
             message = messages.deserialize(message.data, message.type)
         trace.add_message(message, clock.now_ns() / 1e9)
 
-    node.subscribe(trace.where.topic, trace.where.type if known else "*", take, queue_size=None)
+    node.subscribe(trace.where.topic, trace.where.type if known else "*", on_message, queue_size=None)

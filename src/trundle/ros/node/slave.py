@@ -74,14 +74,14 @@ class Slave:
     def _methods(self) -> dict[str, Method]:
         node = self._node
         return {
-            "getName": (0, "", _tell("", lambda: node.name)),
-            "getUri": (0, "", _tell("", lambda: self.uri)),
-            "getPid": (0, -1, _tell("", os.getpid)),
-            "getMasterUri": (0, "", _tell(node.master_uri, lambda: node.master_uri)),
-            "getBusInfo": (0, [], _tell("bus info", node.connections)),
-            "getBusStats": (0, [], _tell("", node.statistics)),
-            "getPublications": (0, [], _tell("publications", lambda: [[p.topic, p.type] for p in node.publishers])),
-            "getSubscriptions": (0, [], _tell("subscriptions", lambda: [[*t] for t in node.subscribed_topics()])),
+            "getName": (0, "", _reply("", lambda: node.name)),
+            "getUri": (0, "", _reply("", lambda: self.uri)),
+            "getPid": (0, -1, _reply("", os.getpid)),
+            "getMasterUri": (0, "", _reply(node.master_uri, lambda: node.master_uri)),
+            "getBusInfo": (0, [], _reply("bus info", node.connections)),
+            "getBusStats": (0, [], _reply("", node.statistics)),
+            "getPublications": (0, [], _reply("publications", lambda: [[p.topic, p.type] for p in node.publishers])),
+            "getSubscriptions": (0, [], _reply("subscriptions", lambda: [[*t] for t in node.subscribed_topics()])),
             "publisherUpdate": (2, -1, self._publisher_update),
             "paramUpdate": (2, -1, self._param_update),
             "requestTopic": (2, [], self._request_topic),
@@ -128,7 +128,7 @@ class Slave:
         )
 
 
-def _tell(text: str, value: Callable[[], object]) -> Callable[[str], Answer]:
+def _reply(text: str, value: Callable[[], object]) -> Callable[[str], Answer]:
     return lambda _: (1, text, value())
 
 

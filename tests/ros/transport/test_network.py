@@ -1,18 +1,8 @@
-"""The room's public face."""
+"""Addresses that nodes give out."""
 
 import pytest
 
-import trundle.names
-import trundle.ros
 from trundle.ros.transport.network import server_address
-
-
-def test_every_public_name_is_there_once() -> None:
-    assert set(trundle.ros.__all__) == set(trundle.ros._HOMES)
-    for room in (trundle.ros, trundle.names):
-        assert len(set(room.__all__)) == len(room.__all__)
-        for name in room.__all__:
-            assert getattr(room, name) is not None
 
 
 def test_addresses_given_out_lead_to_where_a_server_listens(monkeypatch: pytest.MonkeyPatch) -> None:
