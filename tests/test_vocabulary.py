@@ -17,12 +17,12 @@ MODULES = {
 CLASSES = {
     "Beat", "Between", "Errands", "Feeling", "Grip", "Hold", "Instant", "Looker", "Makers", "Misfit", "Noted",
     "Notices", "Outcome", "Outgoing", "Patience", "Puppet", "Pushes", "Runaway", "Scenery", "Shelf", "Showing",
-    "Sight", "Site", "Spot", "Stage", "Surroundings", "ClockPublisher", "Touch", "Touching",
+    "Sight", "Site", "Spot", "Stage", "Surroundings", "ToldTime", "Touch", "Touching",
 }  # fmt: skip
 VERBS = {"attend", "feel", "gather", "give", "heed", "hear", "lay", "look", "obey", "strike", "take", "tell", "told"}
 """First words of functions; what a sensor does is `measure`, what a topic does is `publish`."""
 
-TERMS = {"abandon", "look_ahead", "look_up"}
+TERMS = {"give_up", "look_ahead", "look_up"}
 """What begins with such a word and is a term all the same."""
 
 

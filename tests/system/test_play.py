@@ -62,7 +62,7 @@ def test_a_run_whose_recording_is_removed_fails(start, until, tmp_path) -> None:
     folder.mkdir()
     file.write_text('<sdf version="1.6"><model name="m"><pose>0 0 2 0 0 0</pose><link name="a"/></model></sdf>')
     running = start("run", str(file), "--headless", "--no-ros", "--record", str(folder / "run.log"))
-    until("the recording to begin", (folder / "run.log").exists)
+    until("the recording to begin", lambda: (folder / "run.log").exists() and (folder / "run.log").stat().st_size)
     shutil.rmtree(folder)
 
     assert running.process.wait(60) == 1

@@ -37,7 +37,7 @@ class ForceTorqueSensor(LiveSensor[ForceTorqueReading]):
         super().__init__(mount)
         self.settings = mount.sensor.force_torque or ForceTorque()
         self.joint = joint
-        self.place = joint.name
+        self.parent_name = joint.name
         self.link_from_sensor = joint.child_from_joint @ mount.sensor.link_from_sensor
         self._parent = parent
         self._reaction = reaction
