@@ -109,5 +109,5 @@ def _load(scene: _Scene) -> Simulation:
         file.write_text(f'<sdf version="1.6"><world name="w"><gravity>0 0 -9.8</gravity>{scene.models}</world></sdf>')
         sim = trundle.load(str(file))
     for i in range(scene.wheels):
-        sim["m0"].joint(f"w{i}").set_velocity(2.0 + 2.0 * (i % 2), max_effort=50.0)
+        sim["m0"].joint(f"w{i}").command_velocity(2.0 + 2.0 * (i % 2), max_effort=50.0)
     return sim

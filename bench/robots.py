@@ -101,7 +101,7 @@ def _ours(count: int, *, rolling: int) -> Simulation:
     sim = Simulation(replace(alone, models=(*robots, *ground)), Diagnostics())
     for name in (r.name for r in robots[:rolling]):
         for wheel in ("chassis_left_wheel", "chassis_right_wheel"):
-            sim[name].joint(wheel).set_velocity(_SPEED, max_effort=2.0)
+            sim[name].joint(wheel).command_velocity(_SPEED, max_effort=2.0)
     return sim
 
 

@@ -36,6 +36,6 @@ class Motors(Plugin):
             joint = self.model.joint(motor.string("joint", default=""))
             effort = motor.number("effort", default=math.inf, report=self.report)
             if motor.find("start") is not None:
-                joint.start(motor.number("start", default=0.0, report=self.report))
+                joint.set_velocity(motor.number("start", default=0.0, report=self.report))
             if motor.find("speed") is not None:
-                joint.set_velocity(motor.number("speed", default=0.0, report=self.report), max_effort=effort)
+                joint.command_velocity(motor.number("speed", default=0.0, report=self.report), max_effort=effort)

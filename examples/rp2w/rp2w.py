@@ -85,7 +85,7 @@ class Rp2w(Plugin):
 
     def look(self, joint, angle: float) -> None:
         if math.isfinite(angle):
-            joint.hold(angle, max_effort=CAMERA_TORQUE)
+            joint.command_position(angle, max_effort=CAMERA_TORQUE)
 
     def before_step(self, _sim: Simulation) -> None:
         forward, turning = self.wanted
@@ -93,8 +93,8 @@ class Rp2w(Plugin):
         self.turning = step_towards(self.turning, turning, TURNING_ACCELERATION * PERIOD_S)
         left, right = self.drive.wheel_speeds(self.speed, self.turning)
         # Both wheels' axes point to the right (+x): rolling forwards (+y) turns them the negative way.
-        self.left.set_velocity(-left, max_effort=self.max_torque)
-        self.right.set_velocity(-right, max_effort=self.max_torque)
+        self.left.command_velocity(-left, max_effort=self.max_torque)
+        self.right.command_velocity(-right, max_effort=self.max_torque)
 
     def after_step(self, snapshot: Snapshot) -> None:
         before, self.turned = self.turned, (self.left.position, self.right.position)

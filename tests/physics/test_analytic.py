@@ -123,12 +123,12 @@ def test_joint_friction_stops_a_wheel_when_it_should() -> None:
     spinning = Inertial(mass=1.0, moments=(0.01, 0.01, 0.01))
     sim = simulate(hinged(JointAxis(direction=(0.0, 0.0, 1.0), friction=0.3), spinning))
     wheel = sim["arm"].joint("hinge")
-    wheel.set_effort(0.3 + 0.01 * 20.0 / 0.1)
+    wheel.command_effort(0.3 + 0.01 * 20.0 / 0.1)
     sim.run(0.1)
     assert wheel.velocity == pytest.approx(20.0, rel=1e-3)
     started_ns, started = sim.time_ns, wheel.position
     speed = wheel.velocity
-    wheel.set_effort(0.0)
+    wheel.command_effort(0.0)
     while wheel.velocity > 1e-3 and sim.time_ns < 3e9:
         sim.step()
     # Soft friction lets go of the last 0.1 rad/s over a few steps; the turn is off by speed · h.
@@ -142,10 +142,10 @@ def test_joint_damping_slows_exponentially() -> None:
     spinning = Inertial(mass=1.0, moments=(0.01, 0.01, 0.01))
     sim = simulate(hinged(JointAxis(direction=(0.0, 0.0, 1.0), damping=0.05), spinning))
     wheel = sim["arm"].joint("hinge")
-    wheel.set_velocity(20.0)
+    wheel.command_velocity(20.0)
     sim.run(1.0)
     speed = wheel.velocity
-    wheel.set_effort(0.0)
+    wheel.command_effort(0.0)
     sim.run(0.2)
     # Implicit damping loses a factor 1 / (1 + h c / I) a step: 0.25 % off the exponential after 200 steps.
     assert wheel.velocity == pytest.approx(speed * math.exp(-0.05 / 0.01 * 0.2), rel=0.004)

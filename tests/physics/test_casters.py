@@ -23,7 +23,7 @@ def driven(folder: Path, shape: str, height: float) -> tuple[float, float]:
     sim = trundle.load(str(file))
     robot = sim["robot"]
     for joint in ("left", "right"):
-        robot.joint(joint).set_velocity(3.0, max_effort=5.0)
+        robot.joint(joint).command_velocity(3.0, max_effort=5.0)
     touched = 0
     for _ in range(800):
         sim.step(5)

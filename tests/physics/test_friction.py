@@ -72,7 +72,7 @@ def test_a_spinning_wheel_pulls_by_the_direction_that_turns_with_it(load: Load, 
     sim = load(floor(friction(10.0)), f'<model name="car">{base}{wheels}</model>')
     sim.run(0.1)
     for i in range(4):
-        sim["car"].joint(f"w{i}").set_velocity(200.0, max_effort=4.0)
+        sim["car"].joint(f"w{i}").command_velocity(200.0, max_effort=4.0)
     sim.run(1.2)
     before = sim["car"].link("base").twist.linear[0]
     speeds: list[float] = []
@@ -209,7 +209,7 @@ def test_a_wheels_loop_swings_where_its_gain_overshoots(load: Load, gain: float,
     for _ in range(200):
         effort = min(max(gain * (target - speed), -limit), limit)
         speed += effort / inertia * 0.001
-        joint.set_effort(effort)
+        joint.command_effort(effort)
         sim.step()
         speeds.append(joint.velocity)
         assert joint.velocity == pytest.approx(speed, abs=1e-6)

@@ -96,9 +96,9 @@ def test_a_world_that_nobody_means(name: str, tmp_path: Path) -> None:
             sim.step(50)
             for handle in sim["m"].joints:
                 if handle.is_driven:
-                    handle.set_velocity(1.0)
+                    handle.command_velocity(1.0)
                     sim.step(20)
-                    handle.set_effort(1.0)
+                    handle.command_effort(1.0)
                     sim.step(20)
         assert np.isfinite(sim.snapshot().poses).all()
         assert np.isfinite(sim.snapshot().twists).all()

@@ -239,7 +239,7 @@ def test_a_convex_mesh_stays_whole_whatever_its_faces() -> None:
 def test_a_ball_slides_off_the_tip_of_a_cone(load: Load) -> None:
     cone = "<cone><radius>0.5</radius><length>1</length></cone>"
     sim = load("", "0 0 0.7", geometry=cone)
-    sim.engine.set_tree_pose(sim["ball"].links[0].index, Pose((0.0, 0.0, 0.9)))
+    sim.engine.writer.set_tree_pose(sim["ball"].links[0].index, Pose((0.0, 0.0, 0.9)))
     assert sim.engine.compiled.geom_collisions.count("m::l::c") == 1
     sim.run(0.3)
     # The tip is at 0.5: the ball is stopped by it.
@@ -288,7 +288,7 @@ def test_an_arm_on_a_wall_of_many_pieces_moves_and_others_meet_the_wall(tmp_path
     file.write_text(f'<sdf version="1.10"><world name="w">{walls}{balls}{arm}</world></sdf>')
     sim = trundle.load(str(file))
     assert sim.engine.compiled.model.npair < 100
-    sim.joints[0].set_velocity(1.0)
+    sim.joints[0].command_velocity(1.0)
     sim.run(0.25)
     assert sim.joints[0].velocity == pytest.approx(1.0, rel=0.01)
     # b0 hits the arm on w0, b5 falls on w3, b6 between walls.

@@ -148,7 +148,7 @@ def test_a_top_on_a_ball_joint_follows_the_truth(tmp_path: Path) -> None:
     sim = _load(tmp_path, _link("a", "0 0 2", 1.0, (0.02, 0.03, 0.01), "0.3 0 0") + _joint("j", "ball", "world", "a"))
     joint = sim["m"].joint("j")
     for axis, speed in enumerate((2.0, 3.0, 5.0)):
-        joint.start(speed, axis=axis)
+        joint.set_velocity(speed, axis=axis)
     truth, before = _truth(sim.engine, steps=3000), _energy(sim.engine)
     sim.step(3000)
 
@@ -189,9 +189,9 @@ def test_a_crank_of_four_bars_keeps_its_energy(tmp_path: Path) -> None:
     """The crank goes round at 6 rad/s and on by itself."""
     sim = _load(tmp_path, _four_bars())
     crank = sim["m"].joint("j1")
-    crank.set_velocity(6.0)
+    crank.command_velocity(6.0)
     sim.run(1.5)
-    crank.set_effort(0.0)
+    crank.command_effort(0.0)
     before = _energy(sim.engine)
     sim.run(10.0)
 
@@ -206,7 +206,7 @@ def test_a_crank_of_four_bars_is_where_smaller_steps_have_it(tmp_path: Path, spe
         sim = _load(tmp_path, _four_bars(), step_s=step_s)
         # The coupler begins level, and so does not turn; the rocker is 0.35 m to the crank's 0.15 m.
         for name, rate in (("j1", 1.0), ("j2", -1.0), ("j3", 3 / 7), ("j4", -3 / 7)):
-            sim["m"].joint(name).start(rate * speed)
+            sim["m"].joint(name).set_velocity(rate * speed)
         courses.append([])
         for _ in range(30):
             sim.run(0.1)

@@ -133,7 +133,7 @@ def test_a_cart_comes_as_far_as_its_wheels_turn(load: Load) -> None:
     sim = load("c_cart")
     cart = sim["cart"]
     for joint in cart.joints:
-        joint.set_velocity(5.0)
+        joint.command_velocity(5.0)
     sim.run(10.0)
     # 5 rad/s · 0.1 m · 10 s, less the start with wheels that slip; Gazebo 4.988 m.
     beside("cart, distance", cart.pose.position[0], 5.0, "m", rel=3e-3)
@@ -185,7 +185,7 @@ def test_an_arm_falls_on_its_stop_and_rests_there(load: Load) -> None:
 def test_joint_friction_stops_a_wheel(load: Load, name: str, inertia: float) -> None:
     sim = load(name)
     wheel = sim.models[0].joints[0]
-    wheel.start(20.0)
+    wheel.set_velocity(20.0)
     slowing = 0.3 / inertia
     sim.run(0.5 * 20.0 / slowing)
     beside(f"{name}, speed half-way", wheel.velocity, 10.0, "rad/s", rel=5e-3)
@@ -198,7 +198,7 @@ def test_joint_friction_stops_a_wheel(load: Load, name: str, inertia: float) -> 
 def test_joint_damping_slows_a_wheel(load: Load) -> None:
     sim = load("g_damping")
     wheel = sim.models[0].joints[0]
-    wheel.start(20.0)
+    wheel.set_velocity(20.0)
     sim.run(0.2)
     # Gazebo 7.339 rad/s.
     beside("joint damping, speed at 0.2 s", wheel.velocity, 20.0 * math.exp(-1.0), "rad/s", rel=5e-3)
@@ -209,8 +209,8 @@ def test_two_driven_wheels_turn_a_robot_as_a_unicycle_turns(load: Load, step: st
     sim = load("e_diffdrive_noplugin", ("<max_step_size>0.001<", f"<max_step_size>{step}<"))
     vehicle = sim["veh"]
     # 0.5 m/s and 0.5 rad/s on wheels of 0.1 m that are 0.34 m apart.
-    vehicle.joint("left_j").set_velocity((0.5 - 0.5 * 0.17) / 0.1)
-    vehicle.joint("right_j").set_velocity((0.5 + 0.5 * 0.17) / 0.1)
+    vehicle.joint("left_j").command_velocity((0.5 - 0.5 * 0.17) / 0.1)
+    vehicle.joint("right_j").command_velocity((0.5 + 0.5 * 0.17) / 0.1)
     yaw, before = 0.0, 0.0
     for _ in range(1000):
         sim.run(0.01)

@@ -135,7 +135,7 @@ def test_a_vehicle_goes_as_friction_lets_it_and_no_point_leaves_the_floor(
     sim = load(vehicle.sdf())
     axles = [sim["vehicle"].joint(f"axle{i}") for i in range(len(vehicle.wheels))]
     for axle, (_, y) in zip(axles, vehicle.wheels, strict=True):
-        axle.set_velocity(left if y > 0 else right)
+        axle.command_velocity(left if y > 0 else right)
     sim.run(3.0)
 
     treads, motions, pushes = [], [], []
@@ -237,7 +237,7 @@ def test_whatever_a_vehicle_weighs_its_points_stay_on_the_floor(
     speeds = [(left if y > 0 else right if y < 0 else (left + right) / 2) for _, y in vehicle.wheels]
     for part in range(1, 51):
         for i, speed in enumerate(speeds):
-            sim["vehicle"].joint(f"axle{i}").set_velocity(speed * part / 50)
+            sim["vehicle"].joint(f"axle{i}").command_velocity(speed * part / 50)
         sim.run(0.02)
     count, pushes, motions = len(vehicle.wheels) + len(vehicle.balls), [], []
     for _ in range(1000):
@@ -261,8 +261,8 @@ def test_the_robot_of_the_tutorials_drives_and_turns_with_a_torque_of_5(
 ) -> None:
     sim = load(TUTORIAL.sdf())
     sim.run(wait)
-    sim["vehicle"].joint("axle0").set_velocity(left, max_effort=5.0)
-    sim["vehicle"].joint("axle1").set_velocity(abs(left), max_effort=5.0)
+    sim["vehicle"].joint("axle0").command_velocity(left, max_effort=5.0)
+    sim["vehicle"].joint("axle1").command_velocity(abs(left), max_effort=5.0)
     yaw, before = 0.0, 0.0
     for _ in range(400):
         sim.run(0.01)
@@ -277,8 +277,8 @@ def test_the_robot_of_the_tutorials_drives_and_turns_with_a_torque_of_5(
 def test_loads_are_shared_from_the_moment_that_a_robot_turns(load: Load, wait: float) -> None:
     sim = load(TUTORIAL.sdf())
     sim.run(wait)
-    sim["vehicle"].joint("axle0").set_velocity(-2.0, max_effort=5.0)
-    sim["vehicle"].joint("axle1").set_velocity(2.0, max_effort=5.0)
+    sim["vehicle"].joint("axle0").command_velocity(-2.0, max_effort=5.0)
+    sim["vehicle"].joint("axle1").command_velocity(2.0, max_effort=5.0)
     sim.run(0.11)
 
     points = TUTORIAL.points()

@@ -38,14 +38,14 @@ def table(folder: Path, robot: str) -> Simulation:
     file.write_text(f'<sdf version="1.6"><world name="w">{models}</world></sdf>')
     sim = trundle.load(str(file))
     load_plugins(sim, None, {}, say=lambda _: None)
-    sim["robot"].joint("lift").hold(0.0)
+    sim["robot"].joint("lift").command_position(0.0)
     return sim
 
 
 def close(sim: Simulation, force: float) -> None:
     """Have the fingers push so hard [N]; less than zero opens."""
     for name in ("left", "right"):
-        sim["robot"].joint(f"{name}_joint").set_effort(force)
+        sim["robot"].joint(f"{name}_joint").command_effort(force)
 
 
 def height(sim: Simulation) -> float:
@@ -62,7 +62,7 @@ def test_what_is_held_is_lifted_and_falls_when_the_fingers_open(tmp_path: Path) 
     sim.run(1.0)
     assert [joint.name for joint in sim.joints] == ["robot::hand::grasp"]
 
-    sim["robot"].joint("lift").hold(0.3)
+    sim["robot"].joint("lift").command_position(0.3)
     sim.run(2.0)
     assert height(sim) == pytest.approx(1.3, abs=0.01)
 
@@ -78,7 +78,7 @@ def test_fingers_that_wobble_do_not_let_go(tmp_path: Path) -> None:
     close(sim, 5.0)
     sim.run(1.0)
     for name in ("left", "right"):
-        sim["robot"].joint(f"{name}_joint").hold(0.0)  # 4 cm away from the box
+        sim["robot"].joint(f"{name}_joint").command_position(0.0)  # 4 cm away from the box
     sim.run(1.0)
     assert len(sim.joints) == 1
 
@@ -87,10 +87,12 @@ def test_what_is_attached_touches_nothing_where_that_is_asked(tmp_path: Path) ->
     slack = "<release_tolerance>0.02</release_tolerance>"
     sim = table(tmp_path, hand(f"{_ARM}{slack}<disable_collisions_on_attach>true</disable_collisions_on_attach>"))
     for name in ("left", "right"):
-        sim["robot"].joint(f"{name}_joint").hold(0.05, max_effort=5.0)  # 1 cm into the box, once nothing stops them
+        sim["robot"].joint(f"{name}_joint").command_position(
+            0.05, max_effort=5.0
+        )  # 1 cm into the box, once nothing stops them
     sim.run(2.0)
     assert not sim.contacts(frozenset({"box::body::c"}))
-    sim["robot"].joint("lift").hold(0.3)
+    sim["robot"].joint("lift").command_position(0.3)
     sim.run(2.0)
     assert height(sim) == pytest.approx(1.3, abs=0.01)
     sim.reset()
@@ -101,7 +103,7 @@ def test_what_is_attached_touches_nothing_where_that_is_asked(tmp_path: Path) ->
 
 def test_forces_from_one_side_hold_nothing(tmp_path: Path) -> None:
     sim = table(tmp_path, hand())
-    sim["robot"].joint("left_joint").set_effort(5.0)
+    sim["robot"].joint("left_joint").command_effort(5.0)
     sim.run(3.0)
     assert not sim.joints
 

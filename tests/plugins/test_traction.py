@@ -92,7 +92,7 @@ def slipping(
     sim = load(folder, CAR + plugin, gravity=GRAVITY, ground=True, wires=wires)
     assert sim.report.warnings == []
     for name in NAMES:
-        sim["m"].joint(name).set_velocity(turning, max_effort=100.0)
+        sim["m"].joint(name).command_velocity(turning, max_effort=100.0)
     return sim
 
 
@@ -157,7 +157,7 @@ def test_a_wheel_slips_across_by_the_other_compliance_and_not_while_it_stands(tm
     assert base.pose.inverse().transform_vector(base.twist.linear)[1] == pytest.approx(0.0, abs=2e-3)
 
     for name in NAMES:
-        sim["m"].joint(name).set_velocity(0.0, max_effort=100.0)
+        sim["m"].joint(name).command_velocity(0.0, max_effort=100.0)
     sim.run(1.0)
     wires.tell("/m/wheel_slip/lateral_compliance", data=0.5)
     sim.run(1.0)

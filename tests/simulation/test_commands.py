@@ -33,7 +33,7 @@ def sim(tmp_path: Path) -> Simulation:
     """A cart that flies and turns its arm."""
     sim = load(tmp_path)
     sim["cart"].set_twist(Twist((1.0, 0.0, 0.0)))
-    sim["cart"].joint("hinge").start(2.0)
+    sim["cart"].joint("hinge").set_velocity(2.0)
     sim.run(0.5)
     return sim
 
@@ -136,16 +136,16 @@ def test_poses_alone_go_back(sim: Simulation) -> None:
 def test_an_effort_lasts_as_long_as_it_is_told_to(tmp_path: Path) -> None:
     sim = load(tmp_path)
     hinge = sim["cart"].joint("hinge")
-    hinge.set_effort(0.1, duration_s=0.2)
+    hinge.command_effort(0.1, duration_s=0.2)
     sim.run(1.0)
     # Against each other two bodies of 0.1 kg·m² are 0.05.
     assert hinge.velocity == pytest.approx(0.1 * 0.2 / 0.05, rel=1e-6)
     assert hinge.effort == 0.0
 
-    hinge.set_effort(0.1, duration_s=0.2)
+    hinge.command_effort(0.1, duration_s=0.2)
     saved = sim.save()
     sim.run(0.1)
-    hinge.set_effort(-0.1)
+    hinge.command_effort(-0.1)
     sim.run(0.5)
     assert hinge.effort == pytest.approx(-0.1), "what is told later holds"
     sim.restore(saved)
@@ -155,7 +155,7 @@ def test_an_effort_lasts_as_long_as_it_is_told_to(tmp_path: Path) -> None:
 
 def test_an_effort_of_what_is_deleted_ends_with_it(tmp_path: Path) -> None:
     sim = load(tmp_path)
-    sim["cart"].joint("hinge").set_effort(0.1, duration_s=0.2)
+    sim["cart"].joint("hinge").command_effort(0.1, duration_s=0.2)
     sim.delete("cart")
     sim.run(0.5)
 
@@ -165,7 +165,7 @@ def test_an_effort_of_what_is_deleted_ends_with_it(tmp_path: Path) -> None:
 def test_a_joint_is_put_where_and_as_fast_as_one_likes(sim: Simulation) -> None:
     hinge = sim["cart"].joint("hinge")
     hinge.set_position(0.7)
-    hinge.start(-1.0)
+    hinge.set_velocity(-1.0)
 
     assert (hinge.position, hinge.velocity) == (0.7, -1.0)
 
@@ -215,7 +215,7 @@ def test_a_renamed_model_goes_on_to_the_bit(tmp_path: Path, tied: bool) -> None:
         sim = load(tmp_path, tied=tied)
         cart = sim["cart"]
         hinge, arm = cart.joint("hinge"), cart.link("arm")
-        hinge.set_velocity(1.0, max_effort=0.2)
+        hinge.command_velocity(1.0, max_effort=0.2)
         arm.apply_wrench(Wrench(force=(0.3, 0.1, 0.0)), duration_s=0.6)
         hinge_end = sim.time_ns
         sim.run(0.4)

@@ -26,7 +26,7 @@ def sim(tmp_path: Path) -> Simulation:
     sim = trundle.load(str(file))
     sim["a"].set_twist(Twist((0.0, 1.0, 0.0)))
     sim["b"].set_twist(Twist((0.0, 2.0, 0.0), (0.0, 0.0, 1.0)))
-    sim["b"].joint("hinge").start(1.0)
+    sim["b"].joint("hinge").set_velocity(1.0)
     sim.run(0.5)
     return sim
 
@@ -73,7 +73,7 @@ def test_a_joint_moves_along_the_axis_as_it_lies_in_the_world(sim: Simulation) -
     slide = JointAxis(direction=(1.0, 0.0, 0.0))
     tie = sim.attach(joint(JointType.PRISMATIC, "world", "b::l", slide))
     x, y, z = sim["b"].link("l").pose.position
-    tie.set_velocity(0.5)
+    tie.command_velocity(0.5)
     sim.run(1.0)
 
     assert tie.position == pytest.approx(0.5, abs=0.02)
@@ -114,7 +114,7 @@ def test_what_a_bent_arm_is_attached_to_stays_and_holds_it(tmp_path: Path, box: 
     assert all(same(a, each.pose) for a, each in zip(before, [ln for m in sim.models for ln in m.links], strict=True))
 
     arm_from_box = arm.pose.inverse() @ link.pose
-    hinge.set_effort(0.5)
+    hinge.command_effort(0.5)
     sim.run(0.5)
     assert (hinge.position == pytest.approx(1.2, abs=1e-4)) is (box != "free")
     now = arm.pose.inverse() @ link.pose

@@ -1,11 +1,12 @@
 """Motors that keep a speed with a force up to a limit, against v = F t / I."""
 
+import math
 from pathlib import Path
 
 import pytest
 
 from trundle.description import load
-from trundle.diagnostics import Diagnostics
+from trundle.diagnostics import Diagnostics, UsageError
 from trundle.packages import Packages
 from trundle.simulation import Simulation
 
@@ -30,11 +31,11 @@ def test_a_strong_motor_of_a_light_wheel_does_not_chatter(tmp_path, speed: float
     simulation = _load(tmp_path, _LIGHT)
     axle = simulation["m"].joint("axle")
     for _ in range(50):
-        axle.set_velocity(speed)
+        axle.command_velocity(speed)
         simulation.step()
     speeds: list[float] = []
     for _ in range(5):
-        axle.set_velocity(speed)
+        axle.command_velocity(speed)
         simulation.step()
         speeds.append(axle.velocity)
     assert speeds == pytest.approx([speed] * 5, rel=1e-3)
@@ -46,7 +47,7 @@ def test_a_motor_is_as_fast_as_its_force_allows_and_keeps_the_speed(tmp_path, in
     """v = min(wanted, F t / I) from the first step on, as ODE's bounded motor has it, and no ripple."""
     simulation = _load(tmp_path, _LIGHT.replace("0.001", f"{inertia}").replace("<effort>10</effort>", ""))
     axle = simulation["m"].joint("axle")
-    axle.set_velocity(1.0, max_effort=most)
+    axle.command_velocity(1.0, max_effort=most)
     for step in range(1, 21):
         simulation.step()
         assert axle.velocity == pytest.approx(min(1.0, most * 1e-3 * step / inertia), rel=0.01)
@@ -61,9 +62,9 @@ def test_a_platform_carries_what_stands_on_it_up_without_a_hop(tmp_path) -> None
     <model name="box"><pose>0 0 0.15 0 0 0</pose><link name="l">{small}</link></model>"""
     simulation = _load(tmp_path, f'<sdf version="1.6"><world name="w">{models}</world></sdf>')
     lift = simulation["lift"].joint("up")
-    lift.set_velocity(0.0)
+    lift.command_velocity(0.0)
     simulation.step(200)
-    lift.set_velocity(0.3, max_effort=1e4)
+    lift.command_velocity(0.3, max_effort=1e4)
     heights: list[float] = []
     for _ in range(300):
         simulation.step()
@@ -87,7 +88,7 @@ def test_a_belt_that_starts_at_once_carries_its_box_without_a_hop(tmp_path, most
     belt, link = simulation["belt"].joint("j"), simulation["box"].base
     simulation.step(300)
     heights, speeds, rest = list[float](), list[float](), link.pose.position[2]
-    belt.set_velocity(0.3, max_effort=most)
+    belt.command_velocity(0.3, max_effort=most)
     for step in range(1, 401):
         simulation.step()
         heights.append(link.pose.position[2] - rest)
@@ -104,11 +105,34 @@ def test_a_belt_that_starts_at_once_carries_its_box_without_a_hop(tmp_path, most
 def test_an_effort_pushes_up_to_its_speed_limit_only(tmp_path) -> None:
     simulation = _load(tmp_path, _LIGHT.replace("<effort>10</effort>", "<velocity>2</velocity>"))
     axle = simulation["m"].joint("axle")
-    axle.set_effort(0.01)
+    axle.command_effort(0.01)
     simulation.step(100)
     assert axle.velocity == pytest.approx(1.0, rel=1e-2), "0.01 N·m on 0.001 kg·m² for 0.1 s"
     simulation.step(200)
     assert axle.velocity == pytest.approx(2.0, rel=1e-3)
-    axle.start(3.0)
+    axle.set_velocity(3.0)
     simulation.step(100)
     assert axle.velocity == pytest.approx(3.0, rel=1e-3), "nothing brakes what is faster"
+
+
+def test_state_and_command_are_apart(tmp_path) -> None:
+    """Setting state switches no motor; a command moves nothing until time passes."""
+    simulation = _load(tmp_path, _LIGHT)
+    axle = simulation["m"].joint("axle")
+
+    axle.command_velocity(2.0)
+    assert (axle.position, axle.velocity) == (0.0, 0.0)
+    axle.set_velocity(-1.0)
+    axle.set_position(0.5)
+    assert (axle.position, axle.velocity) == (0.5, -1.0)
+    simulation.run(1.0)
+    assert axle.velocity == pytest.approx(2.0, rel=1e-6)
+    assert axle.position == pytest.approx(2.5, abs=5e-3)
+
+
+@pytest.mark.parametrize("order", ["set_position", "set_velocity"])
+def test_a_state_that_is_no_number_is_refused(tmp_path, order: str) -> None:
+    axle = _load(tmp_path, _LIGHT)["m"].joint("axle")
+
+    with pytest.raises(UsageError, match="finite numbers are needed, got nan"):
+        getattr(axle, order)(math.nan)

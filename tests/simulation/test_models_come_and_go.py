@@ -34,7 +34,7 @@ def sim(tmp_path: Path) -> Simulation:
     """Two carts, the second in motion in every way."""
     sim = world(tmp_path, FLOOR, CART.format(name="one", x=0), CART.format(name="two", x=2), POST)
     sim["two"].set_twist(Twist((0.3, 0.1, 0.0), (0.0, 0.0, 0.5)))
-    sim["two"].joint("hinge").set_velocity(1.0, max_effort=0.3)
+    sim["two"].joint("hinge").command_velocity(1.0, max_effort=0.3)
     sim["two"].link("arm").apply_wrench(Wrench(force=(0.1, 0.0, 0.0)), duration_s=1.0)
     sim.run(0.3)
     return sim
@@ -80,7 +80,7 @@ def test_a_new_model_falls_and_can_be_driven(sim: Simulation, third: Model) -> N
     handle = sim.spawn(third)
     assert handle is sim["three"]
     assert handle.pose.position == pytest.approx((4.0, 0.0, 0.2))
-    handle.joint("hinge").set_velocity(2.0)
+    handle.joint("hinge").command_velocity(2.0)
     sim.run(0.5)
     assert handle.joint("hinge").velocity == pytest.approx(2.0, rel=0.01)
     assert handle.link("base").pose.position[2] < 0.1

@@ -50,8 +50,8 @@ def cart() -> Simulation:
 
 
 def drive(sim: Simulation) -> None:
-    sim["cart"].joint("left_hub").set_velocity(4.0, max_effort=1.0)
-    sim["cart"].joint("right_hub").set_velocity(-2.0, max_effort=1.0)
+    sim["cart"].joint("left_hub").command_velocity(4.0, max_effort=1.0)
+    sim["cart"].joint("right_hub").command_velocity(-2.0, max_effort=1.0)
     sim["cart"].link("body").apply_wrench(Wrench(force=(1.0, 0.5, 0.0)), duration_s=0.123)
 
 
@@ -152,7 +152,7 @@ def test_commands_from_another_thread_are_carried_out_between_steps_in_order() -
 
 def test_a_command_acts_before_the_next_step() -> None:
     sim = cart()
-    sim.post(lambda s: s["cart"].joint("left_hub").set_velocity(4.0))
+    sim.post(lambda s: s["cart"].joint("left_hub").command_velocity(4.0))
     assert sim["cart"].joint("left_hub").velocity == 0.0
     sim.step()
     assert sim["cart"].joint("left_hub").velocity > 0.0
@@ -240,7 +240,7 @@ def rigid_arm(axis: JointAxis | None, kind: JointType) -> Simulation:
 )
 def test_a_joint_without_freedom_cannot_be_driven_and_says_so(axis: JointAxis | None, kind: JointType) -> None:
     joint = rigid_arm(axis, kind)["m"].joint("j")
-    for order in (joint.set_effort, joint.set_velocity, joint.set_position, joint.hold):
+    for order in (joint.command_effort, joint.command_velocity, joint.set_position, joint.command_position):
         with pytest.raises(UsageError) as caught:
             order(0.5)
         assert str(caught.value) == "joint 'j' has no axis 0: it cannot move"
@@ -250,14 +250,14 @@ def test_a_joint_without_freedom_cannot_be_driven_and_says_so(axis: JointAxis | 
 def test_a_ball_joint_takes_an_effort_and_no_other_order() -> None:
     sim = rigid_arm(None, JointType.BALL)
     joint = sim["m"].joint("j")
-    joint.set_effort(0.1, axis=2)
+    joint.command_effort(0.1, axis=2)
     assert joint.efforts == pytest.approx((0.0, 0.0, 0.1))
-    joint.start(0.7, axis=1)
+    joint.set_velocity(0.7, axis=1)
     sim.run(0.5)
     positions, velocities, efforts = sim.snapshot().axes_of(joint.index)
     assert (joint.positions, joint.velocities, joint.efforts) == (tuple(positions), tuple(velocities), tuple(efforts))
     assert abs(joint.positions[1]) > 0.1
     assert joint.position == joint.positions[0]
-    for order in (joint.set_velocity, joint.set_position, joint.hold):
+    for order in (joint.command_velocity, joint.set_position, joint.command_position):
         with pytest.raises(UsageError, match="a ball has no axis"):
             order(0.5)

@@ -22,7 +22,7 @@ def recorded(folder: Path) -> tuple[Path, Simulation]:
     path = folder / "run.log"
     recorder = StateRecorder(path, links=compiled.link_names, joints=compiled.joint_names, sdf="<sdf/>")
     sim.add_hook(recorder, period_ns=recorder.period_ns)
-    sim["m"].joint("j").set_effort(0.3)
+    sim["m"].joint("j").command_effort(0.3)
     sim.run(0.5)
     recorder.close()
     return path, sim

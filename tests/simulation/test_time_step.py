@@ -78,10 +78,10 @@ def test_time_goes_on_and_everything_with_it(sim: Simulation) -> None:
 @pytest.mark.parametrize("step_s", [0.0002, 0.01])
 def test_a_motor_is_as_stiff_as_one_that_was_started_at_these_steps(sim: Simulation, step_s: float) -> None:
     turn = sim["arm"].joint("turn")
-    turn.set_velocity(1.0, max_effort=10.0)
+    turn.command_velocity(1.0, max_effort=10.0)
     with_steps_of(sim, step_s)
     anew = Simulation(sim.world, Diagnostics())
-    anew["arm"].joint("turn").set_velocity(1.0, max_effort=10.0)
+    anew["arm"].joint("turn").command_velocity(1.0, max_effort=10.0)
     for one in (sim, anew):
         one.run(0.05)
 

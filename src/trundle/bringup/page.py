@@ -140,7 +140,7 @@ class SimulationPage:
                     pacer.set_speed(None if math.isinf(factor) else factor)
                 case SetJoint(name, position):
                     model, joint = self._joints[name]
-                    self._simulation[model].joint(joint).hold(position, max_effort=_SLIDER_TORQUE)
+                    self._simulation[model].joint(joint).command_position(position, max_effort=_SLIDER_TORQUE)
                 case Drive(linear, angular):
                     self._command = (linear, angular)
                     self._drive_due_ns = 0

@@ -49,4 +49,4 @@ class MimicJoint(Plugin):
         target = self._leader.position * self._multiplier + self._offset
         if abs(target - self._follower.position) >= self._sensitiveness:
             speed = (target - self._follower.position) * 1e9 / (_LAG_STEPS * sim.step_ns)
-            self._follower.set_velocity(speed, max_effort=self._max_effort)
+            self._follower.command_velocity(speed, max_effort=self._max_effort)

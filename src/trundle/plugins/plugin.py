@@ -15,7 +15,7 @@ Write a class like this in `rp2w.py` beside `model.sdf`, name `librp2w.so` (or `
             return spinner
 
         def before_step(self, sim):
-            self.joint.set_effort(0.5)
+            self.joint.command_effort(0.5)
 """
 
 from typing import TYPE_CHECKING, Self

@@ -36,4 +36,4 @@ class WarthogSuspension(Plugin):
         """Push back."""
         del sim
         for joint in self._joints:
-            joint.set_effort(-self._stiffness * joint.position - self._damping * joint.velocity)
+            joint.command_effort(-self._stiffness * joint.position - self._damping * joint.velocity)

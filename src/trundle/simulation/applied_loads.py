@@ -107,7 +107,7 @@ class AppliedLoads:
             self._engine.set_wrench(link, Wrench())
         for joint, axis in [key for key, end in self.expiries.efforts.items() if end <= step]:
             if joint.is_valid:
-                joint.set_effort(0.0, axis=axis)
+                joint.command_effort(0.0, axis=axis)
             else:
                 del self.expiries.efforts[joint, axis]
 

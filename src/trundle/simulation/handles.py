@@ -1,7 +1,7 @@
 """Models, links and joints of a running simulation, by name.
 
     robot = sim["rp2w"]
-    robot.joint("camera_base_camera").hold(0.3)
+    robot.joint("camera_base_camera").command_position(0.3)
     robot.link("chassis").apply_wrench(Wrench(force=(0, 15, 0)), duration_s=10)
 
 A handle belongs to the thread that owns the simulation.
@@ -57,7 +57,7 @@ class LinkHandle(Handle):
             UsageError: it hangs from something itself, or that is nowhere.
         """
         expect_finite(*pose.position, *pose.quaternion)
-        self._simulation.engine.set_tree_pose(self.index, pose)
+        self._simulation.engine.writer.set_tree_pose(self.index, pose)
 
     def set_twist(self, twist: Twist) -> None:
         """Give the link's origin this velocity, and this spin, at once, world axes; nothing keeps it.
@@ -66,7 +66,7 @@ class LinkHandle(Handle):
             UsageError: it hangs from something, or that is no velocity.
         """
         expect_finite(*twist.linear, *twist.angular)
-        self._simulation.engine.set_tree_twist(self.index, twist)
+        self._simulation.engine.writer.set_tree_twist(self.index, twist)
 
     def apply_wrench(self, wrench: Wrench, *, duration_s: float | None = None) -> None:
         """Push and twist the link at its centre of mass, in world axes.
@@ -158,7 +158,7 @@ class ModelHandle:
         """
         expect_finite(*pose.position, *pose.quaternion)
         moved = pose @ self.pose.inverse()
-        free = [link for link in self.links if self._simulation.engine.is_free(link.index)]
+        free = [link for link in self.links if self._simulation.engine.writer.is_free(link.index)]
         if not free:
             simulation = self._simulation
             simulation.edit(with_model_at(simulation.world, self.name, moved @ self.model.world_from_model))
@@ -170,7 +170,7 @@ class ModelHandle:
         (vx, vy, vz), (wx, wy, wz) = twist.linear, twist.angular
         x0, y0, z0 = self.pose.position
         for link in self.links:
-            if self._simulation.engine.is_free(link.index):
+            if self._simulation.engine.writer.is_free(link.index):
                 x, y, z = (p - p0 for p, p0 in zip(link.pose.position, (x0, y0, z0), strict=True))
                 there = (vx + wy * z - wz * y, vy + wz * x - wx * z, vz + wx * y - wy * x)
                 link.set_twist(Twist(there, twist.angular))
@@ -181,7 +181,7 @@ class ModelHandle:
         So do Gazebo's SetLinearVel and SetAngularVel of a model: what is beside its origin is not swung about that.
         """
         for link in self.links:
-            if self._simulation.engine.is_free(link.index):
+            if self._simulation.engine.writer.is_free(link.index):
                 link.set_twist(twist)
 
     def update_description(self, model: Model) -> None:

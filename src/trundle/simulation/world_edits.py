@@ -131,8 +131,8 @@ def _keep_free_links(old: Engine, engine: Engine, links: Mapping[int, int]) -> N
     """
     poses, twists = old.reader.link_poses(), old.reader.link_twists()
     for before, link in links.items():
-        if engine.is_free(link) and not old.is_free(before):
+        if engine.writer.is_free(link) and not old.writer.is_free(before):
             x, y, z, qw, qx, qy, qz = poses[before].tolist()
             vx, vy, vz, wx, wy, wz = twists[before].tolist()
-            engine.set_tree_pose(link, Pose((x, y, z), (qw, qx, qy, qz)))
-            engine.set_tree_twist(link, Twist((vx, vy, vz), (wx, wy, wz)))
+            engine.writer.set_tree_pose(link, Pose((x, y, z), (qw, qx, qy, qz)))
+            engine.writer.set_tree_twist(link, Twist((vx, vy, vz), (wx, wy, wz)))

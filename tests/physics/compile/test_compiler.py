@@ -101,7 +101,7 @@ def test_the_order_of_joints_in_the_file_changes_nothing() -> None:
     ends = []
     for order in (joints, joints[::-1]):
         sim = Simulation(World(name="w", at=AT, models=(model(*parts, joints=order),)), Diagnostics(strict=True))
-        sim["m"].joint("a_b").set_effort(0.05)
+        sim["m"].joint("a_b").command_effort(0.05)
         sim.run(0.5)
         ends.append(sim.snapshot().poses)
     assert ends[0].tobytes() == ends[1].tobytes()

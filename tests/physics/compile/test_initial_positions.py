@@ -71,7 +71,7 @@ def test_joints_are_where_the_saved_poses_of_links_have_them(tmp_path, outer, ax
 def test_a_ball_is_turned_as_it_was(tmp_path: Path) -> None:
     parts = PARTS.format(outer="ball", axes="", c_or_b="b", b_or_c="c")
     before = trundle.load(str(world(tmp_path, parts)))
-    before["m"].joint("outer").set_effort(2.0, axis=1)
+    before["m"].joint("outer").command_effort(2.0, axis=1)
     before.run(0.4)
     before["m"].joint("inner").set_position(1.0)
 

@@ -61,12 +61,12 @@ def test_a_ball_joint_swings_and_turns_every_way(load: Load) -> None:
     j = sim["m"].joint("j")
     assert len(j.axes) == 3
     # A torque about x alone, then about y: the rotation vector says how far.
-    j.set_effort(0.5, axis=0)
+    j.command_effort(0.5, axis=0)
     sim.run(0.05)
     assert j.positions == pytest.approx((0.5 / 1.01 * 0.05**2 / 2, 0.0, 0.0), rel=0.03, abs=1e-9)
     assert sim["m"].link("bob").pose.position == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
-    j.set_effort(0.0, axis=0)
-    j.set_effort(-0.5, axis=1)
+    j.command_effort(0.0, axis=0)
+    j.command_effort(-0.5, axis=1)
     sim.run(0.05)
     assert j.positions[1] == pytest.approx(-0.5 / 1.01 * 0.05**2 / 2, rel=0.05)
 
@@ -83,7 +83,7 @@ def test_two_hinges_turn_one_after_the_other(load: Load, kind: str) -> None:
     assert sim["m"].link("a").pose.transform_vector((0.0, 0.0, 1.0)) == pytest.approx(
         (0.0, math.sin(0.3), math.cos(0.3)), abs=1e-9
     )
-    j.set_effort(0.02, axis=1)
+    j.command_effort(0.02, axis=1)
     sim.run(0.1)
     assert j.velocities == pytest.approx((0.0, 0.02 / 0.01 * 0.1), rel=1e-6, abs=1e-9)
     assert j.efforts == pytest.approx((0.0, 0.02))
@@ -133,7 +133,7 @@ def test_gears_mesh_by_their_ratio(load: Load, nested: bool, turned: bool) -> No
     sim = load('<model name="n">', *gears, "</model>", gravity=0.0) if nested else load(*gears, gravity=0.0)
     prefix = "n::" if nested else ""
     small, large = sim["m"].joint(f"{prefix}js"), sim["m"].joint(f"{prefix}jl")
-    small.set_effort(0.1)
+    small.command_effort(0.1)
     sim.run(1.0)
     assert sim["m"].link(f"{prefix}large").twist.angular[2] == pytest.approx(-0.5 * small.velocity, rel=1e-3)
     assert large.position == pytest.approx((0.5 if turned else -0.5) * small.position, rel=1e-4)
@@ -151,7 +151,7 @@ def test_a_mimic_follows_its_leader(load: Load) -> None:
         gravity=0.0,
     )
     lead, follow = sim["m"].joint("lead"), sim["m"].joint("follow")
-    lead.set_effort(0.05)
+    lead.command_effort(0.05)
     sim.run(1.0)
     assert lead.velocity == pytest.approx(0.05 / (0.01 + 4 * 0.01), rel=1e-2)
     assert follow.position == pytest.approx(-2 * (lead.position - 0.05) + 0.1, abs=1e-4)
@@ -175,7 +175,7 @@ def test_a_mimic_of_a_urdf_follows_unless_a_plugin_makes_it(tmp_path: Path, held
     file.write_text(GRIPPER.format(URDF_INERTIA, held))
     sim = trundle.load(str(file))
     lead = sim["r"].joint("lead")
-    lead.set_velocity(0.5)
+    lead.command_velocity(0.5)
     sim.run(1.0)
     assert lead.position == pytest.approx(0.5, rel=0.01)
     if follows:
@@ -227,9 +227,9 @@ def test_a_loop_of_links_stays_closed_and_swings_as_one(load: Load, reverse: boo
     sim = load(*parallelogram(reverse=reverse))
     left, right = sim["m"].joint("l"), sim["m"].joint("r")
     assert len(sim["m"].joint("rb").axes) == 1
-    left.set_effort(2.0)
+    left.command_effort(2.0)
     sim.run(0.5)
-    left.set_effort(0.0)
+    left.command_effort(0.0)
     crossings: list[float] = []
     before = left.position
     while len(crossings) < 4 and sim.time_ns < 10e9:
@@ -268,11 +268,11 @@ def test_a_joint_may_name_its_links_the_other_way_round(load: Load) -> None:
     )
     assert sim.engine.compiled.model.nv == 6 + 2
     for name, wheel in (("a", "one"), ("b", "two")):
-        sim["m"].joint(name).set_effort(0.01)
+        sim["m"].joint(name).command_effort(0.01)
         sim.run(0.1)
         assert sim["m"].joint(name).velocity == pytest.approx(0.1, rel=1e-3)
         assert sim["m"].link(wheel).twist.angular[2] == pytest.approx(-0.1, rel=1e-3)
-        sim["m"].joint(name).set_effort(0.0)
+        sim["m"].joint(name).command_effort(0.0)
 
 
 def test_a_joint_with_the_world_as_its_child_holds_its_parent(load: Load) -> None:
@@ -311,17 +311,17 @@ def test_an_effort_is_cut_to_its_limit_and_ends_at_the_limit_of_speed(load: Load
     limits = "<limit><effort>0.1</effort><velocity>3</velocity></limit>"
     sim = load(link("a"), joint("j", "revolute", "world", "a", axis("0 0 1", limits)), gravity=0.0)
     j = sim["m"].joint("j")
-    j.set_effort(50.0)
+    j.command_effort(50.0)
     sim.run(0.2)
     assert j.velocity == pytest.approx(0.1 / 0.01 * 0.2, rel=1e-6)
     assert j.effort == pytest.approx(0.1)
     sim.run(2.0)
     assert j.velocity == pytest.approx(3.0, rel=1e-3)
     # Beyond it nothing pushes, and nothing brakes.
-    j.start(5.0)
+    j.set_velocity(5.0)
     sim.run(0.5)
     assert j.velocity == pytest.approx(5.0, rel=1e-6)
-    j.set_effort(-0.1)
+    j.command_effort(-0.1)
     sim.run(0.1)
     assert j.velocity == pytest.approx(4.0, rel=1e-6)
 
@@ -330,7 +330,7 @@ def test_a_stop_is_hard_whatever_its_stiffness_as_in_ode(load: Load) -> None:
     limit = "<limit><lower>-0.2</lower><upper>0.2</upper><stiffness>60</stiffness><dissipation>8</dissipation></limit>"
     sim = load(link("a"), joint("j", "revolute", "world", "a", axis("0 0 1", limit)), gravity=0.0)
     j = sim["m"].joint("j")
-    j.set_effort(3.0)
+    j.command_effort(3.0)
     sim.run(3.0)
     assert j.position == pytest.approx(0.2, abs=1e-4)
     said = "joint 'j': a limit's <stiffness> and <dissipation> mean nothing to Gazebo's ODE; the stop is hard"
@@ -343,7 +343,7 @@ def test_what_runs_into_its_stop_is_over_it_for_no_more_than_a_step(load: Load, 
     limit = "<limit><lower>-1</lower><upper>0.05</upper></limit>"
     sim = load(link("a"), joint("j", kind, "world", "a", axis("1 0 0", limit)), gravity=0.0)
     j = sim["m"].joint("j")
-    j.start(speed)
+    j.set_velocity(speed)
     furthest, fastest_back = 0.0, 0.0
     for _ in range(500):
         sim.step()
@@ -392,7 +392,7 @@ def test_two_parallel_axes_are_one_freedom_and_said_so(load: Load) -> None:
     axes = axis("0 0 1") + axis("0 0 -1", tag="axis2")
     sim = load(link("a"), joint("j", "universal", "world", "a", axes), gravity=0.0)
     assert any("'j': its two axes are parallel" in warning for warning in sim.report.warnings)
-    sim["m"].joint("j").set_velocity(1.0)
+    sim["m"].joint("j").command_velocity(1.0)
     sim.run(0.5)
     assert sim["m"].joint("j").velocity == pytest.approx(1.0, rel=0.01)
 

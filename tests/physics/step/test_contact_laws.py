@@ -150,7 +150,7 @@ def test_a_step_is_solved_in_the_metric_that_it_needs(tmp_path: Path, what: str,
         shape = shape.replace("</model>", DAMPED.replace(">0.1<", ">0<"))
     sim = _load(tmp_path, shape + FLOOR.format(""))
     if "turns" in what:
-        sim["ball"].joint("j").set_velocity(1.0)
+        sim["ball"].joint("j").command_velocity(1.0)
     sim.step(5)
     assert sim.engine.save().data.efm_active == (0 if is_plain else 1)
 
@@ -167,7 +167,7 @@ def test_a_plain_metric_takes_nothing_from_the_memory_where_the_other_would_be(t
 
         mujoco.set_mjcb_control(leave)
         try:
-            sim["ball"].joint("j").set_velocity(1.0, max_effort=0.5)
+            sim["ball"].joint("j").command_velocity(1.0, max_effort=0.5)
             sim.step(50)
         finally:
             mujoco.set_mjcb_control(None)

@@ -60,17 +60,17 @@ def same(a: Snapshot, b: Snapshot) -> bool:
 
 def spin_up(sim: Simulation) -> None:
     sim["t"].link("body").apply_wrench(Wrench(force=(1.0, 2.0, 3.0), torque=(0.3, -0.2, 0.1)))
-    sim["t"].joint("elbow").set_effort(0.02)
+    sim["t"].joint("elbow").command_effort(0.02)
 
 
 def test_an_effort_accelerates_until_told_otherwise() -> None:
     sim = wheel()
     hub = sim["wheel"].joint("hub")
-    hub.set_effort(0.05)
+    hub.command_effort(0.05)
     sim.run(0.4)
     assert hub.velocity == pytest.approx(0.05 / INERTIA * 0.4, rel=1e-6)
     assert hub.effort == pytest.approx(0.05)
-    hub.set_effort(0.0)
+    hub.command_effort(0.0)
     speed = hub.velocity
     sim.run(0.4)
     assert hub.velocity == pytest.approx(speed, rel=1e-9)
@@ -79,7 +79,7 @@ def test_an_effort_accelerates_until_told_otherwise() -> None:
 def test_a_motor_reaches_its_speed_and_no_sooner_than_its_effort_allows() -> None:
     sim = wheel()
     hub = sim["wheel"].joint("hub")
-    hub.set_velocity(4.0, max_effort=0.1)
+    hub.command_velocity(4.0, max_effort=0.1)
     sim.run(0.2)
     # 0.1 N·m on 0.01 kg·m²: 10 rad/s², so 2 rad/s after 0.2 s and 4 after 0.4 s.
     assert hub.velocity == pytest.approx(2.0, rel=1e-3)
@@ -92,7 +92,7 @@ def test_a_motor_reaches_its_speed_and_no_sooner_than_its_effort_allows() -> Non
 def test_a_motor_too_weak_for_the_load_stalls() -> None:
     sim = wheel(damping=0.05)
     hub = sim["wheel"].joint("hub")
-    hub.set_velocity(10.0, max_effort=0.1)
+    hub.command_velocity(10.0, max_effort=0.1)
     sim.run(3.0)
     # Damping takes the whole 0.1 N·m at 2 rad/s.
     assert hub.velocity == pytest.approx(2.0, rel=1e-3)
@@ -101,7 +101,7 @@ def test_a_motor_too_weak_for_the_load_stalls() -> None:
 def test_the_joints_own_effort_limit_holds_for_motors_and_hands() -> None:
     axis = JointAxis(direction=(0.0, 0.0, 1.0), effort=0.02)
     sim = wheel(axis)
-    sim["wheel"].joint("hub").set_velocity(100.0)
+    sim["wheel"].joint("hub").command_velocity(100.0)
     sim.run(0.5)
     assert sim["wheel"].joint("hub").velocity == pytest.approx(0.02 / INERTIA * 0.5, rel=1e-3)
 
@@ -109,7 +109,7 @@ def test_the_joints_own_effort_limit_holds_for_motors_and_hands() -> None:
 def test_a_held_joint_goes_there_and_stays() -> None:
     sim = wheel()
     hub = sim["wheel"].joint("hub")
-    hub.hold(0.7)
+    hub.command_position(0.7)
     sim.run(1.0)
     # A lag of a third of a second: e⁻³ of the way is left after a second.
     assert hub.position == pytest.approx(0.7 * (1 - math.exp(-3.0)), rel=0.02)
@@ -120,7 +120,7 @@ def test_a_held_joint_goes_there_and_stays() -> None:
 def test_a_joint_is_held_within_its_limits() -> None:
     sim = wheel(JointAxis(direction=(0.0, 0.0, 1.0), lower=-0.2, upper=0.3))
     hub = sim["wheel"].joint("hub")
-    hub.hold(5.0)
+    hub.command_position(5.0)
     sim.run(4.0)
     assert hub.position == pytest.approx(0.3, abs=1e-3)
 
@@ -128,12 +128,13 @@ def test_a_joint_is_held_within_its_limits() -> None:
 def test_one_drive_replaces_the_one_before() -> None:
     sim = wheel()
     hub = sim["wheel"].joint("hub")
-    hub.set_effort(0.5)
-    hub.set_velocity(3.0)
+    hub.command_effort(0.5)
+    hub.command_velocity(3.0)
     sim.run(0.5)
     assert hub.velocity == pytest.approx(3.0, rel=1e-4)
-    hub.set_effort(0.0)
+    hub.command_effort(0.0)
     hub.set_position(0.0)
+    hub.set_velocity(0.0)
     sim.run(0.5)
     assert (hub.position, hub.velocity) == (0.0, 0.0)
 
@@ -198,7 +199,7 @@ def test_a_restored_state_reads_and_goes_on_as_the_saved_one_did_to_the_last_bit
     saved, then = sim.save(), sim.snapshot()
     sim.run(0.4)
     later = sim.snapshot()
-    sim["t"].joint("elbow").hold(1.0)
+    sim["t"].joint("elbow").command_position(1.0)
     sim.run(0.2)
     sim.restore(saved)
     assert same(sim.snapshot(), then)
@@ -209,12 +210,12 @@ def test_a_restored_state_reads_and_goes_on_as_the_saved_one_did_to_the_last_bit
 def test_a_restored_motor_runs_on() -> None:
     sim = wheel()
     hub = sim["wheel"].joint("hub")
-    hub.set_velocity(4.0, max_effort=0.1)
+    hub.command_velocity(4.0, max_effort=0.1)
     sim.run(0.1)
     saved = sim.save()
     sim.run(1.0)
     expected = sim.snapshot()
-    hub.set_effort(-1.0)
+    hub.command_effort(-1.0)
     sim.run(0.3)
     sim.restore(saved)
     sim.run(1.0)
@@ -304,7 +305,7 @@ def test_a_world_that_blew_up_goes_on_once_the_cause_is_gone() -> None:
 def test_joints_speeding_off_slowly_are_caught_too() -> None:
     # A stride of one step looks at each state by itself: none may slip through as the last good one.
     sim = wheel()
-    sim["wheel"].joint("hub").set_effort(1e10)
+    sim["wheel"].joint("hub").command_effort(1e10)
 
     def one_by_one() -> None:
         for _ in range(10_000):
@@ -318,7 +319,7 @@ def test_joints_speeding_off_slowly_are_caught_too() -> None:
 
 def test_a_blow_up_names_the_joint_and_what_is_touched() -> None:
     sim = wheel()
-    sim["wheel"].joint("hub").set_effort(1e10)
+    sim["wheel"].joint("hub").command_effort(1e10)
     with pytest.raises(SimulationUnstableError, match="'wheel::rim' ran away on joint 'wheel::hub'") as caught:
         sim.run(10.0)
     assert caught.value.divergence.joint == "wheel::hub"
@@ -332,7 +333,7 @@ def test_a_blow_up_names_the_joint_and_what_is_touched() -> None:
 def test_a_blow_up_after_a_long_while_costs_a_second_at_most() -> None:
     sim = wheel(damping=0.0)
     sim.run(5.0)
-    sim["wheel"].joint("hub").set_effort(1e5)
+    sim["wheel"].joint("hub").command_effort(1e5)
     # 1e7 rad/s² reach 1e6 rad/s after 0.1 s.
     with pytest.raises(SimulationUnstableError):
         sim.run(100.0)

@@ -79,16 +79,16 @@ def test_a_push_wakes(load: Load) -> None:
 def test_an_order_to_a_joint_wakes_and_the_same_again_does_not(load: Load) -> None:
     sim = asleep(load, box("b", "0 0 0.1 0 0 0", extra=ARM))
     joint = sim["b"].joint("j")
-    joint.hold(0.5)
+    joint.command_position(0.5)
     sim.run(0.5)
     assert 0.1 < joint.position < 0.5
     sim.run(8.0)
     assert joint.position == pytest.approx(0.5, abs=1e-4)
     assert sim.engine.asleep == 1
-    joint.hold(0.5)
+    joint.command_position(0.5)
     sim.step(2)
     assert sim.engine.asleep == 1
-    joint.set_velocity(1.0)
+    joint.command_velocity(1.0)
     sim.run(0.2)
     assert joint.velocity == pytest.approx(1.0, rel=0.01)
 
@@ -156,11 +156,11 @@ def test_a_world_that_sleeps_as_a_whole_is_not_stepped_and_goes_on_to_the_bit(
         for _ in range(steps // at_once):
             sim.step(at_once)
         assert sum(taken) < 10 if at_once > 1 else sum(taken) == steps
-        sim["c"].joint("j").set_velocity(1.0)
+        sim["c"].joint("j").command_velocity(1.0)
         sim.step(300)
         data = sim.engine.save().data
         ends.append(np.array([data.time, *data.qpos, *data.qvel]).tobytes())
-        sim["c"].joint("j").set_effort(0.0)
+        sim["c"].joint("j").command_effort(0.0)
     assert ends[0] == ends[1]
     assert sim.time_ns == (2000 + steps + 300) * 1_000_000
 

@@ -86,7 +86,7 @@ def _push(link: LinkHandle, wrenches: list[Wrench]) -> None:
 
 def _turn(joint: JointHandle, efforts: list[float]) -> None:
     """All of them, as Joint::SetForce adds up."""
-    joint.set_effort(sum(efforts))
+    joint.command_effort(sum(efforts))
 
 
 def _times(request: Message) -> dict[str, int]:

@@ -116,7 +116,7 @@ class _PropertySetters:
         if changed != joint:
             self._put(replace(model, joints=_with(model.joints, changed)))
         for axis, (effort, speed) in enumerate(zip(asked.fmax, asked.vel, strict=False)):
-            handle.set_velocity(float(speed), max_effort=float(effort), axis=axis)
+            handle.command_velocity(float(speed), max_effort=float(effort), axis=axis)
         ignored = [name for name in _NO_COUNTERPART if len(getattr(asked, name))]
         note = f"SetJointProperties: properties set; without effect here: {', '.join(ignored)}"
         return {"status_message": note} if ignored else {}

@@ -96,6 +96,7 @@ class _StateServices:
         handles = {name: model.joint(name) for name in joints}
         for name, position in joints.items():
             handles[name].set_position(position)
+            handles[name].set_velocity(0.0)
         return {}
 
 

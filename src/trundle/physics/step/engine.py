@@ -13,7 +13,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.diagnostics import TrundleError, UsageError
-from trundle.spatial import Pose, Twist, Wrench
+from trundle.spatial import Wrench
 
 from ..compile.compiled_world import CompiledWorld
 from ..compile.solver_settings import silence_log
@@ -26,6 +26,7 @@ from .motors import MotorCommands, Motors
 from .sleeping import DECISION_PERIOD, STATE, SleepPolicy
 from .state_reader import StateReader
 from .state_transfer import transfer_state
+from .state_writer import StateWriter
 
 if TYPE_CHECKING:  # a world without belts starts without them
     from .surface_motion import LinkGrip
@@ -69,6 +70,7 @@ class Engine:
         self._data = mujoco.MjData(compiled.model)
         self._sleep_policy = SleepPolicy(compiled, self._data)
         self.reader = StateReader(compiled, self._data)
+        self.writer = StateWriter(compiled, self._data, wake=self._sleep_policy.wake, changed=self.reader.invalidate)
         self.motors = Motors(compiled, self._data, self._sleep_policy.wake)
         self._laws = ContactLaws(compiled, self._data)
         self.motors.always_enabled = self._laws.is_active
@@ -78,12 +80,6 @@ class Engine:
         self._last_state = np.empty(mujoco.mj_stateSize(self._model, STATE))
         self._steps = 0
         """Steps, from which follows when to decide who may sleep."""
-        self._was_teleported = True
-        """Whether anything was put somewhere, and may be inside something else now."""
-        self._tree_has_shapes = np.isin(
-            np.arange(self._model.ntree), self._model.body_treeid[self._model.geom_bodyid]
-        ).tolist()
-        """Of each tree, whether it has shapes at all."""
         self.reset()
 
     def reset(self) -> None:
@@ -93,7 +89,7 @@ class Engine:
         if self.compiled.initial_qpos is not None:
             self._data.qpos[:] = self.compiled.initial_qpos
         self._steps = 0
-        self._was_teleported = True
+        self.writer.was_teleported = True
         self.motors.switch_off()
         self.reader.invalidate()
 
@@ -104,7 +100,7 @@ class Engine:
             SimulationUnstableError: naming the link that ran away; the state is the one before this call.
         """
         mujoco.mj_getState(self._model, self._data, self._last_state, STATE)
-        if self._was_teleported:
+        if self.writer.was_teleported:
             self._separate()
         if self._laws.is_active:
             self._laws.install()
@@ -138,7 +134,7 @@ class Engine:
         return not speeds.dot(speeds) < MAX_SPEED**2 and not bool((np.abs(speeds) < MAX_SPEED).all())
 
     def _separate(self) -> None:
-        self._was_teleported = False
+        self.writer.was_teleported = False
         apart = self._scratch.separated(self._state())
         if apart is not None:
             self._data.qpos[:] = apart
@@ -186,62 +182,6 @@ class Engine:
         )
         self._update_laws()
 
-    def set_axis_position(self, axis: int, position: float) -> None:
-        """Put an axis to a position [rad or m], at rest."""
-        self._data.qpos[self.compiled.axis_qpos[axis]] = position
-        self._data.qvel[self.compiled.axis_dof[axis]] = 0.0
-        self._sleep_policy.wake(int(self.compiled.axis_dof[axis]))
-        self.reader.invalidate()
-
-    def set_axis_velocity(self, axis: int, velocity: float) -> None:
-        """Set the speed of an axis [rad/s or m/s] at once; nothing keeps it."""
-        self._data.qvel[self.compiled.axis_dof[axis]] = velocity
-        self.reader.invalidate()
-
-    def set_tree_pose(self, link: int, pose: Pose) -> None:
-        """Put a link that hangs from nothing somewhere else, with all that hangs from it; speeds stay in the world.
-
-        Raises:
-            UsageError: it hangs from a joint or the world.
-        """
-        joint = self._free_joint(link)
-        first = int(self._model.jnt_qposadr[joint])
-        dof = int(self._model.jnt_dofadr[joint])
-        turned = pose.quaternion
-        spin = np.empty(3)
-        mujoco.mju_rotVecQuat(spin, self._data.qvel[dof + 3 : dof + 6], self._data.qpos[first + 3 : first + 7])
-        self._data.qpos[first : first + 7] = (*pose.position, *turned)
-        wx, wy, wz = spin.tolist()
-        self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=turned).inverse().transform_vector((wx, wy, wz))
-        self._was_teleported |= self._tree_has_shapes[self._model.dof_treeid[dof]]
-        self._sleep_policy.wake(dof)
-        self.reader.invalidate()
-
-    def set_tree_twist(self, link: int, twist: Twist) -> None:
-        """Give a link that hangs from nothing a velocity of its frame's origin and a spin, world axes.
-
-        Raises:
-            UsageError: it hangs from a joint or the world.
-        """
-        joint = self._free_joint(link)
-        first, dof = int(self._model.jnt_qposadr[joint]), int(self._model.jnt_dofadr[joint])
-        w, x, y, z = self._data.qpos[first + 3 : first + 7].tolist()
-        self._data.qvel[dof : dof + 3] = twist.linear
-        self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=(w, x, y, z)).inverse().transform_vector(twist.angular)
-        self._sleep_policy.wake(dof)
-        self.reader.invalidate()
-
-    def is_free(self, link: int) -> bool:
-        """Whether a link hangs from nothing."""
-        first = int(self._model.body_jntadr[self.compiled.link_bodies[link]])
-        return first >= 0 and self._model.jnt_type[first] == mujoco.mjtJoint.mjJNT_FREE
-
-    def _free_joint(self, link: int) -> int:
-        if not self.is_free(link):
-            name = self.compiled.link_names[link]
-            raise UsageError(f"link {name!r} cannot be put elsewhere: it hangs from a joint or from the world")
-        return int(self._model.body_jntadr[self.compiled.link_bodies[link]])
-
     def snapshot(self) -> EngineSnapshot:
         """The state as it is now, for good."""
         return EngineSnapshot(self._scratch, self.reader)
@@ -281,7 +221,7 @@ class Engine:
         """
         transfer_state((old._model, old._data), (self._model, self._data), renamed or {})
         self._steps = old._steps
-        self._was_teleported = True
+        self.writer.was_teleported = True
         self.motors.invalidate()
         self.reader.invalidate()
 
@@ -293,7 +233,7 @@ class Engine:
             self._steps,
             self._sleep_policy.is_on,
             self._sleep_policy.has_state_only,
-            self._was_teleported,
+            self.writer.was_teleported,
             MotorCommands.from_model(self._model),
         )
 
@@ -308,7 +248,7 @@ class Engine:
         self._sleep_policy.set_flags(state.sleeps)
         mujoco.mj_copyData(self._data, self._model, state.data)
         self._steps, self._sleep_policy.has_state_only = state.steps, state.has_state_only
-        self._was_teleported = state.was_teleported
+        self.writer.was_teleported = state.was_teleported
         self.motors.always_enabled = self._laws.is_active
         state.motors.apply(self._model)
         self.motors.invalidate()

@@ -66,7 +66,7 @@ class Motors:
         self._always_enabled = False
         self._update_actuation_flag()
 
-    def set_effort(self, axis: int, effort: float) -> None:
+    def command_effort(self, axis: int, effort: float) -> None:
         """Hold an effort [N·m or N] on an axis, as far as its limits let it, and switch its motor off.
 
         As in Gazebo, an axis that is faster than its limit is not pushed on: with such a limit the effort is a
@@ -80,7 +80,7 @@ class Motors:
         # Half of the effort, and a motor of the other half: together from nothing to all of it.
         self._command(axis, command=math.copysign(fastest, effort), most=abs(effort) / 2, effort=effort / 2)
 
-    def set_velocity(self, axis: int, velocity: float, max_effort: float) -> None:
+    def command_velocity(self, axis: int, velocity: float, max_effort: float) -> None:
         """Have a motor keep a speed [rad/s or m/s] with at most so much effort."""
         self._drive(axis, velocity, max_effort, rate=0.0)
 
@@ -98,7 +98,7 @@ class Motors:
         if velocity != now and abs(speed - now) <= _KEEPS_UP[0] * abs(now) + _KEEPS_UP[1]:
             self._data.qvel[dof] = velocity
 
-    def hold(self, axis: int, position: float, max_effort: float) -> None:
+    def command_position(self, axis: int, position: float, max_effort: float) -> None:
         """Have a motor go to a position [rad or m] and stay there."""
         self._drive(axis, position, max_effort, rate=HOLD_RATE)
 

@@ -41,8 +41,8 @@ class DiffDrive(Plugin):
         """Keep both wheels at their speeds."""
         del sim
         half = self._command.yaw_rate * self._separation / 2
-        self._left.set_velocity((self._command.speed + half) / self._radius, max_effort=self._torque)
-        self._right.set_velocity((self._command.speed - half) / self._radius, max_effort=self._torque)
+        self._left.command_velocity((self._command.speed + half) / self._radius, max_effort=self._torque)
+        self._right.command_velocity((self._command.speed - half) / self._radius, max_effort=self._torque)
 
     def reset(self) -> None:
         """Stand still."""

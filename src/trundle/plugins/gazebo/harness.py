@@ -65,7 +65,7 @@ class Harness(Plugin):
         holds = abs(self._target_speed) < _STILL
         error = self._winch.position - self._target if holds else 0.0
         pull = max(self._speed.command(self._winch.velocity - self._target_speed, dt), 0.0)
-        self._winch.set_effort(pull + self._position.command(error, dt))
+        self._winch.command_effort(pull + self._position.command(error, dt))
 
     def reset(self) -> None:
         """Hold where the winch begins; what was let go stays so."""

@@ -63,11 +63,11 @@ class JointControl(Plugin):
                 if controller.find("pid_gains") is not None:
                     pid.p, pid.i, pid.d = gains
                 if kind == "position":
-                    joint.set_position(target, pid)
+                    joint.command_position(target, pid)
                 elif kind == "velocity":
-                    joint.set_velocity(target, pid)
+                    joint.command_velocity(target, pid)
                 elif target is not None:
-                    joint.set_effort(target)
+                    joint.command_effort(target)
         controller.report_unread(report)
 
     def _matching(self, name: XmlNode, sim: Simulation) -> list[ControlledJoint]:

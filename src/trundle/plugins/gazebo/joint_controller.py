@@ -27,7 +27,7 @@ class ControlledJoint:
         self._position, self._velocity = _Loop(), _Loop()
         self._is_idle = True
 
-    def set_effort(self, effort: float) -> None:
+    def command_effort(self, effort: float) -> None:
         """Push with it [N·m or N] from now on."""
         self._effort = effort
 
@@ -35,11 +35,11 @@ class ControlledJoint:
         """Push with it [N·m or N] for one step."""
         self._once += effort
 
-    def set_position(self, target: float | None, pid: Pid | None = None) -> None:
+    def command_position(self, target: float | None, pid: Pid | None = None) -> None:
         """Go to a position [rad or m], by other gains where they are given."""
         self._position = _Loop(pid or self._position.pid, self._position.target if target is None else target)
 
-    def set_velocity(self, target: float | None, pid: Pid | None = None) -> None:
+    def command_velocity(self, target: float | None, pid: Pid | None = None) -> None:
         """Keep a speed [rad/s or m/s], by other gains where they are given."""
         self._velocity = _Loop(pid or self._velocity.pid, self._velocity.target if target is None else target)
 
@@ -54,7 +54,7 @@ class ControlledJoint:
             if loop.target is not None:
                 effort, wanted = effort + loop.pid.command(now - loop.target, dt), True
         if wanted or not self._is_idle:
-            self.joint.set_effort(effort)
+            self.joint.command_effort(effort)
         self._is_idle = not wanted
 
     def clear(self) -> None:

@@ -44,3 +44,4 @@ class JointTrajectory(Plugin):
         time_s = sim.time_ns / 1e9
         for joint, middle, amplitude, rate in self._joints:
             joint.set_position(middle + amplitude * math.cos(rate * time_s))
+            joint.set_velocity(0.0)

@@ -51,9 +51,9 @@ class KeysToJoints(Plugin):
         for each in self._keys.get(key, ()):
             match each.kind:
                 case "position":
-                    each.joint.set_position(each.joint.joint.position + each.scale)
+                    each.joint.command_position(each.joint.joint.position + each.scale)
                 case "velocity":
-                    each.joint.set_velocity(each.scale)
+                    each.joint.command_velocity(each.scale)
                 case _:
                     each.joint.apply_effort(each.scale)
 
@@ -85,7 +85,7 @@ class KeysToJoints(Plugin):
         controlled = self._joints.setdefault(joint.name, ControlledJoint(joint))
         pid = Pid(p=numbers["kp"], i=numbers["ki"], d=numbers["kd"])
         if kind == "position":
-            controlled.set_position(None, pid)
+            controlled.command_position(None, pid)
         elif kind == "velocity":
-            controlled.set_velocity(None, pid)
+            controlled.command_velocity(None, pid)
         self._keys.setdefault(int(numbers["key"]), []).append(_Key(controlled, kind, numbers["scale"]))

@@ -46,7 +46,7 @@ class RandomVelocity(Plugin):
         """See `Plugin.load`."""
         del node
         link = model.link(tag.node.string("link"))
-        if not sim.engine.is_free(link.index):
+        if not sim.engine.writer.is_free(link.index):
             sim.report.warn(tag.at, f"link {link.name!r} hangs from something; the plugin moves free links alone")
         return cls(link, tag, sim)
 
@@ -58,7 +58,7 @@ class RandomVelocity(Plugin):
 
     def before_step(self, sim: Simulation) -> None:
         """Keep the velocity."""
-        if not sim.engine.is_free(self._link.index):
+        if not sim.engine.writer.is_free(self._link.index):
             return
         if sim.time_ns - self._drawn_ns > self._every_ns:
             self._drawn_ns = sim.time_ns

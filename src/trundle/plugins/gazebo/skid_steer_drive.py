@@ -42,7 +42,7 @@ class SkidSteerDrive(Plugin):
         for wheels, sign in ((self._right, 1.0), (self._left, -1.0)):
             speed = (self._command.speed + sign * self._command.yaw_rate * self._separation) / self._radius
             for wheel in wheels:
-                wheel.set_velocity(speed, max_effort=self._torque)
+                wheel.command_velocity(speed, max_effort=self._torque)
 
     def reset(self) -> None:
         """Stand still."""

@@ -40,7 +40,7 @@ class WheelTrackedVehicle(Plugin):
         del sim
         for speed, wheels in zip(self._tracks.speeds, self._wheels, strict=True):
             for joint, radius in wheels:
-                joint.set_velocity(speed / radius, max_effort=self._torque)
+                joint.command_velocity(speed / radius, max_effort=self._torque)
 
     def reset(self) -> None:
         """Stand still."""

@@ -69,7 +69,7 @@ class DiffDrive(RosPlugin):
             if self._acceleration > 0.0:
                 speed = step_towards(self._speeds[number], speed, most / self._drive.wheel_radius)
             self._speeds[number] = speed
-            wheel.set_velocity(speed, max_effort=self._torque)
+            wheel.command_velocity(speed, max_effort=self._torque)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell where that led."""

@@ -36,7 +36,9 @@ class JointPoseTrajectory(RosPlugin):
         """Put the joints where they are to be by now."""
         while self._due and self._due[0][0] <= sim.time_ns:
             for name, position in self._due.popleft()[1].items():
-                self._model.joint(name).set_position(position)
+                joint = self._model.joint(name)
+                joint.set_position(position)
+                joint.set_velocity(0.0)
 
     def reset(self) -> None:
         """Forget what was to come."""

@@ -53,7 +53,7 @@ class SkidSteerDrive(RosPlugin):
         speeds = self._drive.wheel_speeds(self._command.forward, self._command.yaw_rate)
         for side, speed in zip(self._sides, speeds, strict=True):
             for wheel in side:
-                wheel.set_velocity(speed, max_effort=self._torque)
+                wheel.command_velocity(speed, max_effort=self._torque)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell where that led."""

@@ -72,7 +72,7 @@ class TricycleDrive(RosPlugin):
         wanted = self._command.forward / self._radius
         change = self._faster if abs(wanted) > abs(self._speed) else self._slower
         self._speed = step_towards(self._speed, wanted, change * dt_s) if self._faster > 0.0 else wanted
-        self._wheel.set_velocity(self._speed, max_effort=self._torque)
+        self._wheel.command_velocity(self._speed, max_effort=self._torque)
         angle = min(max(self._command.yaw_rate, -math.pi / 2), math.pi / 2)
         if self._steering_speed > 0.0:
             angle = step_towards(self._angle, angle, self._steering_speed * dt_s)

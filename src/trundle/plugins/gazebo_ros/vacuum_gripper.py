@@ -45,7 +45,7 @@ class VacuumGripper(RosPlugin):
         """Suck."""
         near = self._find_nearby_links(sim) if self._is_on else []
         for link in near:
-            self._apply_suction(link, free=sim.engine.is_free(link.index))
+            self._apply_suction(link, free=sim.engine.writer.is_free(link.index))
         self._holds = bool(near)
 
     def after_step(self, snapshot: Snapshot) -> None:

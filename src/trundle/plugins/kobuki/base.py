@@ -81,7 +81,7 @@ class Kobuki(RosPlugin):
         is_old = (sim.time_ns - self._commanded_ns) / 1e9 > self._timeout_s
         speeds = (0.0, 0.0) if is_old or not self._is_powered else self._speeds
         for wheel, speed in zip(self._wheels, speeds, strict=True):
-            wheel.set_velocity(speed, max_effort=self._torque)
+            wheel.command_velocity(speed, max_effort=self._torque)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell all of it."""

@@ -70,7 +70,7 @@ class JointHardware:
         """Carry the command out for a control period [s]."""
         match self.interface:
             case "EffortJointInterface":
-                self.handle.set_effort(self._within_effort(self.command))
+                self.handle.command_effort(self._within_effort(self.command))
             case "VelocityJointInterface":
                 self._write_velocity(dt)
             case _:
@@ -79,9 +79,9 @@ class JointHardware:
     def _write_velocity(self, dt: float) -> None:
         wanted = min(max(self.command, -self._most_speed), self._most_speed)
         if self._pid is not None:
-            self.handle.set_effort(self._within_effort(self._pid.command(wanted - self.velocity, dt)))
+            self.handle.command_effort(self._within_effort(self._pid.command(wanted - self.velocity, dt)))
         else:
-            self.handle.set_velocity(wanted, max_effort=self._most_effort)
+            self.handle.command_velocity(wanted, max_effort=self._most_effort)
 
     def _write_position(self, dt: float) -> None:
         if self._is_at_rest and self.velocity == 0.0 and self.error(self.command) != 0.0:
@@ -89,7 +89,7 @@ class JointHardware:
         wanted = min(max(self.command, self.lower), self.upper)
         error = self.error(wanted)
         if self._pid is not None:
-            self.handle.set_effort(self._within_effort(self._pid.command(error, dt)))
+            self.handle.command_effort(self._within_effort(self._pid.command(error, dt)))
             return
         speed = error / self.lag_s
         self.handle.drive_kinematically(min(max(speed, -self._most_speed), self._most_speed))

@@ -95,12 +95,12 @@ class MotorModel(RosPlugin):
             lag_s = self._up_s if self._wanted > self._speed else self._down_s
             kept = math.exp(-dt / lag_s)
             self._speed = kept * self._speed + (1.0 - kept) * self._wanted
-            self._joint.start(self._way * self._speed / self._slowdown)
+            self._joint.set_velocity(self._way * self._speed / self._slowdown)
         elif self._kind == "position":
             error = math.remainder(self._joint.position - self._wanted, math.tau)
-            self._joint.set_effort(self._pid.command(error, dt))
+            self._joint.command_effort(self._pid.command(error, dt))
         else:
-            self._joint.set_effort(self._wanted)
+            self._joint.command_effort(self._wanted)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Tell."""

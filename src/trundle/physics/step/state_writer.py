@@ -1,0 +1,117 @@
+"""Writes the state of a world into the engine's arrays: positions and velocities, at once."""
+
+from collections.abc import Callable, Sequence
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.diagnostics import UsageError
+from trundle.spatial import Pose, Twist
+
+from ..compile.compiled_world import CompiledWorld
+
+
+class StateWriter:
+    """Writes one `MjData`; nothing that it writes is kept up by a motor."""
+
+    def __init__(
+        self, compiled: CompiledWorld, data: mujoco.MjData, *, wake: Callable[[int], None], changed: Callable[[], None]
+    ) -> None:
+        """Take the engine's arrays.
+
+        Args:
+            compiled: the world.
+            data: its state.
+            wake: called with a degree of freedom that was moved.
+            changed: called after each change.
+        """
+        self._compiled = compiled
+        self._model = compiled.model
+        self._data = data
+        self._wake = wake
+        self._changed = changed
+        self._balls = frozenset(compiled.ball_joints)
+        self.was_teleported = True
+        """Anything was put somewhere, and may be inside something else now."""
+        self._tree_has_shapes: list[bool] = np.isin(
+            np.arange(self._model.ntree), self._model.body_treeid[self._model.geom_bodyid]
+        ).tolist()
+
+    def set_axis_positions(self, axes: range, positions: Sequence[float] | NDArray[np.float64]) -> None:
+        """Put axes to positions [rad or m]; velocities stay.
+
+        Args:
+            axes: of whole joints; a ball joint's three take a rotation vector.
+            positions: (axes,)
+        """
+        for axis, position in zip(axes, positions, strict=True):
+            address, dof = int(self._compiled.axis_qpos[axis]), int(self._compiled.axis_dof[axis])
+            if axis in self._balls:
+                first = axis - axes.start
+                self._set_ball(address, positions[first : first + 3], sign=float(self._compiled.axis_sign[axis]))
+            elif self._compiled.axis_actuator[axis] >= 0:
+                self._data.qpos[address] = position
+            self._wake(dof)
+        self._changed()
+
+    def _set_ball(self, address: int, rotation: Sequence[float] | NDArray[np.float64], *, sign: float) -> None:
+        vector = sign * np.asarray(rotation, dtype=np.float64)
+        angle = float(np.linalg.norm(vector))
+        axis = vector / angle if angle else np.array([1.0, 0.0, 0.0])
+        mujoco.mju_axisAngle2Quat(self._data.qpos[address : address + 4], axis, angle)
+
+    def set_axis_velocities(self, axes: range, velocities: Sequence[float] | NDArray[np.float64]) -> None:
+        """Set the velocities of axes [rad/s or m/s]; nothing keeps them.
+
+        Args:
+            axes: some of a joint's, or of several.
+            velocities: (axes,)
+        """
+        for axis, velocity in zip(axes, velocities, strict=True):
+            self._data.qvel[self._compiled.axis_dof[axis]] = velocity * self._compiled.axis_sign[axis]
+        self._changed()
+
+    def set_tree_pose(self, link: int, pose: Pose) -> None:
+        """Put a link that hangs from nothing somewhere else, with all that hangs from it; velocities stay in the world.
+
+        Raises:
+            UsageError: it hangs from a joint or the world.
+        """
+        joint = self._free_joint(link)
+        first = int(self._model.jnt_qposadr[joint])
+        dof = int(self._model.jnt_dofadr[joint])
+        turned = pose.quaternion
+        spin = np.empty(3)
+        mujoco.mju_rotVecQuat(spin, self._data.qvel[dof + 3 : dof + 6], self._data.qpos[first + 3 : first + 7])
+        self._data.qpos[first : first + 7] = (*pose.position, *turned)
+        wx, wy, wz = spin.tolist()
+        self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=turned).inverse().transform_vector((wx, wy, wz))
+        self.was_teleported |= self._tree_has_shapes[self._model.dof_treeid[dof]]
+        self._wake(dof)
+        self._changed()
+
+    def set_tree_twist(self, link: int, twist: Twist) -> None:
+        """Give a link that hangs from nothing a velocity of its frame's origin and a spin, world axes.
+
+        Raises:
+            UsageError: it hangs from a joint or the world.
+        """
+        joint = self._free_joint(link)
+        first, dof = int(self._model.jnt_qposadr[joint]), int(self._model.jnt_dofadr[joint])
+        w, x, y, z = self._data.qpos[first + 3 : first + 7].tolist()
+        self._data.qvel[dof : dof + 3] = twist.linear
+        self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=(w, x, y, z)).inverse().transform_vector(twist.angular)
+        self._wake(dof)
+        self._changed()
+
+    def is_free(self, link: int) -> bool:
+        """Whether a link hangs from nothing."""
+        first = int(self._model.body_jntadr[self._compiled.link_bodies[link]])
+        return first >= 0 and self._model.jnt_type[first] == mujoco.mjtJoint.mjJNT_FREE
+
+    def _free_joint(self, link: int) -> int:
+        if not self.is_free(link):
+            name = self._compiled.link_names[link]
+            raise UsageError(f"link {name!r} cannot be put elsewhere: it hangs from a joint or from the world")
+        return int(self._model.body_jntadr[self._compiled.link_bodies[link]])
