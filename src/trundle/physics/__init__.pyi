@@ -4,6 +4,8 @@ from .compile.mjcf import compile_mjcf as compile_mjcf
 from .compile.wheels import report_wheels as report_wheels
 from .egl_renderer import EglRenderer as EglRenderer
 from .step.contact import Contact as Contact
+from .step.dynamics import Coordinates as Coordinates
+from .step.dynamics import JointState as JointState
 from .step.engine import Engine as Engine
 from .step.engine import EngineState as EngineState
 from .step.engine import SimulationUnstableError as SimulationUnstableError

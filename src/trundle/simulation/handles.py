@@ -10,12 +10,16 @@ A handle belongs to the thread that owns the simulation.
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, TypeVar
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from trundle.diagnostics import UsageError
 from trundle.model import Link, Model, World
-from trundle.spatial import Pose, Twist, Vector3, Wrench, cross
+from trundle.spatial import ZERO, Pose, Twist, Vector3, Wrench, cross
 
 from .handle import Handle, expect_finite
 from .joint_handle import JointHandle
+from .joint_space import JointSpace
 from .world_edits import with_model_at
 
 if TYPE_CHECKING:
@@ -214,6 +218,100 @@ class ModelHandle:
             UsageError: with the names there are.
         """
         return _find_by_name(name, self.joints, f"model {self.name!r} has no joint")
+
+    # -- all joints at once
+
+    @property
+    def _joint_space(self) -> JointSpace:
+        links = [link.index for link in self.links]
+        return JointSpace(self._simulation.engine, self.name, links=links, joints=self.joints)
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """One for each axis, in file order, which is the order of all arrays here.
+
+        A joint that cannot move has none; a universal joint's name stands there twice, a ball joint's three times.
+        """
+        return self._joint_space.names
+
+    @property
+    def joint_positions(self) -> NDArray[np.float64]:
+        """(axes,) [rad or m] in the order of `joint_names`; a ball joint's three are its rotation vector.
+
+        What is read is a copy; assigning sets the state at once, leaves velocities as they are, and switches no motor.
+
+        Raises:
+            UsageError: what is assigned has another shape, or a number that is not finite.
+        """
+        return self._joint_space.positions()
+
+    @joint_positions.setter
+    def joint_positions(self, positions: ArrayLike) -> None:
+        self._joint_space.set_positions(positions)
+
+    @property
+    def joint_velocities(self) -> NDArray[np.float64]:
+        """(axes,) [rad/s or m/s] in the order of `joint_names`; a ball joint's three are along its child's axes.
+
+        What is read is a copy; assigning sets the state at once; nothing keeps it.
+
+        Raises:
+            UsageError: what is assigned has another shape, or a number that is not finite.
+        """
+        return self._joint_space.velocities()
+
+    @joint_velocities.setter
+    def joint_velocities(self, velocities: ArrayLike) -> None:
+        self._joint_space.set_velocities(velocities)
+
+    # -- equations of motion: M(q) a + h(q, v) = τ + Jᵀ f
+    #
+    # Generalized velocities have n entries: 6 for each link of the model that moves freely, most often its base: the
+    # velocity of that link's origin [m/s] and its angular velocity [rad/s], world axes; then `joint_names`' axes.
+
+    def jacobian(self, link: str | LinkHandle, point: Vector3 = ZERO) -> NDArray[np.float64]:
+        """How a point of a link moves with the model's velocities, where the model is now.
+
+        Args:
+            link: of this model.
+            point: in the link's frame [m].
+
+        Returns:
+            (6, n): velocity of the point [m/s] in rows 0 to 2, angular velocity of the link [rad/s] in rows 3 to 5,
+            world axes. The n columns are 6 of each free link (linear, angular; world axes), then `joint_names`.
+
+        Raises:
+            UsageError: there is no such link.
+        """
+        of = self.link(link) if isinstance(link, str) else link
+        return self._joint_space.jacobian(of.index, point)
+
+    def mass_matrix(self) -> NDArray[np.float64]:
+        """(n, n) M(q) where the model is now, symmetric [kg, kg·m, kg·m²]; rows and columns as `jacobian`'s columns."""
+        return self._joint_space.mass_matrix()
+
+    def bias_forces(self) -> NDArray[np.float64]:
+        """(n,) h(q, v) as the model moves now: Coriolis, centrifugal and gravity forces [N·m or N].
+
+        Joint damping, friction, springs, motors and contacts are not in it. Order as `jacobian`'s columns.
+        """
+        return self._joint_space.bias_forces()
+
+    def inverse_dynamics(self, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> NDArray[np.float64]:
+        """(n,) forces τ = M(q) a + h(q, v) that cause accelerations [N·m or N]; of a free link force and torque at its
+        origin, world axes.
+
+        The world stays as it is; free links are where they are now.
+
+        Args:
+            q: (axes,) joint positions [rad or m], as `joint_positions`.
+            v: (n,) velocities, in the order of `jacobian`'s columns.
+            a: (n,) their time derivatives.
+
+        Raises:
+            UsageError: one has another shape, or a number that is not finite.
+        """
+        return self._joint_space.inverse_dynamics(q, v, a)
 
     def apply_wrench(self, wrench: Wrench, *, duration_s: float | None = None) -> None:
         """Push and twist the model's canonical link at its centre of mass, in world axes."""

@@ -20,6 +20,7 @@ from ..compile.solver_settings import silence_log
 from .contact import Contact
 from .contact_laws import ContactLaws
 from .contact_query import ContactQuery
+from .dynamics import Dynamics
 from .engine_snapshot import EngineSnapshot, ScratchEngine
 from .instability import Divergence, find_divergence
 from .motors import MotorCommands, Motors
@@ -75,6 +76,7 @@ class Engine:
         self._laws = ContactLaws(compiled, self._data)
         self.motors.always_enabled = self._laws.is_active
         self._scratch = ScratchEngine(compiled)
+        self.dynamics = Dynamics(compiled, self._scratch)
         self._contact_query = ContactQuery(compiled, self._data, self._scratch)
         self._warnings = [self._data.warning[kind] for kind in _BAD]
         self._last_state = np.empty(mujoco.mj_stateSize(self._model, STATE))

@@ -1,6 +1,8 @@
 """The state of a world at one instant, worked out as far as somebody asks."""
 
 import copy
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cached_property
 from threading import Lock
 
@@ -56,6 +58,16 @@ class ScratchEngine:
             model, data = self._solve(state)
             chosen = np.flatnonzero(~apart[data.contact.geom].any(axis=1))
             return contacts_of(self._compiled, model, data, chosen)
+
+    @contextmanager
+    def evaluate(self) -> Iterator[tuple[mujoco.MjModel, mujoco.MjData]]:
+        """Have the other engine's model and data to oneself, to put a state there and work something out."""
+        with self._lock:
+            model, data, reader = self._engine
+            try:
+                yield model, data
+            finally:
+                reader.invalidate()
 
     def separated(self, state: _Array) -> _Array | None:
         """The positions in which nothing that began inside something else is so any more; None: nothing was.

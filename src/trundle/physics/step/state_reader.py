@@ -96,6 +96,10 @@ class StateReader:
             return (_rotation_vector(qpos, addresses[axes.start]) * signs[axes.start]).tolist()
         return [qpos.item(addresses[axis]) * signs[axis] for axis in axes]
 
+    def positions_of_all(self, axes: range) -> list[float]:
+        """[rad or m] Of the axes of several joints that follow one another."""
+        return self.axis_positions(self._data.qpos)[axes.start : axes.stop].tolist()
+
     def velocities_of(self, axes: range) -> list[float]:
         """[rad/s or m/s] Of a joint's axes."""
         qvel, dofs, signs = self._data.qvel, self._dofs, self._signs
