@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from trundle.model import World
 from trundle.ros import Node, StaticTransformBroadcaster, Transform, TransformBroadcaster
 from trundle.simulation import Snapshot
+from trundle.spatial import conjugate_rows, multiply_rows, rotate_rows
 
 from .frame_names import LinkFrame, link_frames
 
@@ -73,24 +74,11 @@ def relative_poses(
     """Return parent_from_child for each pair, (n, 7) x y z qw qx qy qz; parent −1 is the world."""
     child = world_poses[children]
     parent = np.where((parents < 0)[:, None], _IDENTITY, world_poses[parents])
-    inverse = parent[:, 3:] * (1.0, -1.0, -1.0, -1.0)
+    inverse = conjugate_rows(parent[:, 3:])
     result = np.empty_like(child)
-    result[:, :3] = _rotated(inverse, child[:, :3] - parent[:, :3])
-    result[:, 3:] = _product(inverse, child[:, 3:])
+    result[:, :3] = rotate_rows(inverse, child[:, :3] - parent[:, :3])
+    result[:, 3:] = multiply_rows(inverse, child[:, 3:])
     return result
 
 
 _IDENTITY = np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
-
-
-def _rotated(q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotate rows of v by the unit quaternions q: v + 2w(u × v) + 2u × (u × v)."""
-    t = 2.0 * np.cross(q[:, 1:], v)
-    return v + q[:, :1] * t + np.cross(q[:, 1:], t)
-
-
-def _product(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Hamilton products of rows."""
-    scalar = a[:, 0] * b[:, 0] - np.einsum("ij,ij->i", a[:, 1:], b[:, 1:])
-    vector = a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])
-    return np.concatenate([scalar[:, None], vector], axis=1)

@@ -12,9 +12,8 @@ from trundle.sensors import (
     RangeReading,
     directions_of,
 )
-from trundle.spatial import Vector3, Wrench
+from trundle.spatial import NS_PER_S, Vector3, Wrench
 
-_NS = 1_000_000_000
 _FLOAT32 = 7
 """sensor_msgs/PointField's number for it."""
 
@@ -92,7 +91,7 @@ def contacts_message(reading: ContactReading) -> dict[str, object]:
         total = sum((touch.wrench for touch in touches), start=Wrench())
         states.append(
             {
-                "info": f"time:{time_ns // _NS}.{time_ns % _NS:09}",
+                "info": f"time:{time_ns // NS_PER_S}.{time_ns % NS_PER_S:09}",
                 "collision1_name": own,
                 "collision2_name": other,
                 "wrenches": [_wrench(touch.wrench) for touch in touches],

@@ -8,7 +8,7 @@ import time
 from collections import deque
 from collections.abc import Callable
 
-NS = 1_000_000_000
+from trundle.spatial import NS_PER_S
 
 _STRIDE_WALL_NS = 20_000_000
 """How long the simulation runs before requests are looked at again, as wall time."""
@@ -78,7 +78,7 @@ class RealtimePacer:
         wall_0, sim_0 = self._anchor
         due = wall_0 + int((time_ns - sim_0) / self._speed)
         if due > now:
-            self._sleep((due - now) / NS)
+            self._sleep((due - now) / NS_PER_S)
         elif now - due > _LAG_FORGIVEN_NS:
             self._anchor = (now, time_ns)
         return time_ns + max(1, int(_STRIDE_WALL_NS * self._speed))

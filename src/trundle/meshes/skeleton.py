@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from trundle.spatial import Quaternion, matrix_from_quaternion, quaternion_from_matrix, slerp
+
 from .mesh import Mesh
 
 _Array = NDArray[np.float64]
@@ -34,8 +36,8 @@ class Track:
     """(T,) [s], rising."""
     positions: _Array
     """(T, 3) [m]"""
-    rotations: _Array
-    """(T, 4) Unit quaternions wxyz, each in the half of its predecessor."""
+    rotations: tuple[Quaternion, ...]
+    """T unit quaternions."""
     scales: _Array
     """(T, 3) along the bone's axes."""
 
@@ -49,8 +51,9 @@ class Track:
         def mixed(values: _Array) -> _Array:
             return values[before] + u * (values[after] - values[before])
 
+        turn = slerp(self.rotations[before], self.rotations[after], u)
         pose = np.eye(4)
-        pose[:3, :3] = _matrix(_slerp(self.rotations[before], self.rotations[after], u)) * mixed(self.scales)
+        pose[:3, :3] = matrix_from_quaternion(turn) * mixed(self.scales)
         pose[:3, 3] = mixed(self.positions) * scale
         return pose
 
@@ -137,47 +140,11 @@ def match_bones(skin: tuple[Bone, ...], motion: tuple[Bone, ...]) -> dict[int, i
 def track_from_poses(times: _Array, poses: _Array) -> Track:
     """A track through parent_from_bone (T, 4, 4), which may stretch but not shear."""
     stretches = np.maximum(np.linalg.norm(poses[:, :3, :3], axis=1), _SMALL)
-    turns = np.array([_quaternion(pose[:3, :3] / stretch) for pose, stretch in zip(poses, stretches, strict=True)])
-    for i in range(1, len(turns)):
-        if turns[i] @ turns[i - 1] < 0.0:
-            turns[i] = -turns[i]
+    turns = tuple(
+        quaternion_from_matrix(pose[:3, :3] / stretch) for pose, stretch in zip(poses, stretches, strict=True)
+    )
     return Track(times, poses[:, :3, 3].copy(), turns, stretches)
 
 
 def _branches(bones: tuple[Bone, ...], joints: list[int]) -> list[int]:
     return [sum(bones[each].parent == number for each in joints) for number in joints]
-
-
-def _slerp(a: _Array, b: _Array, u: float) -> _Array:
-    angle = float(np.arccos(np.clip(a @ b, -1.0, 1.0)))
-    if angle < 1e-6:
-        return a
-    return (np.sin((1.0 - u) * angle) * a + np.sin(u * angle) * b) / np.sin(angle)
-
-
-def _matrix(q: _Array) -> _Array:
-    w, x, y, z = q
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
-def _quaternion(m: _Array) -> _Array:
-    """Of a rotation, from the largest of its four parts (Shepperd)."""
-    trace = np.trace(m)
-    largest = int(np.argmax([trace, m[0, 0], m[1, 1], m[2, 2]]))
-    if largest == 0:
-        q = np.array([1 + trace, m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]])
-    else:
-        i = largest - 1
-        j, k = (i + 1) % 3, (i + 2) % 3
-        q = np.zeros(4)
-        q[0] = m[k, j] - m[j, k]
-        q[1 + i] = 1 + m[i, i] - m[j, j] - m[k, k]
-        q[1 + j] = m[j, i] + m[i, j]
-        q[1 + k] = m[k, i] + m[i, k]
-    return q / np.linalg.norm(q)

@@ -1,9 +1,8 @@
 """Where the links of a model are for given joint positions: pure geometry, no engine."""
 
-import math
 from collections.abc import Mapping
 
-from trundle.spatial import Pose, Vector3
+from trundle.spatial import Pose, Vector3, multiply, quaternion_from_axis_angle
 
 from .joint import Joint, JointType
 from .model import Model
@@ -31,12 +30,9 @@ def joint_motion(joint: Joint, position: float) -> Pose:
     """
     if joint.axis is None:
         return Pose()
-    x, y, z = joint.axis.direction
     if joint.type is JointType.PRISMATIC:
-        return Pose((x * position, y * position, z * position))
-    half = position / 2
-    s = math.sin(half)
-    return Pose(quaternion=(math.cos(half), x * s, y * s, z * s))
+        return Pose(multiply(joint.axis.direction, position))
+    return Pose(quaternion=quaternion_from_axis_angle(joint.axis.direction, position))
 
 
 def model_from_links(model: Model, positions: Mapping[str, float]) -> dict[str, Pose]:

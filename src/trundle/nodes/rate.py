@@ -3,13 +3,12 @@
 from collections.abc import Callable
 
 from trundle.ros import Node
-
-_NS = 1_000_000_000
+from trundle.spatial import NS_PER_S
 
 
 def period_ns(rate_hz: float) -> int:
     """Return a rate's period [ns]."""
-    return round(_NS / rate_hz)
+    return round(NS_PER_S / rate_hz)
 
 
 class Rate:
@@ -61,7 +60,7 @@ class LogThrottle:
 
     def __init__(self, node: Node, every_s: float) -> None:
         self._node = node
-        self._every_ns = round(every_s * _NS)
+        self._every_ns = round(every_s * NS_PER_S)
         self._last_ns: int | None = None
 
     def warn(self, text: str) -> None:

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.robot import Robot, RobotJoint, parent_from_child, read_robot
 from trundle.ros import Message, Node, NodeParams, StaticTransformBroadcaster, Transform, TransformBroadcaster, to_nsec
+from trundle.spatial import NS_PER_S
 from trundle.xmlnode import parse_xml
 
 from .host import NodeHost
 from .rate import LogThrottle, period_ns
 
-_NS = 1_000_000_000
-_OLD_NS = 30 * _NS
-_FIXED_AHEAD_NS = _NS // 2
+_OLD_NS = 30 * NS_PER_S
+_FIXED_AHEAD_NS = NS_PER_S // 2
 """Fixed joints on /tf are stamped half a second ahead, so that they are still good when the next ones are due."""
 
 
@@ -97,13 +97,13 @@ class RobotStatePublisher:
         node.subscribe("joint_states", "sensor_msgs/JointState", self._on_joint_states, queue_size=1)
         static = StaticTransformBroadcaster(node)
         if use_tf_static:
-            await node.clock.sleep(self._interval_ns / _NS)
+            await node.clock.sleep(self._interval_ns / NS_PER_S)
             if fixed := self._fixed(node.clock.now_ns()):
                 static.send_transform(*fixed)
             await node.closed.wait()
             return 0
         while True:
-            await node.clock.sleep(self._interval_ns / _NS)
+            await node.clock.sleep(self._interval_ns / NS_PER_S)
             if fixed := self._fixed(node.clock.now_ns() + _FIXED_AHEAD_NS):
                 self._broadcaster.send_transform(*fixed)
 

@@ -1,9 +1,8 @@
 """Where the links of a URDF are for given joint positions."""
 
-import math
 from collections.abc import Mapping
 
-from trundle.spatial import Pose, normalized
+from trundle.spatial import ZERO, Pose, multiply, normalized, quaternion_from_axis_angle
 
 from .robot import Robot, RobotJoint
 
@@ -12,11 +11,10 @@ def parent_from_child(joint: RobotJoint, position: float) -> Pose:
     """The child link's frame in the parent's with the joint at `position` [rad or m]; fixed-like types ignore it."""
     if joint.type in ("fixed", "floating", "planar"):
         return joint.parent_from_joint
-    x, y, z = normalized(joint.axis) or (0.0, 0.0, 0.0)
+    axis = normalized(joint.axis) or ZERO
     if joint.type == "prismatic":
-        return joint.parent_from_joint @ Pose((x * position, y * position, z * position))
-    s = math.sin(position / 2)
-    return joint.parent_from_joint @ Pose(quaternion=(math.cos(position / 2), x * s, y * s, z * s))
+        return joint.parent_from_joint @ Pose(multiply(axis, position))
+    return joint.parent_from_joint @ Pose(quaternion=quaternion_from_axis_angle(axis, position))
 
 
 def root_from_links(robot: Robot, positions: Mapping[str, float]) -> dict[str, Pose]:

@@ -4,9 +4,9 @@ from msgspec import Struct
 
 from trundle.model import ImuNoise
 from trundle.simulation import Snapshot
-from trundle.spatial import Pose, Quaternion, Vector3, cross
+from trundle.spatial import NS_PER_S, Pose, Quaternion, Vector3, cross
 
-from .live_sensor import NS, LiveSensor, SensorMount
+from .live_sensor import LiveSensor, SensorMount
 from .noise import NoiseSource, apply_noise
 
 
@@ -72,7 +72,7 @@ class ImuSensor(LiveSensor[ImuReading]):
         gx, gy, gz = self._gravity
         if before is None or snapshot.time_ns <= before[0]:
             return (-gx, -gy, -gz)
-        elapsed = (snapshot.time_ns - before[0]) / NS
+        elapsed = (snapshot.time_ns - before[0]) / NS_PER_S
         arm = _difference(world_from_link.transform_vector(self.sensor.link_from_sensor.position), com)
         hastening = _difference(turning, before[2], elapsed)
         inwards = cross(turning, cross(turning, arm))

@@ -11,11 +11,8 @@ from msgspec import Struct
 from trundle.diagnostics import UsageError
 from trundle.model import Link, Model, Sensor
 from trundle.simulation import LinkHandle, Simulation, Snapshot
-from trundle.spatial import Pose, Vector3, cross
+from trundle.spatial import NS_PER_S, Pose, Vector3, cross, pose_from_row
 
-from .pose_arrays import pose_of
-
-NS = 1_000_000_000
 Reading = TypeVar("Reading")
 
 
@@ -26,7 +23,7 @@ class _Listener(Struct, Generic[Reading]):
 
 def _period_ns(rate_hz: float) -> Fraction:
     """Exact, so that a sensor keeps step with its rate for days; 0.1 Hz is taken for a tenth, as it is meant."""
-    return NS / (Fraction(rate_hz).limit_denominator(1_000_000) or Fraction(rate_hz))
+    return NS_PER_S / (Fraction(rate_hz).limit_denominator(1_000_000) or Fraction(rate_hz))
 
 
 class SensorMount(Struct, frozen=True, eq=False, dict=True):
@@ -78,7 +75,7 @@ class LiveSensor(Generic[Reading]):
     @property
     def rate_hz(self) -> float:
         """How often it measures; 0: at every step."""
-        return float(NS / self.period_ns) if self.period_ns else 0.0
+        return float(NS_PER_S / self.period_ns) if self.period_ns else 0.0
 
     def start(self, simulation: Simulation) -> None:
         """Be called by a simulation, at its rate."""
@@ -139,7 +136,7 @@ class LiveSensor(Generic[Reading]):
 
     def world_from_link(self, snapshot: Snapshot) -> Pose:
         """Where the link that carries it is."""
-        return pose_of(snapshot.poses[self.link_index])
+        return pose_from_row(snapshot.poses[self.link_index])
 
     def world_from_sensor(self, snapshot: Snapshot) -> Pose:
         """Where the sensor itself is."""

@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 
 from trundle.model import LogicalCamera
 from trundle.simulation import Snapshot
-from trundle.spatial import Pose
+from trundle.spatial import Pose, pose_from_row, transform_points
 
 from .live_sensor import LiveSensor, SensorMount
-from .pose_arrays import pose_of, transform_points
 
 DEFAULT_RATE_HZ = 30.0
 """Of a camera whose update_rate is 0."""
@@ -70,11 +69,11 @@ class LogicalCameraSensor(LiveSensor[LogicalCameraReading]):
             if body.name == self.model.name or not body.corners:
                 continue
             points = np.concatenate(
-                [transform_points(pose_of(snapshot.poses[i]), at) for i, at in body.corners.items()]
+                [transform_points(pose_from_row(snapshot.poses[i]), at) for i, at in body.corners.items()]
             )
             if not self._intersects(transform_points(camera_from_world, _box(points))):
                 continue
-            pose = camera_from_world @ pose_of(snapshot.poses[body.base_index]) @ body.base_from_model
+            pose = camera_from_world @ pose_from_row(snapshot.poses[body.base_index]) @ body.base_from_model
             seen.append(SeenModel(name=body.name, camera_from_model=pose))
         return LogicalCameraReading(time_ns=snapshot.time_ns, models=tuple(seen))
 

@@ -7,9 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.model import Noise
-from trundle.spatial import Vector3
+from trundle.spatial import NS_PER_S, Vector3
 
-_NS = 1_000_000_000
 _Values = NDArray[np.float64]
 
 
@@ -43,7 +42,7 @@ class NoiseSource:
         then, self._last_ns = self._last_ns, time_ns
         if not (density and tau) or then is None or time_ns <= then:
             return
-        elapsed = (time_ns - then) / _NS
+        elapsed = (time_ns - then) / NS_PER_S
         spread = density * math.sqrt(-tau / 2.0 * math.expm1(-2.0 * elapsed / tau))
         self._bias = math.exp(-elapsed / tau) * self._bias + self._random.normal(0.0, spread)
 

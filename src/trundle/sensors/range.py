@@ -6,10 +6,10 @@ from numpy.typing import NDArray
 
 from trundle.model import RangeScan, ScanAxis
 from trundle.simulation import Snapshot
+from trundle.spatial import rotate_vectors
 
 from .live_sensor import LiveSensor, SensorMount
 from .noise import NoiseSource
-from .pose_arrays import rotate_vectors
 from .rays import Rays
 
 DEFAULT_RATE_HZ = 40.0

@@ -7,10 +7,9 @@ from trundle.diagnostics import Diagnostics
 from trundle.model import EVERY_BIT, Joint, Link, Model, Plane, Transceiver, World
 from trundle.render import corners_of, scene_from_world
 from trundle.simulation import Simulation
-from trundle.spatial import Pose, Vector3, rotation_from_z
+from trundle.spatial import Pose, Vector3, rotation_from_z, transform_points
 
 from .logical_camera import ModelShapes
-from .pose_arrays import transform_points
 from .rays import RayCaster, RayHits, Rays
 from .wireless import Transmitter
 

@@ -8,10 +8,9 @@ from numpy.typing import NDArray
 
 from trundle.model import Sonar
 from trundle.simulation import Snapshot
-from trundle.spatial import Pose, quaternion_from_rpy
+from trundle.spatial import Pose, quaternion_from_rpy, rotate_vectors
 
 from .live_sensor import LiveSensor, SensorMount
-from .pose_arrays import rotate_vectors
 from .rays import Rays
 
 DEFAULT_RATE_HZ = 40.0

@@ -5,7 +5,7 @@ from bisect import bisect_right
 from itertools import accumulate, pairwise
 
 from trundle.model import Actor, AnimationState, Trajectory
-from trundle.spatial import Pose, Quaternion, Twist, Vector3, normalized, quaternion_product
+from trundle.spatial import Pose, Twist, Vector3, conjugate, normalized, quaternion_product, slerp
 
 _PIECES, _MAX_PIECES = 32, 100_000
 """From one waypoint to the next, and in all: a way's length is that of so many straight pieces."""
@@ -58,7 +58,7 @@ class ActorScript:
             return Twist()
         here, there = self.pose_at(time_s), self.pose_at(time_s + dt)
         (x0, y0, z0), (x1, y1, z1) = here.position, there.position
-        w, x, y, z = quaternion_product(there.quaternion, _conjugate(here.quaternion))
+        w, x, y, z = quaternion_product(there.quaternion, conjugate(here.quaternion))
         if w < 0.0:
             w, x, y, z = -w, -x, -y, -z
         axis = normalized((x, y, z))
@@ -94,7 +94,7 @@ class _WaypointPath:
             start, end = self._positions[i][axis], self._positions[i + 1][axis]
             return start + a * (end - start) + b * self._slopes[i][axis] + c * self._slopes[i + 1][axis]
 
-        return Pose((along(0), along(1), along(2)), _slerp(self._orientations[i], self._orientations[i + 1], u))
+        return Pose((along(0), along(1), along(2)), slerp(self._orientations[i], self._orientations[i + 1], u))
 
     def distance_at(self, time_s: float) -> float:
         """The length of the way up to a time [m], from straight pieces."""
@@ -122,20 +122,3 @@ def _slopes(places: list[Vector3], share: float) -> list[Vector3]:
         return (x, y, z)
 
     return [slope(i) for i in range(len(places))]
-
-
-def _slerp(a: Quaternion, b: Quaternion, u: float) -> Quaternion:
-    """The turn a share of the way from one to another, the short way round."""
-    cosine = sum(p * q for p, q in zip(a, b, strict=True))
-    if cosine < 0.0:
-        b, cosine = (-b[0], -b[1], -b[2], -b[3]), -cosine
-    angle = math.acos(min(cosine, 1.0))
-    if angle < 1e-6:
-        return a
-    of_a, of_b = math.sin((1 - u) * angle) / math.sin(angle), math.sin(u * angle) / math.sin(angle)
-    w, x, y, z = (of_a * p + of_b * q for p, q in zip(a, b, strict=True))
-    return (w, x, y, z)
-
-
-def _conjugate(q: Quaternion) -> Quaternion:
-    return (q[0], -q[1], -q[2], -q[3])

@@ -14,6 +14,7 @@ from msgspec.structs import replace
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, Model, World
 from trundle.physics import Contact, Engine, compile_world
+from trundle.spatial import NS_PER_S
 
 from .actors import ActorPlayer, with_actors
 from .applied_loads import AppliedLoads
@@ -25,7 +26,7 @@ from .joint_handle import JointHandle
 from .saved_state import SavedSimulation
 from .schedule import Schedule, run_after, run_before
 from .snapshot import Snapshot
-from .step_clock import NS, Period, StepClock, world_step_ns
+from .step_clock import Period, StepClock, world_step_ns
 from .world_edits import (
     check_name_is_free,
     check_same_structure,
@@ -129,7 +130,7 @@ class Simulation:
 
     def run(self, duration_s: float) -> None:
         """Simulate so many seconds, flat out."""
-        self.advance(self.time_ns + round(duration_s * NS))
+        self.advance(self.time_ns + round(duration_s * NS_PER_S))
 
     def step(self, count: int = 1) -> None:
         """Simulate so many time steps."""
@@ -238,7 +239,7 @@ class Simulation:
             self.loads.shift(-steps)
             self._set_clock(StepClock(self.step_ns))
             self._schedule.restart(0)
-        self.engine.set_time(self.time_ns / NS)
+        self.engine.set_time(self.time_ns / NS_PER_S)
         if poses:
             for call in self._on_reset:
                 call()
@@ -365,4 +366,4 @@ class Simulation:
 
     def expiry_step(self, duration_s: float | None) -> int | None:
         """The step at which what begins now and lasts so long is over; None: it lasts."""
-        return None if duration_s is None else self.steps + max(1, round(duration_s * NS / self.step_ns))
+        return None if duration_s is None else self.steps + max(1, round(duration_s * NS_PER_S / self.step_ns))

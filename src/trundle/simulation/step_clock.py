@@ -6,15 +6,15 @@ from typing import TypeAlias
 from msgspec import Struct
 
 from trundle.model import World
+from trundle.spatial import NS_PER_S
 
-NS = 1_000_000_000
 Period: TypeAlias = int | Fraction
 """[ns]"""
 
 
 def world_step_ns(world: World) -> int:
     """How long a step is that a world asks for [ns]."""
-    return round(world.physics.max_step_size_s * NS)
+    return round(world.physics.max_step_size_s * NS_PER_S)
 
 
 class StepClock(Struct, frozen=True):

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, World
 from trundle.physics import Engine, compile_world
-from trundle.spatial import Pose, Twist
+from trundle.spatial import Pose, Twist, pose_from_row
 
 
 def unique_name(world: World, name: str) -> str:
@@ -132,7 +132,6 @@ def _keep_free_links(old: Engine, engine: Engine, links: Mapping[int, int]) -> N
     poses, twists = old.reader.link_poses(), old.reader.link_twists()
     for before, link in links.items():
         if engine.writer.is_free(link) and not old.writer.is_free(before):
-            x, y, z, qw, qx, qy, qz = poses[before].tolist()
             vx, vy, vz, wx, wy, wz = twists[before].tolist()
-            engine.writer.set_tree_pose(link, Pose((x, y, z), (qw, qx, qy, qz)))
+            engine.writer.set_tree_pose(link, pose_from_row(poses[before]))
             engine.writer.set_tree_twist(link, Twist((vx, vy, vz), (wx, wy, wz)))

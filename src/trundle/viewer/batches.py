@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from trundle.model import Plane
 from trundle.render import Scene, Shape
+from trundle.spatial import compose_rows, finite_rows, rows_from_poses
 
 from .forms import Instance, form_of, instance_of
-from .poses import Array, composed, known, rows_of
 
 
 class Batch:
@@ -29,7 +29,7 @@ class Batch:
     ) -> None:
         form = form_of(shapes[0])
         self._bodies = np.array([shape.body for shape in shapes])
-        self._body_from_form = rows_of(
+        self._body_from_form = rows_from_poses(
             [s.body_from_shape @ i.shape_from_form for s, i in zip(shapes, instances, strict=True)]
         )
         self._scales = np.array([i.scale for i in instances], dtype=np.float32)
@@ -54,10 +54,10 @@ class Batch:
         )
         self._shown: NDArray[np.bool_] = np.zeros(count, dtype=bool)
 
-    def update(self, body_poses: Array) -> None:
+    def update(self, body_poses: NDArray[np.float64]) -> None:
         """Put every instance on its body; those without a pose shrink to nothing."""
-        poses = composed(body_poses[self._bodies], self._body_from_form)
-        shown = known(poses)
+        poses = compose_rows(body_poses[self._bodies], self._body_from_form)
+        shown = finite_rows(poses)
         poses[~shown] = (0, 0, 0, 1, 0, 0, 0)
         self.handle.batched_positions = poses[:, :3].astype(np.float32)
         self.handle.batched_wxyzs = poses[:, 3:].astype(np.float32)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from trundle.meshes import Mesh
 from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
 from trundle.render import Shape
-from trundle.spatial import Pose, Quaternion, Vector3
+from trundle.spatial import Pose, Vector3, rotation_from_z
 
 _SEGMENTS = 48
 _RINGS = 24
@@ -53,7 +53,7 @@ def instance_of(shape: Shape) -> Instance:
         case Capsule(radius=r, length=length):
             return Instance(("capsule", r, length))
         case Plane(normal=normal, size=(x, y)):
-            return Instance("plane", (x, y, 1.0), Pose(quaternion=_quaternion_from_z_to(normal)))
+            return Instance("plane", (x, y, 1.0), Pose(quaternion=rotation_from_z(normal)))
         case Mesh() as mesh:
             return Instance(("mesh", id(mesh)))
 
@@ -106,12 +106,3 @@ def _turned(profile: NDArray[np.float64]) -> Form:
         if profile[ring, 0] > 1e-12:
             faces.append(np.stack([low + i, low + j, high + j], axis=1))
     return Form(rings.reshape(-1, 3).astype(np.float32), np.concatenate(faces).astype(np.int32))
-
-
-def _quaternion_from_z_to(normal: Vector3) -> Quaternion:
-    """The shortest rotation that turns +z into a unit vector."""
-    x, y, z = normal
-    if z < -1 + 1e-9:
-        return (0.0, 1.0, 0.0, 0.0)
-    w = np.sqrt((1 + z) / 2)
-    return (float(w), float(-y / (2 * w)), float(x / (2 * w)), 0.0)

@@ -5,13 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 import viser
+from numpy.typing import NDArray
 
 from trundle.meshes import Mesh
 from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
 from trundle.render import Shape
+from trundle.spatial import compose_rows, finite_rows, rows_from_poses
 
 from .content import ViewerScene
-from .poses import Array, composed, known, rows_of
 
 _HUGE_M = 20.0
 """What is larger (halls, terrain) is scenery: the camera stands within it."""
@@ -25,7 +26,7 @@ _FROM_ABOVE = np.array([-0.02, 0.0, 1.0])
 class Extent:
     """A ball around what matters in the scene, in the frame that the poses were given in."""
 
-    center: Array
+    center: NDArray[np.float64]
     """(3,) [m]"""
     radius: float
     """[m]"""
@@ -45,7 +46,7 @@ class Extent:
         camera.look_at = self.center
 
 
-def extent_of(scene: ViewerScene, body_poses: Array) -> Extent:
+def extent_of(scene: ViewerScene, body_poses: NDArray[np.float64]) -> Extent:
     """Bound the followed body's model, or everything of moderate size where none is followed."""
     bodies = scene.scene.bodies
     kin = None if scene.follow_body is None else bodies[scene.follow_body].rpartition("::")[0] + "::"
@@ -53,9 +54,9 @@ def extent_of(scene: ViewerScene, body_poses: Array) -> Extent:
     of_robot = [s for s in shapes if kin is not None and bodies[s.body].startswith(kin)]
     shapes = of_robot or shapes
     if shapes:
-        poses = composed(body_poses[[s.body for s in shapes]], rows_of([s.body_from_shape for s in shapes]))
+        poses = compose_rows(body_poses[[s.body for s in shapes]], rows_from_poses([s.body_from_shape for s in shapes]))
         reach = np.array([[_reach(s)] for s in shapes])
-        there = known(poses)
+        there = finite_rows(poses)
         if there.any():
             low = (poses[there, :3] - reach[there]).min(axis=0)
             high = (poses[there, :3] + reach[there]).max(axis=0)

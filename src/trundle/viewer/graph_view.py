@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from trundle.render import Scene
 from trundle.ros import TransformBuffer
 from trundle.spatial import Pose
 
 from .content import CameraView, FrameInfo, JointSlider, OptionGroup, ViewerScene, ViewerState
-from .poses import Array
 from .rviz import RvizConfig
 
 _MAX_COMPLAINTS = 3
@@ -127,7 +127,7 @@ def graph_state(
     )
 
 
-def _rows(known: dict[str, Pose], names: Sequence[str]) -> Array:
+def _rows(known: dict[str, Pose], names: Sequence[str]) -> NDArray[np.float64]:
     """Stack the poses of frames, (names, 7); NaN where a frame has none."""
     rows = np.full((len(names), 7), np.nan)
     for row, name in zip(rows, names, strict=True):

@@ -6,10 +6,9 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from trundle.spatial import Pose
+from trundle.spatial import Pose, compose_rows, finite_rows, rows_from_poses
 
 from .content import CameraView, FrameInfo
-from .poses import Array, composed, known, rows_of
 
 _CAMERA_FROM_OPTICAL = Pose(quaternion=(0.5, -0.5, 0.5, -0.5))
 """A frustum looks along its +z with y down, a robot's camera along +x with z up."""
@@ -63,13 +62,13 @@ class Frames:
             for i, name in enumerate(self._names[:_MAX_NAMES])
         ]
 
-    def update(self, poses: Array, *, axes: bool, names: bool) -> None:
+    def update(self, poses: NDArray[np.float64], *, axes: bool, names: bool) -> None:
         """Put axes, lines and names where the frames are; a frame without a pose is not drawn."""
         if self._top.visible != axes:
             self._top.visible = axes
         if not axes or self._axes is None or self._lines is None:
             return
-        there = known(poses)
+        there = finite_rows(poses)
         drawn = np.where(there[:, None], poses, (0.0, 0, 0, 1, 0, 0, 0))
         self._axes.batched_positions = drawn[:, :3].astype(np.float32)
         self._axes.batched_wxyzs = drawn[:, 3:].astype(np.float32)
@@ -94,7 +93,7 @@ class Frusta:
         self._top = server.scene.add_frame(folder, show_axes=False)
         self._handles: list[viser.CameraFrustumHandle | None] = []
         self._cameras = cameras
-        self._body_from_optical = rows_of([c.body_from_camera @ _CAMERA_FROM_OPTICAL for c in cameras])
+        self._body_from_optical = rows_from_poses([c.body_from_camera @ _CAMERA_FROM_OPTICAL for c in cameras])
         for i, camera in enumerate(cameras):
             if camera.body is None:
                 self._handles.append(None)
@@ -118,7 +117,7 @@ class Frusta:
                 handle.scale = 0.2 * radius
                 handle.thickness = 0.004 * radius
 
-    def update(self, body_poses: Array, *, shown: bool) -> None:
+    def update(self, body_poses: NDArray[np.float64], *, shown: bool) -> None:
         """Put the pyramids on their bodies."""
         if self._top.visible != shown:
             self._top.visible = shown
@@ -129,7 +128,7 @@ class Frusta:
         ):
             if camera.body is None or handle is None:
                 continue
-            pose = composed(body_poses[camera.body : camera.body + 1], body_from_optical[None])[0]
+            pose = compose_rows(body_poses[camera.body : camera.body + 1], body_from_optical[None])[0]
             seen = bool(np.isfinite(pose).all())
             if handle.visible != seen:
                 handle.visible = seen
@@ -143,7 +142,7 @@ class Frusta:
             handle.image = rgb
 
 
-def arrows_along(points: Array) -> Array:
+def arrows_along(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Join points (N, 3) by arrows (M, 2, 3) from each to the next; a leap (a reset, a respawn) is no way driven."""
     arrows = np.stack([points[:-1], points[1:]], axis=1)
     return arrows[np.linalg.norm(arrows[:, 1] - arrows[:, 0], axis=1) < _LEAP_M]
@@ -155,7 +154,7 @@ class Path:
     def __init__(self, server: viser.ViserServer, name: str) -> None:
         self._server = server
         self._name = name
-        self._points: list[Array] = []
+        self._points: list[NDArray[np.float64]] = []
         self._time_ns = 0
         self._drawn = 0
         self._handle: viser.ArrowsHandle | None = None
@@ -165,7 +164,7 @@ class Path:
         """Draw arrows of a size that suits a robot of this radius [m]."""
         self._shaft_m = min(0.02 * radius, 0.1 * _PATH_STEP_M)
 
-    def update(self, time_ns: int, followed: Array | None, *, shown: bool) -> None:
+    def update(self, time_ns: int, followed: NDArray[np.float64] | None, *, shown: bool) -> None:
         """Note where the body is, and draw the path if it is shown; time that runs back starts a new one."""
         if time_ns < self._time_ns:
             self._points.clear()

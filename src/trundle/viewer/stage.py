@@ -8,6 +8,8 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
+from trundle.spatial import compose_rows, invert_rows
+
 from .batches import batches_of
 from .content import ViewerScene, ViewerState
 from .display import Display
@@ -15,9 +17,8 @@ from .framing import Extent, extent_of
 from .lines import Lines
 from .marks import Frames, Frusta, Path
 from .mood import add_grid, add_lights, sky
-from .poses import Array, composed, inverted
 
-_IDENTITY: Array = np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
+_IDENTITY: NDArray[np.float64] = np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
 
 
 class Stage:
@@ -28,9 +29,9 @@ class Stage:
         self._scene = scene
         self._extent: Extent | None = None
         self._frame_index = {frame.name: i for i, frame in enumerate(scene.frames)}
-        self._first: Array | None = None
-        self._last: Array = np.zeros(3)
-        self._shift: Array = np.zeros(3)
+        self._first: NDArray[np.float64] | None = None
+        self._last: NDArray[np.float64] = np.zeros(3)
+        self._shift: NDArray[np.float64] = np.zeros(3)
         self._recenter = False
         self._drawn_in = ""
         add = server.scene.add_frame
@@ -64,7 +65,7 @@ class Stage:
             told = (f"Fixed Frame [{display.fixed_frame}] does not exist",)
             root = _IDENTITY
         if self._extent is None or self._extent.is_guess:
-            fixed_from_bodies = composed(np.tile(root, (len(state.body_poses), 1)), state.body_poses)
+            fixed_from_bodies = compose_rows(np.tile(root, (len(state.body_poses), 1)), state.body_poses)
             self._measure(extent_of(scene, fixed_from_bodies))
         followed = None if scene.follow_body is None else state.body_poses[scene.follow_body]
         with self._server.atomic():
@@ -107,20 +108,22 @@ class Stage:
             if node.visible != wanted:
                 node.visible = wanted
 
-    def _fixed_from_root(self, frame_poses: Array, fixed_frame: str) -> Array | None:
+    def _fixed_from_root(self, frame_poses: NDArray[np.float64], fixed_frame: str) -> NDArray[np.float64] | None:
         """Return the pose (7,) that puts the fixed frame at the origin; None where that frame has no pose."""
         if fixed_frame in ("", self._scene.root_frame) and fixed_frame not in self._frame_index:
             return _IDENTITY
         index = self._frame_index.get(fixed_frame)
         if index is None or not np.isfinite(frame_poses[index]).all():
             return None
-        return inverted(frame_poses[index : index + 1])[0]
+        return invert_rows(frame_poses[index : index + 1])[0]
 
-    def _move_view(self, fixed_from_root: Array, followed: Array | None, display: Display) -> None:
+    def _move_view(
+        self, fixed_from_root: NDArray[np.float64], followed: NDArray[np.float64] | None, display: Display
+    ) -> None:
         """Hold the followed body still on the screen by moving everything else."""
         if followed is None or not np.isfinite(followed).all():
             return
-        here = composed(fixed_from_root[None], followed[None])[0, :3]
+        here = compose_rows(fixed_from_root[None], followed[None])[0, :3]
         if self._first is None or self._drawn_in != display.fixed_frame:
             self._first = self._last = here
             self._shift = np.zeros(3)

@@ -4,10 +4,10 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from trundle.spatial import NS_PER_S
+
 if TYPE_CHECKING:
     from trundle.ros import Clock
-
-_NS = 1_000_000_000
 
 
 class LaunchDuration:
@@ -35,7 +35,7 @@ class LaunchDuration:
         self._in_step = in_step
         self._is_worldless = is_worldless
         self._say: Callable[[str], None] | None = say
-        self._end_ns = round(duration_s * _NS) + (0 if in_step else clock.now_ns())
+        self._end_ns = round(duration_s * NS_PER_S) + (0 if in_step else clock.now_ns())
         self._stood_ns = 0
         self._seen_ns = time.monotonic_ns()
 

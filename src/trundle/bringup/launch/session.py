@@ -12,6 +12,7 @@ from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import WINDOWS, WORLDS, Executable, NodeHost, Simulator, find_node
 from trundle.page_address import PageAddress
 from trundle.ros import DISTROS, Clock, Node, Recorder, RecorderOptions, StepRecorder, follow_time
+from trundle.spatial import NS_PER_S
 from trundle.supervisor import Event, ProcessTree, StopTimeouts
 
 from ..console import say
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
 
     from ..gazebo.world import GazeboWorld
 
-NS = 1_000_000_000
 _START_S = 60.0
 """Starting programs takes its time on a busy machine."""
 _SILENCE_S = 5.0
@@ -107,7 +107,7 @@ class LaunchSession:
         self.clock = graph.loop.run(follow_time(launcher))
         recorder = None if options.record is None else self._record(options.record, in_step, programs)
         if in_step:
-            end_ns = None if options.duration_s is None else round(options.duration_s * NS)
+            end_ns = None if options.duration_s is None else round(options.duration_s * NS_PER_S)
             self._lockstep = Lockstep(graph.loop, end_ns=end_ns, recorder=recorder, say=show.line)
             if tells_time:
                 show.line("no simulation tells the time: /clock is told here, as fast as the nodes can follow")

@@ -19,10 +19,9 @@ from trundle.packages import Packages
 from trundle.render import Intrinsics, Picture, Scene, corners_of, scene_from_world, update_skins
 from trundle.sensors import CameraProjection, CameraSensor, PinholeProjection, mount_cameras
 from trundle.simulation import Simulation, Snapshot
-from trundle.spatial import Pose
+from trundle.spatial import Pose, pose_from_row
 
 from ..renderers import RENDERERS, RendererName
-from ..run.run_result import pose_from_row
 from ..world_setup import load_world
 from .lowest_point import lowest_point
 from .urdf_preview import add_robot

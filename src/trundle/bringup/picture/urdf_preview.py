@@ -8,6 +8,7 @@ from trundle.diagnostics import Diagnostics
 from trundle.packages import Packages
 from trundle.render import Scene
 from trundle.robot import Robot, root_from_links
+from trundle.spatial import rows_from_poses
 
 from .lowest_point import lowest_point
 
@@ -24,7 +25,7 @@ def add_robot(scene: Scene, robot: Robot, packages: Packages, report: Diagnostic
     poses = root_from_links(robot, {})
     links = [poses[name] for name in drawn.bodies]
     heights = [lowest_point(shape.geometry, links[shape.body] @ shape.body_from_shape) for shape in drawn.shapes]
-    rows = np.array([(*pose.position, *pose.quaternion) for pose in links])
+    rows = rows_from_poses(links)
     rows[:, 2] -= min(heights, default=0.0)
     first = len(scene.bodies)
     moved = tuple(replace(shape, body=shape.body + first) for shape in drawn.shapes)

@@ -16,12 +16,13 @@ from trundle.page_address import AllowedNames, PageAddress
 from trundle.physics import SimulationUnstableError
 from trundle.sensors import mount_cameras, mount_sensors
 from trundle.simulation import Simulation, with_actors
+from trundle.spatial import NS_PER_S
 
 from ..console import Console
 from ..load_input import report_workspace
 from ..network_warning import warn_of_network
 from ..plugins import load_plugins, load_world_plugins
-from ..realtime_pacer import NS, RealtimePacer, shorten_gil_interval
+from ..realtime_pacer import RealtimePacer, shorten_gil_interval
 from ..renderers import RENDERERS, RendererName
 from ..signals import StopFlag, stop_flag
 from ..world_setup import load_world
@@ -134,7 +135,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             world=with_actors(stage.written, report),
             snapshot=simulation.snapshot(),
             steps=simulation.simulated_steps,
-            simulated_s=simulation.simulated_ns / NS,
+            simulated_s=simulation.simulated_ns / NS_PER_S,
             wall_s=wall_s,
             images=sum(camera.image_count for camera in cameras),
             report=report,
@@ -158,7 +159,7 @@ def _simulate(
     Raises:
         SimulationUnstableError: the physics blew up, and that is to be the end.
     """
-    end_ns = None if options.duration_s is None else round(options.duration_s * NS)
+    end_ns = None if options.duration_s is None else round(options.duration_s * NS_PER_S)
     pacer = RealtimePacer(options.speed)
     shorten_gil_interval()
     paused = options.paused
@@ -193,7 +194,7 @@ def _recover(
     """Do what was asked for when the physics blows up; return whether the simulation is paused now."""
     match options.on_instability or ("exit" if options.headless else "pause"):
         case "pause":
-            say(f"{error}; the simulation is paused where it last was sound, at {simulation.time_ns / NS:.3f} s")
+            say(f"{error}; the simulation is paused where it last was sound, at {simulation.time_ns / NS_PER_S:.3f} s")
             return True
         case "reset" if times <= _MAX_RESETS:
             say(f"{error}; the simulation starts anew")

@@ -1,14 +1,13 @@
 """Where a run ended: the final state and how fast it got there."""
 
 import itertools
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NotRequired, TypedDict
 
 from trundle.diagnostics import DiagnosticJson, Diagnostics
 from trundle.model import Joint, Link, Model, World
 from trundle.simulation import Snapshot
-from trundle.spatial import Pose
+from trundle.spatial import Pose, pose_from_row
 
 
 class _LinkJson(TypedDict):
@@ -153,9 +152,3 @@ def _one_or_all(axes: list[float]) -> float | list[float]:
     if len(axes) > 1:
         return axes
     return axes[0] if axes else 0.0
-
-
-def pose_from_row(row: Sequence[float]) -> Pose:
-    """One row of `Snapshot.poses`, x y z qw qx qy qz, as a Pose."""
-    x, y, z, qw, qx, qy, qz = map(float, row)
-    return Pose((x, y, z), (qw, qx, qy, qz))

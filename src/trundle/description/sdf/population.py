@@ -12,7 +12,7 @@ from typing import TypeAlias
 
 from msgspec.structs import replace
 
-from trundle.spatial import Pose, Vector3
+from trundle.spatial import Pose, Vector3, add
 from trundle.xmlnode import XmlNode
 
 from .context import Context, RawPose, read_pose
@@ -49,7 +49,7 @@ def read_population(
         replace(
             part,
             model=replace(part.model, name=f"{part.model.name}_clone_{number}"),
-            raw=RawPose(Pose(_add(pose.position, _add(region.corner, pose.transform_vector(place)))), at=node.at),
+            raw=RawPose(Pose(add(pose.position, add(region.corner, pose.transform_vector(place)))), at=node.at),
         )
         for number, place in enumerate(places)
     ]
@@ -140,7 +140,3 @@ def _row(axis: int, size: Vector3, count: int) -> _Places:
         place[axis] = size[axis] * number / count
         places.append((place[0], place[1], place[2]))
     return places
-
-
-def _add(a: Vector3, b: Vector3) -> Vector3:
-    return a[0] + b[0], a[1] + b[1], a[2] + b[2]

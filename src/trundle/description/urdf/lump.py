@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from trundle.diagnostics import Diagnostics
 from trundle.model import Inertial
 from trundle.robot import Robot, RobotInertial, RobotShape
-from trundle.spatial import ZERO, Pose, Quaternion
+from trundle.spatial import ZERO, Pose, Quaternion, conjugate
 from trundle.xmlnode import XmlNode
 
 from ..inertia_sum import rotate_inertia, sum_inertias
@@ -92,8 +92,7 @@ def lumped_inertial(parts: list[tuple[RobotInertial, Pose]], orientation: Quater
         (part.mass, com.position, rotate_inertia((*part.moments, *part.products), com.quaternion)) for part, com in coms
     ]
     mass, center, tensor = sum_inertias(bodies)
-    w, x, y, z = orientation
-    ixx, iyy, izz, ixy, ixz, iyz = rotate_inertia(tensor, (w, -x, -y, -z))
+    ixx, iyy, izz, ixy, ixz, iyz = rotate_inertia(tensor, conjugate(orientation))
     return Inertial(
         mass=mass, link_from_com=Pose(center, orientation), moments=(ixx, iyy, izz), products=(ixy, ixz, iyz)
     )

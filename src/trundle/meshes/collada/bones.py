@@ -8,6 +8,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from trundle.spatial import matrix_from_quaternion, normalized, quaternion_from_axis_angle
 from trundle.xmlnode import XmlNode, parse_numbers
 
 from ..mesh import MeshError
@@ -180,19 +181,16 @@ def _product(steps: list[tuple[str, _Array]]) -> _Array:
             case "scale":
                 one[:3, :3] = np.diag(values)
             case _:
-                one[:3, :3] = _rotation(values[:3], math.radians(values[3]))
+                one[:3, :3] = _rotation(*values.tolist())
         whole = whole @ one
     return whole
 
 
-def _rotation(axis: _Array, angle: float) -> _Array:
-    """Rodrigues' formula."""
-    length = float(np.linalg.norm(axis))
-    if length == 0.0:
-        return np.eye(3)
-    x, y, z = axis / length
-    k = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * (k @ k)
+def _rotation(x: float, y: float, z: float, degrees: float) -> _Array:
+    axis = normalized((x, y, z))
+    return (
+        np.eye(3) if axis is None else matrix_from_quaternion(quaternion_from_axis_angle(axis, math.radians(degrees)))
+    )
 
 
 def _metric(pose: _Array, metres: float) -> _Array:

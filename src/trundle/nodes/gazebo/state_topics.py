@@ -4,12 +4,11 @@ import struct
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from trundle.bridge import StepPublisher
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
-from trundle.spatial import Pose
+from trundle.spatial import Pose, pose_from_row
 
 from ..host import Simulator
 from .entities import scoped_links
@@ -105,7 +104,7 @@ class _Rows:
         poses[self._moving] = snapshot.poses[self._links]
         twists[self._moving] = snapshot.twists[self._links]
         for row, link, offset in self._offsets:
-            poses[row] = _numbers(offset if link is None else _pose(poses[row]) @ offset)
+            poses[row] = _numbers(offset if link is None else pose_from_row(poses[row]) @ offset)
         numbers = (np.ascontiguousarray(array, dtype="<f8").tobytes() for array in (poses[:, _ORDER], twists))
         return self._names + b"".join(_array(self._count, data) for data in numbers)
 
@@ -123,12 +122,6 @@ def _row(model: ModelHandle) -> tuple[str, int | None, Pose]:
     if not model.links:
         return model.name, None, model.pose
     return model.name, model.base.index, model.base.link.model_from_link.inverse()
-
-
-def _pose(row: NDArray[np.float64]) -> Pose:
-    x, y, z, *turn = row.tolist()
-    qw, qx, qy, qz = turn
-    return Pose((x, y, z), (qw, qx, qy, qz))
 
 
 def _numbers(pose: Pose) -> tuple[float, ...]:

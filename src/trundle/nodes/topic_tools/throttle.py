@@ -5,6 +5,7 @@ from collections import deque
 from collections.abc import Callable
 
 from trundle.ros import Node, NodeParams, RawMessage
+from trundle.spatial import NS_PER_S
 
 from ..host import NodeHost
 from .raw_relay import RawPublisher, RawSubscriber, subscribe_lazily
@@ -13,14 +14,13 @@ _USAGE = (
     "usage: throttle messages IN_TOPIC MSGS_PER_SEC [OUT_TOPIC], "
     "or throttle bytes IN_TOPIC BYTES_PER_SEC WINDOW [OUT_TOPIC]"
 )
-_NS = 1_000_000_000
 
 
 class MessageRateLimiter:
     """Lets a message through when the last one is more than a period ago."""
 
     def __init__(self, rate_hz: float, now_ns: Callable[[], int]) -> None:
-        self._period_ns = round(_NS / rate_hz)
+        self._period_ns = round(NS_PER_S / rate_hz)
         self._now_ns = now_ns
         self._last_ns = 0
 
@@ -43,7 +43,7 @@ class BandwidthLimiter:
 
     def __init__(self, allowed_bytes: float, window_s: float, now_ns: Callable[[], int]) -> None:
         self._allowed = allowed_bytes
-        self._window_ns = round(window_s * _NS)
+        self._window_ns = round(window_s * NS_PER_S)
         self._now_ns = now_ns
         self._sent: deque[tuple[int, int]] = deque()
 

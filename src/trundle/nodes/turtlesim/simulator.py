@@ -4,13 +4,13 @@ from collections.abc import Callable
 from typing import Any
 
 from trundle.ros import Message, Node, Publisher, Service, ServiceError, Subscription
+from trundle.spatial import NS_PER_S
 
 from ..host import NodeHost
 from ..rate import Rate
 from .turtle import Colour, Turtle
 from .turtle_frame import SIZE_M, SIZE_PX, TurtleFrame
 
-_NS = 1_000_000_000
 _TICK_NS = 16_000_000
 """The original's window timer."""
 _MAX_BEHIND_NS = 2_000_000_000
@@ -83,7 +83,7 @@ class TurtleSim:
 
     async def _move_all(self, image: Publisher) -> int:
         clock = self._node.clock
-        rate, count = Rate(self._node, _NS / _TICK_NS), 0
+        rate, count = Rate(self._node, NS_PER_S / _TICK_NS), 0
         moved_ns = clock.now_ns()
         while True:
             await rate.sleep()
@@ -135,7 +135,7 @@ class TurtleSim:
 
     def _move(self, name: str, turtle: Turtle, now_ns: int) -> None:
         before = (turtle.x, turtle.y)
-        turtle.update(_TICK_NS / _NS, now_ns=now_ns)
+        turtle.update(_TICK_NS / NS_PER_S, now_ns=now_ns)
         if turtle.hit_wall:
             self._node.log_warn(f"Oh no! I hit the wall! ({name} is held at x=[{turtle.x:f}], y=[{turtle.y:f}])")
         self._draw(turtle, before)

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import Inertial, Link
-from trundle.spatial import Pose
+from trundle.spatial import Pose, quaternion_from_matrix
 
 SMALLEST_MASS = 1e-6
 """[kg] What a mass of zero or less becomes."""
@@ -42,7 +42,7 @@ def principal_inertia(link: Link, report: Diagnostics) -> tuple[float, Pose, tup
         )
         moments = moments + np.array([excess / 2, excess / 2, 0.0]) * (1 + 1e-9)
     pose = inertial.link_from_com
-    rotated = pose @ Pose(quaternion=_quaternion(axes))
+    rotated = pose @ Pose(quaternion=quaternion_from_matrix(axes))
     return mass, rotated, (float(moments[0]), float(moments[1]), float(moments[2]))
 
 
@@ -50,20 +50,3 @@ def _tensor(inertial: Inertial) -> NDArray[np.float64]:
     ixx, iyy, izz = inertial.moments
     ixy, ixz, iyz = inertial.products
     return np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
-
-
-def _quaternion(rotation: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """A proper rotation matrix as (w, x, y, z), by the largest of Shepperd's four forms."""
-    m = rotation
-    trace = np.trace(m)
-    four = np.array(
-        [
-            [1 + trace, m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
-            [m[2, 1] - m[1, 2], 1 + 2 * m[0, 0] - trace, m[0, 1] + m[1, 0], m[0, 2] + m[2, 0]],
-            [m[0, 2] - m[2, 0], m[0, 1] + m[1, 0], 1 + 2 * m[1, 1] - trace, m[1, 2] + m[2, 1]],
-            [m[1, 0] - m[0, 1], m[0, 2] + m[2, 0], m[1, 2] + m[2, 1], 1 + 2 * m[2, 2] - trace],
-        ]
-    )
-    best = four[int(np.argmax(np.diag(four)))]
-    w, x, y, z = (best / np.linalg.norm(best)).tolist()
-    return (w, x, y, z)

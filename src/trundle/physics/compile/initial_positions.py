@@ -9,7 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.spatial import Pose, Quaternion, Vector3, cross, quaternion_product, rotate
+from trundle.spatial import (
+    Pose,
+    Quaternion,
+    Vector3,
+    cross,
+    dot,
+    quaternion_from_axis_angle,
+    quaternion_product,
+    rotate,
+)
 
 from .joints import Axis
 from .kinematic_tree import KinematicTree, LinkNode
@@ -95,7 +104,7 @@ def _set_joint_positions(
                 else _first_axis_angle(axis, _vector(model.jnt_axis[after]), turn)
             )
             positions[model.jnt_qposadr[j]] = _wrap_into_limits(model, j, angle)
-            turn = quaternion_product(_rotation(axis, -angle), turn)
+            turn = quaternion_product(quaternion_from_axis_angle(axis, -angle), turn)
 
 
 def _angle_about(axis: Vector3, turn: Quaternion) -> float:
@@ -108,13 +117,8 @@ def _first_axis_angle(axis: Vector3, inner: Vector3, turn: Quaternion) -> float:
     """How far a joint's first axis has turned [rad], from where that took the second."""
     there = rotate(turn, inner)
     across = cross(inner, there)
-    along = _dot(inner, there) - _dot(axis, inner) * _dot(axis, there)
-    return math.atan2(_dot(axis, across), along)
-
-
-def _rotation(axis: Vector3, angle: float) -> Quaternion:
-    s = math.sin(angle / 2)
-    return (math.cos(angle / 2), axis[0] * s, axis[1] * s, axis[2] * s)
+    along = dot(inner, there) - dot(axis, inner) * dot(axis, there)
+    return math.atan2(dot(axis, across), along)
 
 
 def _wrap_into_limits(model: mujoco.MjModel, joint: int, angle: float) -> float:
@@ -144,7 +148,3 @@ def _report_unreachable(
 def _vector(numbers: NDArray[np.float64]) -> Vector3:
     x, y, z = numbers.tolist()
     return x, y, z
-
-
-def _dot(a: Vector3, b: Vector3) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -8,7 +8,7 @@ import numpy as np
 from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
-from trundle.spatial import Pose, Vector3, normalized
+from trundle.spatial import Pose, Vector3, normalized, subtract
 
 from ..plugin import Plugin
 
@@ -87,12 +87,12 @@ class WanderingActor(Plugin):
 
     def _way(self, sim: Simulation, here: Vector3) -> Vector3:
         """Where to, as a sum of pulls and pushes."""
-        to = normalized(_minus(self._target, here)) or (0.0, 0.0, 0.0)
+        to = normalized(subtract(self._target, here)) or (0.0, 0.0, 0.0)
         x, y, z = (self._target_weight * part for part in to)
         for model in sim.models:
             if model.name in self._ignored:
                 continue
-            offset = _minus(model.pose.position, here)
+            offset = subtract(model.pose.position, here)
             distance = math.hypot(*offset)
             if 0.0 < distance < _SEEN:
                 push = self._obstacle_weight / distance**2
@@ -107,7 +107,3 @@ class WanderingActor(Plugin):
             if all(math.dist(drawn, other) >= _APART for other in (self._target, *others)):
                 return drawn
         return self._target
-
-
-def _minus(a: Vector3, b: Vector3) -> Vector3:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])

@@ -6,7 +6,7 @@ from typing import Self
 from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import JointHandle, LinkHandle, ModelHandle, Simulation
-from trundle.spatial import Vector3, Wrench, cross, normalized
+from trundle.spatial import Vector3, Wrench, add, cross, dot, multiply, normalized, subtract
 
 from ..plugin import Plugin
 
@@ -62,8 +62,8 @@ class LiftDrag(Plugin):
         del sim
         pose, twist = self._link.pose, self._link.twist
         at = pose.transform_point(self._centre)
-        arm = (at[0] - pose.position[0], at[1] - pose.position[1], at[2] - pose.position[2])
-        velocity = _add(twist.linear, cross(twist.angular, arm))
+        arm = subtract(at, pose.position)
+        velocity = add(twist.linear, cross(twist.angular, arm))
         forward, upward = pose.transform_vector(self._forward), pose.transform_vector(self._upward)
         if self._is_round:
             upward = normalized(cross(forward, cross(forward, velocity))) or upward
@@ -71,20 +71,20 @@ class LiftDrag(Plugin):
         if span is None or _length(velocity) <= _SLOWEST:
             return
         # Only what blows across the span lifts and drags.
-        across = _add(velocity, _times(span, -_dot(velocity, span)))
-        speed, drag_direction = _length(across), normalized(_times(across, -1.0))
+        across = add(velocity, multiply(span, -dot(velocity, span)))
+        speed, drag_direction = _length(across), normalized(multiply(across, -1.0))
         if drag_direction is None or speed <= _SLOWEST:
             return
         lift_direction = cross(span, across)
-        alpha = self._alpha0 + math.atan2(-_dot(across, upward), _dot(across, forward))
+        alpha = self._alpha0 + math.atan2(-dot(across, upward), dot(across, forward))
         alpha = math.remainder(alpha, math.pi)
         unswept = (speed / _length(velocity)) ** 2
         flapped = 0.0 if self._flap is None else self._flap_lift * self._flap.position
         pressure = 0.5 * self._density * speed * speed * self._area
         lifting = self._lift_coefficient(alpha) * unswept + flapped
-        lift = _times(normalized(lift_direction) or upward, lifting * pressure)
-        drag = _times(drag_direction, self._drag_coefficient(alpha) * unswept * pressure)
-        self._link.add_wrench(Wrench(force=_add(lift, drag)), at=at)
+        lift = multiply(normalized(lift_direction) or upward, lifting * pressure)
+        drag = multiply(drag_direction, self._drag_coefficient(alpha) * unswept * pressure)
+        self._link.add_wrench(Wrench(force=add(lift, drag)), at=at)
 
     def _lift_coefficient(self, alpha: float) -> float:
         if abs(alpha) <= self._stall:
@@ -97,18 +97,6 @@ class LiftDrag(Plugin):
         if abs(alpha) <= self._stall:
             return abs(self._drag * alpha)
         return abs(self._drag * self._stall + self._drag_stalled * (abs(alpha) - self._stall))
-
-
-def _dot(a: Vector3, b: Vector3) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _add(a: Vector3, b: Vector3) -> Vector3:
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
-
-
-def _times(a: Vector3, factor: float) -> Vector3:
-    return (a[0] * factor, a[1] * factor, a[2] * factor)
 
 
 def _length(a: Vector3) -> float:

@@ -8,11 +8,9 @@ import numpy as np
 from trundle.model import PluginTag
 from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
-from trundle.spatial import ZERO, Twist, Vector3
+from trundle.spatial import NS_PER_S, ZERO, Twist, Vector3
 
 from ..plugin import Plugin
-
-NS = 1_000_000_000
 
 
 class RandomVelocity(Plugin):
@@ -27,7 +25,7 @@ class RandomVelocity(Plugin):
         parameters, report = tag.node, sim.report
         self._start = parameters.vector("initial_velocity", default=ZERO, report=report)
         self._speed = parameters.number("velocity_factor", default=1.0, report=report)
-        self._every_ns = round(parameters.number("update_period", default=10.0, report=report) * NS)
+        self._every_ns = round(parameters.number("update_period", default=10.0, report=report) * NS_PER_S)
         bounds = [
             sorted(
                 parameters.number(f"{end}_{axis}", default=default, report=report)

@@ -9,7 +9,7 @@ from trundle.names import ros_name
 from trundle.physics import WheelGrip
 from trundle.ros import Message, Node, Publisher
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
-from trundle.spatial import Vector3, cross, normalized
+from trundle.spatial import Vector3, cross, dot, normalized
 from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
@@ -87,11 +87,11 @@ class WheelSlip(Plugin):
             if wheel.topic is None:
                 continue
             twist, axis = wheel.link.twist, wheel.link.pose.transform_vector(wheel.axis)
-            tread = wheel.radius * _dot(twist.angular, axis)
+            tread = wheel.radius * dot(twist.angular, axis)
             along = self._model.pose.transform_vector(
                 cross(self._down, self._model.pose.inverse().transform_vector(axis))
             )
-            wheel.topic.publish({"x": _dot(along, twist.linear) - tread, "y": _dot(axis, twist.linear), "z": tread})
+            wheel.topic.publish({"x": dot(along, twist.linear) - tread, "y": dot(axis, twist.linear), "z": tread})
 
     def _on_lateral(self, message: Message) -> None:
         self.set_compliance(lateral=max(float(message.data), 0.0))
@@ -134,7 +134,3 @@ def _axis_in_link(joint: Joint, link: LinkHandle) -> Vector3:
     axis = joint.axis2 if joint.type is JointType.REVOLUTE2 and joint.axis2 is not None else joint.axis
     assert axis is not None
     return link.link.model_from_link.inverse().transform_vector(axis.direction)
-
-
-def _dot(a: Vector3, b: Vector3) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

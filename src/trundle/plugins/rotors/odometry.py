@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from trundle.model import PluginTag
 from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
-from trundle.spatial import ZERO, Pose, Quaternion, Twist, cross, quaternion_product
+from trundle.spatial import NS_PER_S, ZERO, Pose, Quaternion, Twist, cross, quaternion_product
 
 from ..gazebo_ros.namespaces import warn_unsupported
 from ..gazebo_ros.ros_plugin import RosPlugin, required
@@ -50,7 +50,7 @@ class Odometry(RosPlugin):
             self._reference = sim[owner].link(name) if name else sim[owner].base
         self._divisor = max(1, parameters.integer("measurementDivisor", default=1, report=report))
         self._delay = max(0, parameters.integer("measurementDelay", default=0, report=report))
-        self._late_ns = int(parameters.number("unknownDelay", default=0.0, report=report)) * 1_000_000_000
+        self._late_ns = int(parameters.number("unknownDelay", default=0.0, report=report)) * NS_PER_S
         self._random = np.random.default_rng(parameters.integer("randomEngineSeed", default=sim.seed, report=report))
 
         def spread(kind: str) -> NDArray[np.float64]:

@@ -4,11 +4,10 @@ import math
 from bisect import bisect_left, insort
 from dataclasses import dataclass
 
-from trundle.spatial import IDENTITY_QUATERNION, ZERO, Pose, Quaternion, Vector3
+from trundle.spatial import IDENTITY_QUATERNION, NS_PER_S, ZERO, Pose, Quaternion, Vector3, slerp
 
 from ..errors import TransformError
 
-NS = 1_000_000_000
 _MAX_DEPTH = 1000
 """A chain longer than this is a loop; tf2 uses the same bound."""
 
@@ -39,7 +38,7 @@ class TransformBuffer:
     """
 
     def __init__(self, cache_s: float = 10.0) -> None:
-        self._cache_ns = round(cache_s * NS)
+        self._cache_ns = round(cache_s * NS_PER_S)
         self._static: dict[str, Transform] = {}
         self._moving: dict[str, list[Transform]] = {}
         """Child → its transforms, oldest first."""
@@ -185,11 +184,11 @@ class TransformBuffer:
         if at < len(history) and history[at].stamp_ns == stamp_ns:
             return history[at]
         if at == 0 or at == len(history):
-            first, last = history[0].stamp_ns / NS, history[-1].stamp_ns / NS
+            first, last = history[0].stamp_ns / NS_PER_S, history[-1].stamp_ns / NS_PER_S
             where = "past" if at == 0 else "future"
             raise TransformError(
-                f"Lookup would require extrapolation into the {where}. Requested time {stamp_ns / NS:.9f} but the data "
-                f"of '{frame}' is from {first:.9f} to {last:.9f}"
+                f"Lookup would require extrapolation into the {where}. Requested time {stamp_ns / NS_PER_S:.9f} but "
+                f"the data of '{frame}' is from {first:.9f} to {last:.9f}"
             )
         before, after = history[at - 1], history[at]
         if before.parent != after.parent:
@@ -216,15 +215,3 @@ def _interpolate(a: Transform, b: Transform, share: float, stamp_ns: int) -> Tra
         translation=(position[0], position[1], position[2]),
         rotation=slerp(a.rotation, b.rotation, share),
     )
-
-
-def slerp(a: Quaternion, b: Quaternion, share: float) -> Quaternion:
-    """Turn from a to b the short way, at constant rate; `share` 0 gives a, 1 gives b."""
-    dot = sum(x * y for x, y in zip(a, b, strict=True))
-    sign = -1.0 if dot < 0 else 1.0
-    angle = math.acos(min(1.0, abs(dot)))
-    if angle < 1e-9:
-        return b
-    from_a, from_b = math.sin((1 - share) * angle), math.sin(share * angle) * sign
-    w, x, y, z = ((p * from_a + q * from_b) / math.sin(angle) for p, q in zip(a, b, strict=True))
-    return (w, x, y, z)

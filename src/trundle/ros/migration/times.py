@@ -3,7 +3,7 @@
 import functools
 from typing import Self
 
-_S = 1_000_000_000
+from trundle.spatial import NS_PER_S
 
 
 @functools.total_ordering
@@ -14,13 +14,13 @@ class TVal:
 
     def __init__(self, secs: float = 0, nsecs: int = 0) -> None:
         """Make one of whole seconds and nanoseconds, or of seconds with a fraction alone."""
-        ns = round(secs * _S) if isinstance(secs, float) else int(secs) * _S
-        self.secs, self.nsecs = divmod(ns + int(nsecs), _S)
+        ns = round(secs * NS_PER_S) if isinstance(secs, float) else int(secs) * NS_PER_S
+        self.secs, self.nsecs = divmod(ns + int(nsecs), NS_PER_S)
 
     @classmethod
     def from_sec(cls, seconds: float) -> Self:
         """Make one of seconds."""
-        return cls(0, round(seconds * _S))
+        return cls(0, round(seconds * NS_PER_S))
 
     def to_sec(self) -> float:
         """All of it [s]."""
@@ -28,7 +28,7 @@ class TVal:
 
     def to_nsec(self) -> int:
         """All of it [ns]."""
-        return self.secs * _S + self.nsecs
+        return self.secs * NS_PER_S + self.nsecs
 
     def is_zero(self) -> bool:
         """Whether it is 0, as a time that was never set is."""
@@ -93,4 +93,4 @@ class Time(TVal):
 
 def _ns(instant: object) -> int:
     """Nanoseconds of one of ours, or of genpy's, which a rule may have made."""
-    return getattr(instant, "secs", 0) * _S + getattr(instant, "nsecs", 0)
+    return getattr(instant, "secs", 0) * NS_PER_S + getattr(instant, "nsecs", 0)

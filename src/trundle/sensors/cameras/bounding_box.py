@@ -5,9 +5,8 @@ from numpy.typing import NDArray
 
 from trundle.render import outline_of
 from trundle.simulation import Snapshot
-from trundle.spatial import Pose
+from trundle.spatial import Pose, pose_from_row, transform_points
 
-from ..pose_arrays import pose_of, transform_points
 from .camera import CameraReading, CameraSensor, SeenBox
 from .segmentation import INSTANCES, instance_labels
 
@@ -49,7 +48,7 @@ class BoundingBoxCameraSensor(CameraSensor):
 
     def _box_3d(self, shapes: list[int], snapshot: Snapshot) -> tuple[Pose, tuple[float, float, float]]:
         """The box along the axes of the thing's first body."""
-        world_from_body = pose_of(snapshot.poses[self.scene.scene.shapes[shapes[0]].body])
+        world_from_body = pose_from_row(snapshot.poses[self.scene.scene.shapes[shapes[0]].body])
         points = transform_points(world_from_body.inverse(), self._outline(shapes, snapshot))
         low, high = points.min(axis=0), points.max(axis=0)
         x, y, z = ((low + high) / 2).tolist()
@@ -77,5 +76,5 @@ class BoundingBoxCameraSensor(CameraSensor):
             shape = self.scene.scene.shapes[number]
             outline = outline_of(shape.geometry)
             points = outline if len(outline) else np.zeros((1, 3))
-            found.append(transform_points(pose_of(snapshot.poses[shape.body]) @ shape.body_from_shape, points))
+            found.append(transform_points(pose_from_row(snapshot.poses[shape.body]) @ shape.body_from_shape, points))
         return np.concatenate(found)

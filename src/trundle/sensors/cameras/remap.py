@@ -4,9 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.render import Intrinsics, Picture
-from trundle.spatial import Pose
-
-from ..pose_arrays import rotate_vectors
+from trundle.spatial import Pose, rotate_vectors
 
 _Array = NDArray[np.float64]
 _STEPS = 256

@@ -1,0 +1,60 @@
+"""Rigid transforms."""
+
+from typing import Self
+
+from msgspec import Struct
+
+from .quaternions import (
+    IDENTITY_QUATERNION,
+    Quaternion,
+    conjugate,
+    quaternion_from_rpy,
+    quaternion_product,
+    rotate,
+    rpy_from_quaternion,
+)
+from .vectors import ZERO, Vector3
+
+
+class Pose(Struct, frozen=True):
+    """A rigid transform `a_from_b`: where frame b's origin and axes are, seen from frame a."""
+
+    position: Vector3 = ZERO
+    """[m]"""
+    quaternion: Quaternion = IDENTITY_QUATERNION
+    """(w, x, y, z), unit."""
+
+    @classmethod
+    def from_rpy(cls, x: float, y: float, z: float, roll: float = 0.0, pitch: float = 0.0, yaw: float = 0.0) -> Self:
+        """Position [m] and fixed-axis roll, pitch, yaw [rad], the six numbers of an SDF pose."""
+        return cls((x, y, z), quaternion_from_rpy(roll, pitch, yaw))
+
+    def __matmul__(self, other: "Pose") -> "Pose":
+        """`a_from_b @ b_from_c` is `a_from_c`."""
+        x, y, z = rotate(self.quaternion, other.position)
+        px, py, pz = self.position
+        return Pose((px + x, py + y, pz + z), quaternion_product(self.quaternion, other.quaternion))
+
+    def inverse(self) -> "Pose":
+        """`a_from_b.inverse()` is `b_from_a`."""
+        inverse = conjugate(self.quaternion)
+        px, py, pz = rotate(inverse, self.position)
+        return Pose((-px, -py, -pz), inverse)
+
+    def transform_point(self, p: Vector3) -> Vector3:
+        """Express a point given in frame b in frame a [m]."""
+        x, y, z = rotate(self.quaternion, p)
+        return (self.position[0] + x, self.position[1] + y, self.position[2] + z)
+
+    def transform_vector(self, v: Vector3) -> Vector3:
+        """Express a free vector given in frame b in frame a."""
+        return rotate(self.quaternion, v)
+
+    @property
+    def rpy(self) -> Vector3:
+        """Roll, pitch, yaw about fixed axes [rad]."""
+        return rpy_from_quaternion(self.quaternion)
+
+    def as_list(self) -> list[float]:
+        """[x, y, z, roll, pitch, yaw] [m, rad], as SDF and `--json` write a pose."""
+        return [*self.position, *self.rpy]

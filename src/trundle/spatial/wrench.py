@@ -1,0 +1,18 @@
+"""Loads on rigid bodies."""
+
+from msgspec import Struct
+
+from .vectors import ZERO, Vector3, add
+
+
+class Wrench(Struct, frozen=True):
+    """Force at a point and torque, in one stated frame."""
+
+    force: Vector3 = ZERO
+    """[N]"""
+    torque: Vector3 = ZERO
+    """[N·m]"""
+
+    def __add__(self, other: "Wrench") -> "Wrench":
+        """Both at once, at one point."""
+        return Wrench(add(self.force, other.force), add(self.torque, other.torque))

@@ -1,0 +1,60 @@
+"""Interpolation of rotations goes the short way round, at a constant rate."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from trundle.spatial import (
+    IDENTITY_QUATERNION,
+    Quaternion,
+    conjugate,
+    dot,
+    quaternion_from_axis_angle,
+    quaternion_from_rpy,
+    quaternion_product,
+    rotate,
+    slerp,
+)
+
+_angle = st.floats(-math.pi, math.pi)
+_quaternions = st.builds(quaternion_from_rpy, _angle, _angle, _angle)
+_share = st.floats(0.0, 1.0)
+
+
+def _angle_between(a: Quaternion, b: Quaternion) -> float:
+    w, x, y, z = quaternion_product(conjugate(a), b)
+    return 2 * math.atan2(math.hypot(x, y, z), abs(w))
+
+
+@given(_quaternions, _quaternions, _share)
+def test_the_angle_grows_with_the_share(a: Quaternion, b: Quaternion, share: float) -> None:
+    between = slerp(a, b, share)
+
+    assert math.hypot(*between) == pytest.approx(1.0, abs=1e-9)
+    assert _angle_between(a, between) == pytest.approx(share * _angle_between(a, b), abs=1e-6)
+
+
+def test_a_quaternion_and_its_negative_are_the_same_rotation() -> None:
+    turn = quaternion_from_axis_angle((0.0, 0.0, 1.0), 0.2)
+    w, x, y, z = turn
+
+    assert slerp(IDENTITY_QUATERNION, (-w, -x, -y, -z), 0.5) == pytest.approx(
+        quaternion_from_axis_angle((0.0, 0.0, 1.0), 0.1)
+    )
+
+
+def test_nothing_between_equal_rotations_is_lost() -> None:
+    turn = quaternion_from_rpy(0.3, -0.2, 1.0)
+
+    assert slerp(turn, turn, 0.7) == turn
+
+
+def test_an_axis_stays_where_it_is() -> None:
+    axis = (2 / 3, -2 / 3, 1 / 3)
+    turned = rotate(quaternion_from_axis_angle(axis, 1.0), axis)
+
+    assert turned == pytest.approx(axis)
+    across = rotate(quaternion_from_axis_angle((0.0, 0.0, 1.0), 0.4), (1.0, 0.0, 0.0))
+    assert math.acos(dot(across, (1.0, 0.0, 0.0))) == pytest.approx(0.4)
