@@ -103,7 +103,7 @@ def _controlled_arm(folder: Path, loop: GraphLoop) -> Simulation:
         "/gazebo", loop=loop, master_uri=core.uri, deliver=lambda call: sim.post(lambda _: call()), rosout=False
     )
     for name, value in {"robot_description": urdf, **_CONTROLLERS}.items():
-        loop.run(node.set_param(f"/{name}", value), _PATIENCE_S)
+        loop.run(node.params.set(f"/{name}", value), _PATIENCE_S)
     load_plugins(sim, lambda _: node, {}, say=lambda _: None)
     client = Node("/client", loop=loop, master_uri=core.uri, rosout=False)
 

@@ -40,8 +40,8 @@ class Robot:
         self.gazebo = gazebo
         self._spawners: list[tuple[Future[int], Node]] = []
         for name, value in controllers.items():
-            gazebo.loop.run(gazebo.client.set_param(f"/r/{name}", value))
-        gazebo.loop.run(gazebo.client.set_param("/r/robot_description", urdf))
+            gazebo.loop.run(gazebo.client.params.set(f"/r/{name}", value))
+        gazebo.loop.run(gazebo.client.params.set("/r/robot_description", urdf))
         answer = gazebo.call(
             "spawn_urdf_model", "gazebo_msgs/SpawnModel", model_name="r", model_xml=urdf, robot_namespace="/r"
         )

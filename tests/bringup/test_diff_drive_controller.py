@@ -48,8 +48,8 @@ BASE: dict[str, Any] = {
 
 @pytest.fixture
 def car(gazebo: Gazebo) -> Iterator[Gazebo]:
-    gazebo.loop.run(gazebo.client.set_param("/robot_description", CAR))
-    gazebo.loop.run(gazebo.client.set_param("/base", BASE))
+    gazebo.loop.run(gazebo.client.params.set("/robot_description", CAR))
+    gazebo.loop.run(gazebo.client.params.set("/base", BASE))
     pose = {"position": {"z": _RADIUS}}
     answer = gazebo.call(
         "spawn_urdf_model", "gazebo_msgs/SpawnModel", model_name="car", model_xml=CAR, initial_pose=pose

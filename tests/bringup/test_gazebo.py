@@ -175,7 +175,7 @@ def test_who_counts_each_message_is_told_of_each_step(gazebo: Gazebo) -> None:
 
 
 def test_spawn_model_spawns_from_a_parameter_and_unpauses(gazebo: Gazebo) -> None:
-    gazebo.loop.run(gazebo.client.set_param("/robot_description", _ARM))
+    gazebo.loop.run(gazebo.client.params.set("/robot_description", _ARM))
     words = ["-urdf", "-param", "robot_description", "-model", "arm", "-x", "1", "-z", "2", "-J", "turn", "0.25"]
     words.append("-unpause")
     node = Node("/spawn", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
@@ -298,7 +298,7 @@ def test_topics_of_a_model_go_with_it_unless_another_has_them_too(gazebo: Gazebo
     model = "<sdf version='1.6'><model name='m'><static>1</static><link name='l'>{}</link></model></sdf>"
 
     def topics() -> set[str]:
-        return set(dict(gazebo.loop.run(gazebo.client.call_master("getPublishedTopics", "/")))) & {"/own", "/both"}
+        return set(dict(gazebo.loop.run(gazebo.client.master.call("getPublishedTopics", "/")))) & {"/own", "/both"}
 
     gazebo.spawn(model.format(imu.format("/own") + imu.format("/both").replace("'s'", "'t'")), "one")
     gazebo.spawn(model.format(imu.format("/both")), "two", x=1.0)

@@ -160,7 +160,7 @@ def test_the_clock_ticks_as_often_as_its_parameter_says(
 ) -> None:
     gazebo = bare_gazebo
     if rate is not None:
-        gazebo.loop.run(gazebo.client.set_param("/gazebo/pub_clock_frequency", rate))
+        gazebo.loop.run(gazebo.client.params.set("/gazebo/pub_clock_frequency", rate))
     gazebo.start(distro)
     heard = gazebo.hear("/clock", "rosgraph_msgs/Clock")
     gazebo.call("unpause_physics")

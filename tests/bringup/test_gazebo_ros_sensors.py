@@ -52,7 +52,7 @@ def test_a_laser_scans_on_its_topic_in_its_frame(gazebo: Gazebo, plugin: str) ->
     assert scan.header.frame_id == "hokuyo_link"
     assert len(scan.ranges) == 5
     assert scan.ranges[2] == pytest.approx(2.0, abs=1e-3)
-    topics = dict(gazebo.loop.run(gazebo.client.call_master("getTopicTypes")))
+    topics = dict(gazebo.loop.run(gazebo.client.master.call("getTopicTypes")))
     assert "/mast/head/eye/scan" not in topics  # the plugin's topic takes its place
 
 

@@ -138,6 +138,6 @@ def test_gains_are_changed_while_they_are_in_use(gazebo: Gazebo) -> None:
         assert "/r/lift/pid" in gazebo.loop.run(find_reconfigurable(gazebo.client), PATIENCE_S)
         change(gazebo, "/r/lift/pid", p=3000.0, d=200.0)
         until(lambda: robot.joint("lift").position[0] == pytest.approx(0.5 - 9.8 / 3000.0, abs=5e-4))
-        assert gazebo.loop.run(gazebo.client.get_param("/r/lift/pid/p")) == 3000.0
+        assert gazebo.loop.run(gazebo.client.params.get("/r/lift/pid/p")) == 3000.0
     finally:
         robot.close()

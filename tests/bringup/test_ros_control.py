@@ -145,7 +145,7 @@ def test_without_a_description_it_waits_and_says_so(gazebo: Gazebo, capfd: pytes
     assert spawned.success
     said: list[str] = []
     until(lambda: said.append(capfd.readouterr().err) or "waiting for model URDF" in "".join(said))
-    gazebo.loop.run(gazebo.client.set_param("/robot_description", ROBOT))
+    gazebo.loop.run(gazebo.client.params.set("/robot_description", ROBOT))
     wait = gazebo.client.wait_for_service(f"{MANAGER}/list_controllers", PATIENCE_S)
     gazebo.loop.run(wait, timeout_s=PATIENCE_S)
 

@@ -44,8 +44,8 @@ FOUR: dict[str, Any] = {
 @contextmanager
 def driving(gazebo: Gazebo, urdf: str, settings: dict[str, Any]) -> Generator[None]:
     """The robot on the ground, its controller `base` running."""
-    gazebo.loop.run(gazebo.client.set_param("/robot_description", urdf))
-    gazebo.loop.run(gazebo.client.set_param("/base", settings))
+    gazebo.loop.run(gazebo.client.params.set("/robot_description", urdf))
+    gazebo.loop.run(gazebo.client.params.set("/base", settings))
     pose = {"position": {"z": RADIUS}}
     answer = gazebo.call(
         "spawn_urdf_model", "gazebo_msgs/SpawnModel", model_name="car", model_xml=urdf, initial_pose=pose

@@ -114,7 +114,7 @@ def test_rosout_comes_back_after_it_was_killed(graph: Any) -> None:
             return False
 
     graph.until(is_new)
-    graph.until(lambda: node.log_info("hello") or any(message.msg == "hello" for message in heard))
+    graph.until(lambda: node.log.info("hello") or any(message.msg == "hello" for message in heard))
 
 
 def test_a_distribution_that_is_none_is_refused(capsys: pytest.CaptureFixture[str]) -> None:

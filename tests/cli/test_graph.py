@@ -58,9 +58,9 @@ def chatter(graph: Any) -> Any:
 
     async def talk() -> None:
         while True:
-            node.log_info("spinning")
-            node.log_warn("getting <hot>")
-            other.log_error("lens cap on")
+            node.log.info("spinning")
+            node.log.warn("getting <hot>")
+            other.log.error("lens cap on")
             await WallClock().sleep(0.05)
 
     graph.ready(node, other)

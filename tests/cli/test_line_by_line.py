@@ -92,7 +92,7 @@ def talker(graph: Any) -> Any:
     )
     graph.ready(node)
     kinds = {"name": "car", "size": 1.5, "on": True, "wheels": 4, "parts": ["a", 2, {"b": 1e-7}], "text": "a\nb: c\n"}
-    graph.loop.run(node.set_param("/robot", {**kinds, "empty": {}, "none": [], "number_text": "5"}))
+    graph.loop.run(node.params.set("/robot", {**kinds, "empty": {}, "none": [], "number_text": "5"}))
     return node
 
 

@@ -173,7 +173,7 @@ def test_every_original_tool_works_on_our_graph(tmp_path: Path, capsys: pytest.C
             while not node.is_shut_down:
                 tick.publish({"header": "auto"})
                 frames.send_transform(Transform(parent="map", child="base", stamp_ns=node.clock.now_ns()))
-                node.log_warn("hello")
+                node.log.warn("hello")
                 await WallClock().sleep(0.02)
 
         loop.run(node.wait_registered())

@@ -31,7 +31,7 @@ def test_a_node_is_described_as_by_rosnode(graph: Any) -> None:
     other.subscribe("/a", STRING, print)
     node.subscribe("/b", STRING, print)
     graph.until(lambda: publisher.has_subscribers)
-    graph.until(lambda: len(node.connections()) == 2)
+    graph.until(lambda: len(node.endpoints.connections()) == 2)
     graph.ready(node)
 
     code, out, _ = graph.trundle("node", "info", "/one")

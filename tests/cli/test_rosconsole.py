@@ -10,12 +10,12 @@ from trundle.ros import Loggers
 @pytest.mark.real_ros
 def test_rosconsole_lists_and_sets(graph: Any, original: Any, capsys: pytest.CaptureFixture[str]) -> None:
     node = graph.node("cpp")
-    node.loggers = Loggers.for_roscpp("topic_tools")
+    node.log.loggers = Loggers.for_roscpp("topic_tools")
     graph.ready(node)
     assert "ros\nros.roscpp\n" in original("rosconsole", "list", "/cpp")
-    node.log_debug("not yet")
+    node.log.debug("not yet")
     original("rosconsole", "set", "/cpp", "ros", "debug")
-    node.log_debug("now")
+    node.log.debug("now")
     assert original("rosconsole", "get", "/cpp", "ros.topic_tools") == "debug\n"
     error = capsys.readouterr().err
     assert "now" in error

@@ -70,7 +70,7 @@ class Stage:
     def set_params(self, params: Mapping[str, Any]) -> None:
         """Set parameters by their global names."""
         for name, value in params.items():
-            self.loop.run(self.client.set_param(name, value))
+            self.loop.run(self.client.params.set(name, value))
 
     def until(self, condition: Callable[[], object]) -> None:
         """Wait for something that the graph brings about."""
@@ -92,11 +92,13 @@ class Stage:
 
     def connected(self, topic: str) -> bool:
         """Whether the client hears a publisher of a topic."""
-        return any(link[4] == topic and link[2] == "i" for link in self.client.connections())
+        return any(link[4] == topic and link[2] == "i" for link in self.client.endpoints.connections())
 
     def linked(self, topic: str) -> bool:
         """Whether a stand-in's words on a topic reach somebody."""
-        return any(link[4] == topic and link[2] == "o" for _, node in self._running for link in node.connections())
+        return any(
+            link[4] == topic and link[2] == "o" for _, node in self._running for link in node.endpoints.connections()
+        )
 
 
 @pytest.fixture(scope="session")

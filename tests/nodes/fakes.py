@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import Callable, Coroutine
 from typing import Any
 
-from trundle.ros import DISTROS, Message, Messages
+from trundle.ros import DISTROS, LEVELS, Message, Messages
 
 MESSAGES = Messages()
 
@@ -43,6 +43,34 @@ class FakePublisher:
         self.sent.append(MESSAGES.new(self.type, message) if isinstance(message, dict) else message)
 
 
+class FakeLog:
+    """Keeps what is logged, with its level."""
+
+    def __init__(self) -> None:
+        self.logged: list[tuple[str, str]] = []
+
+    def __getattr__(self, level: str) -> Callable[[str], None]:
+        if level not in LEVELS:
+            raise AttributeError(level)
+        return lambda text: self.logged.append((level, text))
+
+
+class FakeParams:
+    """Parameters by name: private ones without, others with a leading slash."""
+
+    def __init__(self, values: dict[str, Any]) -> None:
+        self._values = values
+
+    async def get(self, name: str, default: Any = None) -> Any:
+        if name == "~":
+            return {key: value for key, value in self._values.items() if not key.startswith("/")}
+        key = name[1:] if name.startswith("~") else f"/{name.lstrip('/')}"
+        return self._values.get(key, default)
+
+    async def search(self, name: str) -> str | None:
+        return f"/{name}" if f"/{name}" in self._values else None
+
+
 class FakeNode:
     """Everything a stand-in asks of a node."""
 
@@ -53,30 +81,15 @@ class FakeNode:
         self.profile = DISTROS[distro]
         self.clock = clock
         self.messages = MESSAGES
-        self.params = params or {}
+        self.params = FakeParams(params or {})
         self.topics: dict[str, FakePublisher] = {}
         self.callbacks: dict[str, Callable[[Message], object]] = {}
         self.services: dict[str, Callable[[Message], dict[str, Any]]] = {}
-        self.logged: list[tuple[str, str]] = []
+        self.log = FakeLog()
         self.closed = asyncio.Event()
-
-    def __getattr__(self, name: str) -> Callable[[str], None]:
-        if not name.startswith("log_"):
-            raise AttributeError(name)
-        return lambda text: self.logged.append((name.removeprefix("log_"), text))
 
     def resolve(self, name: str) -> str:
         return f"{self.name}/{name[1:]}" if name.startswith("~") else f"/{name.lstrip('/')}"
-
-    async def get_param(self, name: str, default: Any = None) -> Any:
-        """Private parameters are given without, others with a leading slash."""
-        if name == "~":
-            return {key: value for key, value in self.params.items() if not key.startswith("/")}
-        key = name[1:] if name.startswith("~") else f"/{name.lstrip('/')}"
-        return self.params.get(key, default)
-
-    async def search_param(self, name: str) -> str | None:
-        return f"/{name}" if f"/{name}" in self.params else None
 
     def advertise(self, topic: str, type_name: str, **_: Any) -> FakePublisher:
         return self.topics.setdefault(self.resolve(topic), FakePublisher(type_name))

@@ -134,7 +134,7 @@ def test_diagnostics_tell_the_speeds_once_a_second() -> None:
 
 def test_it_says_what_the_original_says() -> None:
     node = drive(SMARTCAR, seconds=0.1)
-    assert node.logged == [
+    assert node.log.logged == [
         ("info", "ArbotiX being simulated."),
         ("info", "Started DiffController (base_controller). Geometry: 0.26m wide, 4100.0 ticks/m."),
     ]
@@ -160,7 +160,7 @@ def test_it_says_what_the_original_says() -> None:
 def test_parameters_of_no_use_end_it_with_a_sentence(params: dict[str, Any], message: str) -> None:
     node = FakeNode(FakeClock(end_ns=2 * S), params)
     assert run_to_end(ArbotixDriver(node, [], NodeHost()).run()) == 1  # pyright: ignore[reportArgumentType]
-    assert node.logged[-1] == ("error", message)
+    assert node.log.logged[-1] == ("error", message)
 
 
 def test_a_controller_that_cannot_be_made_is_named_and_left_out() -> None:
@@ -170,7 +170,7 @@ def test_a_controller_that_cannot_be_made_is_named_and_left_out() -> None:
         "c": {"type": "follow_controller"},
     }
     node = drive({"sim": True, "controllers": controllers}, seconds=0.1)
-    assert [text for level, text in node.logged if level == "error"] == [
+    assert [text for level, text in node.log.logged if level == "error"] == [
         "Unrecognized controller: omni_controller",
         "controller b: parameter /n/controllers/b/ticks_meter is not set; it is left out",
         "controller c: joints is not set; it names the servos to move; it is left out",

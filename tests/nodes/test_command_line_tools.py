@@ -17,7 +17,7 @@ def test_rostopic_publishes(stage) -> None:
 
 def test_rosparam_ends_with_its_exit_code(stage) -> None:
     assert stage.start("rosparam/rosparam", "set /a 5", name="set").result(PATIENCE_S) == 0
-    assert stage.loop.run(stage.client.get_param("/a")) == 5
+    assert stage.loop.run(stage.client.params.get("/a")) == 5
     assert stage.start("rosparam/rosparam", "get /none", name="get").result(PATIENCE_S) == 1
 
 

@@ -32,7 +32,7 @@ def test_list_get_set_dump_and_load(dynparam, stage, capsys, tmp_path: Path) -> 
     assert out.startswith(f"{NODE}\n")
     assert "'scan_height': 7" in out
     assert "'range_max': 3.5" in out
-    now = stage.loop.run(stage.client.get_param(NODE))
+    now = stage.loop.run(stage.client.params.get(NODE))
     assert (now["scan_height"], now["range_max"], now["range_min"]) == (3, 5.0, 0.25)
 
 
@@ -45,7 +45,7 @@ def test_what_the_original_dumps_is_read(dynparam, stage, tmp_path: Path) -> Non
         "state: []\n"
     )
     assert dynparam(f"load {NODE} {file}") == 0
-    assert stage.loop.run(stage.client.get_param(f"{NODE}/scan_height")) == 9
+    assert stage.loop.run(stage.client.params.get(f"{NODE}/scan_height")) == 9
 
 
 @pytest.mark.parametrize(

@@ -107,7 +107,7 @@ def test_a_joint_without_limits_is_named_and_left_out() -> None:
         {}, robot='<robot name="r"><joint name="a" type="revolute"/><joint name="b" type="continuous"/></robot>'
     )
     assert list(node.sent("/joint_states")[0].name) == ["b"]
-    assert node.logged == [("warn", "joint 'a' is not fixed, nor continuous, but has no limits; it is left out")]
+    assert node.log.logged == [("warn", "joint 'a' is not fixed, nor continuous, but has no limits; it is left out")]
 
 
 @pytest.mark.parametrize(
@@ -124,8 +124,8 @@ def test_a_joint_without_limits_is_named_and_left_out() -> None:
 def test_what_cannot_be_published_ends_it_with_a_sentence(params: dict[str, Any], message: str) -> None:
     node = FakeNode(FakeClock(end_ns=2 * S), {"/robot_description": ROBOT, **params})
     assert run_to_end(JointStatePublisher(node, [], NodeHost()).run()) == 1  # pyright: ignore[reportArgumentType]
-    assert node.logged[-1][0] == "error"
-    assert message in node.logged[-1][1]
+    assert node.log.logged[-1][0] == "error"
+    assert message in node.log.logged[-1][1]
 
 
 class Page:

@@ -14,7 +14,7 @@ def test_every_nodelet_of_the_list_is_there() -> None:
 def test_a_nodelet_that_a_stand_in_can_be_is_it(stage) -> None:
     stage.start("nodelet/nodelet", "manager", name="manager")
     stage.start("nodelet/nodelet", "load depthimage_to_laserscan/DepthImageToLaserScanNodelet manager", name="scan")
-    stage.until(lambda: ["/scan", "sensor_msgs/LaserScan"] in stage.loop.run(stage.client.call_master("getTopicTypes")))
+    stage.until(lambda: ["/scan", "sensor_msgs/LaserScan"] in stage.loop.run(stage.client.master.call("getTopicTypes")))
 
 
 def test_another_is_named_before_anything_starts(stage, capsys) -> None:

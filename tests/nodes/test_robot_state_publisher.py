@@ -34,7 +34,7 @@ def play(script: Callable[[FakeNode], None], params: dict[str, Any] | None = Non
         node = FakeNode(FakeClock(start_ns=100 * S, end_ns=10_000 * S), {"/robot_description": ROBOT, **(params or {})})
         task = asyncio.ensure_future(RobotStatePublisher(node, [], NodeHost()).run())  # pyright: ignore[reportArgumentType]
         while "/joint_states" not in node.callbacks or "/tf_static" not in node.topics:
-            assert not task.done(), node.logged
+            assert not task.done(), node.log.logged
             await asyncio.sleep(0)
         script(node)
         node.closed.set()
@@ -119,7 +119,7 @@ def test_time_that_goes_back_forgets_what_was_sent() -> None:
 
     node = play(script)
     assert len(node.sent("/tf")) == 2
-    assert node.logged[-1][1].startswith("Moved backwards in time")
+    assert node.log.logged[-1][1].startswith("Moved backwards in time")
 
 
 def test_odd_messages_are_named_and_dropped() -> None:
@@ -137,12 +137,12 @@ def test_odd_messages_are_named_and_dropped() -> None:
     node = play(script)
     assert node.sent("/tf") == []
     unknown = ("warn", 'Joint state with name: "nobody" was received but not found in URDF')
-    assert [entry for entry in node.logged if entry == unknown] == [unknown] * 2
-    assert [text for level, text in node.logged if level == "error"] == [
+    assert [entry for entry in node.log.logged if entry == unknown] == [unknown] * 2
+    assert [text for level, text in node.log.logged if level == "error"] == [
         "Robot state publisher ignored an invalid JointState message"
     ]
-    assert [text for _, text in node.logged if "whose position member was empty" in text][1:] == []
-    assert any(text.startswith("Received JointState is 51.") for _, text in node.logged)
+    assert [text for _, text in node.log.logged if "whose position member was empty" in text][1:] == []
+    assert any(text.startswith("Received JointState is 51.") for _, text in node.log.logged)
 
 
 @pytest.mark.parametrize("prefix", ["car", "/car/"])
@@ -158,13 +158,13 @@ def test_frames_carry_the_tf_prefix(prefix: str) -> None:
 def test_a_robot_that_cannot_be_read_ends_it_with_a_sentence(params: dict[str, Any]) -> None:
     node = FakeNode(FakeClock(end_ns=2 * S), params)
     assert run_to_end(RobotStatePublisher(node, [], NodeHost()).run()) == 1  # pyright: ignore[reportArgumentType]
-    assert node.logged[-1][0] == "error"
+    assert node.log.logged[-1][0] == "error"
 
 
 def test_the_old_name_says_so_and_works() -> None:
     node = FakeNode(FakeClock(end_ns=2 * S), {})
     assert run_to_end(StatePublisher(node, [], NodeHost()).run()) == 1  # pyright: ignore[reportArgumentType]
-    assert node.logged[0] == (
+    assert node.log.logged[0] == (
         "warn",
         "The 'state_publisher' executable is deprecated. Please use 'robot_state_publisher' instead",
     )

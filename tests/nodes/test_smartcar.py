@@ -63,7 +63,7 @@ class Smartcar:
 async def set_up(plan: LaunchPlan, params: Any, loop: GraphLoop, uri: str, events: list[Event]) -> Supervisor:
     setter = Node("setter", loop=loop, master_uri=uri, rosout=False)
     for param in params:
-        await setter.set_param(param.name, param.value)
+        await setter.params.set(param.name, param.value)
     await setter.shutdown()
     supervisor = Supervisor(events.append)
     for planned in plan.nodes:

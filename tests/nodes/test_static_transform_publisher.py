@@ -62,7 +62,7 @@ def test_the_new_one_reads_a_parameter() -> None:
     del tree["child_frame_id"]
     node, code = run(Tf2StaticTransformPublisher, "mount", {"/mount": tree})
     assert code == 255
-    assert node.logged[-1] == (
+    assert node.log.logged[-1] == (
         "fatal",
         "Could not read TF: parameter mount is no transform: 'child_frame_id' is missing",
     )
@@ -71,7 +71,7 @@ def test_the_new_one_reads_a_parameter() -> None:
 def test_the_old_one_says_that_a_frame_is_its_own_parent_and_goes_on() -> None:
     node, code = run(TfStaticTransformPublisher, "0 0 0 0 0 0 a a 100")
     assert code is None
-    assert ("fatal", "target_frame and source frame are the same (a, a) this cannot work") in node.logged
+    assert ("fatal", "target_frame and source frame are the same (a, a) this cannot work") in node.log.logged
     assert node.sent("/tf")
 
 
@@ -89,4 +89,4 @@ def test_the_old_one_says_that_a_frame_is_its_own_parent_and_goes_on() -> None:
 def test_a_command_line_of_no_use_ends_it_with_a_sentence(kind: Callable[..., Any], line: str, code: int) -> None:
     node, got = run(kind, line)
     assert got == code
-    assert node.logged[-1][0] in ("error", "fatal")
+    assert node.log.logged[-1][0] in ("error", "fatal")

@@ -36,7 +36,7 @@ def test_drop_leaves_out_x_of_y(stage) -> None:
     source = stage.speak("/in", STRING)
     source.publish({"data": "0"})
     source.publish({"data": "unheard: the type becomes known"})
-    stage.until(lambda: "/in_drop" in dict(stage.loop.run(stage.client.call_master("getTopicTypes"))))
+    stage.until(lambda: "/in_drop" in dict(stage.loop.run(stage.client.master.call("getTopicTypes"))))
     stage.until(lambda: stage.connected("/in_drop"))
     for number in range(2, 9):
         source.publish({"data": str(number)})
@@ -162,13 +162,13 @@ def test_a_hidden_relay_waits_for_its_first_message_however_long_it_takes(stage)
     looks: list[str] = []
     stage.start("topic_tools/relay", "in copy", stealth=True, monitor_topic="other", monitor_rate=0.1)
     (node,) = (node for _, node in stage._running)
-    ask = node.call_master
+    ask = node.master.call
 
     def asked(method: str, *arguments: object):
         looks.append(method)
         return ask(method, *arguments)
 
-    node.call_master = asked
+    node.master.call = asked
     stage.until(lambda: looks.count("getSystemState") >= 3)
     source = stage.speak("/in", STRING)
     source.publish({"data": "to learn the type"})

@@ -84,7 +84,7 @@ def test_the_tutorials_services(stage) -> None:
     assert stage.call("/spawn", "turtlesim/Spawn", x=1.0, y=1.0).name == "turtle3"  # no number comes twice
     stage.call("/reset", "std_srvs/Empty")
     assert stage.call("/spawn", "turtlesim/Spawn", x=1.0, y=1.0).name == "turtle2"
-    assert stage.loop.run(stage.client.get_param("/sim/background_b")) == 255
+    assert stage.loop.run(stage.client.params.get("/sim/background_b")) == 255
 
 
 def test_a_turtle_follows_commands_and_another_mimics_it(stage) -> None:
@@ -134,7 +134,7 @@ def test_without_a_terminal_the_key_reader_says_so(stage, capsys) -> None:
     stage.until(
         lambda: (
             {"/turtle1/cmd_vel", "/cmd_vel"}
-            <= {t for t, _ in stage.loop.run(stage.client.call_master("getTopicTypes"))}
+            <= {t for t, _ in stage.loop.run(stage.client.master.call("getTopicTypes"))}
         )
     )
     said = ""

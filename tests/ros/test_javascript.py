@@ -104,7 +104,7 @@ def test_topics_services_and_parameters_work_both_ways(
                 return "heard hello" in got
 
             graph.until(heard)
-            graph.until(lambda: graph.loop.run(node.get_param("/from_js", None)) == 7)
+            graph.until(lambda: graph.loop.run(node.params.get("/from_js", None)) == 7)
         finally:
             client.kill()
 
@@ -118,10 +118,10 @@ def test_what_foxglove_and_lichtblick_are_made_of_talks_and_follows_parameters(
     got: list[str] = []
     node.subscribe("/up", "std_msgs/String", lambda m: got.append(m.data))
     down = node.advertise("/down", "std_msgs/String")
-    graph.loop.run(node.set_param("/for_js", [1, "two", True]), PATIENCE_S)
+    graph.loop.run(node.params.set("/for_js", [1, "two", True]), PATIENCE_S)
 
     def value(name: str) -> Any:
-        return graph.loop.run(node.get_param(name, None), PATIENCE_S)
+        return graph.loop.run(node.params.get(name, None), PATIENCE_S)
 
     with subprocess.Popen([node_js, "-e", FOXGLOVE], env={**os.environ, "ROS_MASTER_URI": graph.core.uri}) as client:
         try:
@@ -135,7 +135,7 @@ def test_what_foxglove_and_lichtblick_are_made_of_talks_and_follows_parameters(
             graph.until(lambda: value("/names") is not None)
             assert sorted(value("/names")) == ["/fetched_js", "/for_js", "/from_js"]
             assert (value("/from_js"), value("/fetched_js")) == ([1, "two", True], "yes")
-            graph.loop.run(node.set_param("/for_js", "later"), PATIENCE_S)
+            graph.loop.run(node.params.set("/for_js", "later"), PATIENCE_S)
             graph.until(lambda: value("/seen") == "/for_js = later")
         finally:
             client.kill()

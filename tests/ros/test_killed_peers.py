@@ -35,8 +35,8 @@ with GraphLoop() as loop:
             loop.spawn(node.call_service("/ours", "std_srvs/Empty"))
         case "parameter":
             loop.run(node.wait_registered())
-            loop.run(node.watch_param("/p", lambda *_: None))
-            loop.run(node.set_param("/watched", True))
+            loop.run(node.params.watch("/p", lambda *_: None))
+            loop.run(node.params.set("/watched", True))
         case "action":
             goals = node.advertise("/do/goal", "actionlib_tutorials/FibonacciActionGoal", latch=True)
             goals.publish({"goal": {"order": 3}})
@@ -76,7 +76,7 @@ def _works(graph: Any, node: Any) -> None:
     node.advertise_service("/still/there", EMPTY, lambda _: None)
     graph.loop.run(other.wait_for_service("/still/there", PATIENCE_S), PATIENCE_S)
     graph.loop.run(other.call_service("/still/there", EMPTY), PATIENCE_S)
-    graph.loop.run(other.set_param("/still", 1), PATIENCE_S)
+    graph.loop.run(other.params.set("/still", 1), PATIENCE_S)
 
 
 def test_a_subscriber(graph: Any) -> None:
@@ -122,13 +122,13 @@ def test_one_that_watches_a_parameter(graph: Any) -> None:
     """The master goes on setting it, and forgets a watcher whose place another node has taken."""
     node = graph.node("n")
     told: list[object] = []
-    graph.loop.run(node.set_param("/p", 0), PATIENCE_S)
+    graph.loop.run(node.params.set("/p", 0), PATIENCE_S)
     with _peer(graph, "parameter"):
         graph.until(lambda: MasterProxy(graph.core.uri).call("hasParam", "/watched"))
     graph.ready(node)
-    graph.loop.run(node.watch_param("/p", lambda _, value: told.append(value)), PATIENCE_S)
+    graph.loop.run(node.params.watch("/p", lambda _, value: told.append(value)), PATIENCE_S)
     for number in range(1, 4):
-        graph.loop.run(graph.node("setter").set_param("/p", number), PATIENCE_S)
+        graph.loop.run(graph.node("setter").params.set("/p", number), PATIENCE_S)
         graph.until(lambda number=number: told and told[-1] == number)
     _works(graph, node)
 

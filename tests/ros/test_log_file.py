@@ -72,7 +72,7 @@ def test_a_core_writes_what_nodes_say_and_who_comes_and_goes(tmp_path: Path, mes
         node = _node(loop, core)
         loop.run(node.wait_registered())
         until(lambda: _says(node, "first") and "first" in _text(tmp_path / "rosout.log"))
-        loop.run(node.set_param("/rosout/omit_topics", True))
+        loop.run(node.params.set("/rosout/omit_topics", True))
         until(lambda: _says(node, "second") and "second" in _text(tmp_path / "rosout.log"))
         uri = node.uri
         loop.run(node.shutdown())
@@ -104,7 +104,7 @@ def _node(loop: GraphLoop, core: Core) -> Node:
 
 
 def _says(node: Node, text: str) -> bool:
-    node.log_info(text)
+    node.log.info(text)
     return True
 
 

@@ -271,7 +271,7 @@ def test_nodes_live_with_the_real_master(graph: Any, tmp_path: Path) -> None:
         graph.until(lambda: publisher.has_subscribers)
         publisher.publish({"data": "hi"})
         graph.until(lambda: got == ["hi"])
-        graph.loop.run(one.set_param("/x", {"y": 1}), PATIENCE_S)
-        assert graph.loop.run(two.get_param("/x/y"), PATIENCE_S) == 1
+        graph.loop.run(one.params.set("/x", {"y": 1}), PATIENCE_S)
+        assert graph.loop.run(two.params.get("/x/y"), PATIENCE_S) == 1
         for node in (one, two):
             graph.loop.run(node.shutdown(), PATIENCE_S)

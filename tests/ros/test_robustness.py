@@ -175,7 +175,7 @@ def test_a_subscriber_that_never_reads_costs_only_its_own_messages(graph: Any, f
             publisher.publish({"data": bytes([i]) * 1_000_000})
             graph.until(lambda i=i: got and got[-1] == i)
         assert publisher.dropped > 0
-        links = next(links for topic, _, links in node.statistics()[0] if topic == "/a")
+        links = next(links for topic, _, links in node.endpoints.statistics()[0] if topic == "/a")
         waiting = 40 - publisher.dropped - min(sent for _, _, sent, _ in links)
         assert waiting <= 3
     assert got == list(range(40))
@@ -352,7 +352,7 @@ def test_two_hundred_topics_at_once_stay_bounded(graph: Any, far: Any) -> None:
                 publisher.publish({"data": bytes([number]) * 20_000})
             graph.until(lambda number=number: all(last == number for last in got.values()))
         for publisher in publishers[:50]:
-            links = next(links for topic, _, links in node.statistics()[0] if topic == publisher.topic)
+            links = next(links for topic, _, links in node.endpoints.statistics()[0] if topic == publisher.topic)
             fewest = min(sent for _, _, sent, _ in links)
             assert 100 - publisher.dropped - fewest <= 5
     assert all(publisher.dropped == 0 for publisher in publishers[50:])

@@ -78,7 +78,7 @@ def scenery(tmp_path: Path) -> Iterator[Scenery]:
         core = Core(loop=loop, port=0)
         loop.run(core.start())
         robot = Node("robot", loop=loop, master_uri=core.uri)
-        loop.run(robot.set_param("/robot_description", _URDF))
+        loop.run(robot.params.set("/robot_description", _URDF))
         rviz = Node("rviz", loop=loop, master_uri=core.uri)
         said: list[str] = []
         page = GraphPage(packages=Packages({}, start=tmp_path), report=report, say=said.append, port=0)

@@ -39,8 +39,8 @@ async def clock_rate_hz(node: Node) -> float | None:
     """What the graph says about /clock, as gazebo_ros reads it [Hz]; None: once a step."""
     if not node.profile.has_clock_frequency:
         return None
-    rate = await node.get_param("~pub_clock_frequency", 0)
+    rate = await node.params.get("~pub_clock_frequency", 0)
     if isinstance(rate, bool) or not isinstance(rate, int | float):
-        node.log_warn(f"pub_clock_frequency {rate!r} is no rate; /clock ticks at each step")
+        node.log.warn(f"pub_clock_frequency {rate!r} is no rate; /clock ticks at each step")
         return None
     return float(rate) if 0.0 < rate <= _MAX_HZ else None

@@ -147,7 +147,7 @@ def _stand_in(args: argparse.Namespace, stand_in: "BuiltinReplacement") -> int:
             host=words.host,
         )
         if what in ROSCPP:
-            node.loggers = Loggers.for_roscpp(args.package)
+            node.log.loggers = Loggers.for_roscpp(args.package)
         with ExitStack() as stack:
             page = stack.enter_context(closing(_page())) if what in WINDOWS else None
             world = stack.enter_context(_world(node, with_window=what in CLIENTS)) if what in WORLDS else None

@@ -41,7 +41,7 @@ class BufferServer:
         """Answer until cancelled."""
         node = self._node
         namespace = node.resolve("")
-        settings = NodeParams(await node.get_param(namespace, {}), namespace)
+        settings = NodeParams(await node.params.get(namespace, {}), namespace)
         buffer = TransformBuffer(settings.number("buffer_size", 120.0))
         self._buffer = TransformListener(node, buffer).buffer
         action = node.name if settings.flag("use_node_namespace", default=False) else _ACTION

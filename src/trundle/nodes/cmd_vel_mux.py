@@ -46,11 +46,11 @@ class CmdVelMux:
     async def run(self) -> int:
         """Mux until cancelled."""
         node = self._node
-        path = str(await node.get_param("~yaml_cfg_file", ""))
+        path = str(await node.params.get("~yaml_cfg_file", ""))
         try:
             sources, output = await asyncio.to_thread(_read, path)
         except ParamError as error:
-            node.log_error(str(error))
+            node.log.error(str(error))
             return 1
         self._active = node.advertise("~active", "std_msgs/String", latch=True, queue_size=1)
         self._active.publish({"data": _IDLE})

@@ -102,13 +102,13 @@ class Spawner:
         try:
             given = words.parse_args(self._arguments)
             manager = _ControllerManagerClient(node, given.namespace)
-            node.log_info("Controller Spawner: Waiting for service controller_manager/load_controller")
+            node.log.info("Controller Spawner: Waiting for service controller_manager/load_controller")
             await manager.wait(None if given.no_timeout else given.timeout)
             if given.wait_for:
                 await self._wait_for(given.wait_for)
             await self._spawn(manager, given.controllers, stopped=given.stopped)
         except (UsageError, RosError) as error:
-            node.log_error(f"Controller Spawner: {error}")
+            node.log.error(f"Controller Spawner: {error}")
             return 1
         await node.closed.wait()
         with contextlib.suppress(RosError, OSError):
@@ -121,18 +121,18 @@ class Spawner:
     async def _spawn(self, manager: _ControllerManagerClient, names: list[str], *, stopped: bool) -> None:
         node = self._node
         for name in names:
-            node.log_info(f"Loading controller: {name}")
+            node.log.info(f"Loading controller: {name}")
             if await manager.load(name):
                 self._loaded.append(name)
             else:
-                node.log_error(f"Failed to load {name}")
-        node.log_info(f"Controller Spawner: Loaded controllers: {', '.join(self._loaded)}")
+                node.log.error(f"Failed to load {name}")
+        node.log.info(f"Controller Spawner: Loaded controllers: {', '.join(self._loaded)}")
         if stopped or not self._loaded:
             return
         if await manager.switch(start=self._loaded):
-            node.log_info(f"Started controllers: {', '.join(self._loaded)}")
+            node.log.info(f"Started controllers: {', '.join(self._loaded)}")
         else:
-            node.log_error(f"Failed to start controllers: {', '.join(self._loaded)}")
+            node.log.error(f"Failed to start controllers: {', '.join(self._loaded)}")
 
     async def _wait_for(self, topic: str) -> None:
         """Wait until a std_msgs/Bool on a topic says so."""
@@ -142,7 +142,7 @@ class Spawner:
             if message.data:
                 said.set()
 
-        self._node.log_info(f"Controller Spawner: Waiting for {topic}")
+        self._node.log.info(f"Controller Spawner: Waiting for {topic}")
         listening = self._node.subscribe(topic, "std_msgs/Bool", on_message, on_loop=True)
         await said.wait()
         listening.unregister()
@@ -169,9 +169,9 @@ class Unspawner:
             if not await manager.switch(stop=given.controllers):
                 raise UsageError(f"could not stop {', '.join(given.controllers)}")
         except (UsageError, RosError) as error:
-            node.log_error(f"unspawner: {error}")
+            node.log.error(f"unspawner: {error}")
             return 1
-        node.log_info(f"Stopped controllers: {', '.join(given.controllers)}")
+        node.log.info(f"Stopped controllers: {', '.join(given.controllers)}")
         await node.closed.wait()
         with contextlib.suppress(RosError, OSError):
             async with asyncio.timeout(_FAREWELL_S):
@@ -199,7 +199,7 @@ class ControllerManagerTool:
             await manager.wait(_WAIT_S)
             return 0 if await self._do(manager, given.command, given.controllers) else 1
         except (UsageError, RosError) as error:
-            self._node.log_error(f"controller_manager: {error}")
+            self._node.log.error(f"controller_manager: {error}")
             return 1
 
     async def _do(self, manager: _ControllerManagerClient, command: str, names: list[str]) -> bool:

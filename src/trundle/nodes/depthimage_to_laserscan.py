@@ -71,7 +71,7 @@ class DepthImageToLaserScan:
     async def run(self) -> int:
         """Convert until cancelled."""
         node = self._node
-        settings = NodeParams(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.params.get("~", {}), node.name)
         self._rows = int(settings.number("scan_height", 1.0))
         self._scan_time_s = settings.number("scan_time", 1.0 / 30.0)
         self._nearest_m, self._farthest_m = settings.number("range_min", 0.45), settings.number("range_max", 10.0)
@@ -110,7 +110,7 @@ class DepthImageToLaserScan:
             return
         if image.encoding not in _ENCODINGS:
             if not self._said:
-                self._node.log_error(f"encoding {image.encoding!r} is no depth; there are {', '.join(_ENCODINGS)}")
+                self._node.log.error(f"encoding {image.encoding!r} is no depth; there are {', '.join(_ENCODINGS)}")
             self._said = True
             return
         self._scan.publish(self._fields(image, self._camera))

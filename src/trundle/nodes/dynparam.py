@@ -34,10 +34,10 @@ class Dynparam:
         command: Callable[[Node, argparse.Namespace], Coroutine[None, None, None]] = args.command
         try:
             if "node" in args and self._node.resolve(args.node) not in await find_reconfigurable(self._node):
-                self._node.log_info(f"waiting for the options of {self._node.resolve(args.node)}")
+                self._node.log.info(f"waiting for the options of {self._node.resolve(args.node)}")
             await command(self._node, args)
         except (ServiceError, OSError, ValueError, yaml.YAMLError) as error:
-            self._node.log_error(f"dynparam: {error}")
+            self._node.log.error(f"dynparam: {error}")
             return 1
         return 0
 
@@ -69,7 +69,7 @@ async def _load(node: Node, args: argparse.Namespace) -> None:
 
 
 async def _set_from_parameters(node: Node, args: argparse.Namespace) -> None:
-    values = await node.get_param("~", {})
+    values = await node.params.get("~", {})
     if not values:
         raise ServiceError(f"{node.name} has no parameters to set options from")
     await set_options(node, args.node, values, timeout_s=args.timeout)

@@ -180,7 +180,7 @@ class JointStatePublisher:
             report = Diagnostics()
             joints.read(self._robot(options), report)
             for warning in report.findings:
-                node.log_warn(warning.what)
+                node.log.warn(warning.what)
             # A name of Indigo's, which works in every distribution.
             if self._always_sliders or options.flag("use_gui", default=False):
                 self._offer_sliders(joints)
@@ -188,7 +188,7 @@ class JointStatePublisher:
             rate = Rate(node, options.rate_hz("rate", 10.0))
             joints.message()
         except TrundleError as error:
-            node.log_error(str(error))
+            node.log.error(str(error))
             return 1
         for source in options.texts("source_list"):
             node.subscribe(source, "sensor_msgs/JointState", joints.update)
@@ -207,7 +207,7 @@ class JointStatePublisher:
         values: dict[str, Any] = {}
         for name in _OPTIONS:
             for candidate in (f"~{name}", name):
-                value = await self._node.get_param(candidate, None)
+                value = await self._node.params.get(candidate, None)
                 if value is not None:
                     values[name] = value
                     break
@@ -215,7 +215,7 @@ class JointStatePublisher:
 
     def _offer_sliders(self, joints: JointSet) -> None:
         if self._display is None:
-            self._node.log_warn("there is no page to show sliders on; every joint stays where it is")
+            self._node.log.warn("there is no page to show sliders on; every joint stays where it is")
             return
         sliders = [
             Slider(name=name, lower=joint.lower, upper=joint.upper, position=joint.position or 0.0)

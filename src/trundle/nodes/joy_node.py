@@ -30,7 +30,7 @@ class JoyNode:
     async def run(self) -> int:
         """Publish until cancelled."""
         node = self._node
-        settings = NodeParams(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.params.get("~", {}), node.name)
         repeat_hz = settings.number("autorepeat_rate", 0.0)
         self._dead_zone = min(max(settings.number("deadzone", 0.05), 0.0), _WIDEST)
         self._sticky = settings.flag("sticky_buttons", default=False)
@@ -38,7 +38,7 @@ class JoyNode:
         asked = node.subscribe("~set", "sensor_msgs/Joy", self._set, queue_size=1)
         device = settings.text("dev", "/dev/input/js0")
         said = f"{device} is not read; publish on {asked.topic} to move the joystick"
-        node.log_info(said if self._display is None else f"{said}, or move that of the page, or one plugged in there")
+        node.log.info(said if self._display is None else f"{said}, or move that of the page, or one plugged in there")
         window = None
         if self._display is not None:
             self._display.offer_joystick(self._move)

@@ -25,12 +25,12 @@ class Nodelet:
             case ["load", name, _, *rest] | ["standalone", name, *rest]:
                 if name in NODELETS:
                     return await BuiltinReplacement(NODELETS[name]).load()(node, rest, self._host).run()
-                node.log_error(missing_nodelet(name))
+                node.log.error(missing_nodelet(name))
                 return 1
             case ["unload", *_]:
                 return 0
             case words:
-                node.log_error(
+                node.log.error(
                     f"usage: nodelet manager|load|standalone|unload CLASS [MANAGER]; got {' '.join(words)!r}"
                 )
                 return 1

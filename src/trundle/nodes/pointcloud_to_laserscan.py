@@ -64,7 +64,7 @@ class PointCloudToLaserScan:
     async def run(self) -> int:
         """Convert until cancelled."""
         node = self._node
-        settings = NodeParams(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.params.get("~", {}), node.name)
         farthest = settings.number("range_max", _HUGE)
         endless = settings.flag("use_inf", default=True)
         self._slice = Slice(

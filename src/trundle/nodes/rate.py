@@ -68,4 +68,4 @@ class LogThrottle:
         now = self._node.clock.now_ns()
         if self._last_ns is None or now - self._last_ns >= self._every_ns or now < self._last_ns:
             self._last_ns = now
-            self._node.log_warn(text)
+            self._node.log.warn(text)

@@ -80,7 +80,7 @@ class RobotStatePublisher:
         """Read the robot once, then publish until cancelled."""
         node = self._node
         try:
-            settings = NodeParams(await node.get_param("~", {}), node.name)
+            settings = NodeParams(await node.params.get("~", {}), node.name)
             # Below 1 Hz the original takes 1 Hz.
             self._interval_ns = period_ns(max(settings.number("publish_frequency", 50.0), 1.0))
             self._ignores_stamps = settings.flag("ignore_timestamp", default=False)
@@ -88,11 +88,11 @@ class RobotStatePublisher:
             robot, prefix = await self._robot(), await self._prefix()
             self._frames = RobotFrames.from_robot(robot, prefix)
         except TrundleError as error:
-            node.log_error(str(error))
+            node.log.error(str(error))
             return 1
         for joint in robot.joints:
             if joint.type == "floating":
-                node.log_info(f"Floating joint. Not adding segment from {joint.parent} to {joint.child}.")
+                node.log.info(f"Floating joint. Not adding segment from {joint.parent} to {joint.child}.")
         self._broadcaster = TransformBroadcaster(node)
         node.subscribe("joint_states", "sensor_msgs/JointState", self._on_joint_states, queue_size=1)
         static = StaticTransformBroadcaster(node)
@@ -110,17 +110,17 @@ class RobotStatePublisher:
     async def _robot(self) -> Robot:
         """Read the description from the nearest parameter upwards."""
         node = self._node
-        name = await node.search_param("robot_description") or "robot_description"
-        text = NodeParams({name: await node.get_param(name, None)}, "").text(name)
+        name = await node.params.search("robot_description") or "robot_description"
+        text = NodeParams({name: await node.params.get(name, None)}, "").text(name)
         report = Diagnostics()
         robot = read_robot(parse_xml(text, name=node.resolve(name)), report)
         for finding in report.findings:
-            node.log_debug(str(finding))
+            node.log.debug(str(finding))
         return robot
 
     async def _prefix(self) -> str:
-        name = await self._node.search_param("tf_prefix")
-        return str(await self._node.get_param(name, "")) if name else ""
+        name = await self._node.params.search("tf_prefix")
+        return str(await self._node.params.get(name, "")) if name else ""
 
     def _fixed(self, stamp_ns: int) -> list[Transform]:
         return [self._frames.transform(joint, 0.0, stamp_ns) for joint in self._frames.fixed.values()]
@@ -135,11 +135,11 @@ class RobotStatePublisher:
                     "This message will not reappear for 300 seconds."
                 )
             else:
-                node.log_error("Robot state publisher ignored an invalid JointState message")
+                node.log.error("Robot state publisher ignored an invalid JointState message")
             return
         now, stamp_ns = node.clock.now_ns(), to_nsec(message.header.stamp)
         if now < self._last_heard_ns:
-            node.log_warn(
+            node.log.warn(
                 "Moved backwards in time (probably because ROS clock was reset), re-publishing joint transforms!"
             )
             self._last_published_ns.clear()
@@ -169,7 +169,7 @@ class StatePublisher(RobotStatePublisher):
     """robot_state_publisher's name of old."""
 
     async def run(self) -> int:
-        self._node.log_warn(
+        self._node.log.warn(
             "The 'state_publisher' executable is deprecated. Please use 'robot_state_publisher' instead"
         )
         return await super().run()

@@ -36,7 +36,7 @@ class ImageView(Window):
     async def run(self) -> int:
         """Look until the page is closed for good."""
         images = self._node.subscribe("image", "sensor_msgs/Image", self._on_image, queue_size=1)
-        self._node.log_info(f"listening to {images.topic}")
+        self._node.log.info(f"listening to {images.topic}")
         return await super().run()
 
     def _prepare(self, display: Display) -> None:
@@ -44,7 +44,7 @@ class ImageView(Window):
 
     def _on_image(self, image: Message) -> None:
         if not self._seen:
-            self._node.log_info(f"images of {image.width} × {image.height} pixels, {image.encoding}")
+            self._node.log.info(f"images of {image.width} × {image.height} pixels, {image.encoding}")
         self._seen = True
 
 
@@ -64,9 +64,9 @@ class RqtRobotSteering(Window):
         """Steer until the page is closed for good."""
         node = self._node
         try:
-            self._topic = NodeParams(await node.get_param("~", {}), node.name).text("default_topic", "/cmd_vel")
+            self._topic = NodeParams(await node.params.get("~", {}), node.name).text("default_topic", "/cmd_vel")
         except TrundleError as error:
-            node.log_error(str(error))
+            node.log.error(str(error))
             return 1
         return await super().run()
 

@@ -22,7 +22,7 @@ async def run_builtin_node(replacement: BuiltinReplacement, node: Node, argument
     try:
         await node.wait_registered()  # its `_name:=value` parameters are set
         await follow_time(node)
-        distro = str(await node.get_param("/rosdistro", "")).strip()
+        distro = str(await node.params.get("/rosdistro", "")).strip()
         node.profile = DISTROS.get(distro, NOETIC)
         running = asyncio.create_task(replacement.load()(node, arguments, host).run())
         waiting = asyncio.create_task(killed.wait())

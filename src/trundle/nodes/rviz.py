@@ -23,7 +23,7 @@ class Rviz:
         node = self._node
         config = self._options.get("-d") or self._options.get("--display-config")
         if config is not None and not os.path.isfile(config):
-            node.log_warn(f"no rviz config {config!r}; the default view is shown")
+            node.log.warn(f"no rviz config {config!r}; the default view is shown")
             config = None
         # Tools of the default layout; the viewer publishes what is clicked.
         node.advertise("/initialpose", "geometry_msgs/PoseWithCovarianceStamped", queue_size=1)

@@ -33,13 +33,13 @@ class TfStaticTransformPublisher:
         node, arguments = self._node, self._arguments
         numbers = _numbers([*arguments[:-3], arguments[-1]]) if len(arguments) in (9, 10) else None
         if numbers is None:
-            node.log_error(f"{_TF_USAGE}; got {' '.join(arguments)!r}")
+            node.log.error(f"{_TF_USAGE}; got {' '.join(arguments)!r}")
             return _WRONG_ARGUMENTS
         # Leading slashes go out as they are, as the original sends them; listeners strip them.
         parent, child = arguments[-3:-1]
         if parent == child:
             # The original says so, and goes on.
-            node.log_fatal(f"target_frame and source frame are the same ({parent}, {child}) this cannot work")
+            node.log.fatal(f"target_frame and source frame are the same ({parent}, {child}) this cannot work")
         *values, period_ms = numbers
         translation, rotation = _pose(values)
         period_s = max(period_ms, 1.0) / 1000.0
@@ -74,16 +74,16 @@ class Tf2StaticTransformPublisher:
             translation, rotation = _pose(values)
             transform = self._transform(arguments[-2], arguments[-1], translation, rotation)
         else:
-            node.log_error(f"{_TF2_USAGE}; got {' '.join(arguments)!r}")
+            node.log.error(f"{_TF2_USAGE}; got {' '.join(arguments)!r}")
             return _WRONG_ARGUMENTS
         if transform is None:
             return _WRONG_ARGUMENTS
         if transform.parent == transform.child:
             frames = f"{transform.parent}, {transform.child}"
-            node.log_fatal(f"target_frame and source frame are the same ({frames}) this cannot work")
+            node.log.fatal(f"target_frame and source frame are the same ({frames}) this cannot work")
             return 1
         StaticTransformBroadcaster(node).send_transform(transform)
-        node.log_info(f"Spinning until killed publishing {transform.parent} to {transform.child}")
+        node.log.info(f"Spinning until killed publishing {transform.parent} to {transform.child}")
         await node.closed.wait()
         return 0
 
@@ -94,16 +94,16 @@ class Tf2StaticTransformPublisher:
     async def _from_param(self, name: str) -> Transform | None:
         """Read a geometry_msgs/TransformStamped written as a parameter."""
         try:
-            tree = await self._node.get_param(name)
+            tree = await self._node.params.get(name)
             move, turn = tree["transform"]["translation"], tree["transform"]["rotation"]
             translation = (float(move["x"]), float(move["y"]), float(move["z"]))
             rotation = (float(turn["w"]), float(turn["x"]), float(turn["y"]), float(turn["z"]))
             parent, child = str(tree["header"]["frame_id"]), str(tree["child_frame_id"])
         except ParameterError as error:
-            self._node.log_fatal(f"Could not read TF: {error}")
+            self._node.log.fatal(f"Could not read TF: {error}")
             return None
         except (KeyError, TypeError, ValueError) as error:
-            self._node.log_fatal(f"Could not read TF: parameter {name} is no transform: {_what(error)}")
+            self._node.log.fatal(f"Could not read TF: parameter {name} is no transform: {_what(error)}")
             return None
         return self._transform(parent, child, translation, rotation)
 

@@ -19,7 +19,7 @@ class TeleopTwistJoy:
     async def run(self) -> int:
         """Drive until cancelled."""
         node = self._node
-        settings = NodeParams(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.params.get("~", {}), node.name)
         self._enable = int(settings.number("enable_button", 0.0))
         self._turbo = int(settings.number("enable_turbo_button", -1.0))
         self._moves = [

@@ -75,7 +75,7 @@ class TeleopTwistKeyboard:
     async def run(self) -> int:
         """Read keys until cancelled; the robot is stopped at the end."""
         node = self._node
-        settings = NodeParams(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.params.get("~", {}), node.name)
         speed, turn = settings.number("speed", self.speed), settings.number("turn", self.turn)
         repeat_hz, timeout_s = settings.number("repeat_rate", 0.0), settings.number("key_timeout", 0.5)
         stamped = settings.flag("stamped", default=False)
@@ -94,7 +94,7 @@ class TeleopTwistKeyboard:
             self._display.drive_on(commands.topic)
         keyboard = Keyboard(node)
         if not keyboard.is_available:
-            node.log_warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
+            node.log.warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
             await node.closed.wait()
             return 0
         print(f"{_HELP}\ncurrently:\tspeed {speed}\tturn {turn} ")

@@ -41,13 +41,13 @@ class Turtlebot3TeleopKey:
     async def run(self) -> int:
         """Read keys until cancelled; the robot is stopped at the end."""
         node = self._node
-        settings = NodeParams(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.params.get("~", {}), node.name)
         model = settings.text("model", self._env.get("TURTLEBOT3_MODEL", "burger"))
         fastest = _FASTEST.get(model, _OTHERS)
         commands = node.advertise("cmd_vel", "geometry_msgs/Twist", queue_size=10)
         keyboard = Keyboard(node)
         if not keyboard.is_available:
-            node.log_warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
+            node.log.warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
             await node.closed.wait()
             return 0
         print(_HELP)

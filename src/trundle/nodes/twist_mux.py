@@ -83,10 +83,10 @@ class TwistMux:
         """Mux until cancelled."""
         node = self._node
         try:
-            self._sources = read_topic_handles(await node.get_param("~topics", []), f"{node.name}/topics")
-            self._locks = read_topic_handles(await node.get_param("~locks", []), f"{node.name}/locks")
+            self._sources = read_topic_handles(await node.params.get("~topics", []), f"{node.name}/topics")
+            self._locks = read_topic_handles(await node.params.get("~locks", []), f"{node.name}/locks")
         except ParamError as error:
-            node.log_fatal(str(error))
+            node.log.fatal(str(error))
             return 1
         self._output = node.advertise("cmd_vel_out", _KIND, queue_size=1)
         for source in self._sources:
@@ -94,7 +94,7 @@ class TwistMux:
         for lock in self._locks:
             node.subscribe(lock.topic, "std_msgs/Bool", lambda message, s=lock: self._on_lock(s, message), queue_size=1)
         for source in (*self._sources, *self._locks):
-            node.log_info(f"{source.name}: {source.topic}, timeout {source.timeout_s:g} s, priority {source.priority}")
+            node.log.info(f"{source.name}: {source.topic}, timeout {source.timeout_s:g} s, priority {source.priority}")
         diagnostics = node.advertise("/diagnostics", "diagnostic_msgs/DiagnosticArray", queue_size=1)
         while not node.closed.is_set():
             await node.clock.sleep(_DIAGNOSTICS_S)

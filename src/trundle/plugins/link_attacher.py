@@ -43,10 +43,10 @@ class LinkAttacher(WorldPlugin):
             if not any(joint.name == name for joint in self._sim.joints):
                 self._join(name, self._link(*parent), self._link(*child))
         except TrundleError as error:
-            self._node.log_error(f"attach: {error}")
+            self._node.log.error(f"attach: {error}")
             return {"ok": False}
         self._known.add(name)
-        self._node.log_info(f"attached {'::'.join(parent)} to {'::'.join(child)}")
+        self._node.log.info(f"attached {'::'.join(parent)} to {'::'.join(child)}")
         return {"ok": True}
 
     def _detach(self, request: Message) -> dict[str, object]:
@@ -54,11 +54,11 @@ class LinkAttacher(WorldPlugin):
         name = _joint_name(parent, child)
         if name not in self._known:
             both = f"{'::'.join(parent)} to {'::'.join(child)}"
-            self._node.log_error(f"detach: nothing was attached from {both}; the order counts")
+            self._node.log.error(f"detach: nothing was attached from {both}; the order counts")
             return {"ok": False}
         if any(joint.name == name for joint in self._sim.joints):
             self._sim.detach(name)
-        self._node.log_info(f"detached {'::'.join(parent)} from {'::'.join(child)}")
+        self._node.log.info(f"detached {'::'.join(parent)} from {'::'.join(child)}")
         return {"ok": True}
 
     def _join(self, name: str, parent: str, child: str) -> None:

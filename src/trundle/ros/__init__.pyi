@@ -75,7 +75,6 @@ from .migration import missing_rules as missing_rules
 from .node.clock import Clock as Clock
 from .node.clock import SimClock as SimClock
 from .node.clock import WallClock as WallClock
-from .node.clock import follow_time as follow_time
 from .node.clock import to_nsec as to_nsec
 from .node.endpoint_recorder import Endpoint as Endpoint
 from .node.loggers import Loggers as Loggers
@@ -85,8 +84,9 @@ from .node.params import NodeParams as NodeParams
 from .node.params import ParamError as ParamError
 from .node.publisher import Publisher as Publisher
 from .node.service import Service as Service
-from .node.service import probe_service as probe_service
+from .node.service_client import probe_service as probe_service
 from .node.subscription import Subscription as Subscription
+from .node.use_sim_time import follow_time as follow_time
 from .transport.network import master_uri_from_env as master_uri_from_env
 from .transport.network import server_address as server_address
 from .xmlrpc.http import host_and_port as host_and_port

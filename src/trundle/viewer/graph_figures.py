@@ -49,7 +49,7 @@ class GraphFigures:
         while True:
             with contextlib.suppress(TrundleError):  # a master that is gone may come back
                 if self._shows_graph:
-                    publishers, subscribers, _ = await self._node.call_master("getSystemState")
+                    publishers, subscribers, _ = await self._node.master.call("getSystemState")
                     drawing = node_graph(dict(publishers), dict(subscribers), with_all=False)
                     if drawing != self._drawn:  # of a large graph it takes a while
                         self._drawn, self._picture = drawing, await asyncio.to_thread(graph_svg, drawing)
@@ -64,7 +64,7 @@ class GraphFigures:
         """Listen to what is there by now of what is asked for; what holds no number is said, once."""
         if not self._fields:
             return
-        types = {topic: kind for topic, kind in await self._node.call_master("getTopicTypes") if kind != "*"}
+        types = {topic: kind for topic, kind in await self._node.master.call("getTopicTypes") if kind != "*"}
         for name in list(self._fields):
             found = split_topic(name, types)
             if found is None:
@@ -74,6 +74,6 @@ class GraphFigures:
             try:
                 subscribe_series(trace, self._node, self._node.clock)
             except TrundleError as error:
-                self._node.log_error(f"rqt_plot: {error}")
+                self._node.log.error(f"rqt_plot: {error}")
             else:
                 self._traces.append(trace)

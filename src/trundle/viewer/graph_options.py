@@ -38,7 +38,7 @@ class GraphOptions:
         try:
             await set_options(self._node, request.group, {request.name: request.value}, timeout_s=_ANSWER_S)
         except RosError as error:
-            self._node.log_error(str(error))
+            self._node.log.error(str(error))
 
     async def _read(self, name: str) -> OptionGroup:
         options = await read_options(self._node, name, timeout_s=_ANSWER_S)

@@ -134,7 +134,7 @@ class GraphPage:
                 self._shown.follow(read_rviz_config(Path(config), self._report), fixed_frame)
                 self._stale = True
             owner = self._shown.node.name
-            node.log_info(f"the page is {owner}'s, at {self.url or 'an address that it will say'}")
+            node.log.info(f"the page is {owner}'s, at {self.url or 'an address that it will say'}")
             await node.closed.wait()
             return 0
         self._over = False

@@ -93,7 +93,7 @@ class ShownGraph:
         for index, title in enumerate(before):
             drawing = self._figures.drawings.pop(title, None)
             if drawing is not None and not viewer.figure(index, drawing):
-                self.node.log_warn(f"the drawing {title!r} is too large for the page; trundle graph -o FILE writes it")
+                self.node.log.warn(f"the drawing {title!r} is too large for the page; trundle graph -o FILE writes it")
         return False
 
     def watch_options(self) -> None:
@@ -128,8 +128,8 @@ class ShownGraph:
         self._look_due = now + _LOOK_AGAIN_S
         source = next((d.source for d in self.config.enabled("RobotModel") if d.source), "robot_description")
         try:
-            name = await self.node.search_param(source) or source
-            text = await self.node.get_param(name, None)
+            name = await self.node.params.search(source) or source
+            text = await self.node.params.get(name, None)
         except MasterUnreachableError:
             return  # it may come back; what is known is shown meanwhile
         if not isinstance(text, str):
@@ -141,7 +141,7 @@ class ShownGraph:
             self.robot = await asyncio.to_thread(robot_scene, robot, packages, report)
             self.collisions = await asyncio.to_thread(robot_scene, robot, packages, report, collisions=True)
         except TrundleError as error:
-            self.node.log_error(f"URDF failed Model parse: {error}")  # rviz's own words
+            self.node.log.error(f"URDF failed Model parse: {error}")  # rviz's own words
             return
         self.title = robot.name
         self._robot_is_new = True

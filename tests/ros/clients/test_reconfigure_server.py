@@ -65,7 +65,7 @@ def test_values_are_kept_within_bounds_told_and_written(graph: Any, camera: list
 
     assert camera == [{"rate": 50.0, "rows": 9, "on": False, "frame": "head"}]
     assert now == {"rate": 50.0, "rows": 7, "on": False, "frame": "head"}
-    assert graph.loop.run(client.get_param("/camera"), PATIENCE_S) == now
+    assert graph.loop.run(client.params.get("/camera"), PATIENCE_S) == now
     graph.until(lambda: [item.value for item in told[-1].doubles] == [50.0])
 
 

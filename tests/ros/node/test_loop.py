@@ -115,7 +115,7 @@ def test_nodes_that_begin_while_the_loop_ends_leave_nothing(graph: Any, caplog: 
 
     feeder = threading.Thread(target=feed)
     feeder.start()
-    while len(loop.members) < 3:
+    while len(loop.local.members) < 3:
         time.sleep(0.001)
     loop.stop()
     over.set()

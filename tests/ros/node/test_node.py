@@ -67,7 +67,7 @@ def test_in_one_process_the_very_object_arrives(graph: Any) -> None:
     publisher.publish(message)
     graph.loop.flush_deliveries()
     assert got[0] is message
-    (link,) = (link for link in talker.connections() if link[4] == "/chatter")
+    (link,) = (link for link in talker.endpoints.connections() if link[4] == "/chatter")
     assert link[1:6] == ["/listener", "o", "INTRAPROCESS", "/chatter", True]
 
 
@@ -229,17 +229,17 @@ def test_parameters_are_read_and_written(graph: Any) -> None:
     graph.ready(node)
     run = graph.loop.run
     assert node.name == "/ns/n"
-    assert run(node.get_param("~rate")) == 20
-    assert run(node.get_param("nope", 5)) == 5
+    assert run(node.params.get("~rate")) == 20
+    assert run(node.params.get("nope", 5)) == 5
     with pytest.raises(ParameterError, match="/ns/nope is not set"):
-        run(node.get_param("nope"))
+        run(node.params.get("nope"))
     with pytest.raises(ParameterError, match="32 bits"):
-        run(node.set_param("big", 2**40))
-    run(node.set_param("/robot_description", "<robot/>"))
-    assert run(node.search_param("robot_description")) == "/robot_description"
-    assert run(node.search_param("nope")) is None
-    run(node.delete_param("~rate"))
-    assert not run(node.has_param("~rate"))
+        run(node.params.set("big", 2**40))
+    run(node.params.set("/robot_description", "<robot/>"))
+    assert run(node.params.search("robot_description")) == "/robot_description"
+    assert run(node.params.search("nope")) is None
+    run(node.params.delete("~rate"))
+    assert not run(node.params.has("~rate"))
 
 
 def test_names_are_remapped(graph: Any) -> None:
@@ -253,9 +253,9 @@ def test_a_remapped_parameter_is_searched_by_its_other_name(graph: Any) -> None:
     node = graph.node("n", namespace="/arm", remappings={"robot_description": "arm_description"})
     graph.ready(node)
     run = graph.loop.run
-    run(node.set_param("/robot_description", "<the base/>"))
-    run(node.set_param("/arm_description", "<the arm/>"))
-    assert run(node.search_param("robot_description")) == "/arm_description"
+    run(node.params.set("/robot_description", "<the base/>"))
+    run(node.params.set("/arm_description", "<the arm/>"))
+    assert run(node.params.search("robot_description")) == "/arm_description"
 
 
 def test_what_a_node_says_is_on_stderr_and_gathered(graph: Any, far: Any, capfd: Any) -> None:
@@ -265,7 +265,7 @@ def test_what_a_node_says_is_on_stderr_and_gathered(graph: Any, far: Any, capfd:
     graph.ready(node)
 
     def said() -> bool:
-        node.log_warn("careful")
+        node.log.warn("careful")
         return any(m.name == "/sayer" for m in got)
 
     graph.until(said)
@@ -273,7 +273,7 @@ def test_what_a_node_says_is_on_stderr_and_gathered(graph: Any, far: Any, capfd:
     assert (log.level, log.msg, log.file, log.topics) == (4, "careful", "test_node.py", ["/rosout"])
     assert "[WARN] [" in capfd.readouterr().err
     graph.loop.run(node.call_service("~set_logger_level", "roscpp/SetLoggerLevel", {"level": "error"}))
-    node.log_warn("unheard")
+    node.log.warn("unheard")
     assert "unheard" not in capfd.readouterr().err
     loggers = graph.loop.run(node.call_service("~get_loggers", "roscpp/GetLoggers")).loggers
     levels = {logger.name: logger.level for logger in loggers}
@@ -363,7 +363,7 @@ def test_publishing_without_subscribers_does_nothing(graph: Any) -> None:
 def test_ros_time_is_the_walls_unless_the_graph_says_otherwise(graph: Any, far: Any) -> None:
     node = far.node("n")
     assert isinstance(far.loop.run(follow_time(node)), WallClock)
-    far.loop.run(node.set_param("/use_sim_time", True))
+    far.loop.run(node.params.set("/use_sim_time", True))
     clock = far.loop.run(follow_time(node))
     assert isinstance(clock, SimClock)
     assert clock.now_ns() == 0
@@ -392,31 +392,31 @@ def test_a_node_is_told_when_a_parameter_changes(graph: Any) -> None:
     watcher, other = graph.node("watcher", namespace="/r"), graph.node("other")
     graph.ready(watcher, other)
     told: list[tuple[str, Any]] = []
-    graph.loop.run(other.set_param("/r/gains", {"p": 1.0}))
-    now = graph.loop.run(watcher.watch_param("gains", lambda name, value: told.append((name, value))))
+    graph.loop.run(other.params.set("/r/gains", {"p": 1.0}))
+    now = graph.loop.run(watcher.params.watch("gains", lambda name, value: told.append((name, value))))
     assert now == {"p": 1.0}
-    graph.loop.run(other.set_param("/r/gains/p", 2.0))
+    graph.loop.run(other.params.set("/r/gains/p", 2.0))
     graph.until(lambda: told == [("/r/gains/p", 2.0)])
-    graph.loop.run(other.set_param("/r/unwatched", 3))
-    graph.loop.run(other.delete_param("/r/gains"))
+    graph.loop.run(other.params.set("/r/unwatched", 3))
+    graph.loop.run(other.params.delete("/r/gains"))
     graph.until(lambda: len(told) == 2)
     assert told[1] == ("/r/gains", {})
     graph.loop.run(watcher.shutdown())
-    graph.loop.run(other.set_param("/r/gains", {"p": 5.0}))
+    graph.loop.run(other.params.set("/r/gains", {"p": 5.0}))
     assert len(told) == 2
 
 
 def test_a_parameter_can_be_watched_before_anything_else(graph: Any) -> None:
     """The master needs the node's address, which is not known at once."""
     for i in range(10):
-        assert graph.loop.run(graph.node(f"n{i}").watch_param("unset", lambda *_: None)) == {}
+        assert graph.loop.run(graph.node(f"n{i}").params.watch("unset", lambda *_: None)) == {}
 
 
 def test_a_node_finds_the_parameters_it_was_made_with(graph: Any) -> None:
     """Even when it asks before anything else: they were there first."""
     nodes = [graph.node(f"n{i}", params={"rate": i, "mode": "fast"}) for i in range(10)]
-    assert [graph.loop.run(node.get_param("~rate", None)) for node in nodes] == list(range(10))
-    assert graph.loop.run(graph.node("other", params={"x": 1}).has_param("~x"))
+    assert [graph.loop.run(node.params.get("~rate", None)) for node in nodes] == list(range(10))
+    assert graph.loop.run(graph.node("other", params={"x": 1}).params.has("~x"))
 
 
 def test_nodes_of_one_machine_take_the_shorter_way(graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -433,9 +433,9 @@ def test_nodes_of_one_machine_take_the_shorter_way(graph: Any, far: Any, monkeyp
     ):
         monkeypatch.setattr("trundle.ros.node.subscription.unix_address", offered)
         far.node(name).subscribe("/a", "std_msgs/String", lambda m: got.append(m.data))
-        graph.until(lambda name=name: any(link[1] == f"/{name}" for link in talker.connections()))
+        graph.until(lambda name=name: any(link[1] == f"/{name}" for link in talker.endpoints.connections()))
     graph.until(lambda: got == ["hello"] * 3)
-    kinds = {peer: kind for _, peer, _, kind, topic, *_ in talker.connections() if topic == "/a"}
+    kinds = {peer: kind for _, peer, _, kind, topic, *_ in talker.endpoints.connections() if topic == "/a"}
     assert kinds == {"/near": "UNIXROS", "/stranger": "TCPROS", "/plain": "TCPROS"}
 
 

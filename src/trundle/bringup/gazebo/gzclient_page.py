@@ -49,7 +49,7 @@ class GzclientPage:
         try:
             self._page = SimulationPage.open(simulation, sensors, None, self._at)
         except TrundleError as error:
-            node.log_error(str(error))
+            node.log.error(str(error))
             self._at = None
         else:
             self._say(f"see the simulation at {self._page.url}")

@@ -46,7 +46,7 @@ class GazeboSensors:
             sensor.start(simulation)
         self.all += [*cameras, *sensors]
         for owner in dict.fromkeys(sensor.model.name for sensor in (*cameras, *sensors)):
-            with self._node.recording_endpoints() as self._endpoints[owner]:
+            with self._node.endpoints.record() as self._endpoints[owner]:
                 self._advertise(
                     [camera for camera in cameras if camera.model.name == owner],
                     [sensor for sensor in sensors if sensor.model.name == owner],

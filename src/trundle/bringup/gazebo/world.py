@@ -151,7 +151,7 @@ class GazeboWorld:
             return world
         known = ", ".join(self._packages.worlds())
         assert self._node is not None
-        self._node.log_error(
+        self._node.log.error(
             f"{world}: no such world file; {_EMPTY_WORLD} is opened in its place, as gzserver does; worlds that come "
             f"with Trundle: {known}; others are searched along GAZEBO_RESOURCE_PATH"
         )

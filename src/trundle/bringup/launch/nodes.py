@@ -127,10 +127,10 @@ class NodeStarter:
             host=self.graph.host,
         )
         if (node.package, node.type) in ROSCPP:
-            ros_node.loggers = Loggers.for_roscpp(node.package)
+            ros_node.log.loggers = Loggers.for_roscpp(node.package)
         with contextlib.ExitStack() as files:
             if log is not None:
-                ros_node.quiet_log = files.enter_context(log.open("a", encoding="utf-8"))
+                ros_node.log.quiet = files.enter_context(log.open("a", encoding="utf-8"))
             host = replace(self.host, env=dict(node.env), tree=self.tree)
             return await run_builtin_node(stand_in, ros_node, list(given.rest), host)
 

@@ -19,20 +19,20 @@ async def set_params(node: Node, plan: LaunchPlan, params: Sequence[LaunchParam]
     await node.wait_registered()
     for step in plan.steps:
         if step.command == "delete":
-            if await node.has_param(step.name):
-                await node.delete_param(step.name)
+            if await node.params.has(step.name):
+                await node.params.delete(step.name)
             continue
         try:
-            Path(step.file).write_text(yaml.safe_dump(await node.get_param(step.name, {})))
+            Path(step.file).write_text(yaml.safe_dump(await node.params.get(step.name, {})))
         except OSError as error:
             raise DescriptionError(step.at, f"rosparam dump to {step.file!r}: {error.strerror}") from None
     for namespace in plan.clear_params:
-        if await node.has_param(namespace):
-            await node.delete_param(namespace)
+        if await node.params.has(namespace):
+            await node.params.delete(namespace)
     for param in params:
         if param.value is None:  # the reader has said so
             continue
         try:
-            await node.set_param(param.name, param.value)
+            await node.params.set(param.name, param.value)
         except ParameterError as error:
             raise DescriptionError(param.at, str(error)) from None

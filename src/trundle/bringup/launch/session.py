@@ -86,24 +86,24 @@ class LaunchSession:
         )
         show.line(graph.summary)
         launcher = Node("/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False)
-        logs = log_folder(read.env, str(graph.loop.run(launcher.get_param("/run_id", ""))))
+        logs = log_folder(read.env, str(graph.loop.run(launcher.params.get("/run_id", ""))))
         self._log = LaunchLog(logs)
         self._open_things.callback(self._log.close)
         show.log_to(self._log.write)
         if options.distro is not None:
             profile = DISTROS[options.distro]
             for name, value in (("/rosdistro", profile.distro), ("/rosversion", profile.version)):
-                graph.loop.run(launcher.set_param(name, f"{value}\n"))
+                graph.loop.run(launcher.params.set(name, f"{value}\n"))
         if options.summary and not options.core_only:
-            core = {name: str(graph.loop.run(launcher.get_param(name, ""))).strip() for name in _SHOWN}
+            core = {name: str(graph.loop.run(launcher.params.get(name, ""))).strip() for name in _SHOWN}
             values = {**core, **{param.name: param.value for param in read.params}}
             self._say(printing.summary(read.plan, values))
         graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
         programs = self._programs()
         tells_time = options.speed is None and not programs and self._may_publish_clock(launcher)
         in_step = tells_time or (options.speed is None and _has_world(read.plan))
-        if tells_time or (in_step and not graph.loop.run(launcher.has_param("/use_sim_time"))):
-            graph.loop.run(launcher.set_param("/use_sim_time", True))
+        if tells_time or (in_step and not graph.loop.run(launcher.params.has("/use_sim_time"))):
+            graph.loop.run(launcher.params.set("/use_sim_time", True))
         self.clock = graph.loop.run(follow_time(launcher))
         recorder = None if options.record is None else self._record(options.record, in_step, programs)
         if in_step:
@@ -154,7 +154,7 @@ class LaunchSession:
         self._open_things.callback(lambda: graph.loop.run(node.shutdown(), timeout_s=_START_S))
         graph.loop.run(follow_time(node))
         options = RecorderOptions(all_topics=True, path=file)
-        recorder = Recorder(node, options, say=node.log_debug, complain=self._complain)
+        recorder = Recorder(node, options, say=node.log.debug, complain=self._complain)
         recorder.start()
         self._open_things.callback(recorder.stop)
         return None
@@ -168,7 +168,7 @@ class LaunchSession:
         graph = self.graph
         if _has_world(self._read.plan) or graph.core is None:
             return False
-        return graph.loop.run(launcher.get_param("/use_sim_time", False)) is not True
+        return graph.loop.run(launcher.params.get("/use_sim_time", False)) is not True
 
     def _programs(self) -> list[str]:
         """Names of the nodes that are programs of their own."""

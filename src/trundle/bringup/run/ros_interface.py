@@ -51,7 +51,7 @@ class RosInterface:
         self.node = self.make_node(NODE_NAME)
         loop = graph.loop
         loop.run(self.node.wait_registered())
-        loop.run(self.node.set_param("/use_sim_time", True))
+        loop.run(self.node.params.set("/use_sim_time", True))
         ClockTopic(self.node).attach(simulation)
         static_broadcaster = StaticTransformBroadcaster(self.node)
         frames = LinkTransforms(self.node, static_broadcaster, stage.world, simulation.snapshot())
@@ -61,7 +61,7 @@ class RosInterface:
         make_camera_topics(self.node, static_broadcaster, attach_sensor_plugins(cameras, self.node, report), names)
         make_sensor_topics(self.node, static_broadcaster, attach_sensor_plugins(sensors, self.node, report), names)
         if stage.urdf is not None:
-            loop.run(self.node.set_param("/robot_description", stage.urdf))
+            loop.run(self.node.params.set("/robot_description", stage.urdf))
             states = JointStatesTopic(self.node, simulation.models[0])
             simulation.add_hook(states, period_ns=states.period_ns, enabled=states.has_subscribers)
         self._cmd_vel = None

@@ -59,7 +59,7 @@ class DiffController:
         node.subscribe("cmd_vel", "geometry_msgs/Twist", self._command)
         self._odom = node.advertise("odom", "nav_msgs/Odometry", queue_size=5)
         self._broadcaster = TransformBroadcaster(node)
-        node.log_info(f"Started DiffController ({name}). Geometry: {base_width}m wide, {ticks_meter} ticks/m.")
+        node.log.info(f"Started DiffController ({name}). Geometry: {base_width}m wide, {ticks_meter} ticks/m.")
 
     def _command(self, twist: Message) -> None:
         """Go by the new speeds from now on.

@@ -24,14 +24,14 @@ class ArbotixDriver:
         """Read the parameters, then loop at `~rate`."""
         node = self._node
         try:
-            settings = NodeParams(await node.get_param("~", {}), node.name)
+            settings = NodeParams(await node.params.get("~", {}), node.name)
             if not settings.flag("sim", default=False):
                 port = settings.text("port", "/dev/ttyUSB0")
-                node.log_error(f"no ArbotiX board can be driven through {port}: set {node.name}/sim to true")
+                node.log.error(f"no ArbotiX board can be driven through {port}: set {node.name}/sim to true")
                 return 1
             return await self._loop(settings)
         except ParamError as error:
-            node.log_error(str(error))
+            node.log.error(str(error))
             return 1
 
     async def _loop(self, settings: NodeParams) -> int:
@@ -41,7 +41,7 @@ class ArbotixDriver:
         self._diagnostics = node.advertise("diagnostics", "diagnostic_msgs/DiagnosticArray", queue_size=5)
         joint_states = RateDivider(node.clock.now_ns, settings.rate_hz("read_rate", 10.0))
         self._joint_states = node.advertise("joint_states", "sensor_msgs/JointState", queue_size=5)
-        node.log_info("ArbotiX being simulated.")
+        node.log.info("ArbotiX being simulated.")
         self._add_joints(settings.section("joints"))
         self._controllers.append(ServoController(node, self._joints, settings))
         self._add_controllers(settings.section("controllers"))
@@ -68,7 +68,7 @@ class ArbotixDriver:
                 case "calibrated_linear":
                     self._joints[name] = LinearJoint(self._node, name, section)
                 case _:
-                    self._node.log_warn(f"joint {name}: no type {kind!r}; it is left out")
+                    self._node.log.warn(f"joint {name}: no type {kind!r}; it is left out")
 
     def _add_controllers(self, settings: NodeParams) -> None:
         """Add what can be added; the original, too, goes on without a controller that it cannot make."""
@@ -85,9 +85,9 @@ class ArbotixDriver:
                     case "follow_controller":
                         self._controllers.append(FollowController(self._node, name, section, self._joints))
                     case _:
-                        self._node.log_error(f"Unrecognized controller: {kind}")
+                        self._node.log.error(f"Unrecognized controller: {kind}")
             except (ParamError, MessageError) as error:
-                self._node.log_error(f"controller {name}: {error}; it is left out")
+                self._node.log.error(f"controller {name}: {error}; it is left out")
 
     def _readings(self) -> list[JointReading]:
         joints = [joint.reading for joint in self._joints.values()]

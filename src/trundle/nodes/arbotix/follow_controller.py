@@ -41,7 +41,7 @@ class FollowController:
         for servo in self._servos.values():
             servo.is_controlled = lambda: self._active
         node.subscribe(f"{name}/command", "trajectory_msgs/JointTrajectory", self._command, queue_size=1)
-        node.log_info(
+        node.log.info(
             f"Started FollowController ({name}). Joints: {self._joints} on C{settings.number('index', 0.0):g}"
         )
 
@@ -56,7 +56,7 @@ class FollowController:
     def _command(self, trajectory: Message) -> None:
         """Follow what came on the topic, unless the action is at work."""
         if self._server.active:
-            self._node.log_info("Received trajectory, but action is active")
+            self._node.log.info("Received trajectory, but action is active")
             return
         if self._topic_task is not None:
             self._topic_task.cancel()
@@ -66,13 +66,13 @@ class FollowController:
         names = list(trajectory.joint_names)
         if missing := [joint for joint in self._joints if joint not in names]:
             text = f"Trajectory joint names does not match action controlled joints: {missing[0]!r} is missing"
-            self._node.log_error(text)
+            self._node.log.error(text)
             return ActionOutcome(status="aborted", text=text)
         if not trajectory.points:
-            self._node.log_error("Trajectory empty.")
+            self._node.log.error("Trajectory empty.")
             return ActionOutcome(status="aborted", text="Trajectory empty.")
         if len(names) > len(self._joints):
-            self._node.log_warn("Extra joints in trajectory")
+            self._node.log.warn("Extra joints in trajectory")
         order = [names.index(joint) for joint in self._joints]
         if any(len(point.positions) <= max(order) for point in trajectory.points):
             return ActionOutcome(status="aborted", text="a point has fewer positions than there are joints")

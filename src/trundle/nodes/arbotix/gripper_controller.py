@@ -99,12 +99,12 @@ class GripperController:
     async def run(self) -> int:
         """Serve until cancelled."""
         node = self._node
-        settings = NodeParams(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.params.get("~", {}), node.name)
         try:
             self._gripper = read_gripper(settings)
             self._stalled_s = settings.number("stalled_time", 0.2)
         except ParamError as error:
-            node.log_error(str(error))
+            node.log.error(str(error))
             return 1
         self._commands = {
             jaw.joint: node.advertise(f"{jaw.joint}/command", "std_msgs/Float64", queue_size=5)
@@ -124,7 +124,7 @@ class GripperController:
         try:
             commands = self._gripper.commands(opening_m)
         except ValueError as error:
-            self._node.log_error(str(error))
+            self._node.log.error(str(error))
             return ActionOutcome(status="aborted", text=str(error))
         for joint, command in commands.items():
             self._commands[joint].publish({"data": command})

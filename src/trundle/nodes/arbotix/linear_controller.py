@@ -40,7 +40,7 @@ class LinearController:
         self._name = name
         if incremental:
             node.advertise_service(f"{name}/zero", "std_srvs/Empty", self._zero)
-        node.log_info(f"Started LinearController{'Incremental' if incremental else ''} ({name}).")
+        node.log.info(f"Started LinearController{'Incremental' if incremental else ''} ({name}).")
 
     def _zero(self, _request: Message) -> dict[str, object]:
         return {}

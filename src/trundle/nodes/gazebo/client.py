@@ -17,6 +17,6 @@ class GazeboClient:
         """Show until cancelled."""
         if self._simulator is not None:
             return await self._simulator.show(self._node)
-        self._node.log_warn("no world is simulated in this process: gazebo_ros/gazebo is a world with its window")
+        self._node.log.warn("no world is simulated in this process: gazebo_ros/gazebo is a world with its window")
         await self._node.closed.wait()
         return 0

@@ -67,7 +67,7 @@ class _LoadServices:
         try:
             self._wrenches.clear(find_link(self._simulator.simulation, request.body_name))
         except UsageError as error:
-            self._node.log_warn(str(error))
+            self._node.log.warn(str(error))
         return {}
 
     def clear_joint_forces(self, request: Message) -> dict[str, Any]:
@@ -75,7 +75,7 @@ class _LoadServices:
         try:
             self._efforts.clear(find_joint(self._simulator.simulation, request.joint_name))
         except UsageError as error:
-            self._node.log_warn(str(error))
+            self._node.log.warn(str(error))
         return {}
 
 

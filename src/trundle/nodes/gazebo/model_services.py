@@ -30,7 +30,7 @@ def _spawn(node: Node, simulator: Simulator) -> Callable[[Message], dict[str, An
         simulator.spawn(
             request.model_xml, name=request.model_name, world_from_model=pose, namespace=request.robot_namespace
         )
-        node.log_info(f"spawned {request.model_name}")
+        node.log.info(f"spawned {request.model_name}")
         return {}
 
     return spawn

@@ -34,7 +34,7 @@ def advertise_options(node: Node, simulator: Simulator, ode: OdeSettings) -> Non
         kept = {name: value for name, value in values.items() if name in ode.values and not isinstance(value, str)}
         ignored = ode.update(kept)
         if ignored:
-            node.log_warn(f"{IGNORED}{', '.join(ignored)}")
+            node.log.warn(f"{IGNORED}{', '.join(ignored)}")
         return values
 
     ReconfigureServer(node, [step, rate, *pulls, *settings], apply)

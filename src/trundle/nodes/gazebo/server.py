@@ -48,15 +48,15 @@ class GazeboServer:
         """Simulate until cancelled."""
         node, simulator = self._node, self._simulator
         if simulator is None:
-            node.log_fatal("nothing is simulated here")
+            node.log.fatal("nothing is simulated here")
             return 1
         world, paused, record = self._read_arguments()
-        if not await node.has_param("/use_sim_time"):
-            await node.set_param("/use_sim_time", True)
+        if not await node.params.has("/use_sim_time"):
+            await node.params.set("/use_sim_time", True)
         try:
             await simulator.open(node, world, paused=paused, env=self._env, record=record)
         except TrundleError as error:
-            node.log_fatal(str(error))
+            node.log.fatal(str(error))
             return 1
         try:
             await self._serve(simulator)
@@ -106,9 +106,9 @@ class GazeboServer:
             elif option == "--record_path":
                 record = value
             elif option in _UNSUPPORTED and not _WHAT_THIS_IS.search(value):
-                self._node.log_warn(f"gzserver {word} {value}: {_UNSUPPORTED[option]} is not supported")
+                self._node.log.warn(f"gzserver {word} {value}: {_UNSUPPORTED[option]} is not supported")
             elif option in ("-e", "--physics") and value not in ("ode", ""):
-                self._node.log_info(f"physics engine {value!r} is asked for; MuJoCo is what there is")
+                self._node.log.info(f"physics engine {value!r} is asked for; MuJoCo is what there is")
             elif not word.startswith("-"):
                 world = word
         return world, paused, record

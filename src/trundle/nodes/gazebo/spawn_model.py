@@ -33,12 +33,12 @@ class SpawnModel:
         try:
             request = SpawnRequest.read(self._arguments)
             if request.is_old:
-                node.log_warn("Deprecated: the -gazebo tag is now -sdf")
+                node.log.warn("Deprecated: the -gazebo tag is now -sdf")
             gazebo = request.texts.get("-gazebo_namespace", "/gazebo").rstrip("/")
             await self._wait_for(request.texts.get("-wait"), gazebo)
             await self._spawn(request, gazebo)
         except (TrundleError, RosError) as error:
-            node.log_error(f"spawn_model: {error}")
+            node.log.error(f"spawn_model: {error}")
             return 1
         if "-b" in request.flags:
             await self._stay(request.texts["-model"], gazebo)
@@ -50,7 +50,7 @@ class SpawnModel:
         if "-package_to_model" in request.flags:
             xml = _MESH.sub(r"\1model://", xml)
         service = f"{gazebo}/spawn_{kind}_model"
-        node.log_info(f"Waiting for service {service}")
+        node.log.info(f"Waiting for service {service}")
         await node.wait_for_service(service, _TIMEOUT_S)
         answer = await node.call_service(
             service,
@@ -65,7 +65,7 @@ class SpawnModel:
             timeout_s=_TIMEOUT_S,
         )
         _check(answer)
-        node.log_info(f"Spawn status: {answer.status_message}")
+        node.log.info(f"Spawn status: {answer.status_message}")
         if request.joints:
             _check(
                 await node.call_service(
@@ -105,7 +105,7 @@ class SpawnModel:
 
     async def _parameter(self, name: str) -> str:
         try:
-            xml = await self._node.get_param(name)
+            xml = await self._node.params.get(name)
         except ParameterError as error:
             raise UsageError(str(error)) from None
         if not isinstance(xml, str) or not xml.strip():
@@ -122,13 +122,13 @@ class SpawnModel:
             if model in message.name:
                 found.set()
 
-        self._node.log_info(f"Waiting for model {model} before proceeding.")
+        self._node.log.info(f"Waiting for model {model} before proceeding.")
         listening = self._node.subscribe(f"{gazebo}/model_states", "gazebo_msgs/ModelStates", on_message, queue_size=1)
         await found.wait()
         listening.unregister()
 
     async def _stay(self, model: str, gazebo: str) -> None:
-        self._node.log_info("Waiting for shutdown to delete the model")
+        self._node.log.info("Waiting for shutdown to delete the model")
         try:
             await self._node.closed.wait()
         finally:

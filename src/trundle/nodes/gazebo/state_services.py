@@ -135,4 +135,4 @@ def _tried(node: Node, work: Any, message: Message) -> None:
     try:
         work(message)
     except TrundleError as error:
-        node.log_error(str(error))
+        node.log.error(str(error))

@@ -33,7 +33,7 @@ class MapSaver:
         words = iter(self._arguments)
         for word in words:
             if word not in options:
-                node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
+                node.log.error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
                 return 1
             options[word] = next(words, "")
         try:
@@ -41,18 +41,18 @@ class MapSaver:
         except ValueError:
             occupied = free = -1
         if not 0 <= free < occupied <= 100:
-            node.log_error(f"{_USAGE}; --free must lie below --occ")
+            node.log.error(f"{_USAGE}; --free must lie below --occ")
             return 1
         heard: asyncio.Queue[Message] = asyncio.Queue()
-        node.log_info("Waiting for the map")
+        node.log.info("Waiting for the map")
         node.subscribe("map", "nav_msgs/OccupancyGrid", heard.put_nowait, queue_size=1)
         message = await heard.get()
         try:
             await asyncio.to_thread(write_map, Path(options["-f"]), _grid_of(message), occupied=occupied, free=free)
         except UsageError as error:
-            node.log_error(str(error))
+            node.log.error(str(error))
             return 1
-        node.log_info(f"Received a {message.info.width} X {message.info.height} map; wrote {options['-f']}.pgm")
+        node.log.info(f"Received a {message.info.width} X {message.info.height} map; wrote {options['-f']}.pgm")
         return 0
 
 

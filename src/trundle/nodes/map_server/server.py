@@ -29,22 +29,22 @@ class MapServer:
     async def run(self) -> int:
         """Serve until cancelled."""
         node = self._node
-        settings = NodeParams(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.params.get("~", {}), node.name)
         self._frame = settings.text("frame_id", "map")
         if len(self._arguments) not in (1, 2):
-            node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
+            node.log.error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 255
         file = Path(self._arguments[0])
         self._map = node.advertise("map", "nav_msgs/OccupancyGrid", latch=True, queue_size=1)
         self._metadata = node.advertise("map_metadata", "nav_msgs/MapMetaData", latch=True, queue_size=1)
         try:
             if len(self._arguments) == 2:
-                node.log_warn(f"a picture with its resolution is deprecated; {_USAGE}")
+                node.log.warn(f"a picture with its resolution is deprecated; {_USAGE}")
                 await self._load(partial(_read_picture, file, self._arguments[1], settings))
             else:
                 await self._load(partial(read_map, file))
         except (ParamError, UsageError) as error:
-            node.log_error(str(error))
+            node.log.error(str(error))
             return 255
         node.advertise_service("static_map", "nav_msgs/GetMap", self._get_map)
         node.advertise_service("change_map", "nav_msgs/LoadMap", self._change_map)
@@ -56,7 +56,7 @@ class MapServer:
             grid = await asyncio.to_thread(read)
         self._fields = grid_fields(grid, frame=self._frame, stamp_ns=self._node.clock.now_ns())
         height, width = grid.cells.shape
-        self._node.log_info(f"Read a {width} X {height} map @ {grid.resolution_m:.3f} m/cell")
+        self._node.log.info(f"Read a {width} X {height} map @ {grid.resolution_m:.3f} m/cell")
         self._metadata.publish(self._fields["info"])
         self._map.publish(self._fields)
 
@@ -68,7 +68,7 @@ class MapServer:
         try:
             await self._load(partial(read_map, file))
         except UsageError as error:
-            self._node.log_error(str(error))
+            self._node.log.error(str(error))
             return {"result": _INVALID if os.path.exists(file) else _DOES_NOT_EXIST}
         return {"map": self._fields, "result": _SUCCESS}
 

@@ -21,7 +21,7 @@ class Drop:
         node, words = self._node, self._arguments
         counts = [int(word) for word in words[1:3] if word.isdecimal()]
         if not 3 <= len(words) <= 4 or len(counts) != 2 or counts[1] < 1:
-            node.log_error(f"{_USAGE}; got {' '.join(words)!r}")
+            node.log.error(f"{_USAGE}; got {' '.join(words)!r}")
             return 1
         output = RawPublisher(node, words[3] if len(words) > 3 else f"{words[0]}_drop")
         dropped, every = counts

@@ -25,9 +25,9 @@ class Mux:
         """Pass on until cancelled."""
         node, words = self._node, self._arguments
         if len(words) < 2:
-            node.log_error(f"usage: mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 …]; got {' '.join(words)!r}")
+            node.log.error(f"usage: mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 …]; got {' '.join(words)!r}")
             return 1
-        settings = NodeParams(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.params.get("~", {}), node.name)
         self._output = RawPublisher(node, words[0], latch=settings.flag("latch", default=False))
         self._said = node.advertise("mux/selected", "std_msgs/String", latch=True, queue_size=1)
         for topic in words[1:]:
@@ -60,7 +60,7 @@ class Mux:
         try:
             self._choose(topic or next(iter(self._inputs)))
         except ServiceError as error:
-            self._node.log_warn(f"~initial_topic: {error}; nothing is selected")
+            self._node.log.warn(f"~initial_topic: {error}; nothing is selected")
             self._choose(_NONE)
 
     def _choose(self, topic: str) -> str:
@@ -76,7 +76,7 @@ class Mux:
         return {"prev_topic": self._choose(request.topic)}
 
     def _select_legacy(self, request: Message) -> dict[str, Any]:
-        self._node.log_warn("the <topic>_select service is deprecated; use mux/select instead")
+        self._node.log.warn("the <topic>_select service is deprecated; use mux/select instead")
         return self._select(request)
 
     def _add_service(self, request: Message) -> dict[str, Any]:

@@ -38,11 +38,11 @@ class RawPublisher:
                 latch = message.latching if self._latch is None else self._latch
                 self._publisher = node.advertise(self.topic, message.type, queue_size=_QUEUE, latch=latch)
             except MessageError as error:
-                node.log_error(f"{self.topic}: {error}")
+                node.log.error(f"{self.topic}: {error}")
                 return
-            node.log_info(f"advertised as {node.resolve(self.topic)}")
+            node.log.info(f"advertised as {node.resolve(self.topic)}")
         if message.type != self._publisher.type:
-            node.log_error(f"{self.topic} carries {self._publisher.type}; a {message.type} is not passed on")
+            node.log.error(f"{self.topic} carries {self._publisher.type}; a {message.type} is not passed on")
             return
         self._publisher.publish(message.data)
 

@@ -22,10 +22,10 @@ class Relay:
         """Relay until cancelled."""
         node = self._node
         if not 1 <= len(self._arguments) <= 2:
-            node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
+            node.log.error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 1
         source, target = (*self._arguments, f"{self._arguments[0]}_relay")[:2]
-        settings = NodeParams(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.params.get("~", {}), node.name)
         is_stealthy = settings.flag("stealth", default=False)
         output = RawPublisher(node, target)
 
@@ -52,7 +52,7 @@ class Relay:
         """
         node = self._node
         while not node.closed.is_set():
-            _, subscribers, _ = await node.call_master("getSystemState")
+            _, subscribers, _ = await node.master.call("getSystemState")
             if not output.is_typed or any(
                 topic == monitored and set(nodes) - {node.name} for topic, nodes in subscribers
             ):

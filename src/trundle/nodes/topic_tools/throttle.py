@@ -69,7 +69,7 @@ class Throttle:
     async def run(self) -> int:
         """Throttle until cancelled."""
         node = self._node
-        settings = NodeParams(await node.get_param("~", {}), node.name)
+        settings = NodeParams(await node.params.get("~", {}), node.name)
         # The program reads the first; its manual, and so launch files, name the second.
         wall = settings.flag("wall_clock", default=settings.flag("use_wall_clock", default=False))
         latch = settings.flag("force_latch", default=False) if "force_latch" in settings.names() else None
@@ -77,7 +77,7 @@ class Throttle:
         try:
             gate, source, target = self._read(now_ns)
         except ValueError:
-            node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
+            node.log.error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 1
         output = RawPublisher(node, target, latch=latch)
 

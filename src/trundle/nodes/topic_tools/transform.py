@@ -33,7 +33,7 @@ class Transform:
             at = words.index("--import")
             words, modules = words[:at], [*modules, *words[at + 1 :]]
         if len(words) != 4:
-            node.log_error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
+            node.log.error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 1
         source, target, type_name, text = words
         try:
@@ -41,7 +41,7 @@ class Transform:
             self._code = compile(text, "<expression>", "eval")
             self._output = node.advertise(target, type_name, queue_size=1)
         except (ImportError, SyntaxError, MessageError) as error:
-            node.log_error(f"transform {text!r}: {error}")
+            node.log.error(f"transform {text!r}: {error}")
             return 1
         self._source = node.resolve(source)
         await self._subscribe()
@@ -53,7 +53,7 @@ class Transform:
         parts = self._source.strip("/").split("/")
         starts = [(count, "/" + "/".join(parts[:count])) for count in range(len(parts), 0, -1)]
         while True:
-            topics = {str(name) for name, _ in await self._node.call_master("getTopicTypes")}
+            topics = {str(name) for name, _ in await self._node.master.call("getTopicTypes")}
             for count, name in starts:
                 if name in topics:
                     self._fields = parts[count:]
@@ -71,7 +71,7 @@ class Transform:
             self._output.publish(self._message(_evaluate(self._code, {**self._names, "m": value})))
         except Exception as error:  # the user's expression may raise anything
             if not self._failed:
-                node.log_error(f"transform: {type(error).__name__}: {error}")
+                node.log.error(f"transform: {type(error).__name__}: {error}")
             self._failed = True
 
     def _message(self, value: Any) -> Message:

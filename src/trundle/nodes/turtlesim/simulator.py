@@ -60,15 +60,15 @@ class TurtleSim:
         """Move turtles until cancelled."""
         node = self._node
         for name, value in zip("rgb", _BACKGROUND, strict=True):
-            if not await node.has_param(f"~background_{name}"):
-                await node.set_param(f"~background_{name}", value)
+            if not await node.params.has(f"~background_{name}"):
+                await node.params.set(f"~background_{name}", value)
         await self._wipe()
         image = node.advertise("~image", "sensor_msgs/Image", queue_size=1)
         node.advertise_service("clear", "std_srvs/Empty", self._clear)
         node.advertise_service("reset", "std_srvs/Empty", self._reset)
         node.advertise_service("spawn", "turtlesim/Spawn", self._on_spawn)
         node.advertise_service("kill", "turtlesim/Kill", self._kill)
-        node.log_info(f"Starting turtlesim with node name {node.name}; its window is {image.topic}")
+        node.log.info(f"Starting turtlesim with node name {node.name}; its window is {image.topic}")
         self._start()
         window = None
         if self._display is not None:
@@ -131,13 +131,13 @@ class TurtleSim:
 
             registered.services.append(node.advertise_service(f"{name}/{service}", f"turtlesim/{kind}", handle))
         self._turtles[name] = registered
-        node.log_info(f"Spawning turtle [{name}] at x=[{turtle.x:f}], y=[{turtle.y:f}], theta=[{turtle.theta:f}]")
+        node.log.info(f"Spawning turtle [{name}] at x=[{turtle.x:f}], y=[{turtle.y:f}], theta=[{turtle.theta:f}]")
 
     def _move(self, name: str, turtle: Turtle, now_ns: int) -> None:
         before = (turtle.x, turtle.y)
         turtle.update(_TICK_NS / NS_PER_S, now_ns=now_ns)
         if turtle.hit_wall:
-            self._node.log_warn(f"Oh no! I hit the wall! ({name} is held at x=[{turtle.x:f}], y=[{turtle.y:f}])")
+            self._node.log.warn(f"Oh no! I hit the wall! ({name} is held at x=[{turtle.x:f}], y=[{turtle.y:f}])")
         self._draw(turtle, before)
 
     def _publish(self, registered: _SpawnedTurtle) -> None:
@@ -180,18 +180,18 @@ class TurtleSim:
         }
 
     async def _wipe(self) -> None:
-        values = [await self._node.get_param(f"~background_{name}", 0) for name in "rgb"]
+        values = [await self._node.params.get(f"~background_{name}", 0) for name in "rgb"]
         red, green, blue = (min(max(int(value), 0), 255) for value in values)
         self._background = (red, green, blue)
         self._picture.clear(self._background)
 
     async def _clear(self, _request: Message) -> dict[str, Any]:
-        self._node.log_info("Clearing turtlesim.")
+        self._node.log.info("Clearing turtlesim.")
         await self._wipe()
         return {}
 
     async def _reset(self, _request: Message) -> dict[str, Any]:
-        self._node.log_info("Resetting turtlesim.")
+        self._node.log.info("Resetting turtlesim.")
         for registered in self._turtles.values():
             registered.unregister()
         self._turtles.clear()

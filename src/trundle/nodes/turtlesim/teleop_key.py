@@ -20,7 +20,7 @@ class TurtleTeleopKey:
         """Read keys until q, or until cancelled."""
         node = self._node
         # Not private: launch files set them beside the nodes.
-        scales = {name: await node.get_param(name, 2.0) for name in ("scale_linear", "scale_angular")}
+        scales = {name: await node.params.get(name, 2.0) for name in ("scale_linear", "scale_angular")}
         settings = NodeParams(scales, node.resolve("scale_linear").rpartition("/")[0])
         linear, angular = settings.number("scale_linear"), settings.number("scale_angular")
         commands = node.advertise("turtle1/cmd_vel", "geometry_msgs/Twist", queue_size=1)
@@ -28,7 +28,7 @@ class TurtleTeleopKey:
             self._display.drive_on(commands.topic)
         keyboard = Keyboard(node)
         if not keyboard.is_available:
-            node.log_warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
+            node.log.warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
             await node.closed.wait()
             return 0
         print("Reading from keyboard\n---------------------------\nUse arrow keys to move the turtle. 'q' to quit.")

@@ -48,7 +48,7 @@ class JointPoseTrajectory(RosPlugin):
         try:
             self._plan(trajectory)
         except UsageError as error:
-            self._node.log_error(str(error))
+            self._node.log.error(str(error))
 
     def _set_trajectory(self, request: Message) -> dict[str, Any]:
         try:

@@ -76,8 +76,8 @@ class VacuumGripper(RosPlugin):
     def _switch(self, *, on: bool) -> dict[str, object]:
         word = "on" if on else "off"
         if self._is_on is on:
-            self._node.log_warn(f"vacuum gripper is {word} already")
+            self._node.log.warn(f"vacuum gripper is {word} already")
         else:
-            self._node.log_info(f"vacuum gripper is {word}")
+            self._node.log.info(f"vacuum gripper is {word}")
         self._is_on = on
         return {}

@@ -59,7 +59,7 @@ class GraspFix(Plugin):
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
         """See `Plugin.load`."""
-        return cls(sim, model, str if node is None else node.log_info, tag)
+        return cls(sim, model, str if node is None else node.log.info, tag)
 
     def before_step(self, sim: Simulation) -> None:
         """Feel what the last step did; now and then take or drop."""

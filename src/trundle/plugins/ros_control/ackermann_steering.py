@@ -100,14 +100,14 @@ class AckermannSteering:
     def _on_command(self, message: Message) -> None:
         linear, angle = float(message.linear.x), float(message.angular.z)
         if not self._is_running:
-            self._node.log_error("Can't accept new commands. Controller is not running.")
+            self._node.log.error("Can't accept new commands. Controller is not running.")
         elif not self._takes_many and (count := self._commands.publishers) > 1:
-            self._node.log_error(f"Detected {count} publishers. Only 1 publisher is allowed. Going to brake.")
+            self._node.log.error(f"Detected {count} publishers. Only 1 publisher is allowed. Going to brake.")
             self._command = None
         elif math.isfinite(linear) and math.isfinite(angle):
             self._command = (self._node.clock.now_ns(), linear, angle)
         else:
-            self._node.log_warn("Received NaN in velocity command. Ignoring.")
+            self._node.log.warn("Received NaN in velocity command. Ignoring.")
 
     def _current_command(self, time_ns: int) -> tuple[float, float]:
         """What was commanded, unless that is too old."""

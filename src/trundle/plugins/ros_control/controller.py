@@ -85,7 +85,7 @@ def group_command(message: Message, count: int, node: Node) -> list[float]:
     """A std_msgs/Float64MultiArray for so many joints; empty where it is of no use, which is said."""
     values = [float(value) for value in message.data]
     if len(values) != count:
-        node.log_error(
+        node.log.error(
             f"Dimension of command ({len(values)}) does not match number of joints ({count})! Not executing!"
         )
         return []

@@ -115,7 +115,7 @@ class DiffDriveController:
             stamp = self._context.node.clock.now_ns()
             self._command = (stamp, float(message.linear.x), float(message.angular.z))
         else:
-            self._context.node.log_warn("Received NaN in velocity command. Ignoring.")
+            self._context.node.log.warn("Received NaN in velocity command. Ignoring.")
 
     def _current_command(self, time_ns: int) -> tuple[float, float]:
         """What was commanded, unless that is too old."""

@@ -159,9 +159,9 @@ class FourWheelDrive:
 
     def _accepts(self, kind: str, values: tuple[float, ...]) -> bool:
         if not self._is_running:
-            self._node.log_error("Can't accept new commands. Controller is not running.")
+            self._node.log.error("Can't accept new commands. Controller is not running.")
         elif not all(map(math.isfinite, values)):
-            self._node.log_warn(f"Received NaN in {kind}. Ignoring command.")
+            self._node.log.warn(f"Received NaN in {kind}. Ignoring command.")
         else:
             return True
         return False

@@ -87,15 +87,15 @@ class ControllerManager:
 
     def _load(self, name: str) -> bool:
         if name in self._loaded:
-            self._node.log_error(f"A controller named '{name}' was already loaded inside the controller manager")
+            self._node.log.error(f"A controller named '{name}' was already loaded inside the controller manager")
             return False
         full = f"{self._namespace}/{name}"
-        tree = self._node.loop.run(self._node.get_param(full, {}))
+        tree = self._node.loop.run(self._node.params.get(full, {}))
         settings = NodeParams(tree, full)
         try:
             kind = settings.text("type")
         except ParamError:
-            self._node.log_error(
+            self._node.log.error(
                 f"Could not load controller '{name}' because the type was not specified. Did you load the controller "
                 f"configuration on the parameter server (namespace: '{self._namespace or '/'}')?"
             )
@@ -111,7 +111,7 @@ class ControllerManager:
         try:
             controller = find_controller(kind).create(context)
         except ParamError as error:
-            self._node.log_error(f"Could not load controller '{name}': {error}")
+            self._node.log.error(f"Could not load controller '{name}': {error}")
             return False
         self._loaded[name] = _Loaded(name=name, type=kind, controller=controller)
         return True
@@ -119,12 +119,12 @@ class ControllerManager:
     def _unload(self, name: str) -> bool:
         loaded = self._loaded.get(name)
         if loaded is None:
-            self._node.log_error(
+            self._node.log.error(
                 f"Could not unload controller with name '{name}' because no controller with this name exists"
             )
             return False
         if loaded.state == "running":
-            self._node.log_error(f"Could not unload controller with name '{name}' because it is still running")
+            self._node.log.error(f"Could not unload controller with name '{name}' because it is still running")
             return False
         loaded.controller.close()
         del self._loaded[name]
@@ -137,14 +137,14 @@ class ControllerManager:
         )
         wrong = [self._wrong(name, state) for names, state in ((stops, "running"), (starts, "")) for name in names]
         for what in filter(None, wrong):
-            self._node.log_error(what)
+            self._node.log.error(what)
         if strict and any(wrong):
             return False
         stops = [n for n in stops if n in self._loaded and self._loaded[n].state == "running"]
         starts = [n for n in starts if n in self._loaded and (n in stops or self._loaded[n].state != "running")]
         conflict = self._conflict(stops, starts)
         if conflict:
-            self._node.log_error(conflict)
+            self._node.log.error(conflict)
             return False
         for name in stops:
             self._loaded[name].controller.stop()

@@ -96,14 +96,14 @@ class GazeboRosControl(Plugin):
         name = f"{self._namespace}/{self._param}"
         while not node.closed.is_set():
             for candidate in (name, f"/{self._param}"):  # as searchParam goes up from the robot's namespace
-                text = await node.get_param(candidate, None)
+                text = await node.params.get(candidate, None)
                 if isinstance(text, str) and text.strip():
-                    gains = await node.get_param(f"{self._namespace}/gazebo_ros_control/pid_gains", {})
+                    gains = await node.params.get(f"{self._namespace}/gazebo_ros_control/pid_gains", {})
                     assert node.deliver is not None, "plugins' nodes deliver to the simulation's thread"
                     node.deliver(lambda text=text, name=candidate, gains=gains: self._begin(text, name, gains))
                     return
             if not said:
-                node.log_info(f"gazebo_ros_control plugin is waiting for model URDF in parameter [{name}]")
+                node.log.info(f"gazebo_ros_control plugin is waiting for model URDF in parameter [{name}]")
                 said = True
             await asyncio.sleep(_POLL_S)
 
@@ -115,7 +115,7 @@ class GazeboRosControl(Plugin):
             for driven in read_transmissions(urdf, name, report):
                 handle = self._model.joint(driven.name)
                 if not handle.is_driven:
-                    self._node.log_warn(f"joint {driven.name!r} cannot move; its transmission is left out")
+                    self._node.log.warn(f"joint {driven.name!r} cannot move; its transmission is left out")
                     continue
                 own = settings.section(driven.name)
                 is_pushed = "p" in own.names() and driven.interface != "EffortJointInterface"
@@ -125,12 +125,12 @@ class GazeboRosControl(Plugin):
                 joint.command = joint.position if driven.interface == "PositionJointInterface" else 0.0
                 self._hardware[driven.name] = joint
         except TrundleError as error:
-            self._node.log_fatal(f"gazebo_ros_control: {error}; nothing is controlled")
+            self._node.log.fatal(f"gazebo_ros_control: {error}; nothing is controlled")
             return
         self._last_ns = self._sim.time_ns
         self._sim.on_change(self._keep_lag)  # the time step may be another one
         self._manager = ControllerManager(self._node, self._namespace, self._hardware, self._model)
-        self._node.log_info(f"Loaded gazebo_ros_control: {len(self._hardware)} joints of {self._namespace}")
+        self._node.log.info(f"Loaded gazebo_ros_control: {len(self._hardware)} joints of {self._namespace}")
 
     @property
     def _lag_s(self) -> float:

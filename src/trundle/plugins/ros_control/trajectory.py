@@ -118,12 +118,12 @@ class TrajectoryController:
     def _on_command(self, trajectory: Message) -> None:
         """A trajectory from the topic; one without points stops the joints."""
         if not self._is_running:
-            self._node.log_error("Can't accept new commands. Controller is not running.")
+            self._node.log.error("Can't accept new commands. Controller is not running.")
             return
         try:
             self._begin(trajectory, self._default_tolerances)
         except GoalError as error:
-            self._node.log_error(str(error))
+            self._node.log.error(str(error))
             return
         self._settle("preempted", 0, "a trajectory came on the topic")
 

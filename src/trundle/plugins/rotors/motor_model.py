@@ -135,7 +135,7 @@ class MotorModel(RosPlugin):
     def _on_command(self, message: Message) -> None:
         values = message.angular_velocities
         if not 0 <= self._number < len(values):
-            self._node.log_error(f"motor {self._number}: the command is for {len(values)} motors")
+            self._node.log.error(f"motor {self._number}: the command is for {len(values)} motors")
             return
         wanted = float(values[self._number])
         if math.isfinite(wanted):

@@ -183,7 +183,7 @@ class Player:
     def _on_rate_control(self, message: RawMessage) -> None:
         """Take the stamp from the header that the message starts with, whatever its type."""
         if not _HEADER_FIRST.match(message.definition) or len(message.data) < 12:
-            self._node.log_warn(f"{message.type} does not start with a header; it cannot control the rate")
+            self._node.log.warn(f"{message.type} does not start with a header; it cannot control the rate")
             return
         sec, nanosec = struct.unpack_from("<II", message.data, 4)
         self._follower_ns = sec * 10**9 + nanosec

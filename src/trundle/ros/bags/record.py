@@ -143,7 +143,7 @@ class Recorder:
         if self._thread.is_alive():
             self._thread.join()
         if self.dropped:
-            self._node.log_warn(
+            self._node.log.warn(
                 f"{self.dropped} messages came faster than they could be written and were dropped; a larger buffer "
                 "(-b) or fewer topics may help"
             )
@@ -162,9 +162,9 @@ class Recorder:
     async def _topics(self) -> list[str]:
         node = self._options.of_node
         if node is not None:
-            uri = await self._node.call_master("lookupNode", self._node.resolve(node))
+            uri = await self._node.master.call("lookupNode", self._node.resolve(node))
             return [topic for topic, _ in await call_value(uri, "getSubscriptions", self._node.name)]
-        return [topic for topic, _ in await self._node.call_master("getPublishedTopics", "")]
+        return [topic for topic, _ in await self._node.master.call("getPublishedTopics", "")]
 
     def _is_selected(self, topic: str) -> bool:
         if topic in self._subscriptions or (self._excluded is not None and self._excluded.fullmatch(topic)):
@@ -228,7 +228,7 @@ class Recorder:
     def _warn_of_drops(self) -> None:
         if time.monotonic() - self._warned > _FULL_S:
             self._warned = time.monotonic()
-            self._node.log_warn("rosbag record buffer exceeded.  Dropping oldest queued message.")
+            self._node.log.warn("rosbag record buffer exceeded.  Dropping oldest queued message.")
 
     # in the writing thread
 

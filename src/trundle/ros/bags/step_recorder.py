@@ -4,8 +4,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..messages.messages import Message
+from ..node.local_graph import LocalPublisher
 from ..node.loop import GraphLoop
-from ..node.publisher import Publisher
 from .bag import BagConnection, BagError, BagMessage, recording_failure
 from .files import create_bag
 
@@ -36,17 +36,17 @@ class StepRecorder:
         self._active = self._path.with_name(f"{self._path.name}.active")
         self._active.unlink(missing_ok=True)
         self._writer = create_bag(self._active)
-        self._received: list[tuple[Publisher, bytes]] = []
+        self._received: list[tuple[LocalPublisher, bytes]] = []
         self._complain = complain
         self._has_failed = False
         self._is_abandoned = False
-        loop.on_publisher.append(self._follow)
+        loop.local.on_publisher.append(self._follow)
 
     def receive(self, message: Message) -> None:
         """Take a message object: never, as it wants bytes."""
         raise AssertionError(message)
 
-    def receive_bytes(self, data: bytes, publisher: Publisher) -> None:
+    def receive_bytes(self, data: bytes, publisher: LocalPublisher) -> None:
         """Take a message, on the loop."""
         self._received.append((publisher, data))
 
@@ -85,12 +85,12 @@ class StepRecorder:
         self._has_failed = True
         self._complain(f"recording broke off: {why}")
 
-    def _follow(self, publisher: Publisher) -> None:
+    def _follow(self, publisher: LocalPublisher) -> None:
         if publisher.topic not in _BY_THE_WALL:
             publisher.attach(self, _NAME)
 
 
-def _connection(publisher: Publisher) -> BagConnection:
+def _connection(publisher: LocalPublisher) -> BagConnection:
     return BagConnection(
         topic=publisher.topic,
         type=publisher.type,

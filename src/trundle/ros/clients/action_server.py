@@ -100,7 +100,7 @@ class ActionServer:
         if key in self._goals:
             return
         if len(self._goals) >= _MAX_GOALS:
-            self._node.log_error(f"more than {_MAX_GOALS} goals at once; one is not taken")
+            self._node.log.error(f"more than {_MAX_GOALS} goals at once; one is not taken")
             return
         if not self._side_by_side:
             for other in self._goals.values():

@@ -17,7 +17,7 @@ _TRUTHS = {"true": True, "1": True, "yes": True, "on": True, "false": False, "0"
 
 async def find_reconfigurable(node: Node) -> list[str]:
     """Names of what has options, sorted: nodes, and namespaces of parts of nodes."""
-    topics = await node.call_master("getTopicTypes")
+    topics = await node.master.call("getTopicTypes")
     kind = f"{_KIND}/ConfigDescription"
     return sorted(name.removesuffix(_DESCRIPTIONS) for name, type_ in topics if type_ == kind and _DESCRIPTIONS in name)
 

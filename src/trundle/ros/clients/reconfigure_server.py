@@ -95,10 +95,10 @@ class ReconfigureServer:
             value = None if option is None else option.read(item.value)
             if option is None:
                 there = ", ".join(self._options)
-                self._node.log_warn(f"no option {item.name!r} in {self._node.resolve(self._space)}; there are: {there}")
+                self._node.log.warn(f"no option {item.name!r} in {self._node.resolve(self._space)}; there are: {there}")
             elif value is None:
                 kind = _TYPES[type(option.value)]
-                self._node.log_warn(f"option {item.name!r} stays as it is: {item.value!r} is no finite {kind}")
+                self._node.log.warn(f"option {item.name!r} stays as it is: {item.value!r} is no finite {kind}")
             else:
                 taken[item.name] = value
         return taken
@@ -106,7 +106,7 @@ class ReconfigureServer:
     async def _write(self, values: Mapping[str, OptionValue]) -> None:
         with contextlib.suppress(MasterUnreachableError):  # the graph is ending
             for name, value in values.items():
-                await self._node.set_param(f"{self._space}{name}", value)
+                await self._node.params.set(f"{self._space}{name}", value)
 
     def _description_message(self) -> dict[str, Any]:
         options = self._options.values()

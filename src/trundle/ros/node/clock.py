@@ -5,13 +5,10 @@ import heapq
 import itertools
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from ..messages.messages import Message
 from .loop import GraphLoop
-
-if TYPE_CHECKING:
-    from .node import Node
 
 NS = 1_000_000_000
 
@@ -116,19 +113,3 @@ class SimClock:
 def to_nsec(stamp: Message) -> int:
     """Return a `time` or `duration` value as nanoseconds."""
     return stamp.sec * NS + stamp.nanosec
-
-
-async def follow_time(node: "Node") -> Clock:
-    """Give a node the graph's clock: simulated time from /clock where /use_sim_time is true, else the wall's.
-
-    The parameter is read once, as the original libraries do.
-    """
-    if await node.get_param("/use_sim_time", False):
-        clock = SimClock(node.loop)
-        node.subscribe(
-            "/clock", "rosgraph_msgs/Clock", lambda m: clock.set(to_nsec(m.clock)), queue_size=1, on_loop=True
-        )
-        node.clock = clock
-    else:
-        node.clock = WallClock()
-    return node.clock

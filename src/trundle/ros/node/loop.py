@@ -7,7 +7,7 @@ import threading
 import time
 from collections.abc import Callable, Coroutine, Mapping
 from concurrent.futures import Future
-from typing import TYPE_CHECKING, Any, Self, TypeVar
+from typing import Any, Self, TypeVar
 from weakref import WeakSet
 
 from trundle.diagnostics import DescriptionError, UsageError
@@ -15,11 +15,8 @@ from trundle.diagnostics import DescriptionError, UsageError
 from .. import _wire
 from ..messages.messages import Messages
 from ..transport.fast_selector import FastSelector
+from .local_graph import LocalGraph
 from .pending_work import PendingWork
-
-if TYPE_CHECKING:
-    from .node import Node
-    from .publisher import Publisher
 
 _T = TypeVar("_T")
 _log = logging.getLogger(__name__)
@@ -49,14 +46,9 @@ class GraphLoop:
     def __init__(self, *, messages: Messages | None = None) -> None:
         self.messages = messages or Messages()
         """Message types of all nodes here; loaded on first use."""
-        self.members: set[Node] = set()
-        """Nodes that have begun and not ended; touched on the loop only, as is `nodes`."""
-        self.nodes: dict[str, Node] = {}
-        """Address → node that listens there."""
-        self.on_publisher: list[Callable[[Publisher], None]] = []
-        """Called on the loop with each new publisher of its nodes."""
+        self.local = LocalGraph()
+        """Its nodes."""
         self.work = PendingWork()
-        self._service_change: set[asyncio.Future[None]] = set()
         self._batch_thread: int | None = None
         """The thread whose calls wait for `release`."""
         self.own_threads: set[int | None] = set()
@@ -222,19 +214,6 @@ class GraphLoop:
             seen = self._calls
         return True
 
-    async def wait_service_change(self, timeout_s: float) -> None:
-        """Wait until `notify_service_change` is called, or so long."""
-        future: asyncio.Future[None] = self._loop.create_future()
-        self._service_change.add(future)
-        await asyncio.wait([future], timeout=timeout_s)
-        self._service_change.discard(future)
-
-    def notify_service_change(self) -> None:
-        """A node of this loop provides a service that was not there."""
-        for future in self._service_change:
-            if not future.done():
-                future.set_result(None)
-
     async def _quiet(self) -> None:
         calm, seen = 0, self._deliveries
         while calm < _CALM_PASSES:
@@ -245,7 +224,7 @@ class GraphLoop:
     async def _shutdown_nodes(self, timeout_s: float) -> None:
         """Let the nodes say farewell."""
         self.is_ending = True
-        farewells = [asyncio.create_task(node.shutdown()) for node in list(self.members)]
+        farewells = [asyncio.create_task(node.shutdown()) for node in list(self.local.members)]
         if farewells:
             await asyncio.wait(farewells, timeout=timeout_s)
 

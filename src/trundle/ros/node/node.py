@@ -1,36 +1,39 @@
-"""A node: who it is, how it begins and how it ends.
+"""A node of the graph.
 
-What it does between is in its other parts: `NodeEndpoints` (topics and services), `NodeMasterCalls` (parameters, calls
-of services) and `NodeLog`. Registering returns at once, from any thread. Whatever needs an answer is a coroutine of the
-loop.
+It is made of parts: `endpoints`, `params`, `log` and `master`; its own are its name, its lifetime, and what it begins.
+Registering returns at once, from any thread. Whatever needs an answer is a coroutine of the loop.
 """
 
 import asyncio
 import contextlib
 from collections.abc import Callable, Mapping
-from typing import Any, Self, TextIO
+from typing import Any
 
 from trundle.names import canonical_name, join_names, resolve_name
 
 from ..distro import NOETIC
-from ..errors import MasterUnreachableError
+from ..messages.messages import ANY_TYPE, Message, Messages
 from ..transport.network import master_uri_from_env, server_address
 from .clock import Clock, WallClock
 from .endpoints import NodeEndpoints
-from .loggers import Loggers
+from .local_graph import LocalNode
 from .loop import GraphLoop
-from .master_calls import ParamCallback
+from .master_client import MasterClient
+from .node_log import NodeLog
+from .param_client import ParamClient
 from .publisher import Publisher
 from .registration_queue import RegistrationQueue
-from .rosout import NodeLog
+from .service import Service, ServiceCallback
+from .service_client import call_service, wait_for_service
 from .slave import Slave
+from .subscription import Callback, Subscription
 
 _FAREWELL_S = 1.0
 """How long unregistering may take: a whole program must end within two seconds of Ctrl-C."""
 _LINK_S = 0.01
 
 
-class Node(NodeEndpoints, NodeLog):
+class Node:
     """One node of the graph."""
 
     def __init__(
@@ -63,7 +66,6 @@ class Node(NodeEndpoints, NodeLog):
             rosout: whether to publish /rosout and provide the logger services.
             host: address to listen at; loopback by default.
         """
-        super().__init__()
         self.name = canonical_name("/" + join_names(namespace, name).lstrip("/"))
         self.loop = loop
         self.master_uri = master_uri or master_uri_from_env()
@@ -71,23 +73,22 @@ class Node(NodeEndpoints, NodeLog):
         self.deliver = deliver
         self.profile = NOETIC
         """How the distribution behaves that its graph is."""
-        self.loggers = Loggers.for_rospy()
-        self.quiet_log: TextIO | None = None
         self.closed = asyncio.Event()
         """Set when the node has shut down; awaited on the loop."""
         self.written_remappings = dict(remappings or {})
+        """Name → name, both as written, not resolved."""
         self._remappings = {
             resolve_name(a, self.name): resolve_name(b, self.name) for a, b in self.written_remappings.items()
         }
-        self._params = dict(params or {})
+        self.log = NodeLog(self.name, lambda: self.clock)
+        self.master = MasterClient(self.master_uri, self.name, loop.work)
+        self._registrations = RegistrationQueue(loop, log=self.log)
+        self.params = ParamClient(self, params or {})
+        self.endpoints = NodeEndpoints(self, self._registrations)
         self._address = server_address(host)
-        self._slave = Slave(self, self._address)
-        self.watched: dict[str, list[ParamCallback]] = {}
-        self._rosout: Publisher | None = None
+        self._slave = Slave(self, self.endpoints, self.params, self._address, on_shutdown=self.request_shutdown)
         self._wants_rosout = rosout
-        self._registrations = RegistrationQueue(loop, log=self)
         self._listening = asyncio.Event()
-        self._params_set = asyncio.Event()
         self._on_shutdown: list[Callable[[str], None]] = []
         self._is_down = False
         self._has_begun = False
@@ -99,6 +100,11 @@ class Node(NodeEndpoints, NodeLog):
     def uri(self) -> str:
         """Address of its XML-RPC interface; empty before it has started."""
         return self._slave.uri
+
+    @property
+    def service_uri(self) -> str:
+        """Address at which its services are called."""
+        return self._slave.service_uri
 
     @property
     def is_shut_down(self) -> bool:
@@ -114,12 +120,143 @@ class Node(NodeEndpoints, NodeLog):
         """Return the global name this node means by `name`, remapped."""
         return resolve_name(name, self.name, self._remappings)
 
-    # -- waiting for the beginning, and the end: on the loop
+    @property
+    def messages(self) -> Messages:
+        """Message types of the loop."""
+        return self.loop.messages
 
-    async def wait_params(self) -> None:
-        """Wait until the parameters this node was made with are set, or nobody is there to take them."""
-        if self._params and not self._is_down:
-            await self._params_set.wait()
+    def new(self, type_name: str, fields: object = None) -> Message:
+        """Make a message; 'now' and 'auto' are this node's ROS time. See `Messages.new`."""
+        return self.messages.new(type_name, fields, now_ns=self.clock.now_ns())
+
+    def stamp(self) -> Message:
+        """ROS time as a `time` value."""
+        return self.messages.stamp(self.clock.now_ns())
+
+    # -- topics and services
+
+    def advertise(
+        self,
+        topic: str,
+        type_name: str,
+        *,
+        latch: bool = False,
+        queue_size: int | None = 10,
+        on_connect: Callable[[Publisher], None] | None = None,
+        raw_type: tuple[str, str] | None = None,
+    ) -> Publisher:
+        """Publish a topic; a second call for the same topic returns the same publisher.
+
+        Args:
+            topic: resolved and remapped.
+            type_name: such as 'geometry_msgs/Twist'.
+            latch: whether new subscribers get the last message.
+            queue_size: how many messages wait for a subscriber that reads too slowly; None: any number.
+            on_connect: called on the loop whenever a subscriber has connected.
+            raw_type: (md5 sum, definition) of a type that need not be known here; messages are given as bytes.
+
+        Raises:
+            MessageError: no such type, or the topic is already published with another.
+        """
+        name = self.resolve(topic)
+        if raw_type is None:
+            self.messages.md5(type_name)
+        return self.endpoints.add_publisher(
+            name,
+            type_name,
+            lambda: Publisher(
+                self,
+                name,
+                type_name,
+                latch=latch,
+                queue_size=queue_size,
+                on_connect=on_connect,
+                raw_type=raw_type,
+                unregister=self.endpoints.remove_publisher,
+            ),
+        )
+
+    def subscribe(
+        self,
+        topic: str,
+        type_name: str,
+        callback: Callback,
+        *,
+        queue_size: int | None = 10,
+        tcp_nodelay: bool = True,
+        on_loop: bool = False,
+    ) -> Subscription:
+        """Subscribe to a topic.
+
+        Args:
+            topic: resolved and remapped.
+            type_name: such as 'geometry_msgs/Twist', or '*' for messages of any type as `RawMessage`.
+            callback: function or coroutine function of the message; what it raises is logged.
+            queue_size: how many messages wait for callbacks that are too slow; None: any number.
+            tcp_nodelay: whether to ask publishers for small delays rather than full packets.
+            on_loop: call back on the loop even if this node delivers elsewhere.
+
+        Raises:
+            MessageError: no such type.
+        """
+        name = self.resolve(topic)
+        if type_name != ANY_TYPE:
+            self.messages.md5(type_name)
+        subscription = Subscription(
+            self,
+            name,
+            type_name,
+            callback,
+            queue_size=queue_size,
+            tcp_nodelay=tcp_nodelay,
+            on_loop=on_loop,
+            unregister=self.endpoints.remove_subscription,
+        )
+        self.endpoints.add_subscription(subscription)
+        return subscription
+
+    def advertise_service(self, name: str, type_name: str, handler: ServiceCallback) -> Service:
+        """Provide a service.
+
+        Args:
+            name: resolved and remapped.
+            type_name: such as 'std_srvs/SetBool'.
+            handler: function or coroutine function of the request; returns the response or its fields as a
+                dictionary, or raises ServiceError for "no". A coroutine function runs on the loop even if this node
+                delivers elsewhere.
+
+        Raises:
+            MessageError: no such type.
+        """
+        service = Service(self, self.resolve(name), type_name, handler, unregister=self.endpoints.remove_service)
+        self.endpoints.add_service(service)
+        return service
+
+    async def call_service(
+        self,
+        name: str,
+        type_name: str,
+        request: Message | dict[str, Any] | None = None,
+        *,
+        timeout_s: float | None = 10.0,
+    ) -> Message:
+        """Call a service.
+
+        Raises:
+            ServiceError: it is not there, says no, or does not answer in time.
+            MessageError: no such type, or a request that does not fit it.
+        """
+        return await call_service(self, self.resolve(name), type_name, request, timeout_s)
+
+    async def wait_for_service(self, name: str, timeout_s: float | None = None) -> None:
+        """Wait until a node provides a service.
+
+        Raises:
+            ServiceError: none does in time.
+        """
+        await wait_for_service(self, self.resolve(name), timeout_s)
+
+    # -- waiting for the beginning, and the end: on the loop
 
     async def wait_listening(self) -> None:
         """Wait until the node has an address, or never will."""
@@ -133,7 +270,7 @@ class Node(NodeEndpoints, NodeLog):
     async def wait_connected(self) -> None:
         """Wait until every subscription hears the publishers there are, or knows that they do not answer."""
         await self.wait_registered()
-        while not all(s.is_settled for subscriptions in self._subscriptions.values() for s in subscriptions):
+        while not all(subscription.is_settled for subscription in self.endpoints.subscriptions):
             await asyncio.sleep(_LINK_S)
 
     def on_shutdown(self, callback: Callable[[str], None]) -> None:
@@ -152,10 +289,11 @@ class Node(NodeEndpoints, NodeLog):
         if self.uri:
             with contextlib.suppress(TimeoutError):
                 async with asyncio.timeout(_FAREWELL_S):
-                    await self._unregister_all()
-        self.loop.members.discard(self)
-        self.loop.nodes.pop(self.uri, None)
-        self._close_all()
+                    farewells = [*self.endpoints.unregister_all(), *self.params.unwatch_all()]
+                    await asyncio.gather(*farewells, return_exceptions=True)
+        self.loop.local.members.discard(self)
+        self.loop.local.nodes.pop(self.uri, None)
+        self.endpoints.close()
         await self._slave.stop()
         self.closed.set()
 
@@ -163,22 +301,18 @@ class Node(NodeEndpoints, NodeLog):
         """Obey the master or another node."""
         if self._is_down:
             return
-        self.log_warn(f"shutdown request: {reason}")
+        self.log.warn(f"shutdown request: {reason}")
         for callback in self._on_shutdown:
             callback(reason)
         self.loop.spawn(self.shutdown())
 
     # -- inside
 
-    @property
-    def _node(self) -> Self:
-        return self
-
     def _begin(self) -> None:
         if self._is_down or self.loop.is_ending:
             return
         self._has_begun = True
-        self.loop.members.add(self)
+        self.loop.local.members.add(self)
         self._registrations.start(self._start)
 
     async def _start(self) -> None:
@@ -186,21 +320,18 @@ class Node(NodeEndpoints, NodeLog):
             await self._slave.start()
         finally:
             self._listening.set()
-        self.loop.nodes[self.uri] = self
+        self.loop.local.nodes[self.uri] = LocalNode(
+            name=self.name, closed=self.closed, find_publisher=self.endpoints.publisher
+        )
         if self._address.warning:
-            self.log_warn(self._address.warning)
-        for name, value in self._params.items():
-            await self._registrations.retry(lambda name=name, value=value: self._set_own(name, value))
-        self._params_set.set()
-        if self._wants_rosout and self.name != "/rosout":  # that one would gather its own log for ever
-            self._rosout = self.advertise("/rosout", "rosgraph_msgs/Log", queue_size=100)
+            self.log.warn(self._address.warning)
+        await self.params.set_private(self._registrations)
         if self._wants_rosout:
-            self.advertise_service("~get_loggers", "roscpp/GetLoggers", self._get_loggers)
-            self.advertise_service("~set_logger_level", "roscpp/SetLoggerLevel", self._set_logger_level)
+            self._start_rosout()
 
-    async def _set_own(self, name: str, value: Any) -> None:
-        try:
-            await self.set_param(f"~{name}", value)
-        except MasterUnreachableError:
-            self._params_set.set()  # whoever waits for them learns the reason by asking
-            raise
+    def _start_rosout(self) -> None:
+        if self.name != "/rosout":  # that one would gather its own log for ever
+            rosout = self.advertise("/rosout", "rosgraph_msgs/Log", queue_size=100)
+            self.log.publish_on(rosout, lambda: [publisher.topic for publisher in self.endpoints.publishers])
+        self.advertise_service("~get_loggers", "roscpp/GetLoggers", self.log.get_loggers)
+        self.advertise_service("~set_logger_level", "roscpp/SetLoggerLevel", self.log.set_logger_level)

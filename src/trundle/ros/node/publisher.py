@@ -3,7 +3,7 @@
 import threading
 from collections import deque
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..errors import MessageError
 from ..messages.codec import ENCODING_ERRORS, Codec, Pieces
@@ -12,11 +12,9 @@ from ..transport.framing import LENGTH
 from ..transport.headers import check_md5
 from ..transport.send_queue import SendQueue
 from ..transport.tcpros import FrameProtocol
-from .subscriber_links import LocalSubscriber, SubscriberLinks
-
-if TYPE_CHECKING:
-    from .node import Node
-
+from .local_graph import LocalSubscriber
+from .node_context import NodeContext
+from .subscriber_links import SubscriberLinks
 
 _BATCH_MESSAGES, _BATCH_BYTES = 200, 1024 * 1024
 """How much is handed on before others get their turn on the loop, whoever publishes however fast."""
@@ -30,14 +28,15 @@ class Publisher:
 
     def __init__(
         self,
-        node: "Node",
+        node: NodeContext,
         topic: str,
         type_name: str,
         *,
         latch: bool,
         queue_size: int | None,
         on_connect: "Callable[[Publisher], None] | None",
-        raw_type: tuple[str, str] | None = None,
+        raw_type: tuple[str, str] | None,
+        unregister: "Callable[[Publisher], None]",
     ) -> None:
         self.topic = topic
         self.type = type_name
@@ -46,6 +45,7 @@ class Publisher:
         self._loop_threads = node.loop.own_threads
         self._queue_size = queue_size
         self._on_connect = on_connect
+        self._unregister = unregister
         self._raw_type = raw_type
         """(md5 sum, definition) of a type that need not be known here."""
         self._subscriber_links = SubscriberLinks(topic)
@@ -116,7 +116,7 @@ class Publisher:
 
     def unregister(self) -> None:
         """Stop publishing; any thread."""
-        self._node.unregister_publisher(self)
+        self._unregister(self)
 
     # on the loop
 
@@ -141,7 +141,7 @@ class Publisher:
         if (reason := self._mismatch(header, peer)) is not None:
             if peer not in self._refused and len(self._refused) < _MAX_WARNINGS:
                 self._refused.add(peer)
-                self._node.log_warn(f"Could not process inbound connection: {reason} ({peer} asks for {self.topic})")
+                self._node.log.warn(f"Could not process inbound connection: {reason} ({peer} asks for {self.topic})")
             link.refuse(reason)
             return
         if header.get("tcp_nodelay", "0").strip() == "1":
@@ -317,7 +317,7 @@ class Publisher:
         try:
             return self._codec.frame(message)
         except MessageError as error:
-            self._node.log_error(f"a message on {self.topic} is not sent: {error}")
+            self._node.log.error(f"a message on {self.topic} is not sent: {error}")
             return None
 
     def _checked(self, message: Message | dict[str, Any] | bytes) -> Any:

@@ -8,7 +8,7 @@ from ..errors import MasterError, MasterUnreachableError, ParameterError
 from ..log import print_log
 from .clock import WallClock
 from .loop import GraphLoop
-from .rosout import NodeLog
+from .node_log import NodeLog
 
 Registration: TypeAlias = Callable[[], Awaitable[None]]
 _RETRY_S = 0.5
@@ -66,11 +66,11 @@ class RegistrationQueue:
             except MasterUnreachableError as error:
                 if not self._waits_for_master:
                     self._waits_for_master = True
-                    self._log.log_warn(f"{error}; {self._log.name} goes on trying")
+                    self._log.warn(f"{error}; {self._log.name} goes on trying")
                 await asyncio.sleep(_RETRY_S)
                 continue
             except (MasterError, ParameterError) as error:
-                self._log.log_error(str(error))
+                self._log.error(str(error))
             self._waits_for_master = False
             return
 

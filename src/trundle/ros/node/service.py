@@ -1,21 +1,17 @@
-"""Services: a provider's connections, and the client's side of one call."""
+"""A service as its provider sees it: the connections of its clients."""
 
 import asyncio
 import contextlib
 import inspect
-import struct
 from collections.abc import Awaitable, Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ..errors import MessageError, RosError, ServiceError, WireError
-from ..messages.messages import Message, Messages, ServiceType
-from ..transport.headers import MAX_HEADER_BYTES, MAX_MESSAGE_BYTES, check_md5, decode_header, encode_header, frame
+from ..errors import MessageError, ServiceError, WireError
+from ..messages.messages import Message, ServiceType
+from ..transport.headers import check_md5, frame
 from ..transport.tcpros import FrameProtocol
-from ..xmlrpc.http import host_and_port
 from .callback_dispatch import run_on_callback_thread
-
-if TYPE_CHECKING:
-    from .node import Node
+from .node_context import NodeContext
 
 ServiceCallback = Callable[[Message], "Awaitable[Message | dict[str, Any]] | Message | dict[str, Any]"]
 _MAX_WAITING = 64
@@ -25,18 +21,27 @@ _MAX_WAITING = 64
 class Service:
     """Provides one service of one node; made by `Node.advertise_service`."""
 
-    def __init__(self, node: "Node", name: str, type_name: str, handler: ServiceCallback) -> None:
+    def __init__(
+        self,
+        node: NodeContext,
+        name: str,
+        type_name: str,
+        handler: ServiceCallback,
+        *,
+        unregister: "Callable[[Service], None]",
+    ) -> None:
         self.name = name
         self.type = type_name
         self.kind: ServiceType = node.messages.service(type_name)
         self._node = node
         self._handler = handler
+        self._unregister = unregister
         self._links: dict[FrameProtocol, asyncio.Queue[bytes | memoryview | None]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
     def unregister(self) -> None:
         """Stop providing; any thread."""
-        self._node.unregister_service(self)
+        self._unregister(self)
 
     # on the loop
 
@@ -108,7 +113,7 @@ class Service:
         except (ServiceError, MessageError) as error:
             return b"\x00" + frame(f"service cannot process request: {error}".encode())
         except Exception as error:
-            self._node.log_failure(f"the service {self.name} failed", error)
+            self._node.log.exception(f"the service {self.name} failed", error)
             return b"\x00" + frame(f"error processing request: {error}".encode())
 
     async def _handle(self, request: Message) -> Any:
@@ -117,62 +122,3 @@ class Service:
             return await self._handler(request)
         result = await run_on_callback_thread(node.deliver, node.loop, lambda: self._handler(request))
         return await result if inspect.isawaitable(result) else result
-
-
-async def call_service(
-    messages: Messages, caller: str, uri: str, name: str, kind: ServiceType, request: Message
-) -> Message:
-    """Call a service at a provider's address, in the name of the node `caller`.
-
-    Raises:
-        ServiceError: the provider refuses or fails, or breaks the connection.
-    """
-    body = messages.serialize(request)
-    try:
-        async with _connection(uri) as (reader, writer):
-            header = {"callerid": caller, "service": name, "type": kind.type, "md5sum": kind.md5sum}
-            writer.write(encode_header(header))
-            answer = decode_header(await _read_frame(reader, MAX_HEADER_BYTES))
-            if "error" in answer:
-                raise ServiceError(f"{name} refuses: {answer['error']}")
-            writer.write(frame(body))
-            well = await reader.readexactly(1) == b"\x01"
-            data = await _read_frame(reader, MAX_MESSAGE_BYTES)
-    except (OSError, WireError, asyncio.IncompleteReadError) as error:
-        raise ServiceError(f"{name} at {uri} cannot be called: {error or type(error).__name__}") from None
-    if not well:
-        raise ServiceError(f"service [{name}] responded with an error: {data.decode('utf-8', 'replace')}")
-    try:
-        return messages.deserialize(data, kind.response)
-    except MessageError as error:
-        raise ServiceError(f"{name} answers with something else: {error}") from None
-
-
-async def probe_service(uri: str, name: str, caller: str) -> dict[str, str]:
-    """Ask a provider for its header, which names the type.
-
-    Raises:
-        ServiceError: the provider is not there.
-    """
-    try:
-        async with asyncio.timeout(5.0), _connection(uri) as (reader, writer):
-            writer.write(encode_header({"callerid": caller, "service": name, "md5sum": "*", "probe": "1"}))
-            return decode_header(await _read_frame(reader, MAX_HEADER_BYTES))
-    except (OSError, RosError, asyncio.IncompleteReadError) as error:
-        raise ServiceError(f"{name} at {uri} does not answer: {error or type(error).__name__}") from None
-
-
-@contextlib.asynccontextmanager
-async def _connection(uri: str):
-    reader, writer = await asyncio.open_connection(*host_and_port(uri))
-    try:
-        yield reader, writer
-    finally:
-        writer.close()
-
-
-async def _read_frame(reader: asyncio.StreamReader, limit: int) -> bytes:
-    (size,) = struct.unpack("<I", await reader.readexactly(4))
-    if size > limit:
-        raise WireError(f"a frame of {size} bytes is announced, more than is accepted")
-    return await reader.readexactly(size)

@@ -5,7 +5,7 @@ import os
 import re
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 from ..master.registry import Answer
 from ..transport.network import ServerAddress
@@ -13,12 +13,12 @@ from ..transport.tcpros import FrameProtocol
 from ..transport.unix_sockets import UNIXROS, is_of_this_user, listen_unix
 from ..xmlrpc.rpc_methods import BadArgumentError, Method, answer_call, name_argument
 from ..xmlrpc.rpc_server import RpcServer
+from .endpoints import NodeEndpoints
 from .loop import close_server
+from .node_context import NodeContext
+from .param_client import ParamClient
 from .publisher import Publisher
-
-if TYPE_CHECKING:
-    from .node import Node
-    from .service import Service
+from .service import Service
 
 _BACKLOG = 512
 """Connections waiting to be accepted: all subscribers of a big launch come at once, and one too many waits a second."""
@@ -30,8 +30,20 @@ _MAX_NEWCOMERS = 512
 class Slave:
     """What other nodes and the master reach of a node."""
 
-    def __init__(self, node: "Node", address: ServerAddress) -> None:
+    def __init__(
+        self,
+        node: NodeContext,
+        endpoints: NodeEndpoints,
+        params: ParamClient,
+        address: ServerAddress,
+        *,
+        on_shutdown: Callable[[str], None],
+    ) -> None:
+        """`on_shutdown` is called with the reason when the master or another node asks for it."""
         self._node = node
+        self._endpoints = endpoints
+        self._params = params
+        self._on_shutdown = on_shutdown
         self._address = address
         self._rpc = RpcServer(partial(answer_call, self._methods()))
         self._servers: list[asyncio.Server] = []
@@ -69,19 +81,19 @@ class Slave:
         await self._rpc.stop()
 
     def _inbound(self) -> "_Inbound":
-        return _Inbound(self._node, self._links, self._pending_peers)
+        return _Inbound(self._node, self._endpoints, self._links, self._pending_peers)
 
     def _methods(self) -> dict[str, Method]:
-        node = self._node
+        node, endpoints = self._node, self._endpoints
         return {
             "getName": (0, "", _reply("", lambda: node.name)),
             "getUri": (0, "", _reply("", lambda: self.uri)),
             "getPid": (0, -1, _reply("", os.getpid)),
             "getMasterUri": (0, "", _reply(node.master_uri, lambda: node.master_uri)),
-            "getBusInfo": (0, [], _reply("bus info", node.connections)),
-            "getBusStats": (0, [], _reply("", node.statistics)),
-            "getPublications": (0, [], _reply("publications", lambda: [[p.topic, p.type] for p in node.publishers])),
-            "getSubscriptions": (0, [], _reply("subscriptions", lambda: [[*t] for t in node.subscribed_topics()])),
+            "getBusInfo": (0, [], _reply("bus info", endpoints.connections)),
+            "getBusStats": (0, [], _reply("", endpoints.statistics)),
+            "getPublications": (0, [], _reply("publications", lambda: [[*t] for t in endpoints.published_topics()])),
+            "getSubscriptions": (0, [], _reply("subscriptions", lambda: [[*t] for t in endpoints.subscribed_topics()])),
             "publisherUpdate": (2, -1, self._publisher_update),
             "paramUpdate": (2, -1, self._param_update),
             "requestTopic": (2, [], self._request_topic),
@@ -89,7 +101,7 @@ class Slave:
         }
 
     def _shutdown(self, _: str, reason: Any) -> Answer:
-        self._node.request_shutdown(str(reason))
+        self._on_shutdown(str(reason))
         return 1, "shutdown", 0
 
     def _publisher_update(self, caller: str, topic: Any, uris: Any) -> Answer:
@@ -101,7 +113,7 @@ class Slave:
                 raise BadArgumentError("ERROR: param [publishers] must be a list of strings")
             if not _URL.match(uri):
                 raise BadArgumentError(f"ERROR: param [publishers] does not contain valid URLs [{uri}]")
-        self._node.publishers_changed(name, uris)
+        self._endpoints.publishers_changed(name, uris)
         return 1, "", 0
 
     def _param_update(self, _: str, key: Any, value: Any) -> Answer:
@@ -109,13 +121,13 @@ class Slave:
             raise BadArgumentError("ERROR: parameter [parameter_key] must be a non-empty string")
         if not key.startswith("/"):
             raise BadArgumentError("ERROR: parameter [parameter_key] must be a globally referenced name")
-        return (1, "", 0) if self._node.param_changed(key, value) else (-1, "not subscribed", 0)
+        return (1, "", 0) if self._params.notify(key, value) else (-1, "not subscribed", 0)
 
     def _request_topic(self, caller: str, topic: Any, protocols: Any) -> Answer:
         name = name_argument("topic", topic, caller)
         if not protocols:
             raise BadArgumentError("ERROR: parameter [protocols] must be specified and non-empty")
-        if self._node.publisher(name) is None:
+        if self._endpoints.publisher(name) is None:
             return -1, f"Not a publisher of [{name}]", []
         wanted = [p[0] for p in protocols if isinstance(p, list) and p]
         if "TCPROS" not in wanted:
@@ -135,9 +147,16 @@ def _reply(text: str, value: Callable[[], object]) -> Callable[[str], Answer]:
 class _Inbound(FrameProtocol):
     """A peer that connected: its header says whether it wants a topic or a service."""
 
-    def __init__(self, node: "Node", links: "set[_Inbound]", newcomers: "dict[_Inbound, None]") -> None:
+    def __init__(
+        self,
+        node: NodeContext,
+        endpoints: NodeEndpoints,
+        links: "set[_Inbound]",
+        newcomers: "dict[_Inbound, None]",
+    ) -> None:
         super().__init__()
         self._node = node
+        self._endpoints = endpoints
         self._links = links
         self._pending_peers = newcomers
         self._target: Publisher | Service | None = None
@@ -164,10 +183,10 @@ class _Inbound(FrameProtocol):
                 self.refuse(f"Missing required '{needed}' field")
                 return
         if "topic" in header:
-            self._target = self._node.publisher(name)
+            self._target = self._endpoints.publisher(name)
             what = "publisher of"
         else:
-            self._target = self._node.service(name)
+            self._target = self._endpoints.service(name)
             what = "provider of "
         if self._target is None:
             self.refuse(f"[{self._node.name}] is not a {what} [{name}]")
@@ -175,8 +194,6 @@ class _Inbound(FrameProtocol):
         self._target.accept(self, header)
 
     def frame_received(self, data: bytes | memoryview) -> None:
-        from .service import Service
-
         if isinstance(self._target, Service):
             self._target.request(self, data)
 

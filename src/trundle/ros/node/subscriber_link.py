@@ -2,26 +2,51 @@
 
 import asyncio
 import contextlib
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import Protocol
 
 from .. import _wire
 from ..errors import MessageError, WireError
 from ..messages.codec import Codec
-from ..messages.messages import ANY_TYPE
+from ..messages.messages import ANY_TYPE, Message
 from ..transport.fast_selector import FastSelector
 from ..transport.headers import check_md5
 from ..transport.shared_ring import SharedRingReader
 from ..transport.tcpros import FrameProtocol
 
-if TYPE_CHECKING:
-    from .subscription import Subscription
+
+class MessageReceiver(Protocol):
+    """The subscription that a connection belongs to."""
+
+    @property
+    def type(self) -> str:
+        """Message type."""
+        ...
+
+    @property
+    def md5sum(self) -> str:
+        """Checksum of the type."""
+        ...
+
+    @property
+    def is_raw(self) -> bool:
+        """Whether it takes bytes."""
+        ...
+
+    def receive(self, message: Message) -> None:
+        """Take a message."""
+        ...
+
+    def receive_data(self, data: bytes | memoryview, header: Mapping[str, str]) -> None:
+        """Take a message as bytes, with its publisher's header."""
+        ...
 
 
 class SubscriberLink(FrameProtocol):
     """Asks for a topic, then hands on what comes; read past asyncio once both headers are there."""
 
     def __init__(
-        self, subscription: "Subscription", request: dict[str, str], selector: FastSelector, codec: Codec | None
+        self, subscription: MessageReceiver, request: dict[str, str], selector: FastSelector, codec: Codec | None
     ) -> None:
         super().__init__()
         self.ended: asyncio.Future[str] = asyncio.get_running_loop().create_future()

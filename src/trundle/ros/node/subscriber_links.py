@@ -1,29 +1,9 @@
 """Who listens to a publisher: connections to other processes, subscriptions of this one."""
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any
 
-from ..messages.messages import Message
 from ..transport.tcpros import FrameProtocol
-
-if TYPE_CHECKING:
-    from .publisher import Publisher
-
-
-class LocalSubscriber(Protocol):
-    """A subscription in this process."""
-
-    is_raw: bool
-    """Whether it wants bytes."""
-    needs_every_message: bool
-    """Whether each message counts; else the newest will do."""
-
-    def receive(self, message: Message) -> None:
-        """Take a message object."""
-        ...
-
-    def receive_bytes(self, data: bytes, publisher: "Publisher") -> None:
-        """Take a message as bytes."""
-        ...
+from .local_graph import LocalSubscriber
 
 
 class SubscriberLinks:

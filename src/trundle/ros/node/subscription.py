@@ -5,7 +5,7 @@ import contextlib
 import inspect
 from collections import deque
 from collections.abc import Awaitable, Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..errors import MessageError, RosError, WireError
 from ..messages.codec import Codec
@@ -15,11 +15,9 @@ from ..transport.tcpros import FrameProtocol
 from ..transport.unix_sockets import UNIXROS, connect_unix, unix_address
 from ..xmlrpc.rpc_client import call
 from ..xmlrpc.xmlrpc import FaultError
+from .local_graph import LocalNode, LocalPublisher
+from .node_context import NodeContext
 from .subscriber_link import SubscriberLink
-
-if TYPE_CHECKING:
-    from .node import Node
-    from .publisher import Publisher
 
 Callback = Callable[[Message], "Awaitable[None] | None"]
 _RETRY_S = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
@@ -32,7 +30,7 @@ class Subscription:
 
     def __init__(
         self,
-        node: "Node",
+        node: NodeContext,
         topic: str,
         type_name: str,
         callback: Callback,
@@ -40,6 +38,7 @@ class Subscription:
         queue_size: int | None,
         tcp_nodelay: bool,
         on_loop: bool,
+        unregister: "Callable[[Subscription], None]",
     ) -> None:
         self.topic = topic
         self.type = type_name
@@ -54,6 +53,7 @@ class Subscription:
         self._messages = node.messages
         self._codec: Codec | None = None
         self._callback = callback
+        self._unregister = unregister
         self._is_async = inspect.iscoroutinefunction(callback)
         self._tcp_nodelay = tcp_nodelay
         self._deliver = None if on_loop else node.deliver
@@ -63,7 +63,7 @@ class Subscription:
         self._worker: asyncio.Task[None] | None = None
         self._tasks: dict[str, asyncio.Task[None]] = {}
         """Publisher's address → the task that keeps its link."""
-        self._links: dict[str, FrameProtocol | Publisher] = {}
+        self._links: dict[str, FrameProtocol | LocalPublisher] = {}
         self._complained: set[str] = set()
 
     @property
@@ -78,7 +78,7 @@ class Subscription:
 
     def unregister(self) -> None:
         """Stop listening; any thread."""
-        self._node.unregister_subscription(self)
+        self._unregister(self)
 
     # on the loop
 
@@ -121,14 +121,14 @@ class Subscription:
         elif self._deliver is not None and not replaced:
             self._deliver(self._call_next)
 
-    def receive_bytes(self, data: bytes, publisher: "Publisher") -> None:
+    def receive_bytes(self, data: bytes, publisher: LocalPublisher) -> None:
         """Take a message as bytes from a publisher of this process."""
         definition = publisher.definition if self.is_raw else ""
         try:
             header = {"type": publisher.type, "md5sum": publisher.md5sum, "callerid": publisher.caller}
             self.receive_data(data, {**header, "message_definition": definition, "latching": str(int(publisher.latch))})
         except MessageError as error:
-            self._node.log_error(f"a message on {self.topic} is not taken: {error}")
+            self._node.log.error(f"a message on {self.topic} is not taken: {error}")
 
     def connections(self) -> list[list[Any]]:
         """Links as getBusInfo tells them."""
@@ -174,7 +174,7 @@ class Subscription:
         """Hold a link to one publisher, as long as the master names it."""
         attempt = 0
         while True:
-            local = self._node.loop.nodes.get(uri)
+            local = self._node.loop.local.nodes.get(uri)
             try:
                 if local is not None:
                     await self._connect_local(local, uri)
@@ -186,9 +186,9 @@ class Subscription:
             await asyncio.sleep(_RETRY_S[min(attempt, len(_RETRY_S) - 1)])
             attempt += 1
 
-    async def _connect_local(self, local: "Node", uri: str) -> None:
+    async def _connect_local(self, local: LocalNode, uri: str) -> None:
         """Be handed the messages of a publisher in this process until the task is cancelled."""
-        publisher = local.publisher(self.topic)
+        publisher = local.find_publisher(self.topic)
         if publisher is None:
             raise RosError(f"{local.name} does not publish {self.topic}")
         if not check_md5(self.md5sum, publisher.md5sum):
@@ -222,7 +222,7 @@ class Subscription:
         if link.header is None or "error" in link.header:
             raise WireError(reason)
 
-    async def _open(self, host: str, port: int, nearby: str | None) -> "SubscriberLink":
+    async def _open(self, host: str, port: int, nearby: str | None) -> SubscriberLink:
         loop = asyncio.get_running_loop()
         link = SubscriberLink(self, self._request(), self._node.loop.selector, self._codec)
         if nearby is not None:
@@ -248,7 +248,7 @@ class Subscription:
         """Say once what keeps a publisher from being heard; the first failures are usual while it comes or goes."""
         if attempt >= 2 and uri not in self._complained:
             self._complained.add(uri)
-            self._node.log_warn(f"no messages on {self.topic} from {uri}: {reason}")
+            self._node.log.warn(f"no messages on {self.topic} from {uri}: {reason}")
 
     # callbacks
 
@@ -259,7 +259,7 @@ class Subscription:
             self._log_failed_callback(error)
 
     def _log_failed_callback(self, error: Exception) -> None:
-        self._node.log_failure(f"the callback of {self.topic} failed", error)
+        self._node.log.exception(f"the callback of {self.topic} failed", error)
 
     def _drop_oldest(self) -> bool:
         try:

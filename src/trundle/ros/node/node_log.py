@@ -1,0 +1,103 @@
+"""The log of a node: stderr, and /rosout once it is published. Any thread may write to it."""
+
+import traceback
+from collections.abc import Callable
+from typing import Any, Protocol, TextIO
+
+from ..errors import ServiceError
+from ..log import LEVELS, Level, caller, print_log
+from ..messages.messages import Message
+from .clock import Clock, WallClock
+from .loggers import Loggers
+
+
+class LogTopic(Protocol):
+    """The publisher of /rosout."""
+
+    @property
+    def has_subscribers(self) -> bool:
+        """Whether publishing reaches anybody now."""
+        ...
+
+    def publish(self, message: dict[str, Any], /) -> None:
+        """Publish the fields of a rosgraph_msgs/Log."""
+        ...
+
+
+class NodeLog:
+    """The log of one node."""
+
+    def __init__(self, name: str, clock: Callable[[], Clock]) -> None:
+        """`clock` returns the node's clock of the moment."""
+        self.name = name
+        self.loggers = Loggers.for_rospy()
+        """Decide by level which messages are written."""
+        self.quiet: TextIO | None = None
+        """Takes what is no warning in place of stderr; None: stderr has it all."""
+        self._clock = clock
+        self._rosout: LogTopic | None = None
+        self._topics: Callable[[], list[str]] = list
+
+    def debug(self, text: str) -> None:
+        """Say something for whoever looks into this node."""
+        self._write("debug", text)
+
+    def info(self, text: str) -> None:
+        """Say something everyone may want to know."""
+        self._write("info", text)
+
+    def warn(self, text: str) -> None:
+        """Say that something is not as it should be, and what is done instead."""
+        self._write("warn", text)
+
+    def error(self, text: str) -> None:
+        """Say that something failed."""
+        self._write("error", text)
+
+    def fatal(self, text: str) -> None:
+        """Say why the node cannot go on."""
+        self._write("fatal", text)
+
+    def exception(self, what: str, error: Exception) -> None:
+        """Say that code of this node raised, with its traceback."""
+        where = "".join(traceback.format_exception(error)).rstrip()
+        self._write("error", f"{what}: {error}\n{where}")
+
+    def publish_on(self, rosout: LogTopic, topics: Callable[[], list[str]]) -> None:
+        """Publish all that follows; `topics` names those that the node publishes."""
+        self._rosout, self._topics = rosout, topics
+
+    def get_loggers(self, request: Message) -> dict[str, Any]:
+        """Answer roscpp/GetLoggers."""
+        del request
+        return {"loggers": [{"name": name, "level": level} for name, level in self.loggers.levels()]}
+
+    def set_logger_level(self, request: Message) -> dict[str, Any]:
+        """Answer roscpp/SetLoggerLevel."""
+        try:
+            self.loggers.set(request.logger, request.level.lower())
+        except ValueError as error:
+            raise ServiceError(str(error)) from None
+        return {}
+
+    def _write(self, level: Level, text: str) -> None:
+        if LEVELS[level] < LEVELS[self.loggers.level]:
+            return
+        clock = self._clock()
+        now = clock.now_ns()
+        wall = WallClock().now_ns()
+        sim_ns = None if isinstance(clock, WallClock) else now
+        print_log(level, text, wall_ns=wall, sim_ns=sim_ns, quiet=self.quiet)
+        if self._rosout is not None and self._rosout.has_subscribers:
+            file, function, line = caller(2)
+            fields = {
+                "header": {"stamp": now},
+                "level": LEVELS[level],
+                "name": self.name,
+                "msg": text,
+                "file": file,
+                "function": function,
+                "line": line,
+                "topics": sorted(self._topics()),
+            }
+            self._rosout.publish(fields)

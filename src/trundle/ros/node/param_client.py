@@ -1,0 +1,123 @@
+"""Parameters as one node reads, sets and watches them; coroutines of the loop."""
+
+import asyncio
+from collections.abc import Awaitable, Callable, Mapping
+from typing import Any, TypeAlias
+
+from ..errors import MasterError, MasterUnreachableError, ParameterError
+from .node_context import NodeContext
+from .registration_queue import RegistrationQueue
+
+ParamCallback: TypeAlias = Callable[[str, Any], None]
+"""Gets the name of what changed, without a slash at its end, and its new value; {} where it was deleted."""
+_UNSET: Any = object()
+
+
+class ParamClient:
+    """The parameter server, seen from one node: names are resolved and remapped."""
+
+    def __init__(self, node: NodeContext, private: Mapping[str, Any]) -> None:
+        """`private` parameters are set when the node starts; reading waits for that."""
+        self._node = node
+        self._private = dict(private)
+        self._is_set = asyncio.Event()
+        self._watched: dict[str, list[ParamCallback]] = {}
+
+    async def get(self, name: str, default: Any = _UNSET) -> Any:
+        """Return a parameter, or a namespace as a dictionary.
+
+        Raises:
+            ParameterError: it is not set and there is no default.
+            MasterUnreachableError: nobody answers.
+        """
+        full = self._node.resolve(name)
+        await self._wait_private()
+        try:
+            return await self._node.master.call("getParam", full)
+        except MasterError:
+            if default is _UNSET:
+                raise ParameterError(f"parameter {full} is not set") from None
+            return default
+
+    async def set(self, name: str, value: Any) -> None:
+        """Set a parameter, or a whole namespace from a dictionary.
+
+        Raises:
+            ParameterError: parameters cannot hold the value (integers have 32 bits).
+            MasterUnreachableError: nobody answers.
+        """
+        full = self._node.resolve(name)
+        try:
+            await self._node.master.call("setParam", full, value)
+        except (ValueError, MasterError) as error:
+            raise ParameterError(f"parameter {full}: {error}") from None
+
+    async def delete(self, name: str) -> None:
+        """Delete a parameter or a namespace.
+
+        Raises:
+            ParameterError: it is not set.
+        """
+        full = self._node.resolve(name)
+        try:
+            await self._node.master.call("deleteParam", full)
+        except MasterError:
+            raise ParameterError(f"parameter {full} is not set") from None
+
+    async def has(self, name: str) -> bool:
+        """Tell whether a parameter or a namespace is set."""
+        await self._wait_private()
+        return bool(await self._node.master.call("hasParam", self._node.resolve(name)))
+
+    async def search(self, key: str) -> str | None:
+        """Find the full name of the nearest parameter upwards from this node; a remapped key is searched as written."""
+        await self._wait_private()
+        try:
+            return str(await self._node.master.call("searchParam", self._node.written_remappings.get(key, key)))
+        except MasterError:
+            return None
+
+    async def watch(self, name: str, callback: ParamCallback) -> Any:
+        """Have a function called, on the loop, whenever a parameter or something below it changes.
+
+        Returns:
+            The value now; {} if it is not set.
+        """
+        await self._node.wait_listening()
+        full = self._node.resolve(name)
+        self._watched.setdefault(full, []).append(callback)
+        return await self._node.master.call("subscribeParam", self._node.uri, full)
+
+    def notify(self, key: str, value: Any) -> bool:
+        """Tell those who watch a parameter; False: nobody does."""
+        name = key.rstrip("/") or "/"
+        told = [
+            callback
+            for watched, callbacks in self._watched.items()
+            if watched == "/" or name == watched or name.startswith(f"{watched}/")
+            for callback in callbacks
+        ]
+        for callback in told:
+            callback(name, value)
+        return bool(told)
+
+    def unwatch_all(self) -> list[Awaitable[Any]]:
+        """Calls that tell the master that nothing is watched any more."""
+        return [self._node.master.call("unsubscribeParam", self._node.uri, name) for name in self._watched]
+
+    async def set_private(self, registrations: RegistrationQueue) -> None:
+        """Set the parameters the node was made with, as soon as there is a master."""
+        for name, value in self._private.items():
+            await registrations.retry(lambda name=name, value=value: self._set_private(name, value))
+        self._is_set.set()
+
+    async def _set_private(self, name: str, value: Any) -> None:
+        try:
+            await self.set(f"~{name}", value)
+        except MasterUnreachableError:
+            self._is_set.set()  # whoever waits for them learns the reason by asking
+            raise
+
+    async def _wait_private(self) -> None:
+        if self._private and not self._node.is_shut_down:
+            await self._is_set.wait()

@@ -1,0 +1,115 @@
+"""Services as a client sees them: one connection for each call."""
+
+import asyncio
+import contextlib
+import struct
+from typing import Any
+
+from ..errors import MasterError, MessageError, RosError, ServiceError, WireError
+from ..messages.messages import Message, Messages, ServiceType
+from ..transport.headers import MAX_HEADER_BYTES, MAX_MESSAGE_BYTES, decode_header, encode_header, frame
+from ..xmlrpc.http import host_and_port
+from .node_context import NodeContext
+
+_POLL_S = 0.05
+"""Pause between two questions to the master whether a service is there."""
+
+
+async def call_service(
+    node: NodeContext, name: str, type_name: str, request: Message | dict[str, Any] | None, timeout_s: float | None
+) -> Message:
+    """Call a service by its global name.
+
+    Raises:
+        ServiceError: it is not there, says no, or does not answer in time.
+        MessageError: no such type, or a request that does not fit it.
+    """
+    kind = node.messages.service(type_name)
+    if request is None or isinstance(request, dict):
+        request = node.new(kind.request, request)
+    try:
+        uri = await node.master.call("lookupService", name)
+    except MasterError:
+        raise ServiceError(f"no node provides the service {name}") from None
+    try:
+        with node.loop.work.pending():
+            async with asyncio.timeout(timeout_s):
+                return await _exchange(node.messages, node.name, uri, name, kind, request)
+    except TimeoutError:
+        raise ServiceError(f"{name} did not answer within {timeout_s:g} s") from None
+
+
+async def wait_for_service(node: NodeContext, name: str, timeout_s: float | None) -> None:
+    """Wait until a node provides a service, given by its global name.
+
+    Raises:
+        ServiceError: none does in time.
+    """
+    try:
+        async with asyncio.timeout(timeout_s):
+            while True:
+                with contextlib.suppress(MasterError):
+                    await node.master.call("lookupService", name)
+                    return
+                await node.loop.local.wait_service_change(_POLL_S)
+    except TimeoutError:
+        raise ServiceError(f"no node provided the service {name} within {timeout_s:g} s") from None
+
+
+async def probe_service(uri: str, name: str, caller: str) -> dict[str, str]:
+    """Ask a provider for its header, which names the type.
+
+    Raises:
+        ServiceError: the provider is not there.
+    """
+    try:
+        async with asyncio.timeout(5.0), _connection(uri) as (reader, writer):
+            writer.write(encode_header({"callerid": caller, "service": name, "md5sum": "*", "probe": "1"}))
+            return decode_header(await _read_frame(reader, MAX_HEADER_BYTES))
+    except (OSError, RosError, asyncio.IncompleteReadError) as error:
+        raise ServiceError(f"{name} at {uri} does not answer: {error or type(error).__name__}") from None
+
+
+async def _exchange(
+    messages: Messages, caller: str, uri: str, name: str, kind: ServiceType, request: Message
+) -> Message:
+    """Send one request to a provider's address, in the name of the node `caller`, and return the response.
+
+    Raises:
+        ServiceError: the provider refuses or fails, or breaks the connection.
+    """
+    body = messages.serialize(request)
+    try:
+        async with _connection(uri) as (reader, writer):
+            header = {"callerid": caller, "service": name, "type": kind.type, "md5sum": kind.md5sum}
+            writer.write(encode_header(header))
+            answer = decode_header(await _read_frame(reader, MAX_HEADER_BYTES))
+            if "error" in answer:
+                raise ServiceError(f"{name} refuses: {answer['error']}")
+            writer.write(frame(body))
+            well = await reader.readexactly(1) == b"\x01"
+            data = await _read_frame(reader, MAX_MESSAGE_BYTES)
+    except (OSError, WireError, asyncio.IncompleteReadError) as error:
+        raise ServiceError(f"{name} at {uri} cannot be called: {error or type(error).__name__}") from None
+    if not well:
+        raise ServiceError(f"service [{name}] responded with an error: {data.decode('utf-8', 'replace')}")
+    try:
+        return messages.deserialize(data, kind.response)
+    except MessageError as error:
+        raise ServiceError(f"{name} answers with something else: {error}") from None
+
+
+@contextlib.asynccontextmanager
+async def _connection(uri: str):
+    reader, writer = await asyncio.open_connection(*host_and_port(uri))
+    try:
+        yield reader, writer
+    finally:
+        writer.close()
+
+
+async def _read_frame(reader: asyncio.StreamReader, limit: int) -> bytes:
+    (size,) = struct.unpack("<I", await reader.readexactly(4))
+    if size > limit:
+        raise WireError(f"a frame of {size} bytes is announced, more than is accepted")
+    return await reader.readexactly(size)
