@@ -1,7 +1,7 @@
 """The state of a world at one instant, worked out as far as somebody asks."""
 
 import copy
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from functools import cached_property
 from threading import Lock
@@ -60,7 +60,7 @@ class ScratchEngine:
             return contacts_of(self._compiled, model, data, chosen)
 
     @contextmanager
-    def evaluate(self) -> Iterator[tuple[mujoco.MjModel, mujoco.MjData]]:
+    def evaluate(self) -> Generator[tuple[mujoco.MjModel, mujoco.MjData]]:
         """Have the other engine's model and data to oneself, to put a state there and work something out."""
         with self._lock:
             model, data, reader = self._engine
