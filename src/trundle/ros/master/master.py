@@ -1,6 +1,6 @@
 """The ROS master with its parameter server: every call of the original, with its codes and texts.
 
-Answers are given at once; telling nodes about changes is queued per node, so that a dead one holds up nobody.
+Calls never block; updates to nodes are queued per node, so that a dead node delays no other.
 """
 
 import os
@@ -22,10 +22,10 @@ ANY_TYPE = "*"
 
 
 class Master:
-    """Keeps the books of one ROS graph."""
+    """Registry, parameter server and XML-RPC interface of one ROS graph."""
 
     def __init__(self, *, on_shutdown: Callable[[str], None] | None = None) -> None:
-        """Make a master that does not listen yet.
+        """Create a master; `start` listens.
 
         Args:
             on_shutdown: called with the reason when a client asks the master to stop.
@@ -33,7 +33,7 @@ class Master:
         self.parameters = ParameterTree()
         self.uri = ""
         self.on_call: Callable[[str, list[Any], Answer], None] = lambda _method, _arguments, _answer: None
-        """Told of each call and its answer."""
+        """Called with each call and its answer."""
         self._on_shutdown = on_shutdown
         self._registry = Registry()
         self._types: dict[str, str] = {}
@@ -76,21 +76,21 @@ class Master:
 
     @property
     def port(self) -> int:
-        """Where the master listens."""
+        """Port of the XML-RPC server."""
         return self._server.port
 
     @property
     def is_busy(self) -> bool:
-        """Whether nodes are still to be told something."""
+        """True while updates to nodes are queued."""
         return self._slave_calls.is_busy
 
     async def stop(self) -> None:
-        """Stop listening; nodes are not told, as they can go on without a master."""
+        """Stop listening; nodes are not notified, since they run on without a master."""
         await self._server.stop()
         await self._slave_calls.stop()
 
     def dispatch(self, method: str, arguments: list[Any]) -> Answer | list[Any]:
-        """Answer one call."""
+        """Execute one call."""
         if method == "system.multicall":
             calls: list[dict[str, Any]] = arguments[0]
             return [[self.dispatch(str(call["methodName"]), list(call["params"]))] for call in calls]
@@ -111,7 +111,7 @@ class Master:
             self._on_shutdown(f"external shutdown request from [{caller}]: {reason}")
         return 1, "shutdown", 0
 
-    # -- who is where
+    # -- lookups
 
     def _lookup_node(self, caller: str, node: Any) -> Answer:
         name = "/" if node == "/" else name_argument("node", node, caller)
@@ -126,8 +126,12 @@ class Master:
         return 1, "current system state", [list(item) for item in self._types.items()]
 
     def _system_state(self, _: str) -> Answer:
-        books = self._registry
-        return 1, "current system state", [t.state() for t in (books.publishers, books.subscribers, books.services)]
+        registry = self._registry
+        return (
+            1,
+            "current system state",
+            [t.state() for t in (registry.publishers, registry.subscribers, registry.services)],
+        )
 
     def _published_topics(self, caller: str, subgraph: Any) -> Answer:
         if not isinstance(subgraph, str):
@@ -199,7 +203,7 @@ class Master:
         if value is None:
             raise BadArgumentError("ERROR: parameter [value] must be specified")
         try:
-            encode_response(value)  # who asks for a namespace cannot be answered if one value cannot be sent
+            encode_response(value)  # getParam of the namespace fails if one value cannot be encoded
             self.set_param(name, value, by=caller)
         except ValueError as error:
             return -1, f"ERROR: parameter [value]: {error}", 0
@@ -210,11 +214,11 @@ class Master:
         return 1, f"parameter {name} set", 0
 
     def set_param(self, name: str, value: object, by: str = "/master") -> None:
-        """Set a parameter by its global name and tell the nodes that follow it, except the one that set it.
+        """Set a parameter by its global name and notify its subscribers, except the node that set it.
 
         Raises:
-            ParameterError: there are too many.
-            TypeError: the root can only be a dictionary.
+            ParameterError: the tree would exceed its size or depth.
+            TypeError: the root must be a dictionary.
         """
         self.parameters.set(name, value)
         self._notify_param_subscribers(name, value, by)
@@ -268,7 +272,9 @@ class Master:
         table = self._registry.parameters.entries
         for key, changed, new in updates(list(table), name, value):
             for node, uri in table[key]:
-                if node != by or changed != _subscription_key(name):  # who set the whole may not know of its parts
+                if node != by or changed != _subscription_key(
+                    name
+                ):  # the node that set a namespace may subscribe to keys in it
                     self._slave_calls.send(uri, "paramUpdate", "/master", changed, new)
 
 

@@ -9,21 +9,21 @@ from ..errors import ParameterError
 
 Tree: TypeAlias = "dict[str, Any]"
 Update: TypeAlias = tuple[str, str, object]
-"""(subscribed key, changed key, new value); the keys end with a slash."""
+"""(subscribed key, changed key, new value); keys end with a slash."""
 MAX_BYTES = 64 * 1024 * 1024
-"""All parameters together: as much as one answer holds, so that who asks for all gets them."""
+"""Limit of the whole tree [bytes]: as much as one XML-RPC answer holds, so that getParam of "/" succeeds."""
 MAX_DEPTH = 100
 _ITEM_BYTES = 64
-"""Of a name or a number, with what XML-RPC writes around it."""
+"""Estimated XML-RPC size of a name or number, markup included."""
 
 
 class ParameterTree:
-    """What the parameter server holds. Names are global and canonical; a missing one is a KeyError."""
+    """Contents of the parameter server. Names are global and canonical; a missing name raises KeyError."""
 
     def __init__(self) -> None:
         self._root: Tree = {}
         self._bytes = 0
-        """About what `_root` takes as XML-RPC."""
+        """Estimated XML-RPC size of `_root`."""
 
     def get(self, name: str) -> Any:
         """Return a value, or a namespace as a dictionary."""
@@ -35,11 +35,11 @@ class ParameterTree:
         return value
 
     def set(self, name: str, value: object) -> None:
-        """Set a value, or replace a whole namespace by a dictionary; a value in the way becomes a namespace.
+        """Set a value, or replace a whole namespace by a dictionary; a value higher up the name becomes a namespace.
 
         Raises:
-            ParameterError: there would be more than `MAX_BYTES` of parameters, or some deeper than `MAX_DEPTH`.
-            TypeError: the root can only be a dictionary.
+            ParameterError: the tree would exceed `MAX_BYTES` or `MAX_DEPTH`.
+            TypeError: the root must be a dictionary.
         """
         *namespaces, last = _parts(name) or [""]
         size = self._bytes + self._growth(name, value)
@@ -62,7 +62,7 @@ class ParameterTree:
         tree[last] = value
 
     def delete(self, name: str) -> None:
-        """Remove a value or a namespace."""
+        """Delete a value or a namespace."""
         *namespaces, last = _parts(name) or [""]
         tree: Any = self.get("/".join(namespaces))
         if not last or not isinstance(tree, dict):
@@ -70,7 +70,7 @@ class ParameterTree:
         self._bytes -= _size({last: tree.pop(last)})
 
     def has(self, name: str) -> bool:
-        """Tell whether a value or a namespace of this name is there."""
+        """True if a value or namespace of this name exists."""
         try:
             self.get(name)
         except KeyError:
@@ -78,7 +78,7 @@ class ParameterTree:
         return True
 
     def search(self, namespace: str, key: str) -> str | None:
-        """Find a key upwards from a namespace; the first part of the key decides where it is found."""
+        """Search for a key upwards from a namespace; the match is on the first part of the key."""
         if key.startswith("/"):
             return key if self.has(key) else None
         first = _parts(key)[0]
@@ -90,11 +90,11 @@ class ParameterTree:
         return None
 
     def names(self) -> list[str]:
-        """Name every value; an empty namespace has none."""
+        """Names of all values; an empty namespace has none."""
         return [name for name, value in _walk("", self._root) if not isinstance(value, dict)]
 
     def _growth(self, name: str, value: object) -> int:
-        """By how much the tree's size changes if a value is set."""
+        """Change of the tree's size [bytes] if a value is set."""
         parts = _parts(name)
         at: Any = self._root
         for depth, part in enumerate(parts):
@@ -107,10 +107,10 @@ class ParameterTree:
 
 
 def updates(subscribed: Iterable[str], name: str, value: object) -> list[Update]:
-    """Work out what each subscribed key learns when `name` gets `value` ({} where it was deleted).
+    """Compute the update of each subscribed key when `name` is set to `value` ({} if deleted).
 
-    A key above learns the name and value as set. A key below learns its own part of the value, or {} where the new
-    value leaves it out (as rosmaster does).
+    A key above gets the name and value as set. A key below gets its own part of the value, or {} if the new value lacks
+    it (as rosmaster does).
     """
     changed = _with_slash(name)
     inside = (
@@ -126,10 +126,10 @@ def updates(subscribed: Iterable[str], name: str, value: object) -> list[Update]
 
 
 def set_leaves(name: str, value: object, put: Callable[[str, object], None]) -> None:
-    """Set each value of a tree on its own, so that what else a namespace holds stays (rosparam's way).
+    """Set each value of a tree separately, keeping other keys of its namespaces (as rosparam does).
 
     Raises:
-        UsageError: a dictionary in it has keys that are no names.
+        UsageError: a dictionary in it has keys that are not strings.
     """
     if isinstance(value, dict):
         members: dict[object, Any] = value
@@ -146,7 +146,7 @@ def _parts(name: str) -> list[str]:
 
 
 def _size(value: Any) -> int:
-    """Count the bytes of a value, about as XML-RPC writes it."""
+    """Estimate the XML-RPC size of a value [bytes]."""
     if isinstance(value, dict):
         return sum(_ITEM_BYTES + len(str(key)) + _size(below) for key, below in value.items())
     if isinstance(value, list | tuple):

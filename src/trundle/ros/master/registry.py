@@ -1,4 +1,4 @@
-"""Who publishes, subscribes and serves what: the master's books."""
+"""Registration tables of the master: publishers, subscribers, services and parameter subscriptions."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -13,13 +13,13 @@ class RegistrationTable:
         self.entries: dict[str, list[tuple[str, str]]] = {}
 
     def add(self, name: str, node: str, api: str) -> None:
-        """Enter a node once."""
+        """Add an entry unless it exists."""
         entries = self.entries.setdefault(name, [])
         if (node, api) not in entries:
             entries.append((node, api))
 
     def remove(self, name: str, node: str, api: str) -> Answer:
-        """Strike a node out; the answer is the one clients get."""
+        """Remove an entry; returns the XML-RPC answer."""
         entries = self.entries.get(name, [])
         if (node, api) not in entries:
             return 1, f"[{node}] is not a known provider of [{name}]", 0
@@ -29,7 +29,7 @@ class RegistrationTable:
         return 1, f"Unregistered [{node}] as provider of [{name}]", 1
 
     def remove_node(self, node: str) -> list[str]:
-        """Strike a node out everywhere; return the names it was entered under."""
+        """Remove all entries of a node; returns their names."""
         touched = [name for name, entries in self.entries.items() if any(other == node for other, _ in entries)]
         for name in touched:
             self.entries[name] = [entry for entry in self.entries[name] if entry[0] != node]
@@ -38,11 +38,11 @@ class RegistrationTable:
         return touched
 
     def apis(self, name: str) -> list[str]:
-        """Addresses of the nodes entered under a name."""
+        """Addresses registered under a name."""
         return [api for _, api in self.entries.get(name, [])]
 
     def has_node(self, node: str) -> bool:
-        """Tell whether a node is entered anywhere."""
+        """True if the node has an entry in this table."""
         return any(other == node for entries in self.entries.values() for other, _ in entries)
 
     def state(self) -> list[list[object]]:
@@ -52,12 +52,12 @@ class RegistrationTable:
 
 @dataclass(slots=True)
 class Registry:
-    """All tables, and the address of every node in them."""
+    """All tables, and the address of every registered node."""
 
     publishers: RegistrationTable = field(default_factory=RegistrationTable)
     subscribers: RegistrationTable = field(default_factory=RegistrationTable)
     services: RegistrationTable = field(default_factory=RegistrationTable)
-    """A service has one provider: the last to register."""
+    """One provider per service: the last to register."""
     parameters: RegistrationTable = field(default_factory=RegistrationTable)
     """Subscribed parameter keys, each with a trailing slash."""
     service_apis: dict[str, tuple[str, str]] = field(default_factory=dict[str, tuple[str, str]])
@@ -66,7 +66,7 @@ class Registry:
     """Node → XML-RPC address."""
 
     def register(self, table: RegistrationTable, name: str, node: str, api: str) -> str | None:
-        """Enter a node; return the address of an older node of the same name, which this one replaces."""
+        """Register a node; returns the address of the older node of the same name that it replaces, if any."""
         older = self.nodes.get(node)
         replaced = older if older is not None and older != api else None
         if replaced is not None:
@@ -76,14 +76,14 @@ class Registry:
         return replaced
 
     def register_service(self, name: str, node: str, api: str, service_api: str) -> str | None:
-        """Enter a node as the one provider of a service; returns as `enter`."""
+        """Register a node as the provider of a service; returns as `register`."""
         self.services.entries.pop(name, None)
         replaced = self.register(self.services, name, node, api)
         self.service_apis[name] = (node, service_api)
         return replaced
 
     def unregister(self, table: RegistrationTable, name: str, node: str, api: str) -> Answer:
-        """Strike a node out of a table, and of the books when nothing is left of it."""
+        """Remove an entry; a node without entries is forgotten."""
         if node not in self.nodes:
             return 1, f"[{node}] is not a registered node", 0
         answer = table.remove(name, node, api)
@@ -91,7 +91,7 @@ class Registry:
         return answer
 
     def unregister_service(self, name: str, node: str, service_api: str) -> Answer:
-        """Strike a provider out if it still is the provider."""
+        """Remove a service if this node is still its provider."""
         if node not in self.nodes:
             return 1, f"[{node}] is not a registered node", 0
         if self.service_apis.get(name) != (node, service_api):
@@ -102,7 +102,7 @@ class Registry:
         return 1, f"Unregistered [{node}] as provider of [{name}]", 1
 
     def unregister_node(self, node: str) -> None:
-        """Strike a node out of everything."""
+        """Remove a node from all tables."""
         for table in self._tables():
             table.remove_node(node)
         for name in [name for name, (provider, _) in self.service_apis.items() if provider == node]:

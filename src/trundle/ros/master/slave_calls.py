@@ -1,4 +1,4 @@
-"""Tells nodes about changes, one call at a time for each node and without waiting for any."""
+"""Queue of slave API calls (publisherUpdate, paramUpdate, shutdown), one at a time per node, without blocking."""
 
 import asyncio
 import logging
@@ -10,36 +10,36 @@ from ..xmlrpc.xmlrpc import FaultError
 
 _log = logging.getLogger(__name__)
 _TIMEOUT_S = 5.0
-_ALREADY_TOLD_LAST = ("publisherUpdate", "paramUpdate")
-"""Methods whose newest call for a topic or parameter makes a waiting older one pointless."""
+_SUPERSEDABLE = ("publisherUpdate", "paramUpdate")
+"""Methods whose newest call for a topic or parameter supersedes a queued one."""
 
 
 class SlaveCalls:
-    """A queue of calls for each node's address."""
+    """One queue of calls per node address."""
 
     def __init__(self) -> None:
         self._waiting: dict[str, list[tuple[str, tuple[Any, ...]]]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
     def send(self, uri: str, method: str, *arguments: Any) -> None:
-        """Queue a call; a waiting call about the same thing is replaced."""
+        """Queue a call; it replaces a queued call about the same topic or parameter."""
         queue = self._waiting.get(uri)
         if queue is None:
             self._waiting[uri] = queue = []
             task = asyncio.get_running_loop().create_task(self._run(uri, queue))
             self._tasks.add(task)
             task.add_done_callback(self._tasks.discard)
-        if method in _ALREADY_TOLD_LAST:
+        if method in _SUPERSEDABLE:
             queue[:] = [(m, a) for m, a in queue if (m, a[:2]) != (method, arguments[:2])]
         queue.append((method, arguments))
 
     @property
     def is_busy(self) -> bool:
-        """Whether somebody is still to be told something."""
+        """True while calls are queued or in progress."""
         return bool(self._waiting)
 
     async def stop(self) -> None:
-        """Drop what is still waiting."""
+        """Cancel all queued calls."""
         for task in list(self._tasks):
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
