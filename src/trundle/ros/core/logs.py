@@ -1,4 +1,4 @@
-"""What a core writes to disk as the original: rosout.log of all that nodes say, master.log of who came and went."""
+"""roscore's log files: rosout.log with the messages of all nodes, master.log with registrations."""
 
 import os
 import time
@@ -15,9 +15,9 @@ from ..master.registry import Answer
 from ..messages.messages import Message
 
 ROSOUT_BYTES, ROSOUT_BACKUPS = 100 * 1024 * 1024, 10
-"""As the original node has them."""
+"""Limits of the original rosout node."""
 PYTHON_LOG_BYTES, PYTHON_LOG_BACKUPS = 50_000_000, 4
-"""As the original's python_logging.conf has them, for its master and roslaunch."""
+"""Limits in the original's python_logging.conf, for its master and roslaunch."""
 _OFF = ("", "0", "false", "off", "no")
 _LEVEL_NAMES = {number: name.upper() for name, number in LEVELS.items()}
 _BY_CALLER = {
@@ -26,7 +26,7 @@ _BY_CALLER = {
     "subscribeParam": ("+CACHEDPARAM", 2),
     "unsubscribeParam": ("-CACHEDPARAM", 2),
 }
-"""Sign, and which argument is the key."""
+"""Label in the log, and index of the key among the arguments."""
 _WITH_ADDRESS = {
     "registerPublisher": "+PUB",
     "unregisterPublisher": "-PUB",
@@ -38,7 +38,7 @@ _WITH_ADDRESS = {
 
 
 class CoreLogs:
-    """The two files of one run; calls return at once."""
+    """Writes rosout.log and master.log of one run; never blocks."""
 
     def __init__(self, folder: Path, parameters: ParameterTree) -> None:
         self._parameters = parameters
@@ -49,7 +49,7 @@ class CoreLogs:
             self._rosout.write(f"\n\n{time.time_ns() / 1e9:.9f}  Node Startup")
 
     def log_message(self, message: Message) -> None:
-        """Write a rosgraph_msgs/Log as the original node does."""
+        """Log a rosgraph_msgs/Log in the format of the original rosout node."""
         if self._rosout is not None:
             with_topics = not (
                 self._parameters.has("/rosout/omit_topics") and self._parameters.get("/rosout/omit_topics")
@@ -57,11 +57,11 @@ class CoreLogs:
             self._rosout.write(rosout_line(message, with_topics=with_topics))
 
     def log_master(self, text: str) -> None:
-        """Write what the master has to say of itself."""
+        """Log a line of the master's own."""
         self._master.write(python_log_line("rosmaster.master", text))
 
     def log_call(self, method: str, arguments: Sequence[Any], answer: Answer) -> None:
-        """Note a call to the master that changed its books."""
+        """Log a successful master call that changed the registry."""
         if answer[0] != 1:
             return
         if method in _WITH_ADDRESS:
@@ -73,14 +73,14 @@ class CoreLogs:
             self.log_master(f"{what} [{resolve_name(arguments[index], caller)}] by {caller}")
 
     def close(self) -> None:
-        """Write what still waits."""
+        """Write queued lines and close."""
         self._master.close()
         if self._rosout is not None:
             self._rosout.close()
 
 
 def rosout_line(message: Message, *, with_topics: bool) -> str:
-    """Write a rosgraph_msgs/Log: stamp, level, node, place, the node's topics if wanted, text."""
+    """Format a rosgraph_msgs/Log: stamp, level, node, file:line(function), the node's topics if wanted, text."""
     stamp = message.header.stamp
     topics = f"[topics: {', '.join(message.topics)}] " if with_topics else ""
     level = _LEVEL_NAMES.get(message.level, str(message.level))
@@ -89,7 +89,7 @@ def rosout_line(message: Message, *, with_topics: bool) -> str:
 
 
 def python_log_line(logger: str, text: str) -> str:
-    """Write a line as the original's Python programs do, with the time on this machine's clock."""
+    """Format a line as Python's logging in the original does, stamped with local wall time."""
     now_ms = time.time_ns() // 1_000_000
     stamp = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(now_ms // 1000))
     return f"[{logger}][INFO] {stamp},{now_ms % 1000:03d}: {text}"
