@@ -1,4 +1,4 @@
-"""The little of HTTP that XML-RPC needs: one POST, one answer, sizes known beforehand."""
+"""Minimal HTTP for XML-RPC: one POST, one response, Content-Length required."""
 
 import re
 from dataclasses import dataclass
@@ -8,26 +8,26 @@ from ..errors import WireError
 
 MAX_HEAD_BYTES = 64 * 1024
 MAX_BODY_BYTES = 64 * 1024 * 1024
-"""A parameter tree with several robot descriptions is a few MB; anything near this bound is no graph traffic."""
+"""Parameter trees with several robot descriptions take a few MB, far below this limit."""
 
 XML = "text/xml"
 _OWN_FETCH = ("node", "undici")
-"""User agents of Node's `fetch`, a program's, which calls its mode `cors` as a browser's does."""
+"""User agents of Node's `fetch`, which sends Sec-Fetch-Mode `cors` as browsers do."""
 _MAX_PORT = 65535
 _ADDRESS = re.compile(r"(?:http|rosrpc)://(?P<host>\[[^]/@]+\]|:?:?[^][/@?#:][^][/@?#]*):(?P<port>\d{1,5})(?:[/?#]|$)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Head:
-    """Start line and header fields of a request or an answer."""
+    """Start line and header fields of a request or response."""
 
     start: tuple[str, str, str]
     fields: dict[str, str]
-    """Names in lower case."""
+    """Keys in lower case."""
 
     @property
     def keeps_alive(self) -> bool:
-        """Whether the connection stays open after this exchange."""
+        """True if the connection stays open after this exchange."""
         connection = self.fields.get("connection", "").lower()
         if "HTTP/1.0" in self.start:
             return connection == "keep-alive"
@@ -35,10 +35,10 @@ class Head:
 
     @property
     def body_bytes(self) -> int | None:
-        """Announced size of the body, None if not announced.
+        """Content-Length; None if absent.
 
         Raises:
-            WireError: the size is no number, or larger than `MAX_BODY_BYTES`.
+            WireError: the length is not a number, or exceeds `MAX_BODY_BYTES`.
         """
         text = self.fields.get("content-length")
         if text is None:
@@ -51,10 +51,10 @@ class Head:
 
 
 def parse_head(data: bytes) -> Head:
-    """Read start line and fields, up to and with the empty line.
+    """Parse start line and fields, including the empty line.
 
     Raises:
-        WireError: this is not HTTP.
+        WireError: the data is not HTTP.
     """
     lines = data.decode("latin-1").split("\r\n")
     start = lines[0].split(" ", 2)
@@ -69,11 +69,12 @@ def parse_head(data: bytes) -> Head:
 
 
 def browser_refusal(head: Head) -> str | None:
-    """Return why a call is refused as one that a web page may have made; None: a program made it.
+    """Return why a request is refused as possibly sent by a web page; None if a program sent it.
 
-    A page can reach loopback. It cannot send text/xml to another origin without asking first, its POST carries an
-    Origin, and a browser of today adds Sec-Fetch-Site. Programs: rospy, roscpp, rosnodejs, goroslib, rosjava and
-    @foxglove/ros1 send text/xml; roslibrust and rosrust send no type. `Host` says nothing: they dial aliases.
+    A page can reach loopback. It cannot send text/xml to another origin without a preflight request, its POST carries
+    an Origin, and current browsers add Sec-Fetch-Site. Programs: rospy, roscpp, rosnodejs, goroslib, rosjava and
+    @foxglove/ros1 send text/xml; roslibrust and rosrust send no type. `Host` is not checked: clients connect by
+    aliases.
     """
     fields = head.fields
     agent, origin = fields.get("user-agent", ""), fields.get("origin")
@@ -89,7 +90,7 @@ def browser_refusal(head: Head) -> str | None:
 
 
 def request(uri: str, body: bytes) -> bytes:
-    """Write a POST; the connection closes after the answer."""
+    """Format a POST; the connection closes after the response."""
     parts = urlsplit(uri)
     head = (
         f"POST {parts.path or '/'} HTTP/1.1\r\nHost: {parts.netloc}\r\nUser-Agent: trundle\r\n"
@@ -99,7 +100,7 @@ def request(uri: str, body: bytes) -> bytes:
 
 
 def answer(status: str, body: bytes, *, keep_alive: bool, kind: str = XML) -> bytes:
-    """Write an answer, such as `answer("200 OK", …)`."""
+    """Format a response, such as `answer("200 OK", …)`."""
     head = (
         f"HTTP/1.1 {status}\r\nServer: trundle\r\nContent-Type: {kind}\r\nContent-length: {len(body)}\r\n"
         f"Connection: {'keep-alive' if keep_alive else 'close'}\r\n\r\n"
@@ -111,7 +112,7 @@ def host_and_port(uri: str) -> tuple[str, int]:
     """Split `http://host:port/` or `rosrpc://host:port`; rospy writes IPv6 addresses without brackets.
 
     Raises:
-        WireError: host or port is missing or no number.
+        WireError: host or port is missing or malformed.
     """
     address = _ADDRESS.match(uri)
     if address is None or int(address["port"]) > _MAX_PORT:
@@ -120,7 +121,7 @@ def host_and_port(uri: str) -> tuple[str, int]:
 
 
 def uri_host(uri: str) -> str:
-    """Return the host of a node's address, or nothing where it has none."""
+    """Host of a node's address; empty if malformed."""
     try:
         return host_and_port(uri)[0]
     except WireError:

@@ -1,4 +1,4 @@
-"""A blocking master proxy for commands that only ask: it imports neither asyncio nor an HTTP library."""
+"""Blocking master proxy for short-lived commands; imports neither asyncio nor an HTTP library."""
 
 import socket
 from typing import Any
@@ -10,7 +10,7 @@ from .xmlrpc import FaultError, decode_response, encode_call
 
 
 class MasterProxy:
-    """Calls the master, the parameter server, or any node's own interface."""
+    """Blocking calls to the master, the parameter server or a node's slave API."""
 
     def __init__(self, uri: str | None = None, caller_id: str = "/trundle", *, timeout_s: float = 3.0) -> None:
         self.uri = uri or master_uri_from_env()
@@ -18,11 +18,11 @@ class MasterProxy:
         self._timeout_s = timeout_s
 
     def call(self, method: str, *arguments: object) -> Any:
-        """Return the value the master answers with; the caller's name is put in front of the arguments.
+        """Call a method with the caller ID prepended and return the answer's value.
 
         Raises:
-            MasterUnreachableError: nobody answers.
-            MasterError: the master answers with a failure.
+            MasterUnreachableError: no answer.
+            MasterError: the answer's code is not 1.
         """
         try:
             answer = blocking_call(self.uri, method, self._caller_id, *arguments, timeout_s=self._timeout_s)
@@ -31,7 +31,7 @@ class MasterProxy:
         except FaultError as error:
             raise MasterError(f"{method}: {error}") from None
         if not isinstance(answer, list) or len(answer) != 3:
-            raise MasterUnreachableError(self.uri, "what answers there is no ROS master")
+            raise MasterUnreachableError(self.uri, "the server there is not a ROS master")
         code, text, value = answer
         if code != 1:
             raise MasterError(str(text))
@@ -39,12 +39,12 @@ class MasterProxy:
 
 
 def blocking_call(uri: str, method: str, *arguments: object, timeout_s: float) -> Any:
-    """Call a method and return what it answers, as it stands.
+    """Call a method and return the decoded response.
 
     Raises:
-        OSError: nobody listens there (TimeoutError: nobody answers in time).
+        OSError: the connection fails (TimeoutError: no response in time).
         WireError: the peer does not speak XML-RPC.
-        FaultError: the peer cannot make the call.
+        FaultError: the response is a fault.
     """
     with socket.create_connection(host_and_port(uri), timeout=timeout_s) as connection:
         connection.sendall(request(uri, encode_call(method, arguments)))
@@ -61,7 +61,7 @@ def blocking_call(uri: str, method: str, *arguments: object, timeout_s: float) -
                 end = head_end + size if size is not None else MAX_BODY_BYTES
     head, separator, body = bytes(data).partition(b"\r\n\r\n")
     if not separator:
-        raise WireError("what answers there is no HTTP server")
+        raise WireError("the server there does not speak HTTP")
     if parse_head(head).start[1] != "200":
         raise WireError(f"it answers {' '.join(parse_head(head).start[1:])[:100]}")
     return decode_response(body)

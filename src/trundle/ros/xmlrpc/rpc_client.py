@@ -1,4 +1,4 @@
-"""One XML-RPC call on asyncio, bounded in size and time."""
+"""XML-RPC calls on asyncio, bounded in size and time."""
 
 import asyncio
 import contextlib
@@ -10,12 +10,12 @@ from .xmlrpc import decode_response, encode_call
 
 
 async def call(uri: str, method: str, *arguments: object, timeout_s: float = 5.0) -> Any:
-    """Call a method and return what it answers, as it stands.
+    """Call a method and return the decoded response.
 
     Raises:
-        OSError: nobody listens there (TimeoutError: nobody answers in time).
+        OSError: the connection fails (TimeoutError: no response in time).
         WireError: the peer does not speak XML-RPC.
-        FaultError: the peer cannot make the call.
+        FaultError: the response is a fault.
     """
     host, port = host_and_port(uri)
     body = encode_call(method, arguments)
@@ -47,11 +47,11 @@ async def call_value(uri: str, method: str, *arguments: object, timeout_s: float
 
 
 def unpack_value(uri: str, method: str, answer: Any) -> Any:
-    """Take [code, text, value] apart.
+    """Unpack [code, text, value] and return the value.
 
     Raises:
         MasterError: the code is not 1.
-        WireError: the answer is not of this form.
+        WireError: the answer has another form.
     """
     if not isinstance(answer, list) or len(answer) != 3:
         raise WireError(f"{uri} answers {method} with {str(answer)[:100]!r}, not with [code, text, value]")

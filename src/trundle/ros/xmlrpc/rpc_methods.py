@@ -1,4 +1,4 @@
-"""XML-RPC calls as masters and nodes answer them: a code, a text and a value, in the original's words if refused."""
+"""Argument checks and answers [code, text, value] of the master and slave APIs; refusals in the original's words."""
 
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
@@ -9,15 +9,15 @@ from ..master.registry import Answer
 from .rpc_server import UnknownMethodError
 
 Method: TypeAlias = tuple[int, object, Callable[..., Answer]]
-"""How many arguments follow the caller's name, the value of a refusal, and what answers."""
+"""Argument count after caller_id, the value in a refusal, and the function."""
 
 
 class BadArgumentError(Exception):
-    """An argument the original refuses, in its words."""
+    """An argument the original refuses, with its error text."""
 
 
 def answer_call(methods: Mapping[str, Method], method: str, arguments: list[Any]) -> Answer:
-    """Answer a call, or say what is wrong with it.
+    """Check the arguments, call the method and return its answer.
 
     Raises:
         UnknownMethodError: there is no such method.
@@ -40,10 +40,10 @@ def answer_call(methods: Mapping[str, Method], method: str, arguments: list[Any]
 
 
 def name_argument(what: str, value: Any, caller: str) -> str:
-    """Return the global name that an argument means to its caller.
+    """Resolve a name argument in the caller's namespace.
 
     Raises:
-        BadArgumentError: it is no name.
+        BadArgumentError: the argument is not a valid name.
     """
     if not isinstance(value, str) or not value:
         raise BadArgumentError(f"ERROR: parameter [{what}] must be a non-empty string")

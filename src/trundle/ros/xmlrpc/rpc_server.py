@@ -1,4 +1,4 @@
-"""An XML-RPC server on asyncio: HTTP/1.0 and 1.1 with keep-alive, bounded in size and time."""
+"""XML-RPC server on asyncio: HTTP/1.0 and 1.1 with keep-alive, bounded in size and time."""
 
 import asyncio
 import contextlib
@@ -15,31 +15,31 @@ from .xmlrpc import decode_call, encode_fault, encode_response
 
 _log = logging.getLogger(__name__)
 _IDLE_S = 120.0
-"""How long a kept-alive connection may say nothing; clients reconnect by themselves."""
+"""Idle timeout of kept-alive connections; clients reconnect by themselves."""
 _REQUEST_S = 15.0
-"""How long a request may take to arrive once it began."""
+"""Timeout for receiving a request once its first byte arrived."""
 _BACKLOG = 512
-"""Connections waiting to be accepted: a big launch starts a hundred nodes within a second."""
+"""Length of the accept queue: a big launch starts a hundred nodes within a second."""
 
 _MAX_CLIENTS = 512
-"""Connections held at once; the one that has been silent longest makes room, which a client takes for an idle end."""
+"""Limit of open connections; beyond it the longest idle one is closed, as after an idle timeout."""
 
 Dispatch = Callable[[str, list[Any]], "Awaitable[object] | object"]
-"""Answers one call; an exception becomes a fault."""
+"""Executes one call; an exception becomes a fault."""
 
 
 class UnknownMethodError(RosError):
-    """The server has no such method."""
+    """The server has no method of this name."""
 
 
 class RpcServer:
-    """Serves one XML-RPC interface at one port."""
+    """One XML-RPC interface on one port."""
 
     def __init__(self, dispatch: Dispatch) -> None:
         self._dispatch = dispatch
         self._server: asyncio.Server | None = None
         self._clients: dict[asyncio.StreamWriter, None] = {}
-        """The one that has been silent longest comes first."""
+        """Ordered by last activity, longest idle first."""
         self._has_warned = False
         self.port = 0
 
@@ -64,7 +64,7 @@ class RpcServer:
         return self._server is not None and self._server.is_serving()
 
     async def stop(self) -> None:
-        """Stop listening and drop every client."""
+        """Stop listening and close all connections."""
         if self._server is not None:
             await close_server(self._server)
         for writer in list(self._clients):
@@ -81,7 +81,7 @@ class RpcServer:
                 self._clients.pop(writer, None)
                 self._clients[writer] = None
         except (OSError, asyncio.IncompleteReadError, asyncio.CancelledError, TimeoutError):
-            pass  # the peer went away, fell silent, or this server stops
+            pass  # closed by the peer, timed out, or stopped
         except (WireError, asyncio.LimitOverrunError) as error:
             with contextlib.suppress(OSError):
                 writer.write(answer("400 Bad Request", str(error).encode(), keep_alive=False))
@@ -90,7 +90,7 @@ class RpcServer:
             writer.close()
 
     async def _exchange(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> bool:
-        """Answer one request; True if another may follow."""
+        """Serve one request; True if the connection stays open."""
         async with asyncio.timeout(_IDLE_S):
             first = await reader.readexactly(1)
         async with asyncio.timeout(_REQUEST_S):
@@ -112,7 +112,7 @@ class RpcServer:
         return head.keeps_alive
 
     def _warn(self, why: str) -> None:
-        """Log the first refusal; a page can try a thousand times."""
+        """Log the first refusal only: a page can send thousands."""
         if not self._has_warned:
             self._has_warned = True
             _log.warning("port %d refused an HTTP request: %s", self.port, why)
@@ -126,7 +126,7 @@ class RpcServer:
             return encode_fault(1, str(error))
         except UnknownMethodError as error:
             return encode_fault(1, f"<class 'Exception'>:{error}")
-        except Exception as error:  # whatever a peer sent, the server goes on
+        except Exception as error:  # one bad call must not stop the server
             _log.debug("XML-RPC call failed", exc_info=True)
             return encode_fault(1, f"<class '{type(error).__name__}'>:{error}")
 
