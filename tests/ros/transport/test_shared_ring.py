@@ -128,8 +128,8 @@ def test_frames_too_short_or_too_long_go_over_the_socket(
     ("note", "sentence"),
     [
         (b"", "a note of 0 bytes where one of 8 belongs"),
-        (struct.pack("<Q", 1), "what was never laid there"),
-        (struct.pack("<Q", 2**64 - 1), "what was never laid there"),
+        (struct.pack("<Q", 1), "position that was never written"),
+        (struct.pack("<Q", 2**64 - 1), "position that was never written"),
     ],
 )
 def test_a_publisher_believes_no_impossible_answer(
@@ -190,7 +190,7 @@ def test_a_file_that_is_not_there_is_an_os_error(connected: socket.socket) -> No
 
 
 def _shared_here() -> int:
-    return Path("/proc/self/maps").read_text().count("trundle-shelf")
+    return Path("/proc/self/maps").read_text().count("trundle-shared-ring")
 
 
 def _pictures(graph: Any, far: Any, count: int, size: int) -> tuple[list[tuple[int, int]], int]:

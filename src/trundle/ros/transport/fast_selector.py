@@ -1,4 +1,4 @@
-"""Connections read as soon as the system names them, past what asyncio does between that and a protocol."""
+"""Selector that reads connections directly, bypassing asyncio's dispatch to protocols."""
 
 import logging
 import os
@@ -9,32 +9,32 @@ from collections.abc import Callable
 
 _log = logging.getLogger(__name__)
 _AT_ONCE = 64
-"""As many sockets as are looked at before others get their turn on the loop."""
+"""Maximum sockets polled at once, for fairness to other work on the loop."""
 
 
 class FastSelector(selectors.DefaultSelector):
-    """A selector for an asyncio loop, which has some sockets of its own: it calls their readers itself."""
+    """Selector of an asyncio loop that calls the readers of its own sockets itself."""
 
     def __init__(self) -> None:
         super().__init__()
         self._readers: dict[int, Callable[[], None]] = {}
-        """By the socket's number."""
+        """Readers by file descriptor."""
         has_epoll = hasattr(select, "epoll")
         self._epoll = select.epoll.fromfd(os.dup(self.fileno())) if has_epoll else None
-        """The selector's own, to ask it directly: the way through its keys takes as long as reading a message."""
+        """Duplicate of the selector's epoll, polled directly: the lookup of keys takes as long as reading a message."""
 
     def add_reader(self, sock: socket.socket, readable: Callable[[], None]) -> None:
-        """Call `readable` on the loop whenever a socket has something to read, or has ended, until `forget`."""
+        """Call `readable` on the loop whenever the socket is readable or closed, until `remove_reader`."""
         self.register(sock, selectors.EVENT_READ)
         self._readers[sock.fileno()] = readable
 
     def remove_reader(self, sock: socket.socket) -> None:
-        """Leave a socket alone from now on; before it is closed."""
+        """Stop calling the socket's reader; call before closing the socket."""
         del self._readers[sock.fileno()]
         self.unregister(sock)
 
     def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
-        """As the loop calls it, who hears of its own sockets only."""
+        """Poll; call own readers and return only the loop's events."""
         if self._epoll is not None:
             events, ready = self._epoll.poll(timeout, _AT_ONCE), None
         else:
@@ -54,7 +54,7 @@ class FastSelector(selectors.DefaultSelector):
         return [event for event in ready or super().select(0.0) if event[0].fd not in self._readers]
 
     def close(self) -> None:
-        """Close what the system gave."""
+        """Close both epoll file descriptors."""
         super().close()
         if self._epoll is not None:
             self._epoll.close()

@@ -1,4 +1,4 @@
-"""Frames out of a stream of bytes: each is its length, then so many bytes."""
+"""Length-prefixed frames of a byte stream."""
 
 import struct
 import threading
@@ -10,45 +10,45 @@ from ..errors import WireError
 
 LENGTH = struct.Struct("<I")
 _SHARED_BYTES = 16 * 1024
-"""Holds hundreds of small messages; more at a time would keep other connections of a busy graph waiting."""
+"""Room for hundreds of small messages; a larger buffer would delay other connections of a busy graph."""
 _LONG_BYTES = 4 * 1024
-"""A frame from here on comes to lie where it stays."""
+"""Frames of this length and more are received in place, without a copy."""
 _TRUST_BYTES = 256 * 1024
-"""How much room a frame gets before any of it has come, unless one as long came before."""
+"""Buffer allocated for a frame before any of it arrived, unless the last frame was as long."""
 _NOTE = 1 << 31
-"""Added to the length of what is no message but a word between two of our own programs."""
+"""Flag in the length of a control note between two Trundle programs."""
 _MAX_NOTE_BYTES = 64
 _of_this_thread = threading.local()
 
 
 def encode_note(content: bytes) -> bytes:
-    """Write a note, which only a `FrameDecoder` that takes notes will read."""
+    """Encode a note; only a `FrameDecoder` with `on_note` accepts it."""
     return LENGTH.pack(_NOTE | len(content)) + content
 
 
 class FrameDecoder:
-    """Says where the next bytes of a stream go, and cuts frames out of what was put there.
+    """Provides the receive buffer of a stream and splits received bytes into frames.
 
-    Short frames are copied out of a buffer shared by all connections of a thread. Memory grows with what has
-    arrived, never with what is announced.
+    Short frames are copied out of a buffer shared by all connections of a thread. Memory grows with the bytes received,
+    never with the announced length.
     """
 
     def __init__(self, limit: int) -> None:
         self.limit = limit
-        """Longest frame that is accepted [bytes]; it may change between two frames."""
+        """Longest frame accepted [bytes]; may change between two frames."""
         self.on_note: Callable[[bytes], bytes | None] | None = None
-        """Called with each note, if there may be any; returns the content of a frame that it stands for."""
+        """Called with each note, if notes are accepted; returns the content of a frame it stands for, if any."""
         self._shared = _shared_buffer()
         self._rest = b""
-        """Beginning of a short frame."""
+        """Received part of a short frame."""
         self._own: memoryview | None = None
-        """Where a long frame comes to lie, its length in front."""
+        """Buffer of a long frame, length prefix included."""
         self._filled = 0
         self._expected = 0
-        """Size of the last frame with its length, if that was a long one: the next one may be as long."""
+        """Size of the last frame with its prefix, if that was long: the next may be as long."""
 
     def get_buffer(self) -> memoryview:
-        """Return where to put what comes next; valid until the next call for any connection of this thread."""
+        """Buffer for the next bytes; valid until the next call for any connection of this thread."""
         if self._own is None and self._expected:
             self._own = _copied(self._rest, self._expected)
             self._filled, self._rest = len(self._rest), b""
@@ -58,14 +58,14 @@ class FrameDecoder:
         return self._shared[len(self._rest) :]
 
     def get_frame_buffer(self) -> memoryview | None:
-        """Return where a frame may come to lie that comes alone; None within one, or after a long one."""
+        """Buffer for a frame that arrives alone; None within a frame, or after a long one."""
         return None if self._rest or self._own is not None or self._expected else self._shared
 
     def decode(self, count: int) -> Iterator[bytes | memoryview]:
-        """Take note of so many new bytes; yield the frames that are complete, without their lengths.
+        """Process `count` received bytes; yield the complete frames without their length prefixes.
 
         Raises:
-            WireError: a frame longer than the limit is announced.
+            WireError: the announced length exceeds `limit`.
         """
         data, end = (self._shared, len(self._rest) + count) if self._own is None else (self._own, self._filled + count)
         start = size = 0
@@ -73,7 +73,7 @@ class FrameDecoder:
             (size,) = LENGTH.unpack_from(data, start)
             if size > self.limit:
                 if self.on_note is None or not _NOTE <= size <= _NOTE + _MAX_NOTE_BYTES:
-                    raise WireError(f"a frame of {size} bytes is announced, more than is accepted")
+                    raise WireError(f"a frame of {size} bytes is announced, more than the {self.limit} accepted")
                 size -= _NOTE
                 if begin + size > end:
                     break
@@ -100,19 +100,19 @@ class FrameDecoder:
 
 
 def _uninitialized(size: int) -> memoryview:
-    """Memory as it comes: to clear a picture's takes as long as to write it."""
+    """Allocate without clearing: clearing an image takes as long as writing it."""
     return _numpy().empty(size, "u1").data
 
 
 @cache
 def _numpy() -> Any:
-    import numpy  # not where only short messages are heard
+    import numpy  # lazy: connections with short messages only do without
 
     return numpy
 
 
 def _copied(data: bytes | memoryview, size: int) -> memoryview:
-    """Copy to the beginning of new memory, whose rest is not touched."""
+    """Copy to the start of new, uninitialized memory."""
     moved = _uninitialized(size)
     moved[: len(data)] = data
     return moved

@@ -1,4 +1,4 @@
-"""TCPROS connection headers, and lengths in front of what follows."""
+"""TCPROS connection headers and length prefixes."""
 
 from collections.abc import Mapping
 
@@ -12,7 +12,7 @@ MAX_MESSAGE_BYTES = 1_000_000_000
 
 
 def encode_header(fields: Mapping[str, str]) -> bytes:
-    """Write a connection header, with its length in front."""
+    """Encode a connection header with its length prefix."""
     parts: list[bytes] = []
     for name, value in fields.items():
         item = f"{name}={value}".encode()
@@ -21,10 +21,10 @@ def encode_header(fields: Mapping[str, str]) -> bytes:
 
 
 def decode_header(data: bytes) -> dict[str, str]:
-    """Read a connection header, without the length in front.
+    """Decode a connection header without its length prefix.
 
     Raises:
-        WireError: the bytes are no header.
+        WireError: the header is malformed.
     """
     fields: dict[str, str] = {}
     offset = 0
@@ -34,7 +34,7 @@ def decode_header(data: bytes) -> dict[str, str]:
         (size,) = LENGTH.unpack_from(data, offset)
         item = data[offset + 4 : offset + 4 + size]
         if len(item) != size:
-            raise WireError("a connection header is shorter than it says")
+            raise WireError("a connection header is shorter than its length field")
         name, equals, value = item.partition(b"=")
         if not equals:
             raise WireError("a connection header field has no '='")
@@ -44,10 +44,10 @@ def decode_header(data: bytes) -> dict[str, str]:
 
 
 def frame(data: bytes | bytearray | memoryview) -> bytes:
-    """Put the length in front."""
+    """Prepend the length."""
     return b"".join((LENGTH.pack(len(data)), data))
 
 
 def check_md5(wanted: str, ours: str) -> bool:
-    """Tell whether two md5 sums agree; `*` agrees with all."""
+    """True if two md5 sums agree; `*` matches any."""
     return wanted in ("*", ours)

@@ -1,4 +1,4 @@
-"""Where servers of this process listen and which address they give out."""
+"""Addresses that servers of this process bind and advertise."""
 
 import os
 import socket
@@ -10,28 +10,28 @@ DEFAULT_MASTER_URI = "http://localhost:11311"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServerAddress:
-    """What a server binds and what its URIs say."""
+    """Address a server binds, and the host its URIs name."""
 
     bind: str
     advertise: str
     warning: str | None = None
-    """What the environment asks for and does not get, in one sentence."""
+    """Reason why ROS_HOSTNAME or ROS_IP is ignored, in one sentence."""
 
     def at(self, port: int) -> str:
-        """Host and port as a URI has them: an IPv6 address in brackets."""
+        """Host and port of a URI: an IPv6 address in brackets."""
         return f"[{self.advertise}]:{port}" if ":" in self.advertise else f"{self.advertise}:{port}"
 
 
 def master_uri_from_env() -> str:
-    """Return ROS_MASTER_URI, or the usual address on this machine."""
+    """ROS_MASTER_URI, or its default."""
     return os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER_URI
 
 
 def server_address(host: str | None = None) -> ServerAddress:
-    """Decide where to listen: on loopback, IPv6's if that is asked for, unless `host` says otherwise.
+    """Choose the address to bind: `host`, or loopback (IPv6's if ROS_HOSTNAME or ROS_IP resolves to it).
 
-    ROS_HOSTNAME and ROS_IP name the address to give out. They are followed where that address leads to the one
-    listened at; a URI that leads nowhere would make the node unreachable.
+    ROS_HOSTNAME and ROS_IP name the address to advertise. They are ignored unless they resolve to the bound address,
+    since the node would be unreachable.
     """
     wanted = os.environ.get("ROS_HOSTNAME") or os.environ.get("ROS_IP")
     bind = host or LOOPBACK
@@ -43,8 +43,8 @@ def server_address(host: str | None = None) -> ServerAddress:
     warning = None
     if wanted:
         warning = (
-            f"ROS_HOSTNAME or ROS_IP is {wanted!r} but the server listens on {bind}, so {bind} is given out; "
-            f"ask for that address (or 0.0.0.0) to be reachable from other machines"
+            f"ROS_HOSTNAME or ROS_IP is {wanted!r} but the server listens on {bind}, so {bind} is advertised; "
+            f"listen on that address (or 0.0.0.0) to be reachable from other machines"
         )
     return ServerAddress(bind=bind, advertise=socket.gethostname() if open_to_all else bind, warning=warning)
 

@@ -1,4 +1,4 @@
-"""What goes to one peer: whoever sends writes as much as the kernel takes, from any thread; the rest waits."""
+"""Send queue of one connection: any thread writes as much as the kernel takes; the rest waits for the loop."""
 
 import asyncio
 import contextlib
@@ -15,59 +15,59 @@ from .shared_ring import LONG_BYTES, SharedRing
 from .unix_sockets import peer_process
 
 _MAX_KERNEL_BYTES = 4 * 1024 * 1024
-"""As much as TCP may take by Linux's own settings."""
+"""Linux's default maximum for TCP."""
 _UNIX = getattr(socket, "AF_UNIX", None)
 _WRITEV: "Callable[[int, Sequence[bytes | memoryview]], int] | None" = getattr(os, "writev", None)
-"""Not on Windows, where a socket is no file."""
+"""None on Windows, where sockets are not file descriptors."""
 _AGAIN_S = 0.05
-"""After which it is tried again where the loop cannot look."""
+"""Retry interval if the loop cannot watch the socket."""
 _AT_ONCE = 200
-"""Frames given to the kernel in one call, which takes at most IOV_MAX (1024) pieces; a frame has three at most."""
+"""Frames per writev call, which takes at most IOV_MAX (1024) pieces; a frame has at most three."""
 
 
 class SendQueue:
-    """A queue of frames and the socket they go into, which somebody else reads."""
+    """Queue of frames for one socket; reading from the socket is left to its owner."""
 
     def __init__(self, sock: socket.socket, *, drained: Callable[[], None], broken: Callable[[], None]) -> None:
-        """Begin; on the loop.
+        """Create; call on the loop.
 
         Args:
-            sock: connected and not blocking; stays its owner's.
-            drained: called on the loop when the peer, having been too slow, has everything; it may send more.
-            broken: called on the loop when nothing more can be sent.
+            sock: connected and non-blocking; not closed here.
+            drained: called on the loop when a congested queue is empty again.
+            broken: called on the loop when the connection is broken.
         """
         self.is_local = sock.family == _UNIX
-        """Whether the peer is reached without TCP."""
+        """True for Unix sockets."""
         self.is_congested = False
-        """Whether something waits for a peer that reads too slowly."""
+        """True while frames wait for a peer that reads too slowly."""
         self.bytes_sent = 0
         self.frames_sent = 0
         self.dropped = 0
-        """Frames thrown away because the peer reads too slowly."""
+        """Frames dropped because the peer reads too slowly."""
         self._loop = asyncio.get_running_loop()
         self._drained = drained
         self._broken = broken
         self._socket = sock
         self._fd = sock.fileno()
         self._twin: socket.socket | None = None
-        """The same connection once more: waits, as the loop keeps the first for its transport."""
+        """Duplicate of the socket to watch for writability, since the loop reserves the first for its transport."""
         self._queue: deque[Pieces] = deque()
         self._rest: Pieces = ()
-        """What was begun: of a frame that the kernel took a part of, and notes where others lie."""
+        """Rest of a partly sent frame, and notes about shared frames."""
         self._lock = threading.Lock()
-        """Held while these change, and while the socket is written to or let go."""
+        """Guards the fields below and the socket's lifetime."""
         self._is_full = False
-        """Whether the kernel takes no more for now."""
+        """True while the kernel's buffer is full."""
         self._is_waiting = False
-        """Whether the loop looks when it does."""
+        """True while the loop watches for writability."""
         self._is_closed = False
         self._kernel_bytes = 0
         self._ring: SharedRing | None = None
         self._may_share = self.is_local
-        """Whether it is worth a try to share memory with the peer."""
+        """True until shared memory was offered."""
 
     def send(self, frames: Sequence[Pieces], queue_size: int | None) -> None:
-        """Send, from any thread; never blocks. At most `queue_size` frames wait, and the oldest go."""
+        """Send frames; thread-safe, never blocks. At most `queue_size` frames wait; the oldest are dropped."""
         if len(frames) == 1 and self.try_send(frames[0]):
             return
         with self._lock:
@@ -84,7 +84,7 @@ class SendQueue:
         self._call_soon(self._wait)
 
     def try_send(self, frame: Pieces) -> bool:
-        """Give the kernel one short frame past the queue, as nearly all go; any thread. False: it took nothing."""
+        """Write one short frame directly, bypassing the queue (usual); thread-safe. False: nothing was written."""
         size = len(frame[0]) if len(frame) == 1 else _size(frame)
         if _WRITEV is None or (self.is_local and size >= LONG_BYTES):
             return False
@@ -93,7 +93,7 @@ class SendQueue:
                 return False
             try:
                 sent = _WRITEV(self._fd, frame)
-            except OSError:  # the queue meets it again
+            except OSError:  # the queue will meet the error again
                 return False
             self.bytes_sent += sent
             self.frames_sent += 1
@@ -104,10 +104,10 @@ class SendQueue:
         return True
 
     def receive_note(self, note: bytes) -> None:
-        """Take what the peer says of the memory that both see, and go on if that makes room; on the loop.
+        """Process the peer's note about the shared ring, and resume if it frees room; call on the loop.
 
         Raises:
-            WireError: it cannot be meant.
+            WireError: the note is invalid.
         """
         with self._lock:
             if self._ring is None:
@@ -118,8 +118,8 @@ class SendQueue:
         self._resume()
 
     def close(self) -> None:
-        """Send nothing more; on the loop."""
-        with self._lock:  # who writes now is done with the socket before it closes
+        """Close; call on the loop."""
+        with self._lock:  # wait for a thread that is writing
             self._is_closed = True
             self._forget()
             self._stop_waiting()
@@ -129,7 +129,7 @@ class SendQueue:
                 self._ring.close()
 
     def _write(self) -> None:
-        """Give the kernel, or the shelf, as much as it takes."""
+        """Write as much as the kernel and the shared ring take."""
         self._continue_write()
         self.is_congested = bool(self._rest or self._queue)
 
@@ -149,7 +149,7 @@ class SendQueue:
             self._discard_sent(sent)
 
     def _next(self) -> list[bytes | memoryview]:
-        """What the kernel gets next; nothing while a long frame waits for room on the shelf."""
+        """Pieces to write next; empty while a long frame waits for room in the ring."""
         if self.is_local:
             self._share_frames()
         pieces = [*self._rest]
@@ -163,7 +163,7 @@ class SendQueue:
         return pieces
 
     def _share_frames(self) -> None:
-        """Put the long frames whose turn it is where the peer sees them."""
+        """Move long frames at the head of the queue to the shared ring."""
         while self._queue and (size := _size(self._queue[0])) >= LONG_BYTES:
             if self._ring is None:
                 self._offer_ring(size)
@@ -189,7 +189,7 @@ class SendQueue:
         return self._open_twin().send(pieces[0]) if _WRITEV is None else _WRITEV(self._fd, pieces)
 
     def _grow_send_buffer(self, size: int) -> None:
-        """Have the kernel take a whole long frame at once; it does so by itself for TCP only."""
+        """Enlarge SO_SNDBUF to hold a whole long frame; the kernel adapts it for TCP only."""
         if size <= self._kernel_bytes:
             return
         self._kernel_bytes = size
@@ -199,7 +199,7 @@ class SendQueue:
                 self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, wanted)
 
     def _discard_sent(self, sent: int) -> None:
-        """Take what was sent out of the queue."""
+        """Remove sent bytes from the queue."""
         while sent:
             if not self._rest:
                 self._rest = self._queue.popleft()
@@ -224,11 +224,11 @@ class SendQueue:
                 try:
                     self._loop.add_writer(self._open_twin().fileno(), self._resume)
                     self._is_waiting = True
-                except OSError:  # no number is left for it
+                except OSError:  # out of file descriptors
                     self._loop.call_later(_AGAIN_S, self._resume)
 
     def _resume(self) -> None:
-        """Send more, now that there is room."""
+        """Continue writing."""
         with self._lock:
             self._write()
         if not self.is_congested:
@@ -253,7 +253,7 @@ def _size(pieces: Pieces) -> int:
 
 
 def _after(pieces: Pieces, count: int) -> Pieces:
-    """Pieces without their first `count` bytes, of which there are more."""
+    """Pieces without their first `count` bytes, which must be fewer than all."""
     for i, piece in enumerate(pieces):
         if count < len(piece):
             return (memoryview(piece)[count:], *pieces[i + 1 :])

@@ -1,8 +1,8 @@
-"""Memory that a publisher and one subscriber share: long frames lie there, and the socket carries only where.
+"""Shared memory between a publisher and one subscriber: long frames go there, and the socket carries their positions.
 
-A socket's copy costs the kernel fresh pages for each picture; this memory is the same all the time. The publisher
-makes it when its first long frame is due and says so in a note; until the subscriber has answered with one,
-frames go as before. Both run as one user, or the socket carries all.
+A socket's copy costs the kernel fresh pages for each image; the ring is reused. The publisher creates it for its first
+long frame and announces it in a note; until the subscriber acknowledges, and always between different users, frames go
+through the socket.
 """
 
 import mmap
@@ -17,30 +17,30 @@ from .framing import LENGTH, encode_note
 from .unix_sockets import peer_process
 
 LONG_BYTES: Final = 32 * 1024
-"""Frames from here on; for shorter ones a socket is as fast."""
+"""Minimum frame length [bytes]; for shorter ones a socket is as fast."""
 _FRAMES, _FEWEST_FRAMES = 8, 4
-"""As many as the first one are to find room; of long ones fewer."""
+"""Capacity in frames of the first one's length, and the minimum for long frames."""
 _MIN_BYTES, _PLENTY_BYTES, _MAX_BYTES = 1024 * 1024, 32 * 1024 * 1024, 64 * 1024 * 1024
-"""The second one is passed for the sake of the fewest frames only."""
+"""Limits of the ring's size; above the second one, only for the minimum number of frames."""
 _OPENED = struct.Struct("<QQ")
-"""Publisher to subscriber: the file's number in the publisher's process, and its size."""
+"""Publisher to subscriber: file descriptor in the publisher's process, size."""
 _WRITTEN = struct.Struct("<QQQ")
-"""Publisher to subscriber: a frame's first byte, its length, and the position behind it."""
+"""Publisher to subscriber: start, length and end position of a frame."""
 _READ = struct.Struct("<Q")
-"""Subscriber to publisher: everything before this position may be written over; 0: the memory is seen."""
+"""Subscriber to publisher: everything before this position may be overwritten; 0: the memory is mapped."""
 
 
 class SharedRing:
-    """A ring of bytes that frames are laid into, each in one piece.
+    """Ring buffer of frames, each contiguous; the publisher's side.
 
-    Positions count all bytes ever used, those skipped at the ring's end as well.
+    Positions count all bytes ever used, including those skipped at the ring's end.
     """
 
     def __init__(self, longest: int) -> None:
-        """Make room for several frames of this length.
+        """Allocate room for several frames of length `longest` [bytes].
 
         Raises:
-            OSError: no such memory here, or not as much as that takes.
+            OSError: no memfd on this system, or too little memory.
         """
         plenty = min(max(_FRAMES * longest, _MIN_BYTES), _PLENTY_BYTES)
         if (wanted := max(plenty, _FEWEST_FRAMES * longest)) > _MAX_BYTES:
@@ -51,18 +51,18 @@ class SharedRing:
         self._end = 0
         self._taken = 0
         self.is_seen = False
-        """Whether the subscriber has it, too."""
+        """True once the subscriber has mapped the memory."""
 
     def offer_note(self) -> bytes:
-        """Return the note that tells the subscriber where it is."""
+        """Note that announces the memory to the subscriber."""
         return encode_note(_OPENED.pack(self._file, self._size))
 
     def has_room(self, size: int) -> bool:
-        """Whether frames of this length are laid here: with a half not yet told to be free, one always fits."""
+        """True if frames of this length go through the ring: with up to half of it unacknowledged, one always fits."""
         return self.is_seen and LONG_BYTES <= size <= self._size // _FEWEST_FRAMES
 
     def write(self, frame: Pieces, size: int) -> bytes | None:
-        """Copy a frame, its length in front, and return the note to send; None: there is no room yet."""
+        """Copy a frame with its length prefix into the ring and return its note; None if there is no room yet."""
         at = self._end % self._size
         skipped = self._size - at if at + size > self._size else 0
         end = self._end + skipped + size
@@ -77,18 +77,18 @@ class SharedRing:
         return encode_note(_WRITTEN.pack(start, size, end))
 
     def receive_note(self, note: bytes | memoryview) -> None:
-        """Learn what the subscriber is done with.
+        """Process the subscriber's acknowledgement.
 
         Raises:
-            WireError: it cannot be.
+            WireError: the position is invalid.
         """
         (position,) = _unpacked(_READ, note)
         if not self._taken <= position <= self._end:
-            raise WireError("the peer took what was never laid there")
+            raise WireError("the peer acknowledged a position that was never written")
         self._taken, self.is_seen = position, True
 
     def close(self) -> None:
-        """Let go of the memory."""
+        """Unmap and close the memory."""
         self._memory.close()
         os.close(self._file)
 
@@ -97,56 +97,56 @@ class SharedRingReader:
     """The subscriber's side of a `SharedRing`."""
 
     def __init__(self, sock: socket.socket, note: bytes | memoryview) -> None:
-        """Find it, as the peer of a socket says where.
+        """Map the memory that the peer of a socket announces.
 
         Raises:
-            WireError: the note is none.
-            OSError: it cannot be seen from here.
+            WireError: the note is malformed.
+            OSError: the memory cannot be opened.
         """
         number, self._size = _unpacked(_OPENED, note)
         if self._size > _MAX_BYTES:
-            raise WireError(f"memory of {self._size} bytes is announced, more than is accepted")
+            raise WireError(f"memory of {self._size} bytes is announced, more than the {_MAX_BYTES} accepted")
         if (process := peer_process(sock)) is None:
-            raise PermissionError("the peer is no program of this user")
+            raise PermissionError("the peer runs as another user")
         file = os.open(f"/proc/{process}/fd/{number}", os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY)
         try:
             _check_seals(file, self._size)
             self._memory = mmap.mmap(file, self._size, access=mmap.ACCESS_READ)
         finally:
             os.close(file)
-        self._told = 0
+        self._acknowledged = 0
 
     def seen_note(self) -> bytes:
-        """Return the note with which the publisher begins to use it."""
+        """Acknowledgement after which the publisher uses the ring."""
         return encode_note(_READ.pack(0))
 
     def read(self, note: bytes | memoryview) -> tuple[bytes, bytes | None]:
-        """Return a copy of a frame's content, and the note to answer with now and then.
+        """Copy a frame's content; the second value is the acknowledgement to send, if one is due.
 
         Raises:
-            WireError: there can be no frame.
+            WireError: the position is outside the ring.
         """
         start, size, end = _unpacked(_WRITTEN, note)
         if start + size > self._size:
             raise WireError("a frame is announced outside of the shared memory")
         content = self._memory[start + LENGTH.size : start + size]
-        if end - self._told < self._size // 2:
+        if end - self._acknowledged < self._size // 2:
             return content, None
-        self._told = end
+        self._acknowledged = end
         return content, encode_note(_READ.pack(end))
 
     def close(self) -> None:
-        """Let go of the memory."""
+        """Unmap the memory."""
         self._memory.close()
 
 
 def _sealed_memory(size: int) -> int:
-    """Make a file without a name that nobody can shorten: who reads it would be killed."""
-    import fcntl  # not where there are no such files
+    """Create an anonymous file sealed against shrinking, which would kill its readers with SIGBUS."""
+    import fcntl  # lazy: missing on Windows
 
-    file = os.memfd_create("trundle-shelf", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
+    file = os.memfd_create("trundle-shared-ring", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
     try:
-        os.posix_fallocate(file, 0, size)  # here and now, or whoever writes there later is killed
+        os.posix_fallocate(file, 0, size)  # allocate now: a failure on first write would be SIGBUS
         fcntl.fcntl(file, fcntl.F_ADD_SEALS, fcntl.F_SEAL_SHRINK | fcntl.F_SEAL_GROW | fcntl.F_SEAL_SEAL)
     except OSError:
         os.close(file)
@@ -158,7 +158,7 @@ def _check_seals(file: int, size: int) -> None:
     import fcntl
 
     if not fcntl.fcntl(file, fcntl.F_GET_SEALS) & fcntl.F_SEAL_SHRINK or os.fstat(file).st_size != size:
-        raise WireError("the shared memory is not what it was said to be")
+        raise WireError("the shared memory is not sealed, or its size is not the announced one")
 
 
 def _unpacked(kind: struct.Struct, note: bytes | memoryview) -> tuple[Any, ...]:

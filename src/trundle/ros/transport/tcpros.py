@@ -1,4 +1,4 @@
-"""A TCPROS connection on the loop: headers first, then frames."""
+"""TCPROS connection on the loop: connection headers first, then frames."""
 
 import asyncio
 import contextlib
@@ -14,17 +14,17 @@ from .send_queue import SendQueue
 from .unix_sockets import UNIXROS
 
 HANDSHAKE_S = 15.0
-"""How long a peer may take for its header."""
+"""Timeout for the peer's header."""
 
 
 class FrameProtocol(asyncio.BufferedProtocol):
-    """A connection that splits what the peer sends into frames; the first one is its header.
+    """Connection that splits the received stream into frames, of which the first is the header.
 
-    Everything happens on the loop but sending.
+    Runs on the loop, except that any thread may send.
     """
 
     out: SendQueue
-    """What goes to the peer, sent from any thread; there once the connection stands."""
+    """Send queue, usable from any thread; set once connected."""
 
     def __init__(self) -> None:
         self.transport: asyncio.Transport | None = None
@@ -34,13 +34,13 @@ class FrameProtocol(asyncio.BufferedProtocol):
         self._deadline: asyncio.TimerHandle | None = None
         self._selector: FastSelector | None = None
         self._socket: socket.socket | None = None
-        """The connection once more, read past asyncio."""
+        """Duplicate of the socket, read directly instead of through asyncio."""
         self._ending: str | None = None
 
-    # what subclasses fill in
+    # for subclasses to override
 
     def connected(self) -> None:
-        """Called when the connection stands; a client sends its header here."""
+        """Called once connected; a client sends its header here."""
 
     def header_received(self, header: dict[str, str]) -> None:
         """Called with the peer's header; a WireError ends the connection."""
@@ -49,11 +49,11 @@ class FrameProtocol(asyncio.BufferedProtocol):
         """Called with each frame after the header; a WireError ends the connection."""
 
     def note_received(self, note: bytes, /) -> bytes | None:
-        """Called with each note of a nearby peer; returns the frame it stands for, if any. May raise WireError."""
-        raise WireError(f"a note of {len(note)} bytes that nobody waits for")
+        """Called with each note of a local peer; returns the frame it stands for, if any. May raise WireError."""
+        raise WireError(f"a note of {len(note)} bytes that was not expected")
 
     def drained(self) -> None:
-        """Called when the peer, having been too slow, reads again."""
+        """Called when the peer, having been too slow, has read everything."""
 
     def closed(self, reason: str, /) -> None:
         """Called once when the connection has ended."""
@@ -95,13 +95,13 @@ class FrameProtocol(asyncio.BufferedProtocol):
     def connection_lost(self, exc: Exception | None) -> None:
         self._end(str(exc) if exc is not None else "the peer closed the connection")
 
-    # past asyncio
+    # bypassing asyncio
 
     def use_fast_selector(self, selector: FastSelector) -> None:
-        """Have the loop's selector read from now on, with less between the system and this than asyncio has."""
+        """Read through the loop's selector from now on, which is faster than asyncio's transport."""
         if self._socket is not None or self.transport is None:
             return
-        with contextlib.suppress(OSError):  # no number is left for it: asyncio goes on reading
+        with contextlib.suppress(OSError):  # out of file descriptors: asyncio goes on reading
             own: socket.socket = self.transport.get_extra_info("socket").dup()
             selector.add_reader(own, self._readable)
             self.transport.pause_reading()
@@ -129,7 +129,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
     # for users
 
     def send_header(self, fields: Mapping[str, str]) -> None:
-        """Send our header."""
+        """Send the connection header."""
         self.out.send([(encode_header(fields),)], None)
 
     def refuse(self, reason: str) -> None:
@@ -138,7 +138,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
         self.close(reason)
 
     def finish(self, reason: str) -> None:
-        """End the connection as soon as the peer has all that was sent."""
+        """Close once everything queued is sent."""
         self._ending = reason
         if not self.out.is_congested:
             self.close(reason)
@@ -151,18 +151,18 @@ class FrameProtocol(asyncio.BufferedProtocol):
             transport.close()
 
     def set_nodelay(self) -> None:
-        """Send small messages at once."""
+        """Set TCP_NODELAY: small messages are sent at once."""
         if self.transport is not None and not self.out.is_local:
             self.transport.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
     @property
     def kind(self) -> str:
-        """The protocol's name."""
+        """Transport name, as in the slave API."""
         return UNIXROS if self.out.is_local else "TCPROS"
 
     @property
     def description(self) -> str:
-        """The connection as rosnode reads it; one without ports needs no words."""
+        """Connection description for `rosnode info`; empty without ports."""
         if self.transport is None or self.out.is_local:
             return ""
         local, peer = self.transport.get_extra_info("sockname"), self.transport.get_extra_info("peername")

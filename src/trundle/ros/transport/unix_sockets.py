@@ -1,7 +1,7 @@
-"""A shorter way between Trundle's programs on one machine: Unix sockets, several times as fast as TCP over loopback.
+"""Unix sockets between Trundle's programs on one machine, several times as fast as TCP over loopback.
 
-A subscriber offers UNIXROS after TCPROS; a publisher that knows it puts a name behind the host and port it answers
-anyway. What travels is the same. Where that fails, as between two machines or two users, TCP is used.
+A subscriber offers UNIXROS after TCPROS; a publisher that supports it appends a socket name to the host and port of its
+TCPROS answer. The stream is the same. If connecting fails, as between two machines or users, TCP is used.
 """
 
 import os
@@ -14,13 +14,13 @@ from collections.abc import Sequence
 
 UNIXROS = "UNIXROS"
 _PREFIX = "trundle-"
-"""Nobody can lead us to a socket of another program."""
+"""Required prefix, so that no peer can direct us to another program's socket."""
 _CREDENTIALS = struct.Struct("3i")
-"""Process, user, group: unix(7), SO_PEERCRED."""
+"""Process, user and group ID: unix(7), SO_PEERCRED."""
 
 
 def listen_unix() -> tuple[socket.socket, str] | None:
-    """Make a socket to listen at, with its name; None where the system has no names without files."""
+    """Create a listening socket and its name; None where abstract socket names are not supported."""
     if sys.platform != "linux":
         return None
     name = _PREFIX + secrets.token_hex(16)
@@ -34,7 +34,7 @@ def listen_unix() -> tuple[socket.socket, str] | None:
 
 
 def unix_address(offered: Sequence[object]) -> str | None:
-    """Return where to connect, out of what a publisher says after host and port."""
+    """Socket address in what a publisher answers after host and port."""
     match offered:
         case [str(name), *_] if name.startswith(_PREFIX) and name.isascii() and sys.platform == "linux":
             return f"\0{name}"
@@ -46,7 +46,7 @@ async def connect_unix(loop: AbstractEventLoop, address: str) -> socket.socket:
     """Connect to a socket of this user.
 
     Raises:
-        OSError: it is not here, or another user's.
+        OSError: no such socket, or it belongs to another user.
     """
     sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
@@ -61,12 +61,12 @@ async def connect_unix(loop: AbstractEventLoop, address: str) -> socket.socket:
 
 
 def is_of_this_user(connected: socket.socket) -> bool:
-    """Tell whether the other end is a process of this user; the names of sockets are no secret on a machine."""
+    """True if the peer is a process of this user; abstract socket names are visible to all users."""
     return _credentials(connected)[1] == os.geteuid()
 
 
 def peer_process(connected: socket.socket) -> int | None:
-    """Return the number of the process at the other end; None where it is another user's, or not to be seen."""
+    """Process ID of the peer; None if it belongs to another user, or is not visible."""
     process, user = _credentials(connected)
     return process if process > 0 and user == os.geteuid() else None
 
