@@ -44,7 +44,7 @@ def test_a_full_disk_loses_lines_and_says_how_many(tmp_path: Path) -> None:
     path.unlink()
     log.write("three")
     log.close()
-    assert path.read_text() == "2 lines are lost: the disk was full or too slow\nthree\n"
+    assert path.read_text() == "2 lines dropped: the disk was full or too slow\nthree\n"
 
 
 def test_rosout_is_written_as_the_original_does(messages: Messages) -> None:

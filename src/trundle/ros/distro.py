@@ -1,6 +1,6 @@
-"""Where ROS distributions differ: one table, chosen by `--distro`, or by what a running master says it is.
+"""Differences between ROS distributions: one table, chosen by `--distro` or by a running master's /rosdistro.
 
-Each distribution is taken as its last release left it. The changelogs named are those at
+Each distribution stands as of its last release. The changelogs named are at
 https://docs.ros.org/en/DISTRO/changelogs/PACKAGE/changelog.html.
 """
 
@@ -9,23 +9,25 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Distro:
-    """How one distribution behaves."""
+    """Behaviour of one distribution."""
 
     distro: str
-    """What /rosdistro says."""
+    """Value of /rosdistro."""
     version: str
-    """What /rosversion says: a late version of ros_comm (changelog of roslaunch)."""
+    """Value of /rosversion: a late version of ros_comm (changelog of roslaunch)."""
     use_tf_static: bool
-    """robot_state_publisher's default; false: fixed joints are sent on /tf again and again.
+    """robot_state_publisher's default; False: fixed joints are published on /tf periodically.
 
     True since its 1.12.0, of Jade, "publish fixed joints over tf_static by default" (changelog, #37 and #56).
     """
     publishes_empty_joint_states: bool
-    """joint_state_publisher sends messages without joints; not since its 1.12.12, of Kinetic (changelog, #212)."""
+    """True if joint_state_publisher sends messages without joints; not since its 1.12.12, of Kinetic (changelog,
+    #212).
+    """
     planar_is_free: bool
-    """joint_state_publisher moves planar joints; not since its 1.12.14, of Kinetic (changelog, #14)."""
+    """True if joint_state_publisher moves planar joints; not since its 1.12.14, of Kinetic (changelog, #14)."""
     mirrored_diff_drive: bool
-    """gazebo_ros_diff_drive takes the left wheel for the right one where <legacyMode> is not given.
+    """True if gazebo_ros_diff_drive swaps the left and right wheels where <legacyMode> is not given.
 
     So up to Kinetic; not since gazebo_plugins 2.8.3, of Melodic (changelog, #707).
     """
@@ -60,7 +62,7 @@ DISTROS: dict[str, Distro] = {
         Distro(distro="noetic", version="1.16.0", mirrored_diff_drive=False, **_LATER),
     )
 }
-"""Every distribution that can be asked for."""
+"""Supported distributions by name."""
 
 NOETIC = DISTROS["noetic"]
-"""What is meant where nobody says."""
+"""Default distribution."""

@@ -1,27 +1,27 @@
-"""What can go wrong between nodes.
+"""Exceptions of `trundle.ros`.
 
 TrundleError
 └── RosError
-    ├── MasterUnreachableError   nobody answers at ROS_MASTER_URI
-    ├── MasterError              the master (or a node) answered, and said no
-    ├── PortTakenError           another program listens where a server was asked for
-    ├── ParameterError           no such parameter, or a value parameters cannot hold
+    ├── MasterUnreachableError   no master answers at ROS_MASTER_URI
+    ├── MasterError              the master (or a node) answered with a failure
+    ├── PortTakenError           the port is in use
+    ├── ParameterError           no such parameter, or a value that parameters cannot hold
     ├── MessageError             no such type or field, or a value that does not fit it
-    │   └── DefinitionError      the text of a type cannot be read
-    ├── ServiceError             a service said no, or could not be reached
+    │   └── DefinitionError      the definition of a type cannot be parsed
+    ├── ServiceError             a service answered with an error, or could not be reached
     ├── TransformError           no such frame, or no transform at that time
-    └── WireError                bytes from a peer that are not the protocol; never leaves this room
+    └── WireError                a peer violated the protocol; never leaves this package
 """
 
 from trundle.diagnostics import TrundleError
 
 
 class RosError(TrundleError):
-    """Everything `trundle.ros` raises."""
+    """Base class of every exception that `trundle.ros` raises."""
 
 
 class MasterUnreachableError(RosError):
-    """Nobody answers at the master's address."""
+    """No master answers at the address."""
 
     def __init__(self, uri: str, reason: str) -> None:
         super().__init__(
@@ -35,7 +35,7 @@ class MasterError(RosError):
 
 
 class PortTakenError(RosError):
-    """Another program listens at the address asked for."""
+    """Another program listens on the port."""
 
     def __init__(self, host: str, port: int) -> None:
         super().__init__(
@@ -54,7 +54,7 @@ class MessageError(RosError):
 
 
 class DefinitionError(MessageError):
-    """The text of a message type that cannot be read."""
+    """A message definition that cannot be parsed."""
 
     def __init__(self, line: int, what: str) -> None:
         super().__init__(what)
@@ -66,8 +66,8 @@ class ServiceError(RosError):
 
 
 class TransformError(RosError):
-    """A frame that does not exist, is not connected, or has no transform at the time asked for."""
+    """A frame that does not exist, is not connected, or has no transform at the requested time."""
 
 
 class WireError(RosError):
-    """Bytes from a peer that are not the protocol."""
+    """A protocol violation by a peer."""

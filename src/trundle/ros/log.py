@@ -1,4 +1,4 @@
-"""What nodes say: on stderr as ROS writes it, and on /rosout."""
+"""Log output of nodes: stderr in rospy's format, and /rosout."""
 
 import contextlib
 import inspect
@@ -9,7 +9,7 @@ from typing import Literal, TextIO
 
 Level = Literal["debug", "info", "warn", "error", "fatal"]
 LEVELS: dict[str, int] = {"debug": 1, "info": 2, "warn": 4, "error": 8, "fatal": 16}
-"""rosgraph_msgs/Log's numbers."""
+"""Level numbers of rosgraph_msgs/Log."""
 
 _COLOURS = {"debug": "\033[32m", "warn": "\033[33m", "error": "\033[31m", "fatal": "\033[31m"}
 _WIDTHS = {"info": "[INFO]", "debug": "[DEBUG]", "warn": "[WARN]", "error": "[ERROR]", "fatal": "[FATAL]"}
@@ -21,13 +21,13 @@ def print_log(level: Level, text: str, *, wall_ns: int, sim_ns: int | None, quie
     stamp = f"{wall_ns / 1e9:.6f}" if sim_ns is None else f"{wall_ns / 1e9:.6f}, {sim_ns / 1e9:.6f}"
     line = f"{_WIDTHS[level]} [{stamp}]: {text}"
     stream = sys.stderr if quiet is None or LEVELS[level] > LEVELS["info"] else quiet
-    # Whoever read this may have gone, or closed it; nothing ends for that.
+    # The reader may have closed the stream; logging never raises.
     with _lock, contextlib.suppress(OSError, ValueError):
         print(coloured(line, level, stream), file=stream, flush=True)
 
 
 def coloured(line: str, level: str, stream: TextIO) -> str:
-    """Give a line its level's colour where a terminal shows it, unless NO_COLOR (https://no-color.org) is set."""
+    """Colour a line by its level if the stream is a terminal, unless NO_COLOR (https://no-color.org) is set."""
     colour = _COLOURS.get(level)
     return f"{colour}{line}\033[0m" if colour and stream.isatty() and not os.environ.get("NO_COLOR") else line
 

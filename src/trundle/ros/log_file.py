@@ -1,4 +1,4 @@
-"""A log file that holds up nobody: lines wait for a thread that writes them, and old files make room for new ones."""
+"""Rotating log file written by a thread of its own, so that callers never wait for the disk."""
 
 import threading
 from pathlib import Path
@@ -6,23 +6,23 @@ from queue import Empty, SimpleQueue
 from typing import BinaryIO
 
 _WAITING = 100_000
-"""Lines that wait for a slow disk."""
+"""Capacity of the queue [lines]."""
 _CLOSING_S = 1.0
 
 
 class LogFile:
-    """One file, with older ones beside it as `name.1`, `name.2`, ….
+    """Log file with rotated backups beside it as `name.1`, `name.2`, ….
 
-    Where it cannot be written, lines are lost and counted; the next one that can be written says how many.
+    Lines that cannot be written are dropped and counted; the next successful write reports the count.
     """
 
     def __init__(self, path: Path, *, most_bytes: int, backups: int) -> None:
-        """Make a log that opens its file with the first line, which goes behind what is there.
+        """Create a log; the first line opens the file for appending.
 
         Args:
             path: of the newest file.
-            most_bytes: size after which another file is begun.
-            backups: how many older ones are kept.
+            most_bytes: size [bytes] at which the file is rotated.
+            backups: number of rotated files kept.
         """
         self._path = path
         self._most_bytes = most_bytes
@@ -30,19 +30,19 @@ class LogFile:
         self._lines: SimpleQueue[str | None] = SimpleQueue()
         self._file: BinaryIO | None = None
         self.lost = 0
-        """Lines that nothing has been said of yet."""
+        """Dropped lines not yet reported."""
         self._thread = threading.Thread(target=self._run, name=f"writes {path.name}", daemon=True)
         self._thread.start()
 
     def write(self, text: str) -> None:
-        """Write a line, or several, some time soon; from any thread."""
+        """Queue one or more lines for writing; callable from any thread."""
         if self._lines.qsize() < _WAITING:
             self._lines.put(text)
         else:
             self.lost += 1
 
     def close(self) -> None:
-        """Write what still waits, unless the disk is too slow for that."""
+        """Write queued lines, waiting at most 1 s, and close."""
         self._lines.put(None)
         self._thread.join(_CLOSING_S)
 
@@ -67,7 +67,7 @@ class LogFile:
     def _write(self, lines: list[str]) -> None:
         lost, self.lost = self.lost, 0
         if lost:
-            lines = [f"{lost} lines are lost: the disk was full or too slow", *lines]
+            lines = [f"{lost} lines dropped: the disk was full or too slow", *lines]
         for line in lines:
             try:
                 self._append(line)
