@@ -98,7 +98,7 @@ def test_numbers_of_other_kinds_are_mended(
         ("Float64s", [0.5, "1"], r"field 'data\[1\]' is a float64, got '1'"),
         ("Float64s", [0.5, None], r"field 'data\[1\]' is a float64, got None"),
         ("Float64s", [[0.5]], r"field 'data\[0\]' is a float64, got \[0.5\]"),
-        ("Float64s", [10**400], "no x_msgs/Float64s can be written: int too large"),
+        ("Float64s", [10**400], "cannot serialize a x_msgs/Float64s: int too large"),
         ("Three", [1.0, 2.0], "field 'data' has exactly 3 elements, got 2"),
         ("Three", [1.0] * 4, "field 'data' has exactly 3 elements, got 4"),
     ],

@@ -34,12 +34,12 @@ def test_numbers_and_truths() -> None:
 @pytest.mark.parametrize(
     ("line", "sentence"),
     [
-        ("uint8 A=256", "256 is no uint8, which is from 0 to 255"),
-        ("byte A=200", "200 is no byte, which is from -128 to 127"),
-        ("int8 A=1.0", "'1.0' is no constant of type int8"),
-        ("bool A=yes", "'yes' is no constant of type bool"),
-        ("time A=3", "'3' is no constant of type time"),
-        ("uint8 A=" + "9" * 5000, "is no constant of type uint8"),
+        ("uint8 A=256", "256 is not in the range of uint8, 0 to 255"),
+        ("byte A=200", "200 is not in the range of byte, -128 to 127"),
+        ("int8 A=1.0", "'1.0' is not a constant of type int8"),
+        ("bool A=yes", "'yes' is not a constant of type bool"),
+        ("time A=3", "'3' is not a constant of type time"),
+        ("uint8 A=" + "9" * 5000, "is not a constant of type uint8"),
     ],
 )
 def test_what_is_no_constant_is_said(line: str, sentence: str) -> None:

@@ -254,7 +254,7 @@ def test_messages_made_without_fields_share_nothing() -> None:
 
 def test_a_definition_that_never_ends_is_refused() -> None:
     messages = Messages(bare=True)
-    with pytest.raises(MessageError, match="Knot cannot be read: line 1: geometry_msgs/Knot has itself inside"):
+    with pytest.raises(MessageError, match="Knot cannot be read: line 1: geometry_msgs/Knot contains itself"):
         messages.add_definition("geometry_msgs/Knot", "geometry_msgs/Knot inside\n")
 
 

@@ -40,21 +40,21 @@ FILES = {
     "Good2.msg": "string S=a # b\nfloat32 INF=1e999\n",
 }
 SENTENCES = {
-    "Itself": "Itself.msg:2: p/Itself has itself inside: p/Itself > p/Itself",
-    "Left": "Left.msg:1: p/Left has itself inside: p/Left > p/Right > p/Left",
-    "Right": "Right.msg:3: p/Right has itself inside: p/Right > p/Left > p/Right",
-    "Listed": "Listed.msg:1: p/Listed has itself inside: p/Listed > p/Listed",
+    "Itself": "Itself.msg:2: p/Itself contains itself: p/Itself > p/Itself",
+    "Left": "Left.msg:1: p/Left contains itself: p/Left > p/Right > p/Left",
+    "Right": "Right.msg:3: p/Right contains itself: p/Right > p/Left > p/Right",
+    "Listed": "Listed.msg:1: p/Listed contains itself: p/Listed > p/Listed",
     "Negative": "Negative.msg:2: an array has from 0 to 1000000000 elements, not -1",
     "Long": "Long.msg:1: an array has from 0 to 1000000000 elements, not 10000000000",
-    "Wide": "Wide.msg:2: a p/Wide takes 1600000129 bytes when it is empty, more than the 1000000000 that a connection",
+    "Wide": "Wide.msg:2: a p/Wide takes 1600000129 bytes when it is empty, more than the 1000000000 of a connection",
     "Deep": "Deep.msg:1: a p/Deep takes 80012800128 bytes when it is empty, more than",
     "Objects": "Objects.msg:1: a p/Objects takes 57600000128 bytes",
     "Nameless": "Nameless.msg:1: not a field: 'int32'; fields are written TYPE NAME, like float64 x or int32[3] x",
     "Twice": "Twice.msg:3: the name 'a' is taken by line 1",
     "Both": "Both.msg:2: the name 'A' is taken by line 1",
     "Unknown": "Unknown.msg:3: no message type 'nope/Thing'; no messages of a package 'nope' are known",
-    "Range": "Range.msg:2: 300 is no uint8, which is from 0 to 255",
-    "Value": "Value.msg:1: 'x' is no constant of type int32",
+    "Range": "Range.msg:2: 300 is not in the range of uint8, 0 to 255",
+    "Value": "Value.msg:1: 'x' is not a constant of type int32",
     "Array": "Array.msg:1: not a field: 'int32[3] A=5'",
     "Digit": "Digit.msg:1: not a field: 'int32 1x'",
     "Open": "Open.msg:1: not a field: 'int32[3 x'",
@@ -63,9 +63,9 @@ SENTENCES = {
     "Underscore": "Underscore.msg:1: not a field: 'int32 __class__'",
     "Binary": r"Binary.msg:1: not a field: '\x00\x01\x02'",
     "Many": "Many.msg:5001: more than 5000 fields and constants",
-    "Endless": "Endless.msg:1: it cannot be read: larger than 1000000 bytes, the largest file read",
-    "Folder": "Folder.msg:1: it cannot be read: it is a folder, not a file",
-    "Pipe": "Pipe.msg:1: it cannot be read: it is a pipe, not a regular file",
+    "Endless": "Endless.msg:1: cannot be read: larger than 1000000 bytes, the largest file read",
+    "Folder": "Folder.msg:1: cannot be read: it is a folder, not a file",
+    "Pipe": "Pipe.msg:1: cannot be read: it is a pipe, not a regular file",
 }
 
 
@@ -109,8 +109,8 @@ def test_the_other_types_of_the_package_are_not_touched(messages: Messages) -> N
     ("name", "sentence"),
     [
         ("Bad", "srv/Bad.srv:5: an array has from 0 to 1000000000 elements, not -1"),
-        ("Self", "srv/Self.srv:2: p/SelfRequest has itself inside: p/SelfRequest > p/SelfRequest"),
-        ("Folder", "srv/Folder.srv:1: it cannot be read: it is a folder, not a file"),
+        ("Self", "srv/Self.srv:2: p/SelfRequest contains itself: p/SelfRequest > p/SelfRequest"),
+        ("Folder", "srv/Folder.srv:1: cannot be read: it is a folder, not a file"),
     ],
 )
 def test_services_name_the_line_of_their_file(messages: Messages, tmp_path: Path, name: str, sentence: str) -> None:
@@ -128,7 +128,7 @@ def test_actions_name_the_line_of_their_file(messages: Messages, tmp_path: Path)
 def test_a_chain_that_never_seems_to_end_is_refused(messages: Messages, tmp_path: Path) -> None:
     for i in range(2000):
         (tmp_path / f"msg/D{i}.msg").write_text(f"D{i + 1} d\n")
-    with pytest.raises(MessageError, match=r"/msg/D100\.msg:1: it is one of more than 100 messages within each other"):
+    with pytest.raises(MessageError, match=r"/msg/D100\.msg:1: more than 100 nested messages"):
         messages.md5("p/D0")
     assert not messages.has("p/D1")
 
@@ -139,7 +139,7 @@ def test_what_a_peer_sends_is_refused_as_well() -> None:
         with pytest.raises(MessageError, match="the definition of a/Own cannot be read: line 1: "):
             messages.add_definition("a/Own", text)
     for name in ("a/B:\n  pass\nprint('run')\nclass C", "a/B c", "a/", "/", "a/b/c"):
-        with pytest.raises(MessageError, match="is no message type; types are written package/Name"):
+        with pytest.raises(MessageError, match="is not a message type; types are written package/Name"):
             messages.add(name, "int32 x")
 
 

@@ -1,4 +1,4 @@
-"""One message type as bytes: its layout, found once; C++ writes and reads by it."""
+"""Serialization of one message type: its layout, compiled once, drives the C++ reader and writer."""
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -10,41 +10,42 @@ if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
 
 Pieces: TypeAlias = tuple[bytes | memoryview, ...]
-"""Bytes that need not lie together."""
+"""Buffers of one frame, in order."""
 ENCODING_ERRORS = (AttributeError, BufferError, OverflowError, TypeError, ValueError)
-"""Raised where a field holds what its type does not, or bytes are no message."""
+"""Raised if a field's value does not fit its type, or the bytes are not a message."""
 
 
 class Codec:
-    """Writes and reads messages of one type."""
+    """Serializer and deserializer of one message type."""
 
     def __init__(self, store: "Typestore", key: str, *, mend: "Callable[[Any], Any]") -> None:
-        """Have all ready.
+        """Compile the type.
 
         Args:
-            store: knows the type.
-            key: its name, as rosbags writes it.
-            mend: makes a message that can be written of one that cannot, or says which field is wrong.
+            store: holds the type.
+            key: its name in rosbags' form.
+            mend: converts a message to one that can be serialized, or raises a MessageError that names the field.
 
         Raises:
-            MessageError: no message can be of this type.
+            MessageError: the type has no layout.
         """
-        from .layouts import compile_type  # not where no message is written or read
+        from .layouts import compile_type  # lazy: imports the C++ module
 
         self.type = key.replace("/msg/", "/", 1)
         self._program = compile_type(store, key)
         self.exact_frame = self._program.frame
-        """As `frame`, but what that would mend or explain raises a `MISFITS`."""
+        """`frame` without the conversion: raises one of `ENCODING_ERRORS` instead."""
         self.receive = self._program.receive
-        """Called with a socket's `recv_into` and room for it; returns a message whose frame came alone, or None, and
-        how much came."""
+        """Called with a socket's `recv_into` and a buffer; returns (message or None, bytes received); the message is
+        None unless exactly one frame arrived.
+        """
         self._mend = mend
 
     def write(self, message: Any) -> bytes:
-        """Write a message's bytes.
+        """Serialize a message.
 
         Raises:
-            MessageError: a field holds what its type cannot; the text names it.
+            MessageError: a field's value does not fit its type; the text names the field.
         """
         try:
             return self._program.write(message)
@@ -52,12 +53,12 @@ class Codec:
             return self._mended(message, self._program.write)
 
     def frame(self, message: Any) -> Pieces:
-        """Write a message with its length in front, as connections carry it: one `bytes` but for a long array.
+        """Serialize a message with its length prefix: one `bytes`, plus the buffers of long arrays.
 
-        Such an array stays where it is: a picture, a map, a cloud.
+        Long arrays (images, maps, point clouds) are not copied.
 
         Raises:
-            MessageError: a field holds what its type cannot; the text names it.
+            MessageError: a field's value does not fit its type; the text names the field.
         """
         try:
             return self._program.frame(message)
@@ -65,19 +66,19 @@ class Codec:
             return self._mended(message, self._program.frame)
 
     def read(self, data: bytes | bytearray | memoryview) -> Any:
-        """Read a message's bytes; its arrays are views of them, read-only if they are.
+        """Deserialize a message; its arrays are views of the data, read-only if the data is.
 
         Raises:
-            MessageError: the bytes are no such message.
+            MessageError: the bytes are not a message of this type.
         """
         try:
             return self._program.read(data)
         except (BufferError, ValueError) as error:
-            raise MessageError(f"{len(data)} bytes are no {self.type}: {error}") from None
+            raise MessageError(f"{len(data)} bytes are not a {self.type}: {error}") from None
 
     def _mended(self, message: Any, write: "Callable[[Any], Any]") -> Any:
-        """Write a message that has other lists than of plain numbers where numpy arrays belong, or something wrong."""
+        """Serialize a message after conversion, as of lists to numpy arrays."""
         try:
             return write(self._mend(message))
         except ENCODING_ERRORS as error:
-            raise MessageError(f"no {self.type} can be written: {error}") from None
+            raise MessageError(f"cannot serialize a {self.type}: {error}") from None

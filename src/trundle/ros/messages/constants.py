@@ -1,4 +1,4 @@
-"""Constants of message types, read as genmsg reads them."""
+"""Constants of message types, parsed as genmsg does."""
 
 import re
 from typing import TypeAlias
@@ -15,26 +15,26 @@ _TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 
 
 class _Float(float):
-    """A number whose `repr` is one in Python, also if it is infinite: rosbags puts that into code."""
+    """A float whose `repr` is a Python expression also if infinite: rosbags puts it into code."""
 
     def __repr__(self) -> str:
         return f"float({float.__repr__(self)!r})"
 
 
 def constant_texts(text: str) -> dict[str, str]:
-    """Values of constants exactly as written: the md5 sum is over the text, and `1.50` is not `1.5`."""
+    """Values of constants exactly as written: the md5 sum covers the text, and `1.50` is not `1.5`."""
     return {match["name"]: _text(match) for match in _LINE.finditer(text)}
 
 
 def read_constant(line: str, number: int) -> Constant | None:
-    """Read a line of a type's text; None: it holds no constant.
+    """Parse a line of a message definition; None if it is not a constant.
 
     Args:
-        line: without its end.
-        number: of the line.
+        line: without its newline.
+        number: line number, for errors.
 
     Raises:
-        DefinitionError: the value is not of its type.
+        DefinitionError: the value does not fit its type.
     """
     match = _LINE.match(line)
     if match is None:
@@ -46,7 +46,7 @@ def read_constant(line: str, number: int) -> Constant | None:
 
 
 def _text(match: re.Match[str]) -> str:
-    # Only string constants may hold a '#'; everything up to the end of the line is theirs (msg specification).
+    # A string constant extends to the end of the line, '#' included (msg specification).
     value = match["value"]
     return value.strip() if match["type"] == "string" else value.partition("#")[0].strip()
 
@@ -62,13 +62,13 @@ def _value(kind: str, text: str) -> bool | int | float | str:
         low, high = _range(kind)
         value = int(text, 0) if text[:2].lower() == "0x" else int(text)
     except (KeyError, ValueError):
-        raise MessageError(f"{text[:80]!r} is no constant of type {kind[:80]}") from None
+        raise MessageError(f"{text[:80]!r} is not a constant of type {kind[:80]}") from None
     if not low <= value <= high:
-        raise MessageError(f"{value} is no {kind}, which is from {low} to {high}")
+        raise MessageError(f"{value} is not in the range of {kind}, {low} to {high}")
     return value
 
 
 def _range(kind: str) -> tuple[int, int]:
-    """Least and greatest; a byte has a sign in ROS 1, a char none."""
+    """Minimum and maximum; byte is signed in ROS 1, char unsigned."""
     bits = _BITS[kind]
     return (0, 2**bits - 1) if kind.startswith("u") or kind == "char" else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)

@@ -1,4 +1,4 @@
-"""The text of a message type, line by line: its constants and fields as rosbags has them."""
+"""Parser of message definitions: constants and fields in rosbags' form."""
 
 import re
 from typing import Any
@@ -8,7 +8,7 @@ from .constants import Constant, read_constant
 from .definition_search import MAX_CHARACTERS
 
 MAX_ELEMENTS = 1_000_000_000
-"""Elements of an array: as many bytes as a connection carries at once."""
+"""Maximum array length: one byte per element of the largest message."""
 _MAX_FIELDS = 5_000
 _FIELD = re.compile(
     r"(?P<type>[A-Za-z]\w*(?:/[A-Za-z]\w*){0,2})(?:<=(?P<longest>\d{1,9}))?"
@@ -25,17 +25,17 @@ _SHORT = {
 
 
 def read_type(text: str, key: str) -> tuple[list[Constant], list[tuple[str, Any]]]:
-    """Read a type's own text, without those it depends on: its constants, and its fields as rosbags has them.
+    """Parse a message definition without dependencies: its constants, and its fields in rosbags' form.
 
     Args:
-        text: of a .msg file.
-        key: the type's name as rosbags writes it.
+        text: content of a .msg file.
+        key: the type's name in rosbags' form.
 
     Raises:
-        DefinitionError: it cannot be read; the text says why, and in which line.
+        DefinitionError: the text is invalid; the error names the line.
     """
     if len(text) > MAX_CHARACTERS:
-        raise DefinitionError(1, f"it has more than the {MAX_CHARACTERS} characters that are read")
+        raise DefinitionError(1, f"longer than the limit of {MAX_CHARACTERS} characters")
     constants: list[Constant] = []
     fields: list[tuple[str, Any]] = []
     names: dict[str, int] = {}
@@ -57,7 +57,7 @@ def read_type(text: str, key: str) -> tuple[list[Constant], list[tuple[str, Any]
 
 
 def field_line(text: str, name: str) -> int:
-    """Return the line that a field stands in; 1 where there is none."""
+    """Line number of a field; 1 if there is no such field."""
     for number, line in enumerate(text.split("\n"), 1):
         field = _FIELD.fullmatch(line.partition("#")[0].strip())
         if field is not None and field["name"] == name:

@@ -1,4 +1,4 @@
-"""Where the text of definitions comes from: what is shipped here, folders a user adds, packages on the package path."""
+"""Sources of message definitions: shipped with Trundle, added folders, packages on the package path."""
 
 import os
 import re
@@ -11,15 +11,17 @@ from trundle.files import read_text
 
 _SHIPPED = Path(__file__).parents[1] / "definitions"
 MAX_CHARACTERS = 1_000_000
-"""Length of a text; the longest of a desktop installation has below 100,000. Texts of peers have the same bound."""
+"""Maximum length of a definition; the longest of a desktop installation is below 100,000. The limit also holds for
+peers.
+"""
 _SEPARATOR = re.compile(r"^\s*---[^\n]*$", re.MULTILINE)
 DEBIAN_SHARE = "/usr/share"
-"""Debian's rospkg looks here last, whatever ROS_PACKAGE_PATH says."""
+"""Debian's rospkg searches here last, whatever ROS_PACKAGE_PATH is."""
 
 
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """Where a text begins."""
+    """File and first line of a definition."""
 
     path: Path
     line: int = 1
@@ -27,22 +29,22 @@ class Origin:
 
 @dataclass(slots=True)
 class Definitions:
-    """Texts by type name ('geometry_msgs/Twist'), read from a package's folder when one of its types is asked for."""
+    """Definitions by type name ('geometry_msgs/Twist'); a package is read when one of its types is first used."""
 
     messages: dict[str, str]
     services: dict[str, str]
     folders: dict[str, Path]
-    """Package → the folder that holds its `msg/`, `srv/` and `action/`; those not read yet."""
+    """Package → folder with its `msg/`, `srv/` and `action/`, for packages not read yet."""
     _on_path: Mapping[str, Path] | None = None
     _looked_up: set[str] = field(default_factory=set[str])
     origins: dict[str, Origin] = field(default_factory=dict[str, Origin])
-    """Where texts stand, of those that came from files."""
+    """Origins of definitions that were read from files."""
     unreadable: dict[str, str] = field(default_factory=dict[str, str])
-    """Type, with `.msg` or `.srv` → why its file cannot be read, in a sentence."""
+    """Type with `.msg` or `.srv` → reason why its file cannot be read."""
 
     @classmethod
     def shipped(cls) -> "Definitions":
-        """What comes with Trundle because the message library lacks it."""
+        """Definitions shipped with Trundle: those that rosbags lacks."""
         folders = {path.name: path for path in sorted(_SHIPPED.iterdir()) if path.is_dir()}
         return cls({}, {}, folders)
 
@@ -50,32 +52,32 @@ class Definitions:
     def on_path(self) -> Mapping[str, Path]:
         """Folders of the packages on ROS_PACKAGE_PATH and around the working directory."""
         if self._on_path is None:
-            from trundle.packages import Packages  # only where a type is asked for that nobody brought
+            from trundle.packages import Packages  # lazy: only for types not found elsewhere
 
             self._on_path = Packages(os.environ, start=Path.cwd()).ros_packages()
         return self._on_path
 
     def load_package(self, package: str) -> None:
-        """Read the texts that are shipped or were added for a package, once."""
+        """Read a shipped or added package, once."""
         folder = self.folders.pop(package, None)
         if folder is not None:
             self._read(package, folder)
 
     def load_from_path(self, package: str) -> None:
-        """As `load_package`, from a package on the package path; what is known already stays as it is."""
+        """As `load_package`, from the package path; known definitions are kept."""
         if package not in self._looked_up:
             self._looked_up.add(package)
             if (folder := self.on_path.get(package)) is not None:
                 self._read(package, folder)
 
     def service_text(self, type_name: str) -> str:
-        """The text of a known service type: as installed, with its comments, if that means the same."""
+        """Definition of a known service type: the installed one with its comments, if otherwise equal."""
         known = self.services[type_name]
         text = self.installed(type_name, "srv")
         return text if text is not None and _without_comments(text) == _without_comments(known) else known
 
     def installed(self, type_name: str, kind: str = "msg") -> str | None:
-        """The text of a type as an installed ROS has it, with its comments, where `rosbag check` looks too."""
+        """Definition in the installed ROS, with its comments; `rosbag check` searches the same folders."""
         package, _, name = type_name.partition("/")
         for share in (*os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep), DEBIAN_SHARE):
             path = Path(share, package, kind, f"{name}.{kind}")
@@ -85,14 +87,14 @@ class Definitions:
         return None
 
     def load_all(self) -> None:
-        """Read everything there is."""
+        """Read every package."""
         for package in list(self.folders):
             self.load_package(package)
         for package in self.on_path:
             self.load_from_path(package)
 
     def add_part(self, name: str, text: str, line: int, *, of: str) -> None:
-        """Add the text of a half of a service."""
+        """Add the request or response of a service."""
         self.messages[name] = text
         if (whole := self.origins.get(of)) is not None:
             self.origins[name] = Origin(whole.path, line)
@@ -107,14 +109,14 @@ class Definitions:
             self._add(self.services, name, text, Origin(path))
 
     def _files(self, package: str, folder: Path, kind: str) -> Iterator[tuple[str, Path, str]]:
-        """Read the files of a kind; one that cannot be read takes nothing from the others."""
+        """Read the files of a kind; an unreadable one is recorded and skipped."""
         for path in sorted(folder.glob(f"{kind}/*.{kind}")):
             name = f"{package}/{path.stem}"
             try:
                 yield name, path, read_text(path, max_bytes=MAX_CHARACTERS)
             except OSError as error:
                 asked = f"{name}Action.msg" if kind == "action" else f"{name}.{kind}"
-                self.unreadable.setdefault(asked, f"{path}:1: it cannot be read: {error.strerror}")
+                self.unreadable.setdefault(asked, f"{path}:1: cannot be read: {error.strerror}")
 
     def _add(self, texts: dict[str, str], name: str, text: str, origin: Origin) -> None:
         if name not in texts:
@@ -123,7 +125,9 @@ class Definitions:
 
 
 def split_service(text: str, line: int = 1) -> tuple[tuple[int, str], tuple[int, str]]:
-    """Split a .srv text into request and response, each with the line it begins in; `line` is that of the text."""
+    """Split a .srv definition into request and response, each with its first line; `line` is the first line of
+    `text`.
+    """
     separator = _SEPARATOR.search(text)
     if separator is None:
         return (line, text), (line, "")
@@ -132,10 +136,10 @@ def split_service(text: str, line: int = 1) -> tuple[tuple[int, str], tuple[int,
 
 
 def split_action(name: str, text: str) -> dict[str, tuple[int, str]]:
-    """Write the seven messages that an action stands for, from its text: goal, result and feedback.
+    """Generate the seven messages of an action from its goal, result and feedback.
 
     Returns:
-        name → the line of the text that it begins in, and its own text.
+        name → (first line in the action's text, definition).
     """
     goal, (line, rest) = split_service(text)
     result, feedback = split_service(rest, line)
@@ -156,6 +160,6 @@ def split_action(name: str, text: str) -> dict[str, tuple[int, str]]:
 
 
 def _without_comments(text: str) -> list[str]:
-    """What a text says beside its comments."""
+    """Lines without comments, blank lines and extra spaces."""
     lines = (" ".join(line.partition("#")[0].split()) for line in text.splitlines())
     return [line for line in lines if line]

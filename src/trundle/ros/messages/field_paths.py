@@ -1,4 +1,4 @@
-"""Fields of a topic's messages, written behind its name: /odom/pose/pose, /tf/transforms[0]/child_frame_id."""
+"""Field paths behind a topic's name: /odom/pose/pose, /tf/transforms[0]/child_frame_id."""
 
 import re
 from collections.abc import Mapping
@@ -15,7 +15,7 @@ _PART = re.compile(r"(?P<name>\w+)(?:\[(?P<index>[^\]]*)\])?")
 
 @dataclass(frozen=True, slots=True)
 class FieldStep:
-    """One step into a message: a field, and an element or a slice of it."""
+    """One step of a field path: a field, and an index or slice into it."""
 
     field: str
     index: int | slice | None
@@ -23,19 +23,19 @@ class FieldStep:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TopicField:
-    """A topic, and where in its messages to look."""
+    """A topic and a field path in its messages."""
 
     topic: str
     type: str
     path: str
-    """Behind the topic's name; '' for the whole message."""
+    """Field path; '' for the whole message."""
 
     @property
     def steps(self) -> list[FieldStep]:
-        """The path, step by step.
+        """Parsed path.
 
         Raises:
-            UsageError: the path cannot be read.
+            UsageError: the path is malformed.
         """
         return [_parse_step(part) for part in self.path.split("/") if part]
 
@@ -49,16 +49,16 @@ def split_topic(name: str, types: Mapping[str, str]) -> tuple[str, str] | None:
 
 
 def field_type(type_name: str, path: str, messages: Messages | None = None) -> str:
-    """Return the ROS type at a path.
+    """Return the ROS type of the field at a path.
 
     Args:
-        type_name: of the message.
-        path: behind the topic's name.
-        messages: types known; those of a new store by default.
+        type_name: type of the message.
+        path: field path.
+        messages: store of types; a new one by default.
 
     Raises:
         UsageError: there is no such field.
-        MessageError: the type is not known.
+        MessageError: the type is unknown.
     """
     messages = messages or Messages()
     is_list = False
@@ -77,10 +77,10 @@ def field_type(type_name: str, path: str, messages: Messages | None = None) -> s
 
 
 def value_at(message: Any, steps: list[FieldStep]) -> Any:
-    """Return what is at a path; a slice gives the list of what is there in each element.
+    """Return the value at a path; a slice gives the list of its elements' values.
 
     Raises:
-        IndexError: an array is shorter than the path asks for.
+        IndexError: an index is out of range.
         AttributeError: there is no such field.
     """
     for i, step in enumerate(steps):

@@ -1,4 +1,4 @@
-"""Messages as expressions written for rospy expect them: `m.header.stamp.to_sec() > 5`, `t.secs`."""
+"""Messages with rospy's attributes, for user-written expressions: `m.header.stamp.to_sec() > 5`, `t.secs`."""
 
 import functools
 from typing import Any
@@ -10,12 +10,12 @@ from .type_definitions import ros_name
 
 @functools.total_ordering
 class MessageView:
-    """A message, or a time in it, seen as rospy shows it; arrays and numbers are as they are."""
+    """A message or time with rospy's attributes; arrays and numbers are unchanged."""
 
     __slots__ = ("_message", "_messages")
 
     def __init__(self, message: Message, messages: Messages | None = None) -> None:
-        """Look at a message; the store it is of is needed to print it."""
+        """Wrap a message; printing it needs its type store."""
         self._message = message
         self._messages = messages
 
@@ -31,15 +31,15 @@ class MessageView:
         raise AttributeError(f"no field named {name} in {ros_name(message.__msgtype__)}")
 
     def to_nsec(self) -> int:
-        """A time or duration [ns]."""
+        """Time or duration [ns]."""
         return self._message.sec * 10**9 + self._message.nanosec
 
     def to_sec(self) -> float:
-        """A time or duration [s]."""
+        """Time or duration [s]."""
         return self.to_nsec() / 1e9
 
     def is_zero(self) -> bool:
-        """Whether a time is not set."""
+        """True if the time is 0."""
         return self.to_nsec() == 0
 
     def __eq__(self, other: object) -> bool:

@@ -1,4 +1,4 @@
-"""What C++ must know of a message type to write and read it."""
+"""Layouts of message types for the C++ reader and writer."""
 
 import keyword
 from collections.abc import Sequence
@@ -18,31 +18,31 @@ if TYPE_CHECKING:
 refuse_stale(_wire)
 
 _Fields: TypeAlias = list[tuple[str, str, int, int]]
-"""Attribute, type, how many, and of a message's type its place."""
+"""Attribute, type, element count, and index of the layout for a nested message."""
 _DEEPEST = 100
-"""Messages within messages; no robot's come near."""
+"""Limit of nested messages, far above real types."""
 
 
 def compile_type(store: "Typestore", key: str) -> _wire.Program:
-    """Make what writes and reads messages of a type.
+    """Compile a type to the program that reads and writes its messages.
 
     Raises:
-        MessageError: there can be no message of this type.
+        MessageError: the type has no finite layout.
     """
     layouts: dict[str, tuple[type, _Fields]] = {}
     _add_layout(store, key, layouts, 0)
     try:
         return _wire.Program(list(layouts.values()))
     except ValueError as error:
-        raise MessageError(f"there can be no {ros_name(key)}: {error}") from None
+        raise MessageError(f"{ros_name(key)} has no layout: {error}") from None
 
 
 def _add_layout(store: "Typestore", key: str, layouts: dict[str, tuple[type, _Fields]], depth: int) -> int:
-    """Put a type behind those its fields are of; return its place."""
+    """Append the layout of a type after those of its fields' types; returns its index."""
     if key in layouts:
         return list(layouts).index(key)
     if depth > _DEEPEST:
-        raise MessageError(f"{ros_name(key)} contains itself, or too many messages within each other")
+        raise MessageError(f"{ros_name(key)} contains itself, or nests too many messages")
     fields: _Fields = []
     for name, (kind, detail) in cast("Sequence[tuple[str, Any]]", store.fielddefs[key][1]):
         count = _wire.ONE

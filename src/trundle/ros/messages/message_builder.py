@@ -1,4 +1,4 @@
-"""Makes messages from nested values, as `rostopic pub` does from YAML, and says which field does not fit."""
+"""Messages from nested values, as `rostopic pub` builds them from YAML; errors name the field."""
 
 import dataclasses
 import numbers
@@ -17,29 +17,29 @@ if TYPE_CHECKING:
 
 _HEADER = "std_msgs/msg/Header"
 _TIME_FIELDS = {"secs": "sec", "nsecs": "nanosec", "sec": "sec", "nanosec": "nanosec"}
-"""rospy says secs and nsecs, rosbags sec and nanosec; both are understood."""
+"""Field names of rospy (secs, nsecs) and of rosbags (sec, nanosec)."""
 
 
 class MessageBuilder:
-    """Makes messages of one type store."""
+    """Builds messages of one type store."""
 
     def __init__(self, store: "Typestore") -> None:
         self._store = store
         self._fast_path = MessageFastPath(store)
 
     def message(self, key: str, given: Any, now_ns: int) -> Any:
-        """Make a message of type `key` ('geometry_msgs/msg/Twist') from a dictionary, a list or another message."""
+        """Build a message of type `key` ('geometry_msgs/msg/Twist') from a dictionary, a list or another message."""
         try:
             return self._fast_path.make(key, given)
         except NotFastPathError:
             return self._message(key, given, now_ns, "")
 
     def empty(self, key: str) -> Any:
-        """Make a message whose fields all have ROS's default."""
+        """Build a message with ROS's default in all fields."""
         return self._fast_path.empty(key)
 
     def _message(self, key: str, given: Any, now_ns: int, path: str) -> Any:
-        """Make a message, or say which field does not fit."""
+        """Build a message; raises a MessageError that names the field."""
         cls = self._store.types[key]
         fields = fields_of(self._store, key)
         if key in (TIME, DURATION):
@@ -168,7 +168,7 @@ def _refuse(kind: str, given: object, path: str) -> Any:
 
 
 def _attribute(message: Any, name: str) -> str:
-    """rosbags appends `_` to a field named like a Python keyword."""
+    """Attribute of a field: rosbags appends `_` to Python keywords."""
     return name if hasattr(message, name) else f"{name}_"
 
 

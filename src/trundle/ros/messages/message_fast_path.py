@@ -1,4 +1,4 @@
-"""Makes messages of values that are as they should be, which most are; of others nothing is said but that."""
+"""Fast path for well-formed values; anything else raises, and the message builder finds the fault."""
 
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -13,24 +13,24 @@ if TYPE_CHECKING:
 
 TIME, DURATION = "builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"
 _DTYPES = {"bool": "bool", "byte": "int8", "char": "uint8"}
-"""Of types of numbers that numpy has other names for."""
+"""Types that numpy names differently."""
 
 _Make: TypeAlias = Callable[[Any], Any]
 _Fields: TypeAlias = list[tuple[str, _Make, Callable[[], Any]]]
-"""Name, what makes a value of a given one, and what makes ROS's default."""
+"""Name, maker from a given value, and maker of ROS's default."""
 _MISSING = object()
 _NUMBERS = (int, np.float64, np.float32)
-"""Real numbers besides float; there are others."""
+"""Real number types besides float that the fast path accepts."""
 _CONVERTED = {"f": "iuf", "b": ""}
-"""Kinds of arrays that may become one of a kind; of integers where nothing is said."""
+"""Array kinds convertible to a kind; integers by default."""
 
 
 class NotFastPathError(Exception):
-    """A value that may be right or wrong: whoever looks at it more closely can tell."""
+    """The value is not in the common form; it may still be valid."""
 
 
 class MessageFastPath:
-    """What makes messages of one type store, found out once for each type."""
+    """Message makers of one type store, compiled once per type."""
 
     def __init__(self, store: "Typestore") -> None:
         self._store = store
@@ -41,7 +41,7 @@ class MessageFastPath:
         """Make a message of type `key` ('geometry_msgs/msg/Twist') from a dictionary, a list or another message.
 
         Raises:
-            NotFastPathError: something in it is not as it mostly is.
+            NotFastPathError: a value is not in the common form.
         """
         return (self._makers.get(key) or self._compile(key))(given)
 
@@ -50,7 +50,7 @@ class MessageFastPath:
         return self._default_maker(key)()
 
     def default(self, desc: Any) -> Callable[[], Any]:
-        """Return what makes the default of a field."""
+        """Maker of a field's default."""
         kind, detail = desc
         if kind == Nodetype.BASE:
             value: Any = {"string": "", "bool": False, "float32": 0.0, "float64": 0.0}.get(detail[0], 0)
@@ -74,7 +74,7 @@ class MessageFastPath:
         return self._defaults[key]
 
     def _compile(self, key: str) -> _Make:
-        """Find out about a type; others may use what there is only when all of it is known."""
+        """Compile a type; its parts are stored when all are complete, as other threads may use them."""
         begun: dict[str, _Make] = {}
         make = self._maker_of(key, begun)
         self._makers.update(begun)
@@ -88,7 +88,7 @@ class MessageFastPath:
             begun[key] = _time_maker(cls)
             return begun[key]
         fields: _Fields = []
-        begun[key] = _message_maker(cls, fields)  # before its fields: one may be a list of the same type
+        begun[key] = _message_maker(cls, fields)  # before its fields, for lists of the same type
         for name, desc in fields_of(self._store, key):
             fields.append((name, self._maker(desc, begun), self.default(desc)))
         return begun[key]
@@ -108,12 +108,12 @@ class MessageFastPath:
 
 
 def dtype_of(kind: str) -> "np.dtype[Any]":
-    """Name a type of number as numpy does."""
+    """numpy dtype of a numeric type."""
     return np.dtype(_DTYPES.get(kind, kind))
 
 
 def number_array(given: Sequence[Any], dtype: "np.dtype[Any]") -> "np.ndarray[Any, Any] | None":
-    """Convert a list of plain numbers that fit; None where one by one must say which does not."""
+    """Convert a list of plain numbers; None if the elements must be checked one by one."""
     try:
         array = np.array(given)
     except (ValueError, OverflowError):

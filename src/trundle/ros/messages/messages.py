@@ -1,7 +1,6 @@
-"""ROS 1 messages and services: which types there are, and everything about one by its name.
+"""ROS 1 message and service types by name: definitions, md5 sums, construction, serialization.
 
-The library rosbags brings the types of a desktop installation; it is imported when the first type is asked for, so
-that importing this module costs nothing.
+rosbags supplies the types of a desktop installation; it is imported on first use, to keep this module's import cheap.
 """
 
 import threading
@@ -31,7 +30,7 @@ ANY_TYPE = "*"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RawMessage:
-    """A message as it came, for those who only count, store or pass on."""
+    """A serialized message with its connection header, for counting, storing or relaying."""
 
     type: str
     md5sum: str
@@ -40,12 +39,12 @@ class RawMessage:
     caller: str = ""
     """Node that published it."""
     latching: bool = False
-    """Whether its publisher hands its last message to newcomers."""
+    """True if the publisher latches."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServiceType:
-    """A service: its name, its md5 sum and the message types of its two halves."""
+    """A service type: name, md5 sum, request and response types."""
 
     type: str
     md5sum: str
@@ -54,20 +53,20 @@ class ServiceType:
 
 
 class Messages:
-    """All message types a process knows. Types are written as ROS does: 'geometry_msgs/Twist'."""
+    """Store of message types, named as in ROS: 'geometry_msgs/Twist'."""
 
     def __init__(self, *, bare: bool = False) -> None:
-        """Make a store.
+        """Create a store.
 
         Args:
-            bare: know nothing but what is added, as when reading a bag by the definitions in it.
+            bare: True: start empty, as for reading a bag with the definitions in it.
         """
         self._is_bare = bare
         self._definitions = Definitions({}, {}, {}, {}) if bare else Definitions.shipped()
         self._services: dict[str, ServiceType] = {}
         self._codecs: dict[str, Codec] = {}
         self._lock = threading.RLock()
-        """Held while types are added: nodes of several threads share one store."""
+        """Held while types are added: nodes of several threads share a store."""
         self._store_: Typestore | None = None
         self._type_definitions_: TypeDefinitions | None = None
         self._registry_: TypeRegistry | None = None
@@ -76,33 +75,33 @@ class Messages:
     # -- types
 
     def has(self, type_name: str) -> bool:
-        """Tell whether a message type is known."""
+        """True if the message type is known."""
         with suppress(MessageError):
             return bool(self._key(type_name))
         return False
 
     def type(self, type_name: str) -> type[Message]:
-        """Return the class of a type; it takes every field as an argument, `new` is kinder."""
+        """Class of a type; it needs every field as an argument, unlike `new`."""
         return self._store.types[self._key(type_name)]
 
     def type_of(self, message: Message) -> str:
-        """Name the type of a message."""
+        """Type name of a message."""
         return ros_name(message.__msgtype__)
 
     def type_names(self) -> list[str]:
-        """Every message type there is: of the library, shipped, and on the package path; those of services left out."""
+        """All message types: rosbags', shipped, and on the package path; without halves of services."""
         with self._lock:
             self._definitions.load_all()
             return self._names()
 
     def service_names(self) -> list[str]:
-        """Every service type there is."""
+        """All service types."""
         with self._lock:
             self._definitions.load_all()
             return sorted(self._definitions.services)
 
     def fields(self, type_name: str) -> dict[str, str]:
-        """Field names with their ROS types, in order: {'name': 'string[]', 'stamp': 'time', …}."""
+        """Field names → ROS types, in order: {'name': 'string[]', 'stamp': 'time', …}."""
         return self._type_definitions.fields(self._key(type_name))
 
     def constants(self, type_name: str) -> dict[str, tuple[str, str]]:
@@ -110,16 +109,16 @@ class Messages:
         return self._type_definitions.constants(self._key(type_name))
 
     def text(self, type_name: str) -> str:
-        """Return the text of a type alone; of the library's types that no ROS is installed for, without comments."""
+        """Definition of a type without dependencies; without comments if from rosbags and no ROS is installed."""
         return self._type_definitions.text(self._key(type_name))
 
     def service_text(self, type_name: str) -> str:
-        """Return the text of a service type."""
+        """Definition of a service type."""
         self.service(type_name)
         return self._definitions.service_text(type_name)
 
     def add(self, type_name: str, text: str) -> None:
-        """Add a message type from its .msg text; a type that is already known stays as it is."""
+        """Add a message type from its .msg text; known types are kept."""
         if not self.has(type_name):
             with self._lock:
                 self._definitions.messages[type_name] = text
@@ -130,11 +129,11 @@ class Messages:
         self._definitions.services.setdefault(type_name, text)
 
     def add_package(self, name: str, folder: Path) -> None:
-        """Add the types of a package; `msg/`, `srv/` and `action/` are read when one is asked for."""
+        """Add the types of a package; `msg/`, `srv/` and `action/` are read on first use."""
         self._definitions.folders.setdefault(name, folder)
 
     def add_definition(self, type_name: str, definition: str) -> None:
-        """Add a type, and what it depends on, from the text a publisher sends along."""
+        """Add a type and its dependencies from the full definition in a connection header."""
         own, *others = definition.split("\n" + "=" * 80 + "\n")
         for other in others:
             head, _, text = other.partition("\n")
@@ -142,68 +141,68 @@ class Messages:
                 self._definitions.messages.setdefault(head[5:].strip(), text)
         self.add(type_name, own)
 
-    # -- what peers compare
+    # -- md5 sums and definitions
 
     def md5(self, type_name: str) -> str:
-        """Return the md5 sum over a type's canonical text, which peers compare."""
+        """md5 sum of a type's canonical text."""
         return self._type_definitions.md5(self._key(type_name))
 
     def definition(self, type_name: str) -> str:
-        """Return the text of a type followed by those it depends on, as genmsg writes it."""
+        """Full definition with all dependencies, as genmsg writes it."""
         return self._type_definitions.definition(self._key(type_name))
 
     def service(self, type_name: str) -> ServiceType:
-        """Return a service type.
+        """Look up a service type.
 
         Raises:
-            MessageError: there is none of this name.
+            MessageError: the type is unknown.
         """
         with self._lock:
             return self._services.get(type_name) or self._read_service(type_name)
 
-    # -- values and bytes
+    # -- construction and serialization
 
     def new(self, type_name: str, fields: object = None, *, now_ns: int | None = None) -> Message:
-        """Make a message; every field not given has ROS's default (0, '', empty).
+        """Build a message; omitted fields have ROS's default (0, '', empty).
 
         Args:
             type_name: such as 'geometry_msgs/Twist'.
-            fields: name → value, nested; or all values in order, as a list. 'now' stands for a time, 'auto' for a
-                header stamped now.
-            now_ns: what now is [ns]; the wall's time by default.
+            fields: name → value, nested; or all values in order, as a list. 'now' is a time, 'auto' a header stamped
+                now.
+            now_ns: time [ns] for 'now'; wall time by default.
 
         Raises:
-            MessageError: no such type or field, or a value that does not fit; the text names the field.
+            MessageError: unknown type or field, or a value that does not fit; the text names the field.
         """
         if fields is None:
             return self._builder.empty(self._key(type_name))
         return self._builder.message(self._key(type_name), fields, time.time_ns() if now_ns is None else now_ns)
 
     def stamp(self, ns: int) -> Message:
-        """Make a `time` value from nanoseconds."""
+        """Make a `time` value."""
         return self._store.types["builtin_interfaces/msg/Time"](sec=ns // 10**9, nanosec=ns % 10**9)
 
     def serialize(self, message: Message) -> bytes:
-        """Write a message's bytes.
+        """Serialize a message.
 
         Raises:
-            MessageError: a field holds what its type cannot; the text names it.
+            MessageError: a field's value does not fit its type; the text names the field.
         """
         return self.codec(message.__msgtype__).write(message)
 
     def deserialize(self, data: bytes | memoryview, type_name: str) -> Message:
-        """Read a message's bytes; its arrays may be read-only views of them.
+        """Deserialize a message; its arrays may be read-only views of the data.
 
         Raises:
-            MessageError: the bytes are no such message.
+            MessageError: the bytes are not a message of this type.
         """
         return self.codec(type_name).read(data)
 
     def codec(self, type_name: str) -> Codec:
-        """Return what writes and reads a type, made on first use."""
+        """Codec of a type, made on first use."""
         return self._codecs.get(type_name) or self._make_codec(type_name)
 
-    # -- inside
+    # -- internals
 
     def _make_codec(self, type_name: str) -> Codec:
         key = self._key(type_name)
@@ -241,7 +240,7 @@ class Messages:
         return self._builder_
 
     def _key(self, type_name: str) -> str:
-        """Name a known type as rosbags does."""
+        """Name of a known type in rosbags' form."""
         package, slash, name = type_name.partition("/")
         key = f"{package}/msg/{name}" if not name.startswith("msg/") else type_name
         if key in self._store.types:
@@ -261,7 +260,7 @@ class Messages:
                 raise MessageError(why)
             if not slash:
                 raise UnknownTypeError(
-                    f"{type_name!r} is no message type; types are written package/Name, like std_msgs/String"
+                    f"{type_name!r} is not a message type; types are written package/Name, like std_msgs/String"
                 )
             known = [other for other in self._names() if other.startswith(f"{package}/")]
             raise UnknownTypeError(f"no message type {ros_name(key)!r}{_suggestion('messages', package, known)}")

@@ -1,4 +1,4 @@
-"""Messages as text, line by line as rostopic prints them: as YAML, or as a row for plotting."""
+"""Messages as text, in rostopic's format: YAML, or rows for plotting."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -12,18 +12,20 @@ _BYTES = ("uint8[", "char[")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MessagePrinter:
-    """Prints messages of one store."""
+    """Printer of one store's messages."""
 
     messages: Messages
     width: int | None = None
-    """Digits for each number; None: as many as it takes."""
+    """Digits of each number; None: as many as needed."""
     hide_strings: bool = False
     hide_arrays: bool = False
     offset_ns: int | None = None
-    """Print times as differences from this one [ns]."""
+    """If set, times are printed relative to it [ns]."""
 
     def text(self, value: Any, type_text: str, indent: str = "") -> str:
-        """Print a value of a ROS type ('float64[36]', 'geometry_msgs/Pose', …); one below others starts a new line."""
+        """Format a value of a ROS type ('float64[36]', 'geometry_msgs/Pose', …); a nested message starts on a new
+        line.
+        """
         value, type_text = self._shown(value, type_text)
         base, bracket, _ = type_text.partition("[")
         if bracket:
@@ -40,7 +42,7 @@ class MessagePrinter:
         return ("\n" if indent else "") + "\n".join(lines)
 
     def columns(self, value: Any, type_text: str, name: str = "field") -> Iterator[tuple[str, str]]:
-        """Name and print every number and string inside a value, for plotting."""
+        """Yield (name, text) of every number and string in a value, for plotting."""
         base, bracket, _ = type_text.partition("[")
         if bracket:
             for i, item in enumerate(_plain(value)):
@@ -54,7 +56,7 @@ class MessagePrinter:
             yield name, str(value)
         else:
             for field, kind in self.messages.fields(base).items():
-                if kind.startswith(_BYTES):  # strings of bytes to the original, nothing to plot
+                if kind.startswith(_BYTES):  # bytes are strings to the original, not plotted
                     continue
                 if not (self.hide_arrays and "[" in kind) and not (self.hide_strings and "string" in kind):
                     yield from self.columns(field_value(value, field), kind, f"{name}.{field}")
@@ -64,9 +66,9 @@ class MessagePrinter:
             yield f"{field}: {self.text(field_value(message, field), kind, '  ' + indent)}"
 
     def _shown(self, value: Any, kind: str) -> tuple[Any, str]:
-        """A value with its type; in place of one that is hidden, what says so."""
+        """Value and type to print; a hidden value is replaced by a description."""
         if self.hide_arrays and "[" in kind:
-            # The original strips only brackets from the end, so a fixed length loses its last one.
+            # The original strips only trailing brackets, so a fixed length loses its closing one.
             return f"<array type: {kind.rstrip('[]')}, length: {len(value)}>", "string"
         if self.hide_strings and kind == "string":
             return f"<string length: {len(value)}>", "string"
@@ -110,7 +112,7 @@ class MessagePrinter:
 
 
 def field_value(message: Message, field: str) -> Any:
-    """Return a field by its ROS name; one named like a Python keyword carries a `_` in Python."""
+    """Value of a field by its ROS name; the attribute of a Python keyword has a trailing `_`."""
     if field in ("secs", "nsecs"):
         field = {"secs": "sec", "nsecs": "nanosec"}[field]
     return getattr(message, field) if hasattr(message, field) else getattr(message, f"{field}_")

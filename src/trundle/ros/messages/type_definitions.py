@@ -1,6 +1,6 @@
-"""How message types are written down, and the sums over it that peers compare.
+"""Definitions of message types and their md5 sums.
 
-Types are named here as rosbags does: 'geometry_msgs/msg/Twist'.
+Type names here are in rosbags' form: 'geometry_msgs/msg/Twist'.
 """
 
 import hashlib
@@ -18,18 +18,18 @@ if TYPE_CHECKING:
 
 _SEPARATOR = "=" * 80 + "\nMSG: "
 BUILTIN = {"builtin_interfaces/msg/Time": "time", "builtin_interfaces/msg/Duration": "duration"}
-"""Types of the library that ROS 1 has no messages for."""
+"""rosbags types that are primitives in ROS 1."""
 PLACEHOLDER = "structure_needs_at_least_one_member"
-"""A field that rosbags puts into empty types because ROS 2 does."""
+"""Field that rosbags adds to empty types, as ROS 2 does."""
 
 
 class TypeDefinitions:
-    """Texts and sums of the types of one store."""
+    """Definitions and md5 sums of one store's types."""
 
     def __init__(self, store: "Typestore", installed: Definitions | None) -> None:
-        """Begin; texts of an installed ROS are looked for if asked to."""
+        """Create; `installed` supplies definitions of an installed ROS, if given."""
         self.own: dict[str, str] = {}
-        """Texts of types that did not come from rosbags, which keeps no comments."""
+        """Definitions not from rosbags, which keeps no comments."""
         self._store = store
         self._installed = installed
         self._md5s: dict[str, str] = {}
@@ -37,7 +37,7 @@ class TypeDefinitions:
         self._definitions: dict[str, str] = {}
 
     def fields(self, key: str) -> dict[str, str]:
-        """Field names with their ROS types, in order."""
+        """Field names → ROS types, in order."""
         return {name: _type_text(desc) for name, desc in fields_of(self._store, key)}
 
     def constants(self, key: str) -> dict[str, tuple[str, str]]:
@@ -48,9 +48,9 @@ class TypeDefinitions:
         }
 
     def text(self, key: str) -> str:
-        """Return the text of a type alone: as installed if that means the same.
+        """Return the definition of a type without dependencies: the installed one if equal but for comments.
 
-        `rosbag check` compares texts, comments included, and not md5 sums.
+        `rosbag check` compares definitions including comments, not md5 sums.
         """
         if self._installed is not None and (text := self._installed.installed(ros_name(key))) is not None:
             with suppress(MessageError):
@@ -63,7 +63,7 @@ class TypeDefinitions:
         return "".join([*lines, *(f"{kind} {name}\n" for name, kind in self.fields(key).items())])
 
     def definition(self, key: str) -> str:
-        """Return the text of a type followed by those it depends on, as genmsg writes it."""
+        """Full definition with all dependencies, as genmsg writes it."""
         if key not in self._definitions:
             others = self._nested_types(key)
             parts = [f"{_SEPARATOR}{ros_name(other)}\n{self.text(other)}" for other in others]
@@ -71,14 +71,14 @@ class TypeDefinitions:
         return self._definitions[key]
 
     def md5(self, key: str) -> str:
-        """Return the md5 sum over the canonical text of a type.
+        """Return the md5 sum of a type's canonical text.
 
         Raises:
-            MessageError: the type consists of itself.
+            MessageError: the type contains itself.
         """
         if key not in self._md5s:
             if key in self._in_progress:
-                raise MessageError(f"the definition of {ros_name(key)} cannot be read: it has itself inside")
+                raise MessageError(f"the definition of {ros_name(key)} is invalid: it contains itself")
             self._in_progress.add(key)
             try:
                 self._md5s[key] = _md5sum(self._canonical(key))
@@ -87,18 +87,18 @@ class TypeDefinitions:
         return self._md5s[key]
 
     def service_md5(self, request: str, response: str) -> str:
-        """Return the md5 sum of a service, given the types of its halves."""
+        """md5 sum of a service, from its request and response types."""
         return _md5sum(self._canonical(request) + self._canonical(response))
 
     def field_types(self, key: str) -> Iterator[str]:
-        """Types that the fields of a type are of."""
+        """Message types of a type's fields."""
         for _, desc in fields_of(self._store, key):
             name = referenced_type(desc)
             if name is not None:
                 yield name
 
     def _nested_types(self, key: str) -> list[str]:
-        """Types that a type consists of, each once, as they come."""
+        """All types that a type contains, each once, in depth-first order."""
         found: dict[str, None] = {}
         waiting = [*self.field_types(key)]
         while waiting:
@@ -109,7 +109,7 @@ class TypeDefinitions:
         return list(found)
 
     def _canonical(self, key: str) -> str:
-        """Write the text the md5 sum is taken of: constants, then fields, with types replaced by their own sums."""
+        """Canonical text for the md5 sum: constants, then fields, with types replaced by their md5 sums."""
         lines = [f"{kind} {name}={text}" for name, (kind, text) in self.constants(key).items()]
         for name, desc in fields_of(self._store, key):
             reference = referenced_type(desc)
@@ -118,12 +118,12 @@ class TypeDefinitions:
 
 
 def fields_of(store: "Typestore", key: str) -> list[tuple[str, Any]]:
-    """Fields of a type in order, as they are written down."""
+    """Fields of a type in order, without rosbags' placeholder."""
     return [field for field in store.fielddefs[key][1] if field[0] != PLACEHOLDER]
 
 
 def ros_name(key: str) -> str:
-    """Name a type as ROS 1 does."""
+    """ROS 1 name of a type."""
     return key.replace("/msg/", "/", 1)
 
 
@@ -132,7 +132,7 @@ def _md5sum(text: str) -> str:
 
 
 def referenced_type(desc: Any) -> str | None:
-    """Name the message type a field refers to, itself or as an element; None: numbers, texts and times."""
+    """Message type of a field or of its elements; None for primitives."""
     kind, detail = desc
     if kind >= 3:
         kind, detail = detail[0]
@@ -140,7 +140,7 @@ def referenced_type(desc: Any) -> str | None:
 
 
 def _type_text(desc: Any) -> str:
-    """Write a field's type as a .msg file does."""
+    """Type of a field as in a .msg file."""
     kind, detail = desc
     if kind >= 3:
         inner, count = detail

@@ -1,4 +1,4 @@
-"""Adds types to a store: each with all it consists of, or nothing."""
+"""Transactional registration of message types: a type with all its dependencies, or nothing."""
 
 import re
 from collections.abc import Callable
@@ -15,37 +15,37 @@ if TYPE_CHECKING:
 
 _NAME = re.compile(r"[A-Za-z]\w*/[A-Za-z]\w*", re.ASCII)
 _DEEPEST = 100
-"""Messages within messages; no robot's come near."""
+"""Limit of nested messages, far above real types."""
 
 
 class UnknownTypeError(MessageError):
-    """There is no type of this name."""
+    """The type is unknown."""
 
 
 class TypeRegistry:
-    """Adds the types of one store from their texts."""
+    """Registers types of one store from their definitions."""
 
     def __init__(
         self, store: "Typestore", definitions: Definitions, texts: TypeDefinitions, find: Callable[[str], str]
     ) -> None:
-        """`find` names a known type as rosbags does, having it added if its text is known."""
+        """Create; `find` returns a known type's rosbags name, registering it if its definition is known."""
         self._store = store
         self._definitions = definitions
         self._texts = texts
         self._find = find
         self._sizes = TypeSizes(store)
         self._added: list[str] = []
-        """By the call under way."""
+        """Types added by the current call."""
         self._depth = 0
 
     def add(self, type_name: str) -> None:
-        """Add a type whose text is among the definitions.
+        """Register a type from its definition.
 
         Raises:
-            MessageError: it cannot be read, or what it consists of cannot; the text says where.
+            MessageError: its definition or a dependency's is invalid; the text names file and line.
         """
         if not _NAME.fullmatch(type_name):
-            raise MessageError(f"{type_name[:80]!r} is no message type; types are written package/Name")
+            raise MessageError(f"{type_name[:80]!r} is not a message type; types are written package/Name")
         self._depth += 1
         try:
             self._add(type_name)
@@ -69,7 +69,7 @@ class TypeRegistry:
         key = f"{package}/msg/{name}"
         try:
             if self._depth > _DEEPEST:
-                raise DefinitionError(1, f"it is one of more than {_DEEPEST} messages within each other")
+                raise DefinitionError(1, f"more than {_DEEPEST} nested messages")
             constants, fields = read_type(text, key)
             self._store.register({key: (cast("Any", constants), fields)})
         except DefinitionError as error:
@@ -95,7 +95,7 @@ class TypeRegistry:
             raise MessageError(self._at(name, line) + str(error)) from None
 
     def _at(self, type_name: str, line: int) -> str:
-        """Begin a sentence about a line of a type's text: with its file, if it came from one."""
+        """Prefix of an error message: file and line of a definition, or its type and line."""
         origin = self._definitions.origins.get(type_name)
         if origin is None:
             return f"the definition of {type_name} cannot be read: line {line}: "

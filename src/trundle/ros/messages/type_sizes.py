@@ -1,4 +1,4 @@
-"""How much memory a message takes when nothing is in it, so that no definition asks for more than there is."""
+"""Memory of empty messages: limits the sizes that definitions can require."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -9,12 +9,12 @@ if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
 
 _OBJECT_BYTES = 64
-"""Size of a message, a text or a list, about."""
+"""Approximate size of a message, string or list object [bytes]."""
 _SMALL = {"bool": 1, "byte": 1, "char": 1, "int8": 1, "uint8": 1, "int16": 2, "uint16": 2, "int32": 4, "uint32": 4}
 
 
 class FieldError(Exception):
-    """A field of a type makes it impossible."""
+    """A field makes its type recursive or too large."""
 
     def __init__(self, key: str, field: str, what: str) -> None:
         super().__init__(what)
@@ -23,19 +23,19 @@ class FieldError(Exception):
 
 
 class TypeSizes:
-    """Sizes of the types of one store."""
+    """Sizes of one store's types."""
 
     def __init__(self, store: "Typestore") -> None:
         self._store = store
         self._sizes: dict[str, int] = {}
         self._in_progress: dict[str, str] = {}
-        """Types whose field, by its name, is looked into."""
+        """Types on the current path → the field being visited."""
 
     def check(self, key: str) -> None:
-        """Look into a type whose inner types are known.
+        """Check a type whose dependencies are registered.
 
         Raises:
-            FieldError: it contains itself, or its messages would be larger than a connection carries.
+            FieldError: it contains itself, or its empty message exceeds `MAX_MESSAGE_BYTES`.
         """
         try:
             self._size(key)
@@ -46,14 +46,14 @@ class TypeSizes:
         if key in self._in_progress:
             chain = [*self._in_progress]
             loop = " > ".join(ros_name(other) for other in (*chain[chain.index(key) :], key))
-            raise FieldError(key, self._in_progress[key], f"{ros_name(key)} has itself inside: {loop}")
+            raise FieldError(key, self._in_progress[key], f"{ros_name(key)} contains itself: {loop}")
         if key not in self._sizes:
             size = _OBJECT_BYTES
             for name, desc in fields_of(self._store, key):
                 self._in_progress[key] = name
                 size += self._field_size(desc)
                 if size > MAX_MESSAGE_BYTES:
-                    most = f"more than the {MAX_MESSAGE_BYTES} that a connection carries"
+                    most = f"more than the {MAX_MESSAGE_BYTES} of a connection"
                     raise FieldError(key, name, f"a {ros_name(key)} takes {size} bytes when it is empty, {most}")
             self._in_progress.pop(key, None)
             self._sizes[key] = size
@@ -65,7 +65,7 @@ class TypeSizes:
             inner, count = detail
             return _OBJECT_BYTES + count * self._field_size(inner)
         if kind == 4:
-            self._field_size(detail[0])  # a list of itself is no type of ROS, either
+            self._field_size(detail[0])  # a list of its own type is invalid in ROS, too
             return _OBJECT_BYTES
         if kind == 2:
             return self._size(detail)
