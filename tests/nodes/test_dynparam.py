@@ -52,8 +52,8 @@ def test_what_the_original_dumps_is_read(dynparam, stage, tmp_path: Path) -> Non
     ("words", "said"),
     [
         (f"set {NODE} speed 1", "don't know parameter: speed; there are: scan_height"),
-        (f"set {NODE} scan_height x", "'x' is no int"),
-        ("get -t 0.2 /nobody", "/nobody told no options within 0.2 s"),
+        (f"set {NODE} scan_height x", "'x' is not of type int"),
+        ("get -t 0.2 /nobody", "/nobody sent no options within 0.2 s"),
         (f"load {NODE} /no/such.yaml", "No such file"),
     ],
 )

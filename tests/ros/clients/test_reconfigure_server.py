@@ -70,7 +70,8 @@ def test_values_are_kept_within_bounds_told_and_written(graph: Any, camera: list
 
 
 @pytest.mark.parametrize(
-    ("values", "said"), [({"speed": 1}, "don't know parameter: speed; there are: rate"), ({"rows": "x"}, "is no int")]
+    ("values", "said"),
+    [({"speed": 1}, "don't know parameter: speed; there are: rate"), ({"rows": "x"}, "is not of type int")],
 )
 def test_what_cannot_be_set_is_refused(graph: Any, camera: list[Options], values: Any, said: str) -> None:
     with pytest.raises(ServiceError, match=said):

@@ -1,4 +1,4 @@
-"""An actionlib server on plain topics: goal and cancel in; status, feedback and result out."""
+"""actionlib server on plain topics: goal and cancel in; status, feedback and result out."""
 
 import asyncio
 import itertools
@@ -12,7 +12,7 @@ from ..node.node import Node
 
 _STATUS_RATE_HZ = 5.0
 _STATUS_LIST_TIMEOUT_S = 5.0
-"""How long a finished goal stays in the status list, as in actionlib."""
+"""Time a finished goal stays in the status list, as in actionlib."""
 _PENDING, _ACTIVE = 0, 1
 _NUMBERS = {"preempted": 2, "succeeded": 3, "aborted": 4, "rejected": 5}
 _MAX_GOALS = 1000
@@ -20,7 +20,7 @@ _MAX_GOALS = 1000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ActionOutcome:
-    """How a goal ended."""
+    """Terminal state and result of a goal."""
 
     status: Literal["succeeded", "aborted", "preempted", "rejected"] = "succeeded"
     result: dict[str, Any] = field(default_factory=dict[str, Any])
@@ -38,7 +38,7 @@ class _Goal:
 
 
 class ActionServer:
-    """Works on goals; unless they may run side by side, a new one preempts the one before it."""
+    """Executes goals; unless `side_by_side`, a new goal preempts the previous one."""
 
     def __init__(
         self,
@@ -49,15 +49,15 @@ class ActionServer:
         *,
         side_by_side: bool = False,
     ) -> None:
-        """Register.
+        """Advertise and subscribe the action's topics.
 
         Args:
-            node: whose topics they are.
-            name: the action's namespace, resolved as a topic is.
+            node: owner of the topics.
+            name: the action's namespace, resolved like a topic.
             type_name: without the suffix Action: 'control_msgs/FollowJointTrajectory'.
-            work: a coroutine function of the goal, and of a function to call, on the loop, once the goal is taken and
-                not rejected; it is cancelled when the goal is.
-            side_by_side: whether a goal leaves those before it alone; `work` may preempt them.
+            work: coroutine function of the goal and of `accept`, to be called on the loop when the goal is accepted;
+                cancelled when the goal is.
+            side_by_side: True: goals run concurrently; `work` may preempt them.
         """
         self._node = node
         self._work = work
@@ -76,11 +76,11 @@ class ActionServer:
 
     @property
     def active(self) -> bool:
-        """Whether a goal is being worked on."""
+        """True while a goal is active."""
         return any(goal.status == _ACTIVE for goal in self._goals.values())
 
     def publish_feedback(self, feedback: dict[str, Any]) -> None:
-        """Say how the goals that are being worked on go; any thread."""
+        """Publish feedback for all active goals; thread-safe."""
         if not self._feedback.has_subscribers:
             return
         for goal in [goal for goal in list(self._goals.values()) if goal.status == _ACTIVE]:
@@ -88,7 +88,7 @@ class ActionServer:
             self._feedback.publish({"header": header, "status": _status(goal), "feedback": feedback})
 
     def close(self) -> None:
-        """Unregister; any thread."""
+        """Unregister; thread-safe."""
         self._status_task.cancel()
         for end in self._endpoints:
             end.unregister()
@@ -100,7 +100,7 @@ class ActionServer:
         if key in self._goals:
             return
         if len(self._goals) >= _MAX_GOALS:
-            self._node.log.error(f"more than {_MAX_GOALS} goals at once; one is not taken")
+            self._node.log.error(f"more than {_MAX_GOALS} goals at once; a new goal is ignored")
             return
         if not self._side_by_side:
             for other in self._goals.values():
@@ -110,7 +110,7 @@ class ActionServer:
         goal.task = asyncio.get_running_loop().create_task(self._run(goal, message.goal))
 
     def _on_cancel(self, message: Message) -> None:
-        """By id; an empty id means all, a stamp all that came until then."""
+        """Cancel by id; an empty id means all, a stamp all goals up to it."""
         stamp = to_nsec(message.stamp)
         for key, goal in self._goals.items():
             everything = not message.id and stamp == 0
@@ -123,7 +123,7 @@ class ActionServer:
 
     async def _run(self, goal: _Goal, asked: Message) -> None:
         def accept() -> None:
-            if goal.status == _PENDING:  # and not cancelled meanwhile
+            if goal.status == _PENDING:  # unless cancelled meanwhile
                 goal.status = _ACTIVE
                 self._publish_status()
 

@@ -1,4 +1,4 @@
-"""Options of other nodes, by dynamic_reconfigure: which there are, and changing them."""
+"""dynamic_reconfigure client: find nodes with options, read and set them."""
 
 import asyncio
 import contextlib
@@ -16,17 +16,17 @@ _TRUTHS = {"true": True, "1": True, "yes": True, "on": True, "false": False, "0"
 
 
 async def find_reconfigurable(node: Node) -> list[str]:
-    """Names of what has options, sorted: nodes, and namespaces of parts of nodes."""
+    """Sorted names of nodes, and of namespaces within nodes, that have options."""
     topics = await node.master.call("getTopicTypes")
     kind = f"{_KIND}/ConfigDescription"
     return sorted(name.removesuffix(_DESCRIPTIONS) for name, type_ in topics if type_ == kind and _DESCRIPTIONS in name)
 
 
 async def read_options(node: Node, name: str, *, timeout_s: float | None = None) -> list[Option]:
-    """The options of a node, with their values now.
+    """Read the options of a node with their current values.
 
     Raises:
-        ServiceError: nobody of that name tells in time.
+        ServiceError: no answer in time.
     """
     space = node.resolve(name).rstrip("/")
     try:
@@ -36,7 +36,7 @@ async def read_options(node: Node, name: str, *, timeout_s: float | None = None)
                 _latched_message(node, f"{space}/parameter_updates", f"{_KIND}/Config"),
             )
     except TimeoutError:
-        raise ServiceError(f"{space} told no options within {timeout_s:g} s") from None
+        raise ServiceError(f"{space} sent no options within {timeout_s:g} s") from None
     lower, upper, now = config_values(description.min), config_values(description.max), config_values(config)
     found = [parameter for group in description.groups for parameter in group.parameters if parameter.name in now]
     return [_option(parameter, now[parameter.name], lower, upper) for parameter in found]
@@ -45,10 +45,10 @@ async def read_options(node: Node, name: str, *, timeout_s: float | None = None)
 async def set_options(
     node: Node, name: str, values: Mapping[str, object], *, timeout_s: float | None = None
 ) -> Options:
-    """Change some options of a node; returns what all of them are then.
+    """Set options of a node; returns the resulting values of all.
 
     Raises:
-        ServiceError: there is no such node or option, a value does not fit, or the node says no.
+        ServiceError: there is no such node or option, a value does not fit, or the node refuses.
     """
     there = {option.name: option for option in await read_options(node, name, timeout_s=timeout_s)}
     asked: Options = {}
@@ -62,7 +62,7 @@ async def set_options(
 
 
 async def _latched_message(node: Node, topic: str, kind: str) -> Message:
-    """The message that is latched there."""
+    """Latched message of a topic."""
     future: asyncio.Future[Message] = asyncio.get_running_loop().create_future()
 
     def on_message(message: Message) -> None:
@@ -84,7 +84,7 @@ def _option(parameter: Message, value: OptionValue, lower: Options, upper: Optio
 
 
 def _converted(name: str, value: object, kind: type[OptionValue]) -> OptionValue:
-    """A value as text or YAML gave it, in the option's own type."""
+    """Convert a value from text or YAML to the option's type."""
     if kind is bool and isinstance(value, str):
         value = _TRUTHS.get(value.lower(), value)
     if kind is bool:
@@ -93,4 +93,4 @@ def _converted(name: str, value: object, kind: type[OptionValue]) -> OptionValue
     elif kind is str or isinstance(value, str | int | float):
         with contextlib.suppress(ValueError):
             return kind(str(value)) if kind is not float else float(str(value))
-    raise ServiceError(f"option {name!r}: {value!r} is no {kind.__name__}")
+    raise ServiceError(f"option {name!r}: {value!r} is not of type {kind.__name__}")

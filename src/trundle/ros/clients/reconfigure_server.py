@@ -1,4 +1,4 @@
-"""dynamic_reconfigure: options of a node that users change while it runs."""
+"""dynamic_reconfigure server: options of a node that can be set at run time."""
 
 import contextlib
 import math
@@ -21,17 +21,17 @@ _GROUP = "Default"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Option:
-    """One option; the type of its value is its type for ever."""
+    """One option; its type is that of `value`."""
 
     name: str
     value: OptionValue
-    """At first, and by default."""
+    """Initial and default value."""
     lower: float = -math.inf
     upper: float = math.inf
     description: str = ""
 
     def read(self, value: OptionValue) -> OptionValue | None:
-        """A value of this option's type within its bounds; None: it is no such value."""
+        """Convert a value to this option's type and clamp it; None if the type does not fit."""
         kind = type(self.value)
         if kind is str or kind is bool:
             return value if type(value) is kind else None
@@ -43,19 +43,19 @@ class Option:
 class ReconfigureServer:
     """Topics `parameter_descriptions` and `parameter_updates`, service `set_parameters`, and the parameters themselves.
 
-    Clients are `dynparam`, rqt_reconfigure and `dynamic_reconfigure.client`, the real ones or ours.
+    Clients: `dynparam`, rqt_reconfigure and `dynamic_reconfigure.client`, of ROS or Trundle.
     """
 
     def __init__(
         self, node: Node, options: Iterable[Option], apply: Callable[[Options], Options], *, namespace: str = "~"
     ) -> None:
-        """Offer options; any thread.
+        """Advertise the options; thread-safe.
 
         Args:
-            node: that has them.
-            options: in the order in which they are shown.
-            apply: called with all of them where the node's callbacks run; returns what they are then.
-            namespace: of the topics, the service and the parameters: '~' or '/robot/camera'.
+            node: owner of the options.
+            options: in display order.
+            apply: called with all values on the node's callback thread; returns the values in effect.
+            namespace: for topics, service and parameters: '~' or '/robot/camera'.
         """
         self._node = node
         self._options = {option.name: option for option in options}
@@ -75,7 +75,7 @@ class ReconfigureServer:
         node.loop.spawn(self._write(self._values))
 
     def unregister(self) -> None:
-        """Offer nothing any more; any thread."""
+        """Unregister topics and service; thread-safe."""
         for end in self._endpoints:
             end.unregister()
 
@@ -88,7 +88,7 @@ class ReconfigureServer:
         return {"config": config_message(self._values)}
 
     def _read(self, config: Message) -> Options:
-        """What is asked for, within bounds; what cannot be is said."""
+        """Requested values, clamped; unknown options and wrong types are logged."""
         taken: Options = {}
         for item in (item for field in _FIELDS.values() for item in getattr(config, field)):
             option = self._options.get(item.name)
@@ -98,7 +98,9 @@ class ReconfigureServer:
                 self._node.log.warn(f"no option {item.name!r} in {self._node.resolve(self._space)}; there are: {there}")
             elif value is None:
                 kind = _TYPES[type(option.value)]
-                self._node.log.warn(f"option {item.name!r} stays as it is: {item.value!r} is no finite {kind}")
+                self._node.log.warn(
+                    f"option {item.name!r} is unchanged: {item.value!r} is not a finite value of type {kind}"
+                )
             else:
                 taken[item.name] = value
         return taken
@@ -123,7 +125,7 @@ class ReconfigureServer:
 
 
 def _bound(option: Option, bound: float) -> OptionValue:
-    """A bound as clients expect it, in the option's own type."""
+    """Bound in the option's own type, as clients expect."""
     match option.value:
         case bool():
             return bound > 0.0
@@ -144,5 +146,5 @@ def config_message(values: Mapping[str, OptionValue]) -> dict[str, Any]:
 
 
 def config_values(config: Message) -> Options:
-    """What a dynamic_reconfigure/Config says."""
+    """Values in a dynamic_reconfigure/Config."""
     return {str(item.name): item.value for field in _FIELDS.values() for item in getattr(config, field)}

@@ -1,4 +1,4 @@
-"""A transform tree over time: the last ten seconds of each frame, interpolated."""
+"""tf buffer: ten seconds of transforms per frame, interpolated."""
 
 import math
 from bisect import bisect_left, insort
@@ -9,17 +9,17 @@ from trundle.spatial import IDENTITY_QUATERNION, NS_PER_S, ZERO, Pose, Quaternio
 from ..errors import TransformError
 
 _MAX_DEPTH = 1000
-"""A chain longer than this is a loop; tf2 uses the same bound."""
+"""Limit of a frame's ancestors, to detect loops; the same in tf2."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Transform:
-    """Where `child` is in `parent` at one time."""
+    """Pose of `child` in `parent` at one time."""
 
     parent: str
     child: str
     stamp_ns: int = 0
-    """ROS time [ns]; in a lookup's answer, 0 where every part is static."""
+    """ROS time [ns]; 0 in a lookup's result if the whole chain is static."""
     translation: Vector3 = ZERO
     """[m], in `parent`."""
     rotation: Quaternion = IDENTITY_QUATERNION
@@ -32,9 +32,9 @@ class Transform:
 
 
 class TransformBuffer:
-    """Keeps transforms and answers where one frame is in another.
+    """Transform history with lookup between any two frames.
 
-    Frames are named without a leading slash; one is stripped wherever it comes in, as tf2 does.
+    Leading slashes of frame names are stripped, as in tf2.
     """
 
     def __init__(self, cache_s: float = 10.0) -> None:
@@ -44,12 +44,12 @@ class TransformBuffer:
         """Child → its transforms, oldest first."""
 
     def set_transform(self, transform: Transform, *, static: bool = False) -> bool:
-        """Take a transform; False if it is of no use (older than the cache, not finite, or a frame in itself)."""
+        """Add a transform; False if rejected (older than the cache, not finite, or parent equals child)."""
         parent, child = frame_name(transform.parent), frame_name(transform.child)
         norm = math.hypot(*transform.rotation)
         if not parent or not child or parent == child or not math.isfinite(norm + sum(transform.translation)):
             return False
-        # Publishers in the wild send float32 quaternions and all zeros; the first are made unit, the second mean none.
+        # Normalize float32 quaternions; all zeros, as some publishers send, mean the identity.
         rotation = tuple(v / norm for v in transform.rotation) if norm > 0 else IDENTITY_QUATERNION
         clean = Transform(
             parent=parent,
@@ -76,15 +76,15 @@ class TransformBuffer:
         return True
 
     def lookup_transform(self, target: str, source: str, stamp_ns: int = 0) -> Transform:
-        """Return where `source` is in `target`: a transform with parent `target` and child `source`.
+        """Return the transform with parent `target` and child `source`.
 
         Args:
-            target: frame to express the answer in.
-            source: frame asked about.
-            stamp_ns: time [ns]; 0: the latest at which the whole chain is known.
+            target: parent frame of the result.
+            source: child frame of the result.
+            stamp_ns: time [ns]; 0: latest common time of the chain.
 
         Raises:
-            TransformError: a frame is unknown, the two are not connected, or the time is outside what is known.
+            TransformError: a frame is unknown, the two are not connected, or the time is outside the history.
         """
         target, source = frame_name(target), frame_name(source)
         up_target, up_source, common = self._paths_to_common_ancestor(target, source)
@@ -99,7 +99,7 @@ class TransformBuffer:
         )
 
     def path(self, target: str, source: str) -> list[str]:
-        """Name the frames that lead from `target` to `source`, both included.
+        """List the frames from `target` to `source`, inclusive.
 
         Raises:
             TransformError: a frame is unknown, or the two are not connected.
@@ -110,7 +110,7 @@ class TransformBuffer:
         return [*up_target[: up_target.index(common) + 1], *reversed(down)]
 
     def can_transform(self, target: str, source: str, stamp_ns: int = 0) -> bool:
-        """Tell whether a lookup would succeed."""
+        """True if a lookup would succeed."""
         try:
             self.lookup_transform(target, source, stamp_ns)
         except TransformError:
@@ -118,7 +118,7 @@ class TransformBuffer:
         return True
 
     def frames(self) -> dict[str, str | None]:
-        """Every frame with its parent; roots have none."""
+        """All frames → parent; None for roots."""
         parents: dict[str, str | None] = {child: history[-1].parent for child, history in self._moving.items()}
         parents.update({child: transform.parent for child, transform in self._static.items()})
         for parent in list(parents.values()):
@@ -127,21 +127,21 @@ class TransformBuffer:
         return parents
 
     def latest(self, child: str) -> Transform | None:
-        """Return the newest transform of a frame in its parent."""
+        """Newest transform of a frame in its parent."""
         name = frame_name(child)
         history = self._moving.get(name)
         return history[-1] if history else self._static.get(name)
 
     def is_static(self, child: str) -> bool:
-        """Tell whether a frame is fixed in its parent for good."""
+        """True if the frame's transform is static."""
         return frame_name(child) in self._static
 
     def clear(self) -> None:
-        """Forget what moves, as when time goes back; what is static stays, as it is sent only once."""
+        """Drop all but static transforms, as when time jumps back; static ones are sent only once."""
         self._moving.clear()
 
     def _paths_to_common_ancestor(self, target: str, source: str) -> tuple[list[str], list[str], str]:
-        """Name each frame's way to the root, and where the two ways meet."""
+        """Chains of both frames up to their roots, and the first common ancestor."""
         up_target, up_source = self._chain(target, "target"), self._chain(source, "source")
         common = next((frame for frame in up_source if frame in up_target), None)
         if common is None:
@@ -152,7 +152,7 @@ class TransformBuffer:
         return up_target, up_source, common
 
     def _chain(self, frame: str, argument: str) -> list[str]:
-        """Name a frame and its ancestors up to the root; `argument` says in complaints which frame it is."""
+        """Frame and ancestors up to the root; `argument` names the frame in errors."""
         parents = self._parent
         if parents(frame) is None and not self._is_parent(frame):
             raise TransformError(f'"{frame}" passed to lookupTransform argument {argument}_frame does not exist. ')
@@ -198,7 +198,7 @@ class TransformBuffer:
 
 
 def frame_name(name: str) -> str:
-    """Strip the leading slash that tf1 allowed."""
+    """Strip the leading slash allowed in tf1."""
     return name.removeprefix("/")
 
 

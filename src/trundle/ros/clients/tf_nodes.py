@@ -1,4 +1,4 @@
-"""tf on a node: broadcasters, and a listener that fills a buffer. Quaternions are xyzw on the wire only."""
+"""tf broadcasters, and a listener that fills a buffer. Quaternions are xyzw in messages only."""
 
 from typing import Any
 
@@ -9,11 +9,11 @@ from .tf_buffer import Transform, TransformBuffer
 
 _TYPE = "tf2_msgs/TFMessage"
 _QUEUE = 100
-"""As tf2_ros."""
+"""As in tf2_ros."""
 
 
 class TransformBroadcaster:
-    """Sends transforms on /tf."""
+    """Publishes transforms on /tf."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -21,17 +21,17 @@ class TransformBroadcaster:
 
     @property
     def has_subscribers(self) -> bool:
-        """Whether anybody listens: if not, there is no need to make transforms."""
+        """True if /tf has subscribers; otherwise transforms need not be computed."""
         return self._publisher.has_subscribers
 
     def send_transform(self, *transforms: Transform) -> None:
-        """Send transforms in one message, from any thread."""
+        """Publish transforms in one message; thread-safe."""
         if self.has_subscribers:
             self._publisher.publish(transform_message(self._node, transforms))
 
 
 class StaticTransformBroadcaster:
-    """Sends transforms that never change on /tf_static; newcomers get all of them."""
+    """Publishes static transforms on /tf_static, latched."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -39,20 +39,20 @@ class StaticTransformBroadcaster:
         self._sent: dict[str, Transform] = {}
 
     def send_transform(self, *transforms: Transform) -> None:
-        """Send transforms, with all that were sent before: a later one of the same child replaces it."""
+        """Publish transforms along with all earlier ones; a later one of the same child replaces it."""
         self._sent.update({transform.child: transform for transform in transforms})
         self._publisher.publish(transform_message(self._node, tuple(self._sent.values())))
 
 
 class TransformListener:
-    """Keeps a buffer up to date with /tf and /tf_static."""
+    """Fills a buffer from /tf and /tf_static."""
 
     def __init__(self, node: Node, buffer: TransformBuffer | None = None) -> None:
-        """Listen.
+        """Subscribe.
 
         Args:
-            node: subscribes; the buffer is filled on its loop, where it should also be asked.
-            buffer: to fill; a new one by default. Emptied of what moves when the node's simulated time goes back.
+            node: subscribes; the buffer belongs to its loop's thread.
+            buffer: to fill; a new one by default. Cleared when simulated time jumps back.
         """
         self.buffer = buffer or TransformBuffer()
         node.subscribe("/tf", _TYPE, lambda m: self._on_message(m, static=False), queue_size=_QUEUE, on_loop=True)
@@ -66,7 +66,7 @@ class TransformListener:
 
 
 def transform_message(node: Node, transforms: tuple[Transform, ...]) -> Message:
-    """Make a tf2_msgs/TFMessage."""
+    """Convert transforms to a tf2_msgs/TFMessage."""
     items: list[dict[str, Any]] = []
     for transform in transforms:
         (x, y, z), (qw, qx, qy, qz) = transform.translation, transform.rotation
@@ -84,7 +84,7 @@ def transform_message(node: Node, transforms: tuple[Transform, ...]) -> Message:
 
 
 def read_transforms(message: Message) -> list[Transform]:
-    """Read a tf2_msgs/TFMessage."""
+    """Convert a tf2_msgs/TFMessage to transforms."""
     result: list[Transform] = []
     for item in message.transforms:
         t, q = item.transform.translation, item.transform.rotation

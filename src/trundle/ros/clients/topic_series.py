@@ -1,4 +1,4 @@
-"""Numbers of messages over time, by the names of their fields."""
+"""Time series of numeric message fields."""
 
 import math
 from collections import deque
@@ -16,11 +16,11 @@ from ..node.node import Node
 
 _NUMBERS = ("int", "uint", "float", "bool", "byte", "char", "time", "duration")
 _POINTS = 100_000
-"""Kept for each curve; the oldest go."""
+"""Maximum points per curve; the oldest are dropped."""
 
 
 def spread_fields(text: str) -> list[str]:
-    """rqt_plot's short form: /a/x:y is /a/x and /a/y."""
+    """Expand rqt_plot's short form: /a/x:y means /a/x and /a/y."""
     first, *others = text.split(":") if "[" not in text else [text]
     stem = first.rpartition("/")[0]
     return [first, *(f"{stem}/{other}" for other in others)]
@@ -28,17 +28,17 @@ def spread_fields(text: str) -> list[str]:
 
 @dataclass
 class TopicSeries:
-    """One field, and a curve for each number in it."""
+    """A field, and a curve for each number in it."""
 
     name: str
     where: TopicField
     curves: dict[str, "deque[tuple[float, float]]"] = field(default_factory=dict[str, "deque[tuple[float, float]]"])
 
     def check(self, messages: Messages) -> None:
-        """Refuse what is not a number.
+        """Check that the field is numeric.
 
         Raises:
-            UsageError: it is something else; names what it is.
+            UsageError: the field is not numeric; the text names its type.
         """
         kind = field_type(self.where.type, self.where.path, messages)
         base = kind.partition("[")[0]
@@ -48,7 +48,7 @@ class TopicSeries:
             raise UsageError(f"{self.name} is a {kind}, not a number{below}")
 
     def add_message(self, message: Any, time_s: float) -> None:
-        """Add a message's numbers; an array that is too short adds none."""
+        """Append a message's numbers; an array that is too short adds none."""
         try:
             value = value_at(message, self.where.steps)
         except IndexError:
@@ -62,7 +62,7 @@ class TopicSeries:
 
 
 def recent_curves(traces: Sequence[TopicSeries], *, last_s: float = math.inf) -> list[Curve]:
-    """What was gathered in the last seconds; time is counted from the first message on."""
+    """Curves of the last `last_s` seconds; time starts at the first message."""
     found = [(name, list(points)) for trace in traces for name, points in trace.curves.items()]
     start = min((points[0][0] for _, points in found), default=0.0)
     since = max((points[-1][0] for _, points in found), default=0.0) - last_s
@@ -70,10 +70,10 @@ def recent_curves(traces: Sequence[TopicSeries], *, last_s: float = math.inf) ->
 
 
 def subscribe_series(trace: TopicSeries, node: Node, clock: Clock) -> None:
-    """Take the numbers of what is published from now on; a coroutine's or the loop's thread.
+    """Subscribe and record the field's numbers; call on the loop.
 
     Raises:
-        UsageError: the field holds none.
+        UsageError: the field is not numeric.
     """
     messages = node.messages
     known = messages.has(trace.where.type)
