@@ -95,7 +95,7 @@ def test_a_recording_that_breaks_off_fails(graph: Any, tmp_path: Path, cause: st
             process.kill()
     why = "File too large" if cause == "full" else "No such file or directory"
     assert process.returncode == 1
-    assert f"recording broke off: {folder}/x.bag.active: {why}" in said
+    assert f"recording failed: {folder}/x.bag.active: {why}" in said
     if cause == "full":
         assert {message.connection.topic for message in recover_messages(folder / "x.bag.active")} >= {"/a"}
 
@@ -112,4 +112,4 @@ def test_a_launch_whose_recording_breaks_off_fails(tmp_path: Path) -> None:
     limited = ["sh", "-c", 'ulimit -f 2000 && exec "$@"', "sh", *command]
     done = subprocess.run(limited, env=env, capture_output=True, text=True, check=False, timeout=PATIENCE_S)
     assert done.returncode == 1
-    assert f"recording broke off: {tmp_path}/x.bag.active: File too large" in done.stderr
+    assert f"recording failed: {tmp_path}/x.bag.active: File too large" in done.stderr

@@ -33,7 +33,7 @@ def main(args: argparse.Namespace) -> int:
             with _uninterrupted():
                 recorder.stop()
         if recorder.error is not None:
-            raise BagError(f"recording broke off: {recorder.error}")
+            raise BagError(f"recording failed: {recorder.error}")
     return 0
 
 

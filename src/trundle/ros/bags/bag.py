@@ -1,4 +1,4 @@
-"""What a bag holds, whatever its format, and what readers and writers of bags can do."""
+"""Bag contents, and the protocols of bag readers and writers, whatever the format."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -9,16 +9,16 @@ from ..errors import RosError
 
 
 class BagError(RosError):
-    """A file that is no bag, is damaged, or cannot be written."""
+    """A file that is not a bag, is damaged, or cannot be written."""
 
 
 def recording_failure(path: Path, error: OSError) -> str:
-    """Why recording into a file broke off, and what becomes of what it holds."""
-    return f"{path}: {error.strerror}; trundle bag reindex makes a bag of what it holds"
+    """Error message for a failed recording."""
+    return f"{path}: {error.strerror}; trundle bag reindex recovers its messages"
 
 
 class UnindexedBagError(BagError):
-    """A bag whose recording was cut off; its messages are there but not its index."""
+    """A bag without an index, since its recording was cut off."""
 
     def __init__(self, path: Path) -> None:
         super().__init__(f"bag unindexed: {path}.  Run trundle bag reindex.")
@@ -26,7 +26,7 @@ class UnindexedBagError(BagError):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BagConnection:
-    """One publisher's link, as it was recorded."""
+    """Connection record: one publisher's link to the recorder."""
 
     topic: str
     type: str
@@ -38,17 +38,17 @@ class BagConnection:
 
 @dataclass(frozen=True, slots=True)
 class BagMessage:
-    """One message."""
+    """A recorded message, serialized."""
 
     connection: BagConnection
     stamp_ns: int
-    """When it was recorded [ns]."""
+    """Time of recording [ns]."""
     data: bytes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Chunk:
-    """A stretch of a bag that is compressed as one."""
+    """A chunk, compressed as a unit."""
 
     compression: str
     size: int
@@ -61,22 +61,22 @@ ConnectionFilter = Callable[[BagConnection], bool]
 
 
 class BagReader(Protocol):
-    """Reads one bag."""
+    """Reader of one bag."""
 
     path: Path
     version: str
     connections: list[BagConnection]
     counts: list[int]
-    """Messages of each connection."""
+    """Message count of each connection."""
     chunks: list[Chunk]
     start_ns: int
     end_ns: int
-    """First and last message [ns]; both 0 in an empty bag."""
+    """Times of the first and last message [ns]; both 0 in an empty bag."""
 
     def messages(
         self, wanted: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
     ) -> Iterator[BagMessage]:
-        """Yield messages in the order of their stamps, from `start_ns` on and up to `end_ns`.
+        """Yield messages in order of `stamp_ns`, from `start_ns` to `end_ns` inclusive.
 
         Raises:
             BagError: the file is damaged.
@@ -93,19 +93,19 @@ class BagReader(Protocol):
 
 
 class BagWriter(Protocol):
-    """Writes one bag."""
+    """Writer of one bag."""
 
     def write(self, message: BagMessage) -> None:
-        """Add a message."""
+        """Append a message."""
         ...
 
     def flush(self) -> None:
-        """Hand everything so far to the operating system, so that not even SIGKILL loses it."""
+        """Write all buffered data to the operating system, so that it survives SIGKILL."""
         ...
 
     @property
     def size(self) -> int:
-        """About how large the file would be if it were closed now [bytes]."""
+        """Approximate file size if closed now [bytes]."""
         ...
 
     def close(self) -> None:
@@ -113,7 +113,7 @@ class BagWriter(Protocol):
         ...
 
     def abandon(self) -> None:
-        """Close the file as it is, without an index: what is on the disk stays readable by `recovered`."""
+        """Close the file without an index; written chunks are readable by `recover_messages`."""
         ...
 
     def __enter__(self) -> Self: ...

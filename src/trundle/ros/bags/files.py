@@ -1,4 +1,4 @@
-"""Opens bags by what they are, makes them by what they are called, and saves those that were cut off."""
+"""Opens bags by content, creates them by file name, and recovers unindexed ones."""
 
 import re
 from collections.abc import Iterator
@@ -11,15 +11,15 @@ from .bag import BagError, BagMessage, BagReader, BagWriter
 _MCAP_MAGIC = b"\x89MCAP0\r\n"
 _VERSION = re.compile(rb"#ROS.* V(\d\.\d)")
 _LONGEST = 64
-"""[bytes] of the line that tells the version."""
+"""Maximum length of the version line [bytes]."""
 
 
 def open_bag(path: Path) -> BagReader:
     """Open a .bag or .mcap file for reading.
 
     Raises:
-        UnindexedBagError: its recording was cut off.
-        BagError: it is neither, or damaged.
+        UnindexedBagError: the bag has no index.
+        BagError: the file is neither, or damaged.
     """
     match _format(path):
         case "mcap":
@@ -37,32 +37,32 @@ def open_bag(path: Path) -> BagReader:
 
 
 def create_bag(path: Path, *, compression: str = "none", chunk_bytes: int = 768 * 1024) -> BagWriter:
-    """Make a new bag: MCAP if its name has `.mcap` in it, else a ROS 1 bag.
+    """Create a bag: MCAP if `.mcap` is among the name's suffixes, else ROS 1.
 
     Args:
-        path: a file that is not there yet.
+        path: must not exist.
         compression: none, bz2 (.bag only), lz4, or zstd (.mcap only).
-        chunk_bytes: how much is compressed as one and written at once.
+        chunk_bytes: chunk size.
 
     Raises:
-        BagError: the file is there, cannot be written, or does not know the compression.
+        BagError: the file exists, cannot be written, or its format lacks the compression.
     """
     if ".mcap" in path.suffixes:
         from .mcap import McapWriter
 
         return McapWriter(path, compression=compression, chunk_bytes=chunk_bytes)
     if compression not in ("none", "bz2", "lz4"):
-        raise BagError(f"ROS 1 bags know no {compression} compression; they know bz2 and lz4")
+        raise BagError(f"{compression} compression is not supported in ROS 1 bags; use bz2 or lz4")
     from .ros1 import Ros1Writer
 
     return Ros1Writer(path, compression=compression, chunk_bytes=chunk_bytes)
 
 
 def recover_messages(path: Path) -> Iterator[BagMessage]:
-    """Yield every whole message of a bag with or without an index, as they lie in the file.
+    """Yield all complete messages of a bag, indexed or not, in file order.
 
     Raises:
-        BagError: this is no bag.
+        BagError: the file is not a bag.
     """
     match _format(path):
         case "mcap":
@@ -80,7 +80,7 @@ def recover_messages(path: Path) -> Iterator[BagMessage]:
 
 
 def _format(path: Path) -> str:
-    """`mcap`, or the version that the first line of a ROS 1 bag tells; empty if it tells none."""
+    """`mcap`, or the version in the first line of a ROS 1 bag; '' if there is none."""
     try:
         with open_file(path) as file:
             start = file.readline(_LONGEST)
@@ -92,7 +92,5 @@ def _format(path: Path) -> str:
     if version is None:
         return ""
     if version[1] not in (b"1.2", b"2.0"):
-        raise BagError(
-            f"{path} is a bag of format {version[1].decode()}; formats 1.2 and 2.0 are read here, as by rosbag"
-        )
+        raise BagError(f"{path} is a bag of format {version[1].decode()}; only 1.2 and 2.0 are supported, as by rosbag")
     return version[1].decode()

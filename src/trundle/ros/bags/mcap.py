@@ -1,4 +1,4 @@
-"""ROS 1 messages in MCAP files (profile `ros1`), by the library mcap: https://mcap.dev/spec/registry."""
+"""ROS 1 messages in MCAP files (profile `ros1`), with the mcap library: https://mcap.dev/spec/registry."""
 
 import contextlib
 import os
@@ -17,13 +17,13 @@ from ..messages.messages import Messages
 from .bag import BagConnection, BagError, BagMessage, Chunk, ConnectionFilter, UnindexedBagError
 
 _MAGIC = b"\x89MCAP0\r\n"
-"""What a file begins and, if its recording was not cut off, ends with."""
+"""Start of a file, and its end unless recording was cut off."""
 _LARGEST = 2**30
-"""[bytes]; a record that says it is longer is not read."""
+"""Maximum record length [bytes]."""
 
 
 class McapReader:
-    """Reads an .mcap file with an index."""
+    """Reader of an indexed .mcap file."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -81,12 +81,12 @@ class McapReader:
 
 
 class McapWriter:
-    """Writes an .mcap file."""
+    """Writer of an .mcap file."""
 
     def __init__(self, path: Path, *, compression: str = "none", chunk_bytes: int = 768 * 1024) -> None:
         kind = {"none": CompressionType.NONE, "lz4": CompressionType.LZ4, "zstd": CompressionType.ZSTD}.get(compression)
         if kind is None:
-            raise BagError(f"MCAP files know no {compression} compression; they know lz4 and zstd")
+            raise BagError(f"{compression} compression is not supported in MCAP files; use lz4 or zstd")
         try:
             self._file = path.open("xb")
         except OSError as error:
@@ -98,19 +98,19 @@ class McapWriter:
         self._waiting = 0
 
     def write(self, message: BagMessage) -> None:
-        """Add a message."""
+        """Append a message."""
         channel = self._channels.get(message.connection) or self._add(message.connection)
         self._writer.add_message(channel, message.stamp_ns, message.data, message.stamp_ns)
         self._waiting += len(message.data)
 
     def flush(self) -> None:
-        """Hand everything so far to the operating system."""
+        """Write all buffered data to the operating system."""
         self._writer.flush()
         self._waiting = 0
 
     @property
     def size(self) -> int:
-        """About the file's size [bytes]."""
+        """Approximate file size [bytes]."""
         return self._file.tell() + self._waiting
 
     def close(self) -> None:
@@ -119,8 +119,8 @@ class McapWriter:
         self._file.close()
 
     def abandon(self) -> None:
-        """Close the file as it is."""
-        with contextlib.suppress(OSError):  # what did not fit before does not now
+        """Close the file without an index."""
+        with contextlib.suppress(OSError):  # buffered data that failed before fails again
             self._file.close()
 
     def __enter__(self) -> Self:
@@ -149,10 +149,10 @@ class McapWriter:
 
 
 def scan_mcap(path: Path) -> Iterator[BagMessage]:
-    """Yield every message that is whole, of a file that may end anywhere.
+    """Yield all complete messages of a possibly truncated file.
 
     Raises:
-        BagError: this is no MCAP file of ROS 1 messages.
+        BagError: the messages are not ROS 1 messages.
     """
     schemas: dict[int, Schema] = {}
     connections: dict[int, BagConnection] = {}
@@ -173,12 +173,10 @@ def scan_mcap(path: Path) -> Iterator[BagMessage]:
 
 def _connection(path: Path, channel: Channel, schema: Schema | None) -> BagConnection:
     if channel.message_encoding != "ros1" or schema is None or schema.encoding != "ros1msg":
-        raise BagError(
-            f"{path}: {channel.topic} carries {channel.message_encoding} messages; ROS 1 messages (ros1) are read here"
-        )
+        raise BagError(f"{path}: {channel.topic} carries {channel.message_encoding} messages; only ros1 is supported")
     type_name, definition = schema.name, schema.data.decode("utf-8", "replace")
     md5sum = channel.metadata.get("md5sum", "")
-    if not md5sum:  # optional in MCAP, but what peers compare
+    if not md5sum:  # optional in MCAP, but required in connection headers
         messages = Messages()
         messages.add_definition(type_name, definition)
         md5sum = messages.md5(type_name)
@@ -194,14 +192,14 @@ def _connection(path: Path, channel: Channel, schema: Schema | None) -> BagConne
 
 @contextmanager
 def _library_errors(path: Path) -> Generator[None]:
-    """Turn whatever the library makes of a damaged file into one sentence."""
+    """Convert exceptions of the library to a BagError."""
     try:
         yield
     except BagError:
         raise
     except McapError as error:
         raise BagError(f"{path} cannot be read: {error}") from None
-    except Exception as error:  # the library meets arbitrary bytes here
+    except Exception as error:  # arbitrary bytes cause arbitrary exceptions in the library
         raise BagError(
-            f"{path} is damaged: {error or type(error).__name__}; trundle bag reindex saves what is whole"
+            f"{path} is damaged: {error or type(error).__name__}; trundle bag reindex recovers its messages"
         ) from None

@@ -1,4 +1,4 @@
-"""Publishes what bags hold, at the pace it was recorded."""
+"""Publishes the messages of bags in recorded time."""
 
 import heapq
 import re
@@ -15,38 +15,38 @@ from .bag import BagConnection, BagMessage, BagReader
 
 _HEADER_FIRST = re.compile(r"(\s|#.*\n)*(std_msgs/)?Header\s")
 _SLEEP_S = 0.05
-"""How long pausing or a key press may go unnoticed."""
+"""Maximum delay of pausing and key presses."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlayerOptions:
-    """What to play, and how."""
+    """Topics and timing of playback."""
 
     rate: float = 1.0
     start_s: float = 0.0
-    """[s] into the bags."""
+    """Offset into the bags [s]."""
     duration_s: float | None = None
     topics: frozenset[str] = frozenset()
-    """Only these; empty: all."""
+    """Topics to play; empty: all."""
     pause_topics: frozenset[str] = frozenset()
-    """Pause before each message of these."""
+    """Topics before whose messages playback pauses."""
     prefix: str = ""
-    """Put before every topic as it is: `foo` makes /foo/scan of /scan, and fooscan of scan."""
+    """Prepended to each topic's text: `foo` makes /foo/scan of /scan, and fooscan of scan."""
     clock_hz: float | None = None
-    """Publish /clock at this rate of the wall's time."""
+    """Rate of /clock in wall time."""
     immediate: bool = False
     queue_size: int = 100
-    """Messages waiting for a slow subscriber; 0: any number."""
+    """Queue size per publisher; 0: unlimited."""
     skip_empty_s: float | None = None
-    """Longer silences are skipped [s]."""
+    """Silences longer than this are skipped [s]."""
     rate_control_topic: str | None = None
-    """Wait for whoever publishes this: the stamps in its headers say how far they have come."""
+    """Playback waits for the header stamps of this topic."""
     rate_control_s: float = 1.0
-    """How far behind they may be [s]."""
+    """Maximum lag of the rate control topic [s]."""
 
 
 class Player:
-    """Plays some bags at once, by their common time."""
+    """Plays bags merged by time."""
 
     def __init__(self, node: Node, bags: Sequence[BagReader], options: PlayerOptions) -> None:
         self._node = node
@@ -54,32 +54,32 @@ class Player:
         self._options = options
         self._publishers: dict[BagConnection, Publisher] = {}
         self._held: dict[Publisher, dict[str, bytes]] = {}
-        """What is latched on a topic, by who had published it."""
+        """Latched messages of a topic, by original caller."""
         self._clock: Publisher | None = None
         self._clock_due_s = 0.0
         self._pace = _PlaybackClock(options.rate, 0)
         self.is_paused = False
         self.uses_pause_topics = True
-        """Whether messages of the topics to pause before do so."""
+        """False: `pause_topics` are ignored."""
         self.steps = 0
-        """Messages to let through although it is paused."""
+        """Messages to play while paused."""
         self.played = 0
         self.now_ns = 0
-        """Time in the bags [ns]."""
+        """Bag time [ns]."""
         first = min((bag.start_ns for bag in bags if any(bag.counts)), default=0)
         last = max((bag.end_ns for bag in bags), default=0)
         self.start_ns = first + round(options.start_s * 1e9)
         self._follower_ns = self.start_ns
-        """How far whoever is waited for has come."""
+        """Newest stamp of the rate control topic [ns]."""
         self.end_ns = last if options.duration_s is None else self.start_ns + round(options.duration_s * 1e9)
 
     @property
     def is_empty(self) -> bool:
-        """Whether there is nothing to play."""
+        """True if no message is selected."""
         return next(self._messages(), None) is None
 
     def advertise(self) -> list[Publisher]:
-        """Publish every topic wanted; latched ones latched, with what they last held before the start."""
+        """Advertise all selected topics; latched ones get their last message before the start."""
         if self._options.clock_hz is not None:
             self._clock = self._node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=1)
         if self._options.rate_control_topic is not None:
@@ -99,10 +99,10 @@ class Player:
         return list(dict.fromkeys(self._publishers.values()))
 
     def play(self, poll: Callable[[], None]) -> None:
-        """Publish everything once, from the first message on.
+        """Play once, from the first message.
 
         Args:
-            poll: called again and again, between messages and while waiting; may set `is_paused` and `steps`.
+            poll: called between messages and while waiting; may set `is_paused` and `steps`.
         """
         for i, message in enumerate(self._messages()):
             if i == 0:
@@ -115,7 +115,7 @@ class Player:
             self.played += 1
 
     def keep_alive(self, poll: Callable[[], None]) -> None:
-        """Let the time go on behind the end, for whoever comes late."""
+        """Advance the clock after the end, for late subscribers."""
         while True:
             poll()
             if self.is_paused or self._options.immediate:
@@ -125,13 +125,13 @@ class Player:
             self._sleep(_SLEEP_S)
 
     def _wait_for(self, message: BagMessage, poll: Callable[[], None]) -> None:
-        """Wait until it is a message's time."""
+        """Wait until a message is due."""
         options = self._options
         if self.uses_pause_topics and message.connection.topic in options.pause_topics:
             self.is_paused = True
         if options.skip_empty_s is not None and message.stamp_ns - self.now_ns > options.skip_empty_s * 1e9:
             self._pace.jump(message.stamp_ns)
-        # Decided here and once: a follower hears nothing in a silence, and cannot come further in it.
+        # Decided once: the rate control topic receives nothing in a silence, so its lag cannot shrink.
         is_ahead = self._is_ahead()
         while True:
             poll()
@@ -151,13 +151,13 @@ class Player:
             self._sleep(wait_s)
 
     def _sleep(self, longest_s: float) -> None:
-        """Tell the time if that is due, and rest for a moment."""
+        """Publish /clock if due, and sleep briefly."""
         self._tick()
         due_s = _SLEEP_S if self._clock is None else max(0.0, self._clock_due_s - time.monotonic())
         time.sleep(min(longest_s, due_s, _SLEEP_S))
 
     def _tick(self, *, at_once: bool = False) -> None:
-        """Publish the time, at its rate or whether that is due or not."""
+        """Publish /clock if due, or always with `at_once`."""
         if self._clock is None or not (at_once or time.monotonic() >= self._clock_due_s):
             return
         assert self._options.clock_hz is not None
@@ -165,7 +165,7 @@ class Player:
         self._clock_due_s = time.monotonic() + 1.0 / self._options.clock_hz
 
     def _publish(self, message: BagMessage) -> None:
-        """Publish a message; who joins a latched topic later gets the last one of each who published there."""
+        """Publish a message; late subscribers to a latched topic get the last message of each original caller."""
         connection = message.connection
         publisher = self._publishers[connection]
         if connection.latching:
@@ -181,7 +181,7 @@ class Player:
         return self.now_ns - self._follower_ns > self._options.rate_control_s * 1e9
 
     def _on_rate_control(self, message: RawMessage) -> None:
-        """Take the stamp from the header that the message starts with, whatever its type."""
+        """Read the stamp of a message that starts with a header, whatever its type."""
         if not _HEADER_FIRST.match(message.definition) or len(message.data) < 12:
             self._node.log.warn(f"{message.type} does not start with a header; it cannot control the rate")
             return
@@ -189,7 +189,7 @@ class Player:
         self._follower_ns = sec * 10**9 + nanosec
 
     def _latched_before(self) -> list[BagMessage]:
-        """Find what whoever came at the start had got from latching publishers."""
+        """Last latched messages before the start."""
         if self._options.start_s <= 0.0:
             return []
         last = {
@@ -211,7 +211,7 @@ class Player:
 
 
 class _PlaybackClock:
-    """Which bag time it is, by the wall's clock."""
+    """Maps wall time to bag time."""
 
     def __init__(self, rate: float, start_ns: int) -> None:
         self._rate = rate
@@ -225,13 +225,13 @@ class _PlaybackClock:
         return self._now_ns
 
     def wait_s(self, stamp_ns: int) -> float:
-        """How long until a bag time [s], of the wall's."""
+        """Wall time until a bag time [s]."""
         return (stamp_ns - self.now_ns()) / 1e9 / self._rate
 
     def hold(self) -> None:
-        """Let no bag time have passed since it was last asked for."""
+        """Freeze bag time at the last `now_ns`."""
         self.jump(self._now_ns)
 
     def jump(self, ns: int) -> None:
-        """Make it this bag time."""
+        """Set bag time."""
         self._bag_ns, self._wall_s, self._now_ns = ns, time.monotonic(), ns

@@ -21,52 +21,52 @@ from .bag import BagConnection, BagMessage, BagWriter, recording_failure
 from .files import create_bag
 
 _FLUSH_S = 1.0
-"""What SIGKILL can cost at most."""
+"""Flush interval: the maximum loss at SIGKILL."""
 _LOOK_S = 0.25
-"""How often it is looked whether the time is over, where nothing comes."""
+"""Poll interval for time limits without messages."""
 _POLL_S = 0.5
-"""How often the master is asked for new topics."""
+"""Poll interval for new topics."""
 _FULL_S = 5.0
-"""Between two warnings that messages come faster than they can be written."""
+"""Minimum interval of warnings about dropped messages."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RecorderOptions:
-    """What to record, and into which files."""
+    """Topics and files of a recording."""
 
     topics: tuple[str, ...] = ()
-    """Names, or regular expressions; into the bag they go as they are here, whatever is remapped."""
+    """Names or regular expressions; the bag gets names before remapping."""
     is_regex: bool = False
     all_topics: bool = False
     exclude: str = ""
     """Regular expression of topics to leave out."""
     of_node: str | None = None
-    """Record whatever this node subscribes to."""
+    """Record all topics this node subscribes to."""
     path: Path | None = None
-    """File to write; made from `prefix` and the date if None."""
+    """Output file; derived from `prefix` and the date if None."""
     prefix: str = ""
     suffix: str = ".bag"
     compression: str = "none"
     chunk_bytes: int = 768 * 1024
     buffer_bytes: int = 256 * 1024 * 1024
-    """Messages waiting to be written; the oldest go if there are more. 0: no limit."""
+    """Queue limit; the oldest messages are dropped. 0: unlimited."""
     limit: int = 0
-    """Messages of each topic after which recording it ends; 0: none."""
+    """Messages to record per topic; 0: unlimited."""
     splits: bool = False
     max_bytes: int = 0
     max_ns: int = 0
-    """When to start the next file if it splits, else when to stop; 0: never."""
+    """Size and duration after which the next file starts if `splits`, else recording stops; 0: unlimited."""
     max_splits: int = 0
     """Files to keep; 0: all."""
     tcp_nodelay: bool = False
     repeats_latched: bool = False
-    """Write the last message of each latched topic again at the start of each new file."""
+    """Repeat the last message of each latched topic at the start of each file."""
     announces: bool = False
-    """Publish the name of each file on `begin_write`."""
+    """Publish each file's name on `begin_write`."""
 
 
 class Recorder:
-    """Subscribes to topics as they come and writes what it hears, in a thread of its own."""
+    """Subscribes to topics as they appear and writes messages in a thread of its own."""
 
     def __init__(
         self,
@@ -76,13 +76,13 @@ class Recorder:
         say: Callable[[str], None],
         complain: Callable[[str], None] = lambda _: None,
     ) -> None:
-        """Make a recorder.
+        """Create; `start` subscribes.
 
         Args:
             node: subscribes.
-            options: what to record, and how.
-            say: is told what it does, in the original's words.
-            complain: is told why recording broke off, as soon as it does.
+            options: topics and files.
+            say: called with progress messages, in the original's words.
+            complain: called with the reason as soon as recording fails.
         """
         self._node = node
         self._options = options
@@ -104,15 +104,15 @@ class Recorder:
         self._begins = node.advertise("begin_write", "std_msgs/String", latch=True) if options.announces else None
         self._thread = threading.Thread(target=self._write_all, name="trundle-record", daemon=True)
         self.error: str | None = None
-        """Why recording broke off, if it did."""
+        """Reason why recording failed, if it did."""
         self.done = threading.Event()
-        """Set when a limit is reached, or writing failed."""
+        """Set when a limit is reached or writing fails."""
         self.recorded = 0
         self.dropped = 0
 
     @property
     def files(self) -> list[Path]:
-        """What was written, complete and closed."""
+        """Files complete and closed."""
         return list(self._files)
 
     @property
@@ -127,14 +127,14 @@ class Recorder:
         self._thread.start()
         options = self._options
         if not options.is_regex:
-            # On the loop: a latched message must not come before its subscription is known.
+            # On the loop: a latched message must not arrive before its subscription is stored.
             for topic in options.topics:
                 self._node.loop.call_soon(lambda topic=topic: self._subscribe(topic))
         if options.is_regex or options.all_topics or options.of_node:
             self._node.loop.spawn(self._follow_topics())
 
     def stop(self) -> None:
-        """Write what is queued and close the file; the result can be read."""
+        """Write queued messages and close the file."""
         for subscription in list(self._subscriptions.values()):
             subscription.unregister()
         with self._wake:
@@ -151,7 +151,7 @@ class Recorder:
     # on the loop
 
     async def _follow_topics(self) -> None:
-        """Subscribe to what is published, or what the node subscribes to, as it comes."""
+        """Subscribe to matching topics as they appear."""
         while not self._node.is_shut_down:
             with contextlib.suppress(RosError, OSError, FaultError):
                 for topic in await self._topics():
@@ -189,11 +189,11 @@ class Recorder:
 
     def _on_message(self, topic: str, message: RawMessage) -> None:
         stamp_ns = self.clock.now_ns()
-        if stamp_ns == 0 or self.done.is_set():  # simulated time has not begun; or a limit is reached
+        if stamp_ns == 0 or self.done.is_set():  # simulated time has not begun, or a limit is reached
             return
-        if self._options.limit and self._left[topic] == 0:  # it was under way when the limit was reached
+        if self._options.limit and self._left[topic] == 0:  # received before unsubscribing took effect
             return
-        if "/" not in message.type or not message.md5sum:  # a publisher that does not say what it publishes
+        if "/" not in message.type or not message.md5sum:  # a publisher without type or md5 sum
             self.dropped += 1
             return
         key = (topic, message.md5sum, message.caller, message.latching)
@@ -230,7 +230,7 @@ class Recorder:
             self._warned = time.monotonic()
             self._node.log.warn("rosbag record buffer exceeded.  Dropping oldest queued message.")
 
-    # in the writing thread
+    # in the writer thread
 
     def _write_all(self) -> None:
         try:
@@ -246,7 +246,7 @@ class Recorder:
 
     def _abort(self, why: str) -> None:
         self.error = why
-        self._complain(f"recording broke off: {why}")
+        self._complain(f"recording failed: {why}")
         self.done.set()
 
     def _write_loop(self) -> None:
@@ -262,13 +262,13 @@ class Recorder:
                 if self.done.is_set() and not self._options.limit:
                     return
                 self._write(message)
-            if not batch:  # time passes in a silence, too
+            if not batch:  # limits of time hold without messages, too
                 self._next_file_if_due(self.clock.now_ns(), by_size=False)
                 if self.done.is_set() and not self._options.limit:
                     return
             if time.monotonic() - flushed >= _FLUSH_S:
                 self._writer.flush()
-                self._active.stat()  # a file that was removed takes everything, and keeps nothing
+                self._active.stat()  # raises if the file was removed, since writes to it would still succeed
                 flushed = time.monotonic()
             if is_last:
                 return
@@ -281,7 +281,7 @@ class Recorder:
 
     def _next_file_if_due(self, stamp_ns: int, *, by_size: bool) -> None:
         options = self._options
-        self._start_ns = self._start_ns or stamp_ns  # simulated time may not have begun before
+        self._start_ns = self._start_ns or stamp_ns  # simulated time may have started only now
         is_long = 0 < options.max_ns < stamp_ns - self._start_ns
         is_large = by_size and options.max_bytes and self._writer.size > options.max_bytes
         if not (is_long or is_large):
@@ -317,7 +317,7 @@ class Recorder:
         self._files.append(self._path)
 
     def _name(self) -> Path:
-        """As the original: NAME.bag or PREFIX_date.bag, with a number if there are several."""
+        """File name as in the original: NAME.bag or PREFIX_date.bag, numbered if splitting."""
         options = self._options
         number = f"_{self._names}" if options.splits else ""
         self._names += 1

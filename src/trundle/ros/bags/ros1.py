@@ -1,4 +1,4 @@
-"""ROS 1 bags (format 2.0), by the library rosbags."""
+"""ROS 1 bags (format 2.0), with the rosbags library."""
 
 import contextlib
 import struct
@@ -17,7 +17,7 @@ from .scan import chunk_at
 
 
 class Ros1Reader:
-    """Reads a .bag file with an index."""
+    """Reader of an indexed .bag file."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -26,7 +26,7 @@ class Ros1Reader:
         with _library_errors(path):
             self._reader.open()
         self._by_id = {c.id: _connection(c) for c in self._reader.connections}
-        self.connections = [self._by_id[c.id] for c in self._reader.connections]  # a damaged one may name an id twice
+        self.connections = [self._by_id[c.id] for c in self._reader.connections]  # damaged bags may repeat an ID
         self.counts = [int(c.msgcount) for c in self._reader.connections]
         infos = self._reader.chunk_infos
         self.start_ns = min((info.start_time for info in infos if info.connection_counts), default=0)
@@ -58,7 +58,7 @@ class Ros1Reader:
 
 
 class Ros1Writer:
-    """Writes a .bag file."""
+    """Writer of a .bag file."""
 
     def __init__(self, path: Path, *, compression: str = "none", chunk_bytes: int = 768 * 1024) -> None:
         self._writer = _FlushingWriter(path)
@@ -74,17 +74,17 @@ class Ros1Writer:
         self._connections: dict[BagConnection, Any] = {}
 
     def write(self, message: BagMessage) -> None:
-        """Add a message."""
+        """Append a message."""
         connection = self._connections.get(message.connection) or self._add(message.connection)
         self._writer.write(connection, message.stamp_ns, message.data)
 
     def flush(self) -> None:
-        """Hand everything so far to the operating system."""
+        """Write all buffered data to the operating system."""
         self._writer.flush()
 
     @property
     def size(self) -> int:
-        """About the file's size [bytes]."""
+        """Approximate file size [bytes]."""
         return self._writer.size
 
     def close(self) -> None:
@@ -92,7 +92,7 @@ class Ros1Writer:
         self._writer.close()
 
     def abandon(self) -> None:
-        """Close the file as it is."""
+        """Close the file without an index."""
         self._writer.abandon()
 
     def __enter__(self) -> Self:
@@ -114,22 +114,22 @@ class Ros1Writer:
 
 
 def _lz4(data: bytes) -> bytes:
-    """Compress as roslz4 can read: it knows neither linked blocks nor a frame that tells its size."""
+    """Compress for roslz4, which supports neither linked blocks nor a content size in the frame header."""
     return bytes(lz4.frame.compress(data, block_linked=False, content_checksum=True, store_size=False))
 
 
 _PADDING_AT = 13 + 4 + 69
-"""Where the length of the first record's padding stands: behind the magic line and its header, of a fixed size."""
+"""Offset of the bag header's padding length: after the magic line and the fixed-size header."""
 _PADDING = 4096 - 69
 _PADDING_LACKING = 8
-"""`rosbag reindex` counts on 4096 bytes without the two lengths; the library pads to 4096 with them."""
+"""`rosbag reindex` expects 4096 bytes without the two lengths; rosbags pads to 4096 with them."""
 
 
 class _FlushingWriter(Writer):
-    """The library's writer, which can also let go of what it has: on disk, and of the index in memory."""
+    """rosbags' writer with flushing to disk and without the message index in memory."""
 
     def open(self) -> None:
-        """Open the file, and pad its first record as rosbag does."""
+        """Open the file, and pad the bag header as rosbag does."""
         super().open()
         assert self.bio is not None
         self.bio.write(b" " * _PADDING_LACKING)
@@ -137,33 +137,33 @@ class _FlushingWriter(Writer):
         self.bio.seek(0, SEEK_END)
 
     def close(self) -> None:
-        """Write the index; the library writes the first record anew, with its own padding."""
+        """Write the index; rosbags rewrites the bag header with its own padding."""
         super().close()
         with self.path.open("r+b") as file:
             _write_padding(file)
 
     def abandon(self) -> None:
-        """Close the file as it is."""
+        """Close the file without an index."""
         if self.bio is not None:
-            with contextlib.suppress(OSError):  # what did not fit before does not now
+            with contextlib.suppress(OSError):  # buffered data that failed before fails again
                 self.bio.close()
 
     def write_chunk(self, chunk: WriteChunk) -> None:
-        """Write a chunk, then keep of its index only the counts, which are all that closing needs."""
+        """Write a chunk; of its index keep only the counts, which closing needs."""
         super().write_chunk(chunk)
         if chunk.pos != -1:
             counts = {id_: cast("list[tuple[int, int]]", range(len(items))) for id_, items in chunk.connections.items()}
             chunk.connections = counts
 
     def flush(self) -> None:
-        """Close the chunk at hand."""
+        """Finish the current chunk."""
         assert self.bio is not None
         self.write_chunk(self.chunks[-1])
         self.bio.flush()
 
     @property
     def size(self) -> int:
-        """Bytes written and waiting."""
+        """Bytes written and buffered."""
         assert self.bio is not None
         return self.bio.tell() + self.chunks[-1].data.tell()
 
@@ -186,7 +186,7 @@ def _connection(connection: Any) -> BagConnection:
 
 @contextmanager
 def _library_errors(path: Path) -> Generator[None]:
-    """Turn whatever the library makes of a damaged file into one sentence."""
+    """Convert exceptions of the library to a BagError."""
     try:
         yield
     except ReaderError as error:
@@ -195,7 +195,7 @@ def _library_errors(path: Path) -> Generator[None]:
         raise BagError(f"{path} cannot be read: {error}") from None
     except BagError:
         raise
-    except Exception as error:  # the library meets arbitrary bytes here
+    except Exception as error:  # arbitrary bytes cause arbitrary exceptions in the library
         raise BagError(
-            f"{path} is damaged: {error or type(error).__name__}; trundle bag reindex saves what is whole"
+            f"{path} is damaged: {error or type(error).__name__}; trundle bag reindex recovers its messages"
         ) from None

@@ -14,11 +14,11 @@ from .scan import BoundedFile, TruncatedError, operation, read_head
 _DEFINITION, _MESSAGE, _FILE_HEADER = 1, 2, 3
 
 _Entry = tuple[int, BagConnection, int, int]
-"""Stamp [ns], connection, where the data begins and how long it is [bytes]."""
+"""Stamp [ns], connection, offset and length of the data [bytes]."""
 
 
 class RosrecordReader:
-    """Reads a 1.2 bag by a walk over its records; the index at the end of some says nothing more."""
+    """Reader of a 1.2 bag; scans all records, as the optional index adds nothing."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -43,7 +43,7 @@ class RosrecordReader:
         return _read(self.path, (entry for entry in self._entries if first <= entry[0] <= last and entry[1] in chosen))
 
     def close(self) -> None:
-        """Do nothing: the file is open only while messages are read."""
+        """No-op: the file is open only while messages are read."""
 
     def __enter__(self) -> Self:
         return self
@@ -53,19 +53,19 @@ class RosrecordReader:
 
 
 def scan_rosrecord(path: Path) -> Iterator[BagMessage]:
-    """Yield every message that is whole, as it lies, of a bag that may end anywhere."""
+    """Yield all complete messages of a possibly truncated bag, in file order."""
     return _read(path, _RecordScan(path).entries)
 
 
 class _RecordScan:
-    """Where the messages of a file lie, in its order, as far as it makes sense."""
+    """Positions of messages in a file, up to the first invalid record."""
 
     def __init__(self, path: Path) -> None:
         self.connections: dict[bytes, BagConnection] = {}
-        """By topic, each as it was first defined."""
+        """Topic → its first definition."""
         self.entries: list[_Entry] = []
         self.index_at: int | None = None
-        """Where the index begins; 0: it was never written; None: this bag is to have none."""
+        """Offset of the index; 0: never written; None: the bag has none."""
         self.is_truncated = False
         with path.open("rb") as opened:
             version = opened.readline()
@@ -92,7 +92,7 @@ class _RecordScan:
             self.entries.append((seconds * 10**9 + nanoseconds, connection, at, size))
 
     def _find_definition(self, fields: dict[str, bytes]) -> BagConnection:
-        """Find the definition of a type that was written for another topic alone."""
+        """Use another topic's definition of the same type."""
         type_ = fields["type"].decode("utf-8", "replace")
         for connection in self.connections.values():
             if connection.type == type_:
@@ -107,5 +107,5 @@ def _read(path: Path, entries: Iterable[_Entry]) -> Iterator[BagMessage]:
             file.seek(at)
             data = file.read(size)
             if len(data) != size:
-                raise BagError(f"{path} became shorter while it was read")
+                raise BagError(f"{path} was truncated while it was read")
             yield BagMessage(connection, stamp_ns, data)

@@ -1,4 +1,4 @@
-"""The records of a .bag file as they lie, index or not: http://wiki.ros.org/Bags/Format/2.0."""
+"""Sequential scan of a .bag file, with or without index: http://wiki.ros.org/Bags/Format/2.0."""
 
 import bz2
 import os
@@ -17,20 +17,20 @@ _LENGTH = struct.Struct("<I")
 
 
 class TruncatedError(Exception):
-    """A file ends, or stops to make sense, within a record."""
+    """The file ends or becomes invalid within a record."""
 
 
 def scan_bag(path: Path) -> Iterator[BagMessage]:
-    """Yield every message that is whole, as it lies, of a bag that may end anywhere.
+    """Yield all complete messages of a possibly truncated bag, in file order.
 
     Raises:
-        BagError: this is no bag.
+        BagError: the file is not a ROS 1 bag.
     """
     connections: dict[int, BagConnection] = {}
     with path.open("rb") as opened:
         file = BoundedFile(opened, path.stat().st_size)
         if file.read(len(_MAGIC)) != _MAGIC:
-            raise BagError(f"{path} is no ROS 1 bag of format 2.0")
+            raise BagError(f"{path} is not a ROS 1 bag of format 2.0")
         try:
             while head := read_head(file):
                 fields, size = head
@@ -72,10 +72,10 @@ def _record(fields: dict[str, bytes], data: bytes, connections: dict[int, BagCon
 
 
 def chunk_at(file: BinaryIO, position: int) -> Chunk:
-    """Read how large the chunk at a place in a bag is.
+    """Read the sizes of the chunk at a position.
 
     Raises:
-        BagError: there is no chunk.
+        BagError: there is no chunk at the position.
     """
     try:
         end = file.seek(0, os.SEEK_END)
@@ -84,28 +84,28 @@ def chunk_at(file: BinaryIO, position: int) -> Chunk:
             raise TruncatedError
         (size,) = _LENGTH.unpack(head[0]["size"])
     except (TruncatedError, KeyError, struct.error):
-        raise BagError(f"no chunk at byte {position}; trundle bag reindex saves what is whole") from None
+        raise BagError(f"no chunk at byte {position}; trundle bag reindex recovers the messages") from None
     return Chunk(compression=head[0]["compression"].decode("ascii", "replace"), size=size, compressed=head[1])
 
 
 class BoundedFile:
-    """A file of which no more is asked for than there is, whatever a length in it promises."""
+    """File reader that never requests more than the file's size, whatever a length field says."""
 
     def __init__(self, file: BinaryIO, size: int) -> None:
         self._file = file
         self._left = size
 
     def read(self, size: int) -> bytes:
-        """As a file does."""
+        """Read at most `size` bytes."""
         piece = self._file.read(min(size, self._left))
         self._left -= len(piece)
         return piece
 
     def skip(self, size: int) -> int:
-        """Go on behind so many bytes; returns where in the file they begin.
+        """Skip `size` bytes; returns their offset in the file.
 
         Raises:
-            TruncatedError: there are not as many.
+            TruncatedError: the file is shorter.
         """
         if size > self._left:
             raise TruncatedError
@@ -114,21 +114,21 @@ class BoundedFile:
 
 
 class _ByteReader:
-    """A chunk's content, read piece by piece."""
+    """Reader of a decompressed chunk."""
 
     def __init__(self, data: bytes) -> None:
         self._data = data
         self._at = 0
 
     def read(self, size: int) -> bytes:
-        """As a file does."""
+        """Read at most `size` bytes."""
         piece = self._data[self._at : self._at + size]
         self._at += len(piece)
         return piece
 
 
 def read_head(file: "BoundedFile | _ByteReader") -> tuple[dict[str, bytes], int] | None:
-    """Read a record's header and the size of its data; None at the end of the file."""
+    """Read a record header; returns its fields and the data length, or None at the end of the file."""
     start = file.read(4)
     if not start:
         return None
@@ -161,7 +161,7 @@ def _fields(data: bytes) -> dict[str, bytes]:
 
 
 def operation(fields: dict[str, bytes]) -> int:
-    """What kind of record has this header; 0 if it does not say."""
+    """Opcode of a record; 0 if missing."""
     value = fields.get("op", b"")
     return value[0] if len(value) == 1 else 0
 
@@ -179,7 +179,7 @@ def _connection(topic: bytes, fields: dict[str, bytes]) -> BagConnection:
 
 
 def _decompressed(compression: str, data: bytes, most: int) -> bytes:
-    """Decompress a chunk, as far as it goes and to no more than it says."""
+    """Decompress a chunk as far as possible, up to its declared size."""
     if compression == "none":
         return data
     try:

@@ -1,4 +1,4 @@
-"""Records what nodes of this process publish, stamped and put in order by whoever lets time pass: to the byte."""
+"""Records this process's publishers per simulation step, with bags identical to the byte."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -11,26 +11,26 @@ from .files import create_bag
 
 _NAME = "/record"
 _BY_THE_WALL = ("/rosout", "/rosout_agg")
-"""What nodes say at their start carries the wall's time."""
+"""Excluded topics: messages at node start carry wall time."""
 
 
 class StepRecorder:
-    """Hears each publisher of a loop from its birth on; messages of one instant go into the bag in a fixed order."""
+    """Attaches to every publisher of a loop; messages of one step are written in a fixed order."""
 
     is_raw = True
     needs_every_message = False
-    """It writes what is said; nothing is said more often for its sake."""
+    """Attaching does not make publishers publish more often."""
 
     def __init__(self, loop: GraphLoop, path: Path, *, complain: Callable[[str], None]) -> None:
-        """Open the file.
+        """Create the file and attach.
 
         Args:
-            loop: whose nodes are heard.
-            path: of the bag.
-            complain: is told why recording broke off, if it does.
+            loop: its publishers are recorded.
+            path: bag to write.
+            complain: called with the reason if recording fails.
 
         Raises:
-            BagError: it cannot be written.
+            BagError: the file cannot be written.
         """
         self._path = path if path.suffix in (".bag", ".mcap") else path.with_name(f"{path.name}.bag")
         self._active = self._path.with_name(f"{self._path.name}.active")
@@ -43,19 +43,19 @@ class StepRecorder:
         loop.local.on_publisher.append(self._follow)
 
     def receive(self, message: Message) -> None:
-        """Take a message object: never, as it wants bytes."""
+        """Never called, since `is_raw`."""
         raise AssertionError(message)
 
-    def receive_bytes(self, data: bytes, publisher: LocalPublisher) -> None:
-        """Take a message, on the loop."""
+    def receive_bytes(self, data: bytes, publisher: Publisher) -> None:
+        """Receive a serialized message; on the loop."""
         self._received.append((publisher, data))
 
     def write(self, stamp_ns: int) -> None:
-        """Write what was heard since the last time; called while the loop rests."""
+        """Write messages received since the last call; called while the loop is idle."""
         heard, self._received = self._received, []
         if self._has_failed:
             return
-        # A stable sort: the messages of one publisher stay as they came.
+        # A stable sort keeps each publisher's order.
         heard.sort(key=lambda each: (each[0].topic, each[0].caller))
         try:
             for publisher, data in heard:
@@ -66,7 +66,7 @@ class StepRecorder:
             self._abandon(error)
 
     def close(self) -> None:
-        """Finish the file; what was not written yet came after the end."""
+        """Finish the file; messages not yet written came after the end."""
         if self._is_abandoned:
             return
         try:
@@ -76,14 +76,14 @@ class StepRecorder:
             self._abandon(error)
 
     def _abandon(self, error: OSError) -> None:
-        """Leave the file as it is: what it would be given later would not follow on what it holds."""
+        """Leave the file as it is, since later messages would leave a gap."""
         self._is_abandoned = True
         self._writer.abandon()
         self._fail(recording_failure(self._active, error))
 
     def _fail(self, why: str) -> None:
         self._has_failed = True
-        self._complain(f"recording broke off: {why}")
+        self._complain(f"recording failed: {why}")
 
     def _follow(self, publisher: LocalPublisher) -> None:
         if publisher.topic not in _BY_THE_WALL:
