@@ -1,4 +1,4 @@
-"""Old messages brought up to the types of today, by rule files as rosbag has them."""
+"""Migration of messages of old types to current ones, by rosbag's rule files."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""The rules of each type in their order, the last of which may give it another name."""
+"""Migration rules per type in order; the last may rename the type."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -8,42 +8,42 @@ from .rule import MessageUpdateRule
 
 @dataclass(slots=True)
 class Chain:
-    """The rules of one type."""
+    """Rules of one type."""
 
     updates: list[MessageUpdateRule] = field(default_factory=list[MessageUpdateRule])
-    """By `order`; the type keeps its name."""
+    """Rules that keep the type's name, sorted by `order`."""
     rename: MessageUpdateRule | None = None
-    """The last one."""
+    """Last rule, which renames the type."""
 
     def all_rules(self) -> list[MessageUpdateRule]:
-        """All of them."""
+        """All rules in order."""
         return [*self.updates, *([self.rename] if self.rename else [])]
 
 
 class Chains:
-    """Chains by the type they begin with."""
+    """Rule chains by initial type."""
 
     def __init__(self, warn: Callable[[str], None]) -> None:
         self._warn = warn
         self._chains: dict[str, Chain] = {}
 
     def add(self, rule: MessageUpdateRule) -> None:
-        """Put a rule in its place, unless it contradicts one that is there, which is said."""
+        """Add a rule, unless it contradicts an earlier one, which is logged."""
         chain = self._chains.setdefault(rule.old_type, Chain())
         why_not = self._why_not_last(chain, rule) if rule.renames else _why_not_within(chain, rule)
         if why_not:
-            self._warn(f"{rule.location}: {why_not}; this rule is left out")
+            self._warn(f"{rule.location}: {why_not}; this rule is ignored")
         elif rule.renames:
             chain.rename = rule
         else:
             chain.updates = sorted([*chain.updates, rule], key=lambda each: each.order)
 
     def items(self) -> list[tuple[str, Chain]]:
-        """Types with their chains, as rules for them were added first."""
+        """Types with their chains, in the order of their first rule."""
         return list(self._chains.items())
 
     def later_names(self, kind: str) -> set[str]:
-        """What a type is called after its rules, and after those of the types it becomes; itself included."""
+        """Names of a type after any of its rules, transitively, itself included."""
         names = {kind}
         chain = self._chains.get(kind)
         while chain is not None and chain.rename is not None:
@@ -55,7 +55,7 @@ class Chains:
         if chain.rename is not None:
             return f"{chain.rename.location} renames {rule.old_type} already"
         if rule.old_type in self.later_names(rule.new_type):
-            return f"{rule.new_type} becomes {rule.old_type} again"
+            return f"{rule.new_type} is renamed back to {rule.old_type}"
         if chain.updates and rule.order <= chain.updates[-1].order:
             return (
                 f"a rule that renames comes last, but {chain.updates[-1].location} has order {chain.updates[-1].order}"

@@ -1,6 +1,6 @@
-"""Message classes as genpy makes them, which is what update rules are written for.
+"""Message classes with genpy's interface, for which update rules are written.
 
-Numbers in arrays are tuples, `uint8[]` is bytes, times have `secs` and `nsecs`; the bytes are `Messages`' work.
+Numbers in arrays are tuples, `uint8[]` is bytes, times have `secs` and `nsecs`; serialization is that of `Messages`.
 """
 
 from collections.abc import Callable, Sequence
@@ -15,11 +15,11 @@ _BYTES = ("uint8", "char")
 _NUMBERS = {f"{u}int{n}" for u in ("", "u") for n in (8, 16, 32, 64)} | {"byte", "char", "float32", "float64"}
 BUILTIN = _NUMBERS | {"bool", "string", "time", "duration"}
 Key = tuple[str, str]
-"""Type and md5 sum: two classes of one key are alike."""
+"""Type and md5 sum; classes with equal keys are equivalent."""
 
 
 class MessageClass(type):
-    """The class of messages of one type; rules know what it says by genpy's names, such as `_type`."""
+    """Metaclass of message classes, with genpy's attributes such as `_type`."""
 
     _type: str
     _md5sum: str
@@ -29,12 +29,12 @@ class MessageClass(type):
 
     @property
     def kind(cls) -> str:
-        """The type's name."""
+        """Type name."""
         return cls._type
 
     @property
     def md5sum(cls) -> str:
-        """The type's md5 sum."""
+        """md5 sum."""
         return cls._md5sum
 
     @property
@@ -44,21 +44,21 @@ class MessageClass(type):
 
     @property
     def definition(cls) -> str:
-        """The text of the type, with those of the types within."""
+        """Full definition with dependencies."""
         return cls._full_text
 
     @property
     def kinds(cls) -> dict[str, str]:
-        """Fields with their types."""
+        """Field names → types."""
         return cls._kinds
 
     @property
     def classes(cls) -> "MessageClasses":
-        """Those of the same store."""
+        """Store that holds this class."""
         return cls._classes
 
     def nested_classes(cls) -> "dict[str, MessageClass]":
-        """This class and those of all it consists of, by type."""
+        """Classes of this type and of all types it contains, by name."""
         return cls._classes.nested_classes(cls._type)
 
     def constants(cls) -> dict[str, tuple[str, str]]:
@@ -67,12 +67,12 @@ class MessageClass(type):
 
 
 class RuleMessage(metaclass=MessageClass):
-    """A message as update rules see it."""
+    """A message with genpy's interface."""
 
     __slots__: tuple[str, ...] = ()
 
     def __init__(self, *values: Any, **named: Any) -> None:
-        """Make a message of all fields in order, or of some by name; the others are 0 or empty."""
+        """Create a message from all fields in order, or from some by name; others are 0 or empty."""
         made = type(self)
         names = list(made.kinds)
         if values and (named or len(values) != len(names)):
@@ -85,14 +85,14 @@ class RuleMessage(metaclass=MessageClass):
             setattr(self, name, given[name] if name in given else made.classes.default(kind))
 
     def serialize(self, buffer: BinaryIO) -> None:
-        """Write the message's bytes."""
+        """Serialize the message."""
         buffer.write(to_bytes(self))
 
     def deserialize(self, data: bytes) -> "RuleMessage":
-        """Take the fields that bytes hold.
+        """Set the fields from serialized data.
 
         Raises:
-            MessageError: they are no such message.
+            MessageError: the data is not a message of this type.
         """
         made = type(self)
         _copy_fields(self, made.classes.read(data, made.kind))
@@ -101,7 +101,7 @@ class RuleMessage(metaclass=MessageClass):
     def __eq__(self, other: object) -> bool:
         return type(self) is type(other) and all(getattr(self, n) == getattr(other, n) for n in type(self).kinds)
 
-    __hash__ = None  # type: ignore[assignment] - as genpy's, which can be changed
+    __hash__ = None  # type: ignore[assignment] - mutable, as genpy's
 
     def __repr__(self) -> str:
         made = type(self)
@@ -109,7 +109,7 @@ class RuleMessage(metaclass=MessageClass):
 
 
 class MessageClasses:
-    """The classes of one store of types."""
+    """Message classes of one type store."""
 
     def __init__(self, messages: Messages) -> None:
         self._messages = messages
@@ -118,10 +118,10 @@ class MessageClasses:
 
     @classmethod
     def from_definition(cls, kind: str, definition: str) -> "MessageClasses":
-        """Those of a type as a bag or a rule has it, with the texts of what it depends on.
+        """Create from a full definition, as in a bag or rule.
 
         Raises:
-            MessageError: the text cannot be read.
+            MessageError: the definition is invalid.
         """
         messages = Messages(bare=True)
         # REP 100: until 2010 the header lived in roslib.
@@ -129,21 +129,21 @@ class MessageClasses:
         return cls(messages)
 
     def has(self, kind: str) -> bool:
-        """Tell whether a type is known."""
+        """True if the type is known."""
         return self._messages.has(kind)
 
     def message_class(self, kind: str) -> MessageClass:
         """Return the class of a type.
 
         Raises:
-            MessageError: there is no such type.
+            MessageError: the type is unknown.
         """
         if kind not in self._made:
             self._made[kind] = self._make(kind)
         return self._made[kind]
 
     def nested_classes(self, kind: str) -> dict[str, MessageClass]:
-        """The classes of a type and of all it consists of, by name."""
+        """Classes of a type and all types it contains, by name."""
         found: dict[str, MessageClass] = {}
         waiting = [kind]
         while waiting:
@@ -158,7 +158,7 @@ class MessageClasses:
         return self._messages.constants(kind)
 
     def default(self, kind: str) -> Any:
-        """The value of a field that nobody set."""
+        """Default value of a field."""
         base, bracket, count = kind.partition("[")
         if bracket:
             length = int(count.rstrip("]") or 0)
@@ -168,19 +168,19 @@ class MessageClasses:
         return self.message_class(base)()
 
     def read(self, data: bytes, kind: str) -> Any:
-        """What the store makes of bytes."""
+        """Deserialize with the type store."""
         return self._messages.deserialize(data, kind)
 
     def write(self, kind: str, fields: dict[str, Any]) -> bytes:
-        """Bytes of a message of these fields.
+        """Serialize a message with these fields.
 
         Raises:
-            MessageError: a field holds what its type cannot.
+            MessageError: a field's value does not fit its type.
         """
         return self._messages.serialize(self._messages.new(kind, fields))
 
     def reader(self, kind: str) -> Callable[[Any], Any]:
-        """Return what makes of a field's value, as the store has it, one as genpy has it."""
+        """Converter of a field's value from rosbags' to genpy's form."""
         if kind not in self._readers:
             self._readers[kind] = self._make_reader(kind)
         return self._readers[kind]
@@ -236,39 +236,39 @@ class MessageClasses:
 
 
 def base_type(kind: str) -> str:
-    """A field's type without `[]`."""
+    """Type of a field without `[]`."""
     return kind.partition("[")[0]
 
 
 def _copy_fields(message: RuleMessage, value: Any) -> None:
-    """Set a message's fields to those that the store read."""
+    """Set a message's fields from a message of the type store."""
     made = type(message)
     for name, kind in made.kinds.items():
-        read = getattr(value, name) if hasattr(value, name) else getattr(value, f"{name}_")  # a keyword of Python's
+        read = getattr(value, name) if hasattr(value, name) else getattr(value, f"{name}_")  # a Python keyword
         setattr(message, name, made.classes.reader(kind)(read))
 
 
 def from_bytes(made: MessageClass, data: bytes) -> RuleMessage:
-    """Make a message of bytes, and nothing that is not in them: a bag's types may have arrays of any length.
+    """Deserialize without default values first, since fixed-size arrays may have any length.
 
     Raises:
-        MessageError: they are no such message.
+        MessageError: the data is not a message of this type.
     """
     return made.classes.reader(made.kind)(made.classes.read(data, made.kind))
 
 
 def to_bytes(message: RuleMessage) -> bytes:
-    """Bytes of a message.
+    """Serialize a message.
 
     Raises:
-        MessageError: a field holds what its type cannot; the text names it.
+        MessageError: a field's value does not fit its type; the text names it.
     """
     made = type(message)
     return made.classes.write(made.kind, _fields(message, made, ""))
 
 
 def _fields(message: Any, made: MessageClass, path: str) -> dict[str, Any]:
-    """The fields of a message: one of ours, or whatever a rule put there that has the same."""
+    """Fields of a message, which may be any object with the same attributes."""
     found: dict[str, Any] = {}
     for name, kind in made.kinds.items():
         here = f"{path}.{name}".lstrip(".")
@@ -283,7 +283,7 @@ def _fields(message: Any, made: MessageClass, path: str) -> dict[str, Any]:
 def _field(value: Any, kind: str, classes: MessageClasses, path: str) -> Any:
     base, bracket, _ = kind.partition("[")
     if bracket:
-        if base in _BYTES and isinstance(value, str):  # bytes were strings in Python 2, for which rules were written
+        if base in _BYTES and isinstance(value, str):  # rules were written for Python 2, where bytes are strings
             return value.encode("latin-1", "replace")
         if base in _NUMBERS:
             return value

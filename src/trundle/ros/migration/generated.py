@@ -1,4 +1,4 @@
-"""Rules that nobody wrote: fields of one name go over, and what does not fit is said, as a text to complete."""
+"""Generated rules: fields of the same name and type are copied; other fields are reported in a rule to complete."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,24 +8,24 @@ from .classes import BUILTIN, MessageClass, RuleMessage, base_type
 from .rule import MessageUpdateRule, Rule, Rules, short_name
 
 CanMigrate = Callable[[str, str], bool]
-"""Whether rules lead from one type's name to another's."""
+"""True if rules lead from one type name to the other."""
 _INDENT = "    "
 
 
 @dataclass(frozen=True, slots=True)
 class _Field:
-    """How a field of the new message comes about."""
+    """Source of a field of the new message."""
 
     name: str
     kind: str
     problem: str = ""
-    """Why it stays at its default."""
+    """Reason why it keeps its default."""
     pair: tuple[str, str] | None = None
-    """Types, for one that is itself a message."""
+    """Old and new type of a nested message."""
 
 
 class GeneratedRule(Rule):
-    """Carries over the fields that both types have; valid if those are all."""
+    """Copies the fields that both types share; valid if those are all."""
 
     def __init__(self, migrator: Rules, old: MessageClass, new: MessageClass, may_become: CanMigrate) -> None:
         super().__init__(migrator, f"the rule from {old.kind} to {new.kind}")
@@ -41,7 +41,7 @@ class GeneratedRule(Rule):
         self.migrated_types = tuple(dict.fromkeys(field.pair for field in self._fields if field.pair))
 
     def update(self, old_msg: RuleMessage, new_msg: RuleMessage) -> None:
-        """Carry over what fits."""
+        """Copy the shared fields."""
         for field in self._fields:
             if field.problem:
                 continue
@@ -56,7 +56,7 @@ class GeneratedRule(Rule):
                 self.migrate(value, getattr(new_msg, field.name))
 
     def text(self) -> str:
-        """The rule as a rule file has it."""
+        """Python source of the rule, for a rule file."""
         assert self.new_class is not None
         lines: list[str] = []
         for field in self._fields:
@@ -74,7 +74,7 @@ class GeneratedRule(Rule):
 
 
 class PlaceholderRule(Rule):
-    """Stands for a rule to a type that nobody knows yet."""
+    """Placeholder of a rule to an unknown type."""
 
     def __init__(self, migrator: Rules, old: MessageClass) -> None:
         super().__init__(migrator, f"the rule from {old.kind}")
@@ -97,13 +97,13 @@ def _plan_field(name: str, old: MessageClass, new: MessageClass, may_become: Can
 
 
 def _changed_constants(old: MessageClass, new: MessageClass) -> list[str]:
-    """Names of constants that are gone or mean something else; rules that use them must know."""
+    """Constants that were removed or changed."""
     after = new.constants()
     return [name for name, constant in old.constants().items() if after.get(name) != constant]
 
 
 def _default(kind: str, name: str) -> str:
-    """Python of the value that a field has until somebody knows better."""
+    """Python expression of a field's default."""
     base, bracket, count = kind.partition("[")
     length = count.rstrip("]")
     if bracket and base in ("uint8", "char"):

@@ -1,4 +1,4 @@
-"""Finds the rules that lead from a type as it was recorded to the one that is known here, and follows them."""
+"""Finds and applies the rules that lead from a recorded type to the known one."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -15,17 +15,17 @@ from .rule_files import RuleFile, rule_errors
 
 @dataclass(slots=True, eq=False)
 class MigrationStep:
-    """A rule between two classes, and the one after it."""
+    """A rule between two classes, and the next step."""
 
     old: MessageClass
     new: MessageClass | None
-    """None where nobody knows what comes next."""
+    """None if the next type is unknown."""
     rule: Rule
     next: "MigrationStep | None" = None
 
 
 class Migrator:
-    """All rules there are, and those that follow from them."""
+    """All rules of rule files, and generated ones between them."""
 
     def __init__(
         self,
@@ -35,16 +35,16 @@ class Migrator:
         warn: Callable[[str], None],
         is_forced: bool = False,
     ) -> None:
-        """Put rules in order.
+        """Link the rules.
 
         Args:
-            files: rule files that were run.
-            known: the types to arrive at.
-            warn: told of rules that contradict others.
-            is_forced: follow rules that are not complete: fields that are new stay 0, those that are gone are lost.
+            files: loaded rule files.
+            known: target types.
+            warn: called with each rule conflict.
+            is_forced: True: apply incomplete rules; new fields stay 0, removed fields are lost.
 
         Raises:
-            MigrationError: a rule is marked as not valid, or its texts cannot be read.
+            MigrationError: a rule is marked invalid, or its definitions are.
         """
         self.warn = warn
         self.is_forced = is_forced
@@ -58,11 +58,11 @@ class Migrator:
         self._link()
 
     def known_class(self, kind: str) -> MessageClass | None:
-        """The class of a type as it is known here."""
+        """Class of a known type."""
         return self._known.message_class(kind) if self._known.has(kind) else None
 
     def target(self, old: MessageClass) -> MessageClass | None:
-        """What a recorded type is to become: what its name means here, or what rules rename it to."""
+        """Known class that a recorded type migrates to: of its own name, or of the name rules rename it to."""
         known = self.known_class(old.kind)
         step = self._first.get(old.kind)
         if known is not None or step is None:
@@ -72,23 +72,23 @@ class Migrator:
         return None if step.new is None else self.known_class(step.new.kind)
 
     def path(self, old: MessageClass, new: MessageClass | None) -> list[MigrationStep]:
-        """The steps from one class to another, those missing included; none if they are alike."""
+        """Steps from one class to another, missing ones included; empty if they are equivalent."""
         key = old.key, None if new is None else new.key
         if key not in self._paths:
             self._paths[key] = self._find(old, new)
         return self._paths[key]
 
     def rule_to_complete(self, rule: PlaceholderRule, kind: str) -> GeneratedRule | None:
-        """A rule to complete from a type that moved to the one it is called here; None if there is none."""
+        """Rule to complete, from an unmatched type to the known type `kind`; None if that is unknown."""
         known = self.known_class(kind)
         return None if known is None else self._warned_generated(rule.old_class, known)
 
     def convert_bytes(self, data: bytes, old: MessageClass, new: MessageClass) -> bytes:
-        """Bytes of a message, brought from one class to another.
+        """Convert a serialized message from one class to another.
 
         Raises:
-            MigrationError: no rules lead there, or one of them fails.
-            MessageError: the bytes are no such message.
+            MigrationError: rules are missing, or one fails.
+            MessageError: the data is not a message of class `old`.
         """
         path = self._can_migrate(old, new)
         if not path or old.md5sum == new.md5sum:
@@ -114,10 +114,10 @@ class Migrator:
             raise MigrationError(f"no complete rules lead from {old.kind} [{old.md5sum}] to {new.kind}")
         return path
 
-    # -- what the rules there are lead to
+    # -- linking
 
     def _link(self) -> None:
-        """Tie the rules of each type to one another, to those of the types they become, and to what is known here."""
+        """Link each type's rules to one another, to those of the types they become, and to the known types."""
         steps: list[MigrationStep] = []
         ends: list[MigrationStep] = []
         for kind, chain in self._chains.items():
@@ -140,10 +140,10 @@ class Migrator:
             end.next = self._after(end)
             steps += [end.next] if end.next else []
         for step in dict.fromkeys(steps):
-            step.rule.find_sub_paths(is_told=isinstance(step.rule, MessageUpdateRule))
+            step.rule.find_sub_paths(warns=isinstance(step.rule, MessageUpdateRule))
 
     def _after(self, end: MigrationStep) -> MigrationStep | None:
-        """What follows the last rule of a type, as late among the rules of its new name as can be."""
+        """Step after a type's last rule: the latest reachable rule of its new name."""
         assert end.new is not None
         known = self.known_class(end.new.kind)
         if known is not None and known.key == end.new.key:
@@ -163,7 +163,7 @@ class Migrator:
         return MigrationStep(end.new, None, PlaceholderRule(self, end.new) if to_known is None else to_known.rule)
 
     def _range(self, old_type: str, new_type: str) -> list[MigrationStep]:
-        """The steps that begin with a type, and go on until behind another."""
+        """Steps from the first rule of a type to the last that ends in another."""
         step = self._first.get(old_type)
         found = [] if step is None else [step]
         has_arrived = False
@@ -188,7 +188,7 @@ class Migrator:
         return self._begun(self._ended(steps, new), old, new) if steps else [self._step(old, new)]
 
     def _ended(self, steps: list[MigrationStep], new: MessageClass) -> list[MigrationStep]:
-        """Steps that end with a class: at the last place from where it can be reached."""
+        """Steps up to the last one from which `new` is reached, and the rule to it."""
         there = list(takewhile(lambda i: _type(steps[i].new) == new.kind, reversed(range(len(steps)))))
         for i in there:
             if _key(steps[i].new) == new.key:
@@ -200,7 +200,7 @@ class Migrator:
         return [*steps, self._step(steps[-1].new, new)]
 
     def _begun(self, steps: list[MigrationStep], old: MessageClass, new: MessageClass) -> list[MigrationStep]:
-        """Steps that begin with a class: at the last place that can be reached from it."""
+        """Steps from the last one that `old` reaches, after the rule to it."""
         here = [i for i in reversed(range(len(steps))) if steps[i].old.kind == old.kind]
         for i in here:
             if steps[i].old.key == old.key:
@@ -215,7 +215,7 @@ class Migrator:
         return [self._step(old, steps[0].old), *steps]
 
     def _lost(self, old: MessageClass) -> list[MigrationStep]:
-        """As far as rules lead from a class that becomes nothing known here."""
+        """Steps from a class without a known target, as far as rules lead."""
         steps = self._range(old.kind, "")
         for i in reversed(range(len(steps))):
             if steps[i].old.key == old.key:
@@ -236,7 +236,7 @@ class Migrator:
 
     def _warned_generated(self, old: MessageClass, new: MessageClass) -> GeneratedRule:
         rule = self._generated(old, new)
-        rule.find_sub_paths(is_told=False)
+        rule.find_sub_paths(warns=False)
         return rule
 
     def _generated(self, old: MessageClass, new: MessageClass) -> GeneratedRule:
@@ -244,7 +244,7 @@ class Migrator:
 
 
 def missing_rules(rules: Sequence[Rule]) -> list[Rule]:
-    """Those of some rules, and of the rules within, that somebody has to complete, each once."""
+    """Rules to complete among `rules` and their sub-rules, each once."""
     found: dict[tuple[Key, Key | None], Rule] = {}
     waiting = list(rules)
     while waiting:

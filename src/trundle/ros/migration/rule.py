@@ -1,6 +1,6 @@
-"""Rules that bring a message of one type up to the next.
+"""Migration rules: one step from a message type to the next.
 
-`MessageUpdateRule` is what rule files derive from; its names are those of rosbag, whose rule files run here.
+Rule files subclass `MessageUpdateRule`; its interface is that of rosbag.
 """
 
 from collections.abc import Sequence
@@ -12,24 +12,24 @@ from .classes import MessageClass, MessageClasses, RuleMessage
 
 
 class MigrationError(RosError):
-    """A rule file or rule that cannot be used, or messages that no rule brings up to date."""
+    """A rule file or rule that cannot be used, or messages without a rule."""
 
 
 class Rules(Protocol):
-    """What a rule asks of the migrator it belongs to."""
+    """Interface of the migrator that rules use."""
 
     is_forced: bool
 
     def rules_between(self, old: MessageClass, new: MessageClass) -> "list[Rule]":
-        """The rules that lead from one class to another."""
+        """Rules that lead from one class to another."""
         ...
 
     def convert(self, old: RuleMessage, new: MessageClass) -> RuleMessage:
-        """Lead a message through them."""
+        """Convert a message."""
         ...
 
     def warn(self, text: str, /) -> None:
-        """Say what may not work."""
+        """Log a warning."""
         ...
 
 
@@ -39,11 +39,11 @@ class Rule:
     old_type: str = ""
     new_type: str = ""
     migrated_types: Sequence[tuple[str, str]] = ()
-    """Pairs of types within, old and new, that `update` leads on to their own rules; packages may be left out."""
+    """(old, new) pairs of nested types that `update` migrates by their own rules; packages may be omitted."""
     order: int = -1
-    """Place among the rules of a type."""
+    """Position among the rules of a type."""
     valid: bool = False
-    """Whether `update` is complete."""
+    """True if `update` is complete."""
     old_class: MessageClass
     new_class: MessageClass | None
     old_types: dict[str, MessageClass]
@@ -57,11 +57,11 @@ class Rule:
 
     @property
     def renames(self) -> bool:
-        """Whether the type has another name afterwards."""
+        """True if the rule renames the type."""
         return self.old_type != self.new_type
 
-    def find_sub_paths(self, *, is_told: bool = True) -> None:
-        """Find the rules for the types within."""
+    def find_sub_paths(self, *, warns: bool = True) -> None:
+        """Find the rules of nested types."""
         self.sub_rules, self.sub_rules_valid = [], True
         for old_name, new_name in self.migrated_types:
             try:
@@ -70,24 +70,24 @@ class Rule:
                 self.migrator.warn(f"{self.location}: migrated_types names {error}, which is not in the type's text")
                 self.sub_rules_valid = False
                 continue
-            # A rule may name its own type, where the sums are known to match.
+            # A rule may name its own type if the md5 sums match.
             if self.new_class is None or (old.key, new.key) != (self.old_class.key, self.new_class.key):
                 self.sub_rules += self.migrator.rules_between(old, new)
             if not all(rule.valid for rule in self.sub_rules):
-                if is_told:
+                if warns:
                     self.migrator.warn(f"{self.location}: no rules lead from {old_name} to {new_name} yet")
                 self.sub_rules_valid = False
 
     def get_old_class(self, name: str) -> MessageClass:
-        """The class of a type within the old one."""
+        """Class of a type within the old one."""
         return _class(self.old_types, self.old_type, name)
 
     def get_new_class(self, name: str) -> MessageClass:
-        """The class of a type within the new one."""
+        """Class of a type within the new one."""
         return _class(self.new_types, self.new_type, name)
 
     def migrate(self, old: Any, new: Any) -> None:
-        """Bring a message within up to date.
+        """Migrate a nested message.
 
         Raises:
             MigrationError: its types are not in `migrated_types`, or no rules lead from one to the other.
@@ -97,7 +97,7 @@ class Rule:
         _assign(new, self.migrator.convert(old, made))
 
     def migrate_array(self, old: Sequence[Any], new: list[Any], new_name: str) -> None:
-        """Bring a list of messages within up to date; what the new one holds is replaced.
+        """Migrate a list of nested messages; `new` is overwritten.
 
         Raises:
             MigrationError: as `migrate`.
@@ -109,7 +109,7 @@ class Rule:
             new.append(self.migrator.convert(each, made))
 
     def apply(self, old: RuleMessage) -> RuleMessage:
-        """Make the new message.
+        """Convert a message.
 
         Raises:
             MigrationError: the rule is not complete.
@@ -121,7 +121,7 @@ class Rule:
         return new
 
     def update(self, old_msg: Any, new_msg: Any) -> None:
-        """Fill the new message from the old one; each rule has its own."""
+        """Fill the new message from the old one; implemented by each rule."""
         raise NotImplementedError
 
     def _check_listed(self, old: str, new: str) -> None:
@@ -131,16 +131,16 @@ class Rule:
 
 
 class MessageUpdateRule(Rule):
-    """A rule as a rule file has it: texts of the types, and `update`."""
+    """Base class of rules in rule files: definitions of both types, and `update`."""
 
     old_full_text: ClassVar[str] = ""
     new_full_text: ClassVar[str] = ""
 
     def __init__(self, migrator: Rules, location: str) -> None:
-        """Make the classes of both texts.
+        """Create the classes of both definitions.
 
         Raises:
-            MessageError: a text cannot be read.
+            MessageError: a definition is invalid.
         """
         super().__init__(migrator, location)
         self.old_types = MessageClasses.from_definition(self.old_type, self.old_full_text).nested_classes(self.old_type)
@@ -149,7 +149,7 @@ class MessageUpdateRule(Rule):
 
 
 def short_name(name: str, of: str) -> str:
-    """A type within another as rules write it: without std_msgs, and without the other's own package."""
+    """Nested type name as in rules: without std_msgs and without the outer type's package."""
     parts = name.split("/")
     for left_out in ("std_msgs", of.partition("/")[0]):
         if left_out in parts:
@@ -166,7 +166,7 @@ def _class(types: dict[str, MessageClass], of: str, name: str) -> MessageClass:
 
 
 def _assign(target: Any, source: RuleMessage) -> None:
-    """Make a message, one of ours or of genpy's, equal to another of its type."""
+    """Copy a message to one of the same type, of this module or of genpy."""
     if isinstance(target, RuleMessage):
         for name in type(target).kinds:
             setattr(target, name, getattr(source, name))

@@ -1,4 +1,4 @@
-"""Rule files: Python programs that define update rules, run because somebody named them or a package exports them."""
+"""Rule files: Python programs that define update rules, named by the user or exported by packages."""
 
 import traceback
 from collections.abc import Generator, Iterator, Sequence
@@ -13,17 +13,17 @@ from .rule import MessageUpdateRule, MigrationError, Rule, Rules
 
 
 class _RuleError(MigrationError):
-    """Says already in which line of which file."""
+    """An error whose text already names file and line."""
 
 
 class RuleFile:
-    """A rule file that was run."""
+    """A loaded rule file."""
 
     def __init__(self, path: Path) -> None:
-        """Run it.
+        """Execute the file.
 
         Raises:
-            MigrationError: it cannot be read, or fails; the text has the line.
+            MigrationError: the file is unreadable or fails; the text names the line.
         """
         self._path = path
         names: dict[str, object] = {MessageUpdateRule.__name__: MessageUpdateRule, "__file__": str(path)}
@@ -32,10 +32,10 @@ class RuleFile:
         self._classes = [each for each in names.values() if _is_rule(each)]
 
     def rules(self, migrator: Rules) -> Iterator[MessageUpdateRule]:
-        """Make each rule in it.
+        """Instantiate each rule.
 
         Raises:
-            MigrationError: one is not valid, or its texts cannot be read.
+            MigrationError: a rule is marked invalid, or its definitions are.
         """
         for each in self._classes:
             where = _where(each, self._path)
@@ -48,7 +48,7 @@ class RuleFile:
 
 @contextmanager
 def rule_errors(rule: Rule) -> Generator[None]:
-    """Turn whatever a rule does wrong into one sentence that says where."""
+    """Convert exceptions of a rule to a MigrationError with file and line."""
     code = getattr(rule.update, "__code__", None) if isinstance(rule, MessageUpdateRule) else None
     with _load_errors(Path(code.co_filename) if code else None, rule.location):
         yield
@@ -64,7 +64,7 @@ def _load_errors(path: Path | None, where: str) -> Generator[None]:
         raise _RuleError(f"{path}:{error.lineno or 1}: {error.msg}") from None
     except OSError as error:
         raise _RuleError(f"{where}: {error.strerror or error}") from None
-    except (Exception, SystemExit) as error:  # a program of somebody else's
+    except (Exception, SystemExit) as error:  # third-party code may raise anything
         lines = [f"{frame.filename}:{frame.lineno}" for frame in traceback.extract_tb(error.__traceback__)]
         own = [line for line in lines if path is not None and line.startswith(f"{path}:")]
         what = str(error) if isinstance(error, RosError) else f"{type(error).__name__}: {error}"
@@ -76,7 +76,7 @@ def _is_rule(value: object) -> TypeGuard[type[MessageUpdateRule]]:
 
 
 def _refusal(rule: type[MessageUpdateRule]) -> str:
-    """What is wrong with how a rule describes itself."""
+    """Reason why a rule's attributes are invalid; '' if they are not."""
     for name in ("old_type", "new_type"):
         kind: object = getattr(rule, name)
         if not (isinstance(kind, str) and kind.count("/") == 1):
@@ -92,7 +92,7 @@ def _refusal(rule: type[MessageUpdateRule]) -> str:
 
 
 def _where(rule: type[MessageUpdateRule], path: Path) -> str:
-    """Where the `update` of a rule stands."""
+    """File, line and name of a rule's `update`."""
     code = getattr(rule.update, "__code__", None)
     line = f":{code.co_firstlineno}" if code is not None and code.co_filename == str(path) else ""
     return f"{path}{line}: {rule.__name__}"

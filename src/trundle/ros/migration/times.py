@@ -1,4 +1,4 @@
-"""Times and durations as genpy has them: what update rules find in messages, and compute with."""
+"""Times and durations with genpy's interface, for update rules."""
 
 import functools
 from typing import Self
@@ -8,30 +8,30 @@ from trundle.spatial import NS_PER_S
 
 @functools.total_ordering
 class TVal:
-    """Seconds and nanoseconds; what `Time` and `Duration` share."""
+    """Seconds and nanoseconds; base class of `Time` and `Duration`."""
 
     __slots__ = ("nsecs", "secs")
 
     def __init__(self, secs: float = 0, nsecs: int = 0) -> None:
-        """Make one of whole seconds and nanoseconds, or of seconds with a fraction alone."""
-        ns = round(secs * NS_PER_S) if isinstance(secs, float) else int(secs) * NS_PER_S
-        self.secs, self.nsecs = divmod(ns + int(nsecs), NS_PER_S)
+        """Create from whole seconds and nanoseconds, or from fractional seconds alone."""
+        ns = round(secs * _S) if isinstance(secs, float) else int(secs) * _S
+        self.secs, self.nsecs = divmod(ns + int(nsecs), _S)
 
     @classmethod
     def from_sec(cls, seconds: float) -> Self:
-        """Make one of seconds."""
-        return cls(0, round(seconds * NS_PER_S))
+        """Create from seconds."""
+        return cls(0, round(seconds * _S))
 
     def to_sec(self) -> float:
-        """All of it [s]."""
+        """Value in seconds."""
         return self.secs + self.nsecs / 1e9
 
     def to_nsec(self) -> int:
-        """All of it [ns]."""
-        return self.secs * NS_PER_S + self.nsecs
+        """Value in nanoseconds."""
+        return self.secs * _S + self.nsecs
 
     def is_zero(self) -> bool:
-        """Whether it is 0, as a time that was never set is."""
+        """True if the value is 0."""
         return self.to_nsec() == 0
 
     def __bool__(self) -> bool:
@@ -53,7 +53,7 @@ class TVal:
 
 
 class Duration(TVal):
-    """How long something takes; may be negative."""
+    """A time span; may be negative."""
 
     __slots__ = ()
 
@@ -92,5 +92,5 @@ class Time(TVal):
 
 
 def _ns(instant: object) -> int:
-    """Nanoseconds of one of ours, or of genpy's, which a rule may have made."""
-    return getattr(instant, "secs", 0) * NS_PER_S + getattr(instant, "nsecs", 0)
+    """Nanoseconds of an instance of this module or of genpy."""
+    return getattr(instant, "secs", 0) * _S + getattr(instant, "nsecs", 0)
